@@ -1,0 +1,2 @@
+// The program: a client of the library.
+int main() { return 0; }

@@ -1,0 +1,52 @@
+// Kinetic theory of the homogeneous needle gas: exact rates of the Gaussian state, and the cooling
+// curve that follows when the gas is assumed to stay Gaussian and homogeneous.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace needlework::theory {
+
+/// The numbers that the theory depends on. L = m = 1.
+struct Gas {
+  double k = 6.0;         ///< m L^2 / (2 I) > 0
+  double epsilon = 1.0;   ///< normal restitution, [0, 1]
+  double beta = -1.0;     ///< tangential restitution, [-1, 1]
+};
+
+/// Translational and rotational temperatures, or their derivatives in tau.
+struct Temperatures {
+  double t_tr = 1.0;
+  double t_rot = 1.0;
+  double energy() const { return 1.5 * t_tr + t_rot; }  ///< per needle
+};
+
+/// Integral over the unit square of sqrt(1 + q k r^2), q = T_rot / T_tr. [1]
+double collision_integral(double q, double k);
+
+/// Collisions that one needle takes part in per unit time at number density `density` [L^-3]:
+/// n (sqrt(pi)/2) sqrt(T_tr) times the collision integral. Exact for Gaussian velocities, at every
+/// density. T_tr = 0 with T_rot > 0 is the limit q -> infinity; both 0 give 0.
+double collision_rate(double density, Temperatures temperatures, double k);
+
+/// The elastic equilibrium rate of N needles with zero momentum and fixed energy in a volume V:
+/// density (N - 1) / V, temperature 2 E_total / (5 N - 3), times the microcanonical factor
+/// sqrt(D/2) Gamma(D/2) / Gamma((D+1)/2), D = 5 N - 3. `count` >= 2.
+double equilibrium_rate(double count, double volume, double total_energy, double k);
+
+/// d(T_tr, T_rot) / d tau at this instant, tau = (2/3) sqrt(pi) n t (T_tr(0) = 1, so the rates are
+/// in units of gamma = (2/3) sqrt(pi) n). Exact for Gaussian velocities.
+Temperatures cooling_rates(const Gas& gas, Temperatures now);
+
+/// The cooling curve at the times `taus` (>= 0, any order; tau is in units where the initial state
+/// has the temperatures given, that is, tau = gamma t with gamma = (2/3) sqrt(pi) n).
+std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
+                                        std::span<const double> taus);
+
+/// Long-time ratio c = T_tr / T_rot of a cooling gas; NaN when the gas does not cool (elastic).
+double asymptotic_ratio(const Gas& gas);
+
+/// The k at which c = 1 for every epsilon < 1 (beta = -1).
+double equipartition_k();
+
+}  // namespace needlework::theory
