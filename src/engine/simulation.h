@@ -13,19 +13,19 @@ namespace needlework {
 
 /// One collision, as passed to the callback. Directions are of needle `first` (the lower id).
 struct Collision {
-  std::int64_t epoch = 0;            ///< the time is epoch * epoch_length + offset, exactly
-  double offset = 0;                 ///< [time]
-  double time = 0;                   ///< the same rounded to a double [time]
-  std::uint32_t first = 0;           ///< lower id
-  std::uint32_t second = 0;          ///< higher id
+  std::int64_t epoch = 0;               ///< the time is epoch * epoch_length + offset, exactly
+  double offset = 0;                    ///< [time]
+  double time = 0;                      ///< the same rounded to a double [time]
+  std::uint32_t first = 0;              ///< lower id
+  std::uint32_t second = 0;             ///< higher id
   std::array<std::int32_t, 3> shift{};  ///< boxes added to the second needle's recorded centre
-  double arm_first = 0;              ///< s12 [L]
-  double arm_second = 0;             ///< s21 [L]
-  double sin_angle = 0;              ///< |u1 x u2|
-  double normal_velocity = 0;        ///< V_n before the collision [L / time]
-  std::array<double, 3> impulse{};   ///< on `first` [m L / time]
-  double energy_change = 0;          ///< of the system, <= 0 up to rounding
-  bool contact_time_rule = false;    ///< done with epsilon = 1, beta = -1 by the t_c rule
+  double arm_first = 0;                 ///< s12 [L]
+  double arm_second = 0;                ///< s21 [L]
+  double sin_angle = 0;                 ///< |u1 x u2|
+  double normal_velocity = 0;           ///< V_n before the collision [L / time]
+  std::array<double, 3> impulse{};      ///< on `first` [m L / time]
+  double energy_change = 0;             ///< of the system, <= 0 up to rounding
+  bool contact_time_rule = false;       ///< done with epsilon = 1, beta = -1 by the t_c rule
 };
 
 /// Sums over all needles at one instant, independent of their order.
@@ -41,16 +41,16 @@ struct Totals {
 
 /// Counters of the work done. Nothing in a trajectory depends on them.
 struct Counters {
-  std::uint64_t events = 0;       ///< all that was popped
-  std::uint64_t stale = 0;        ///< popped contacts whose partner had changed
-  std::uint64_t crossings = 0;    ///< cell crossings
-  std::uint64_t renewals = 0;     ///< records renewed by their own clock
-  std::uint64_t searches = 0;     ///< searches over all candidates of a needle
-  std::uint64_t candidates = 0;   ///< pairs proposed by the search
-  std::uint64_t filtered = 0;     ///< of these, settled by the bounding spheres
-  std::uint64_t evaluated = 0;    ///< evaluations of the contact function in double
-  std::uint64_t escalated = 0;    ///< decisions handed to double-double
-  std::uint64_t touches = 0;      ///< third needles found touching at a renewal
+  std::uint64_t events = 0;      ///< all that was popped
+  std::uint64_t stale = 0;       ///< popped contacts whose partner had changed
+  std::uint64_t crossings = 0;   ///< cell crossings
+  std::uint64_t renewals = 0;    ///< records renewed by their own clock
+  std::uint64_t searches = 0;    ///< searches over all candidates of a needle
+  std::uint64_t candidates = 0;  ///< pairs proposed by the search
+  std::uint64_t filtered = 0;    ///< of these, settled by the bounding spheres
+  std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
+  std::uint64_t escalated = 0;   ///< decisions handed to double-double
+  std::uint64_t touches = 0;     ///< third needles found touching at a renewal
 };
 
 enum class Stop { time, collisions, energy, wall_time, interrupted, nothing_can_happen };
@@ -82,15 +82,15 @@ class Simulation {
   Totals totals() const;
   const Counters& counters() const;
 
-  double time() const;          ///< since the start of the run
-  double epoch_length() const;  ///< power of two near the initial mean free time
-  double mean_free_time() const;  ///< at the last window's end: 1 / collision rate per needle
+  double time() const;                  ///< since the start of the run
+  double epoch_length() const;          ///< power of two near the initial mean free time
+  double mean_free_time() const;        ///< at the last window's end: 1 / collision rate per needle
   std::string trajectory_hash() const;  ///< 32 hexadecimal digits
 
   /// All needles at the present time, by ascending id; positions wrapped into the box.
   State state() const;
 
-  std::string search() const;   ///< the search in use, `auto` resolved
+  std::string search() const;  ///< the search in use, `auto` resolved
   std::string queue() const;
   std::string isa() const;
   std::string effects() const;  ///< such as "inelastic tc", "elastic"

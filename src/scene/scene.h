@@ -13,15 +13,15 @@ namespace needlework {
 /// temperature is an energy and a time is in L sqrt(m / T). Each member is one key of a scene file.
 struct Scene {
   struct Needles {
-    std::uint64_t count = 0;            ///< number of needles, 0 and 1 included
-    std::array<double, 3> box{};        ///< edges of the periodic box [L], each >= 2.01
-    double k = 6.0;                     ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
-    std::uint64_t seed = 1;             ///< of the counter-based generator that draws the state
+    std::uint64_t count = 0;      ///< number of needles, 0 and 1 included
+    std::array<double, 3> box{};  ///< edges of the periodic box [L], each >= 2.01
+    double k = 6.0;               ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
+    std::uint64_t seed = 1;       ///< of the counter-based generator that draws the state
   };
   struct Initial {
-    double t_tr = 1.0;                  ///< translational temperature drawn, (2/3) <m v^2 / 2>
-    double t_rot = 1.0;                 ///< rotational temperature drawn, <I w^2 / 2>
-    std::string file;                   ///< H5MD file whose last frame is the initial state, or ""
+    double t_tr = 1.0;   ///< translational temperature drawn, (2/3) <m v^2 / 2>
+    double t_rot = 1.0;  ///< rotational temperature drawn, <I w^2 / 2>
+    std::string file;    ///< H5MD file whose last frame is the initial state, or ""
   };
   struct Collisions {
     double epsilon = 1.0;               ///< normal restitution, [0, 1]
@@ -44,12 +44,12 @@ struct Scene {
     std::optional<double> wall_s;                 ///< wall-clock seconds
   };
   struct Output {
-    std::string file;                     ///< H5MD file to write, or "" for none
-    double series_per_decade = 10.0;      ///< samples of the series per decade of time
-    std::vector<double> frame_times;      ///< `frames = [t, ...]`: times of frames
+    std::string file;                         ///< H5MD file to write, or "" for none
+    double series_per_decade = 10.0;          ///< samples of the series per decade of time
+    std::vector<double> frame_times;          ///< `frames = [t, ...]`: times of frames
     std::optional<double> frames_per_decade;  ///< `frames = n`: frames per decade of time
-    std::vector<std::string> observables; ///< extra observables by name
-    bool events = false;                  ///< record every collision
+    std::vector<std::string> observables;     ///< extra observables by name
+    bool events = false;                      ///< record every collision
   };
 
   std::string title;
@@ -65,13 +65,13 @@ struct Scene {
 
 /// Phase-space state of N needles as arrays of N x 3 numbers, row by row.
 struct State {
-  std::array<double, 3> box{};              ///< edges [L]
+  std::array<double, 3> box{};                          ///< edges [L]
   std::vector<std::array<double, 3>> position;          ///< centres, wrapped or not [L]
   std::vector<std::array<double, 3>> velocity;          ///< [L / time]
   std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]
   std::vector<std::array<double, 3>> angular_velocity;  ///< normal to the director [1 / time]
   std::vector<std::array<std::int32_t, 3>> image;       ///< box crossings; empty: none
-  std::vector<std::uint32_t> id;            ///< distinct; empty: 0 .. N-1
+  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 .. N-1
 
   std::size_t size() const { return position.size(); }
 };

@@ -9,9 +9,9 @@ namespace needlework::theory {
 
 /// The numbers that the theory depends on. L = m = 1.
 struct Gas {
-  double k = 6.0;         ///< m L^2 / (2 I) > 0
-  double epsilon = 1.0;   ///< normal restitution, [0, 1]
-  double beta = -1.0;     ///< tangential restitution, [-1, 1]
+  double k = 6.0;        ///< m L^2 / (2 I) > 0
+  double epsilon = 1.0;  ///< normal restitution, [0, 1]
+  double beta = -1.0;    ///< tangential restitution, [-1, 1]
 };
 
 /// Translational and rotational temperatures, or their derivatives in tau.

@@ -1,0 +1,134 @@
+#include "kernels/contact_function.h"
+
+#include <algorithm>
+
+namespace needlework::kernels {
+namespace {
+
+double largest(const Vec3d& a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
+
+double norm_1(const Vec3d& a) { return (std::abs(a.x) + std::abs(a.y)) + std::abs(a.z); }
+
+Vec3d scaled(const Vec3d& a, double factor) { return a * factor; }
+
+// r1 - r2 - shift at s = 0. Written so that exchanging the needles negates it exactly.
+Vec3dd separation(const Pair& pair) {
+  const auto travelled = [](const Flight& flight, const DoubleDouble& elapsed) {
+    if (elapsed == DoubleDouble()) return Vec3dd{};
+    return to_double_double(flight.v) * elapsed;
+  };
+  const Vec3dd centres = to_double_double(pair.first->r) - to_double_double(pair.second->r);
+  const Vec3dd moved =
+      travelled(*pair.first, pair.elapsed_first) - travelled(*pair.second, pair.elapsed_second);
+  return (centres - pair.shift) + moved;
+}
+
+// Upper bounds stay upper bounds through the few roundings of their use.
+constexpr double roundup = 1 + 0x1p-40;
+
+template <class T>
+void set_norms(Frame<T>& frame) {
+  const Vec3d v{to_double(frame.v.x), to_double(frame.v.y), to_double(frame.v.z)};
+  const Vec3d r{to_double(frame.r.x), to_double(frame.r.y), to_double(frame.r.z)};
+  frame.r_norm = norm_1(r) * roundup;
+  frame.v_norm = norm_1(v) * roundup;
+  frame.v_length = std::sqrt(dot(v, v)) * roundup;
+  frame.w_sum = (to_double(frame.omega[0]) + to_double(frame.omega[1])) * roundup;
+}
+
+}  // namespace
+
+void set_rotation(Flight& flight) {
+  const double size = largest(flight.w);
+  if (size == 0) {
+    flight.omega = 0;
+    flight.p = {};
+    return;
+  }
+  // Scaled by a power of two, so that squares neither overflow nor vanish.
+  const int exponent = std::ilogb(size);
+  const Vec3d w{std::ldexp(flight.w.x, -exponent), std::ldexp(flight.w.y, -exponent),
+                std::ldexp(flight.w.z, -exponent)};
+  const double length = std::sqrt(dot(w, w));
+  flight.omega = std::ldexp(length, exponent);
+  const Vec3d p = cross(w, flight.u);
+  flight.p = {p.x / length, p.y / length, p.z / length};
+}
+
+Vec3d centre_after(const Flight& flight, double elapsed) { return flight.r + flight.v * elapsed; }
+
+Vec3d director_after(const Flight& flight, double elapsed) {
+  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
+  return flight.u * sc.cosine + flight.p * sc.sine;
+}
+
+PairScale scale_of(const Pair& pair) {
+  const double rate =
+      largest(pair.first->v - pair.second->v) + (pair.first->omega + pair.second->omega);
+  if (!(rate > 0)) return {};
+  // Clamped so that both factors are normal numbers.
+  const int exponent = std::clamp(std::ilogb(rate), -1000, 1000);
+  return {true, std::ldexp(1.0, -exponent), std::ldexp(1.0, exponent)};
+}
+
+template <>
+Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
+  Frame<double> out;
+  out.r = to_double(separation(pair));
+  const Flight* flight[2] = {pair.first, pair.second};
+  const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
+  out.v = scaled(flight[0]->v - flight[1]->v, scale.per_velocity);
+  for (int i = 0; i < 2; ++i) {
+    out.u[i] = flight[i]->u;
+    out.p[i] = flight[i]->p;
+    out.omega[i] = flight[i]->omega * scale.per_velocity;
+    out.delay[i] = elapsed[i].hi * scale.per_time;
+  }
+  set_norms(out);
+  return out;
+}
+
+template <>
+Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& scale) {
+  Frame<DoubleDouble> out;
+  out.r = separation(pair);
+  const Flight* flight[2] = {pair.first, pair.second};
+  const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
+  out.v = to_double_double(scaled(flight[0]->v, scale.per_velocity)) -
+          to_double_double(scaled(flight[1]->v, scale.per_velocity));
+  for (int i = 0; i < 2; ++i) {
+    out.u[i] = to_double_double(flight[i]->u);
+    // |w| and w x u / |w| anew, to full precision; w first scaled by a power of two of its own.
+    const double size = largest(flight[i]->w);
+    if (size > 0) {
+      const int exponent = std::ilogb(size);
+      const Vec3dd w = to_double_double(Vec3d{std::ldexp(flight[i]->w.x, -exponent),
+                                              std::ldexp(flight[i]->w.y, -exponent),
+                                              std::ldexp(flight[i]->w.z, -exponent)});
+      const DoubleDouble length = sqrt(dot(w, w));
+      const Vec3dd p = cross(w, out.u[i]);
+      out.p[i] = {p.x / length, p.y / length, p.z / length};
+      const auto rescaled = [&](double a) { return std::ldexp(a, exponent) * scale.per_velocity; };
+      out.omega[i] = {rescaled(length.hi), rescaled(length.lo)};
+    }
+    out.delay[i] = {elapsed[i].hi * scale.per_time, elapsed[i].lo * scale.per_time};
+  }
+  set_norms(out);
+  return out;
+}
+
+Amplitude amplitude(const Frame<DoubleDouble>& frame) {
+  Amplitude out{0, 0};
+  for (const Vec3dd* a : {&frame.u[0], &frame.p[0]}) {
+    for (const Vec3dd* b : {&frame.u[1], &frame.p[1]}) {
+      const Vec3dd x = cross(*a, *b);
+      out.a += std::abs(to_double(dot(frame.r, x)));
+      out.b += std::abs(to_double(dot(frame.v, x)));
+    }
+  }
+  out.a *= roundup;
+  out.b *= roundup;
+  return out;
+}
+
+}  // namespace needlework::kernels

@@ -1,0 +1,165 @@
+// The contact function of two needles in free flight,
+//
+//     f(s) = r12(s) . (u1(s) x u2(s)),
+//
+// whose changes of sign with both contact points inside the needles are the collisions. s is time
+// since the later of the two records. Everything is scaled by a power of two so that
+// |v12| + |w1| + |w2| is about 1: no tolerance below refers to a unit of time.
+//
+// One template serves double and double-double; each value comes with a bound on its rounding
+// error, the rounding of its inputs to T included, relative to the records taken as exact numbers.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/double_double.h"
+#include "kernels/sine_cosine.h"
+#include "kernels/vec3.h"
+
+namespace needlework::kernels {
+
+/// A needle's free flight since its record: r(t) = r + v t, u(t) = u cos(|w| t) + p sin(|w| t).
+struct Flight {
+  Vec3d r;           ///< centre [L]
+  Vec3d u;           ///< director
+  Vec3d v;           ///< velocity [L / time]
+  Vec3d w;           ///< angular velocity, normal to u [1 / time]
+  Vec3d p;           ///< w x u / |w|, or 0
+  double omega = 0;  ///< |w|
+};
+
+/// Fills in p and omega from u and w.
+void set_rotation(Flight& flight);
+
+/// Centre and director after `elapsed`.
+Vec3d centre_after(const Flight& flight, double elapsed);
+Vec3d director_after(const Flight& flight, double elapsed);
+
+/// What two needles carry from having touched at s = 0: the contact function is continued from the
+/// value it had, so that rounding a record never moves a needle to the other side of its neighbour.
+struct Touch {
+  bool touching = false;
+  bool collided = false;  ///< the touch at s = 0 was a collision: gap 0, separating
+  int side = 0;           ///< sign of f just after s = 0
+  double gap = 0;         ///< f(0)
+};
+
+/// Two needles and one periodic image. Exchanging the needles and negating `shift` changes no bit
+/// of any result.
+struct Pair {
+  const Flight* first = nullptr;
+  const Flight* second = nullptr;
+  DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
+  DoubleDouble elapsed_second;  ///< one of the two is 0
+  Vec3dd shift;                 ///< added to the second needle's centre [L]
+  Touch touch;
+  double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
+};
+
+/// Exponent e such that velocities times 2^-e and times times 2^e make the pair's rate about 1.
+/// Only false when neither needle moves relative to the other.
+struct PairScale {
+  bool moves = false;
+  double per_velocity = 1;  ///< 2^-e
+  double per_time = 1;      ///< 2^e
+};
+PairScale scale_of(const Pair& pair);
+
+template <class T>
+inline constexpr double unit_roundoff = 0x1p-53;
+template <>
+inline constexpr double unit_roundoff<DoubleDouble> = 0x1p-98;
+
+/// The pair in scaled time, seen from s = 0.
+template <class T>
+struct Frame {
+  Vec3<T> r, v;        ///< r1 - r2 - shift and v1 - v2
+  Vec3<T> u[2], p[2];  ///< at the records
+  T omega[2], delay[2];
+  T offset{}, slope{};  ///< continuation from a touch: f + offset + slope s is what counts
+  double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
+  double v_length = 0;                       ///< 2-norm of v, not below
+};
+
+template <class T>
+Frame<T> make_frame(const Pair& pair, const PairScale& scale);
+
+/// f with two derivatives and bounds on their errors at one time.
+struct Estimate {
+  double f, df, ddf;
+  double error_f, error_df, error_ddf;
+  double distance;  ///< |r12|
+};
+
+/// Geometry at one time, from which the estimate and the arms follow.
+template <class T>
+struct Sample {
+  Vec3<T> u[2], r, x, dx;
+  T f, df, ddf;
+  double phase;  ///< sum of both phase angles, for the error bounds
+};
+
+template <class T>
+Sample<T> evaluate(const Frame<T>& frame, const T& s) {
+  Sample<T> out;
+  Vec3<T> d[2];
+  double phase = 0;
+  for (int i = 0; i < 2; ++i) {
+    const T angle = frame.omega[i] * (s + frame.delay[i]);
+    const SineCosine<T> sc = sine_cosine(angle);
+    out.u[i] = frame.u[i] * sc.cosine + frame.p[i] * sc.sine;
+    d[i] = (frame.p[i] * sc.cosine - frame.u[i] * sc.sine) * frame.omega[i];
+    phase += std::abs(to_double(angle));
+  }
+  out.phase = phase;
+  out.r = frame.r + frame.v * s;
+  out.x = cross(out.u[0], out.u[1]);
+  out.dx = cross(d[0], out.u[1]) + cross(out.u[0], d[1]);
+  const Vec3<T> rate_product = cross(d[0], d[1]);
+  const T w2 = frame.omega[0] * frame.omega[0] + frame.omega[1] * frame.omega[1];
+  const Vec3<T> ddx = rate_product + rate_product - out.x * w2;
+  const T vdx = dot(frame.v, out.dx);
+  out.f = dot(out.r, out.x) + (frame.offset + frame.slope * s);
+  out.df = (dot(frame.v, out.x) + dot(out.r, out.dx)) + frame.slope;
+  out.ddf = (vdx + vdx) + dot(out.r, ddx);
+  return out;
+}
+
+/// Error of each director component and of products of them, in units of 1; see the derivation at
+/// the definition of `estimate`.
+template <class T>
+double director_error(const Sample<T>& sample) {
+  return unit_roundoff<T> * (32 + 8 * sample.phase);
+}
+
+template <class T>
+Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
+  // A phase w (s + delay) carries the relative errors of w, delay, sum and product and the absolute
+  // one of sine and cosine: 8 |phase| roundoffs cover them. p, u and their products add fewer than
+  // 16 for each needle. r is a difference rounded once, then a product and a sum: 4 roundoffs of
+  // |r| + |v| |s|. Scalar products of three terms add 3.
+  const double eu = director_error(sample);
+  const double rounding = 16 * unit_roundoff<T>;
+  const double r = frame.r_norm + frame.v_norm * std::abs(to_double(s));
+  const double w = frame.w_sum;
+  Estimate out;
+  out.f = to_double(sample.f);
+  out.df = to_double(sample.df);
+  out.ddf = to_double(sample.ddf);
+  out.error_f = r * (eu + rounding) + rounding * (std::abs(to_double(frame.offset)) +
+                                                  std::abs(to_double(frame.slope) * to_double(s)));
+  out.error_df = 2 * (frame.v_norm + r * w) * (eu + rounding);
+  out.error_ddf = 3 * (2 * frame.v_norm + r * w) * w * (eu + rounding);
+  out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));
+  return out;
+}
+
+/// Sums of the magnitudes of the coefficients of f = sum (a_q + b_q s) {cos, sin}{cos, sin}: they
+/// bound f and its derivatives for needles that stay close to one plane, where |r| and |v| do not.
+struct Amplitude {
+  double a, b;
+};
+Amplitude amplitude(const Frame<DoubleDouble>& frame);
+
+}  // namespace needlework::kernels

@@ -1,0 +1,502 @@
+#include "kernels/first_contact.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace needlework::kernels {
+namespace {
+
+// Interval length in scaled time; a power of two. Longer ones are halved more often than they save.
+constexpr double grid = 0.5;
+// From this depth on, bounds are sharpened by the coefficients of f: costly, but the only way when
+// f is small everywhere, as for needles in nearly one plane.
+constexpr int sharpen_depth = 4;
+// Halving ends here: f, f' and f'' all vanish to double-double precision, and only the signs at the
+// ends decide.
+constexpr int last_depth = 44;
+// Roots whose double value may be off by more than this share of the time since s = 0 are refined
+// in double-double.
+constexpr double polish_above = 0x1p-41;
+// Below this share of the pair's speeds, the velocity at which it separates is rounding.
+constexpr double velocity_noise = 0x1p-46;
+// Bounds computed with a few roundings are enlarged by this.
+constexpr double roundup = 1 + 0x1p-40;
+
+constexpr int sign_of(double a) { return (a > 0) - (a < 0); }
+
+enum class Shape { free, monotone, folded, unknown };
+
+struct Interval {
+  double begin, end;
+  int depth;
+  double middle() const { return begin + 0.5 * (end - begin); }
+  double half() const { return 0.5 * (end - begin); }
+};
+
+struct Root {
+  DoubleDouble s;
+  double uncertainty;
+  int side;  // sign of f before
+};
+
+class Search {
+ public:
+  Search(const Pair& pair, const PairScale& scale, SearchCounters& counters)
+      : pair_(pair), scale_(scale), frame_(make_frame<double>(pair, scale)), counters_(counters) {
+    if (pair.touch.touching) continue_from_touch();
+  }
+
+  Contact run(double from, double until);
+
+ private:
+  void continue_from_touch();
+  const Frame<DoubleDouble>& precise_frame();
+
+  template <class T>
+  const Frame<T>& frame();
+  Sample<double> sample_at(double s);
+  Sample<DoubleDouble> sample_at(const DoubleDouble& s);
+  Estimate in_double(double s) { return estimate(frame_, s, sample_at(s)); }
+  Estimate in_double_double(const DoubleDouble& s) {
+    return estimate(precise_frame(), s, sample_at(s));
+  }
+
+  double third_derivative_bound(double distance, double half) const;
+  double second_derivative_bound(double distance, double half) const;
+  double bent_by(const Estimate& e, double half) const;
+  Shape shape_of(const Estimate& e, const Interval& interval) const;
+  Shape classify(const Interval& interval, Estimate& e);
+
+  int sign_at(double s);
+  int slope_sign_at(double s);
+
+  std::optional<Root> search_interval(const Interval& interval);
+  std::optional<Root> search_fold(const Interval& interval, const Estimate& e);
+  std::optional<Root> search_start(const Interval& interval, const Estimate& e);
+  std::optional<Root> accept(double begin, double end, double start, int side,
+                             double least_slope = 0);
+  std::optional<Root> accept(const DoubleDouble& begin, const DoubleDouble& end,
+                             const DoubleDouble& start, int side);
+
+  template <class T>
+  std::optional<T> refine(T begin, T end, T start, int side, double least_slope);
+  template <class T>
+  int arms_inside(const T& s, const Sample<T>& sample,
+                  double uncertainty) const;  // 1 inside, -1 outside, 0 undecided
+  double root_uncertainty(const Estimate& e, double s, double roundoff) const;
+
+  const Pair& pair_;
+  PairScale scale_;
+  Frame<double> frame_;
+  std::optional<Frame<DoubleDouble>> precise_;
+  std::optional<Amplitude> amplitude_;
+  double first_ = 0, last_ = 0;  // only roots between these can be contacts
+  bool just_collided_ = false;
+  bool vanishes_ = false;  // f is identically 0
+  SearchCounters& counters_;
+};
+
+void Search::continue_from_touch() {
+  Frame<DoubleDouble>& frame = precise_.emplace(make_frame<DoubleDouble>(pair_, scale_));
+  ++counters_.escalated;
+  const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
+  frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
+  just_collided_ = pair_.touch.collided;
+  // A just-collided pair does not approach; what rounding of the velocities says otherwise is
+  // taken off.
+  if (just_collided_ && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
+  frame_.offset = to_double(frame.offset);
+  frame_.slope = to_double(frame.slope);
+}
+
+const Frame<DoubleDouble>& Search::precise_frame() {
+  if (!precise_) precise_ = make_frame<DoubleDouble>(pair_, scale_);
+  return *precise_;
+}
+
+template <class T>
+const Frame<T>& Search::frame() {
+  if constexpr (std::is_same_v<T, double>) {
+    return frame_;
+  } else {
+    return precise_frame();
+  }
+}
+
+Sample<double> Search::sample_at(double s) {
+  ++counters_.evaluated;
+  return evaluate(frame_, s);
+}
+
+Sample<DoubleDouble> Search::sample_at(const DoubleDouble& s) {
+  ++counters_.escalated;
+  return evaluate(precise_frame(), s);
+}
+
+double Search::second_derivative_bound(double distance, double half) const {
+  const double w = frame_.w_sum, v = frame_.v_length;
+  const double general = (2 * v + (distance + v * half) * w) * w;
+  if (!amplitude_) return general;
+  return std::min(general, (amplitude_->a * w + 2 * amplitude_->b) * w);
+}
+
+double Search::third_derivative_bound(double distance, double half) const {
+  const double w = frame_.w_sum, v = frame_.v_length;
+  const double general = (3 * v + (distance + v * half) * w) * w * w;
+  if (!amplitude_) return general;
+  return std::min(general, (amplitude_->a * w + 3 * amplitude_->b) * w * w);
+}
+
+// How much f' can change within `half` of where e was taken.
+double Search::bent_by(const Estimate& e, double half) const {
+  const double ddf =
+      std::abs(e.ddf) + e.error_ddf + 0.5 * half * third_derivative_bound(e.distance, half);
+  return half * std::min(second_derivative_bound(e.distance, half), ddf) * roundup;
+}
+
+Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
+  const double half = interval.half();
+  const double m2 = second_derivative_bound(e.distance, half);
+  const double m3 = third_derivative_bound(e.distance, half);
+  const double ddf = std::abs(e.ddf) + e.error_ddf;
+  const double curved = half * half * std::min(0.5 * m2, 0.5 * ddf + half * m3 * (1.0 / 6));
+  const double df = std::abs(e.df) + e.error_df;
+  if (std::abs(e.f) > (df * half + curved) * roundup + e.error_f) return Shape::free;
+  if (std::abs(e.df) > bent_by(e, half) + e.error_df) return Shape::monotone;
+  if (std::abs(e.ddf) > half * m3 * roundup + e.error_ddf) return Shape::folded;
+  return Shape::unknown;
+}
+
+// Classifies in double, then, when the error bounds rather than the bounds on derivatives prevent a
+// decision, in double-double. e is the estimate on which the decision rests.
+Shape Search::classify(const Interval& interval, Estimate& e) {
+  e = in_double(interval.middle());
+  Shape shape = shape_of(e, interval);
+  if (shape != Shape::unknown) return shape;
+  const double half = interval.half();
+  const double m3 = third_derivative_bound(e.distance, half);
+  const double curved = half * half * half * m3;
+  if (e.error_f < 0x1p-6 * curved && e.error_df * half < 0x1p-6 * curved &&
+      e.error_ddf * half * half < 0x1p-6 * curved) {
+    return shape;
+  }
+  e = in_double_double(interval.middle());
+  return shape_of(e, interval);
+}
+
+// Sign of f just after s.
+int Search::sign_at(double s) {
+  if (s == 0 && pair_.touch.touching) return pair_.touch.side;
+  Estimate e = in_double(s);
+  if (std::abs(e.f) > e.error_f) return sign_of(e.f);
+  e = in_double_double(s);
+  if (std::abs(e.f) > e.error_f) return sign_of(e.f);
+  if (std::abs(e.df) > e.error_df) return sign_of(e.df);
+  if (std::abs(e.ddf) > e.error_ddf) return sign_of(e.ddf);
+  return 0;
+}
+
+int Search::slope_sign_at(double s) {
+  Estimate e = in_double(s);
+  if (std::abs(e.df) <= e.error_df) e = in_double_double(s);
+  return std::abs(e.df) > e.error_df ? sign_of(e.df) : 0;
+}
+
+// Safeguarded Newton iteration. f has the sign `side` at `begin` and the other at `end`; where f is
+// monotone, |f'| is at least `least_slope` between them, else that is 0. Stops where the rounding
+// error of T takes over, or, with nothing, as soon as the root is known to have an arm beyond a
+// tip.
+template <class T>
+std::optional<T> Search::refine(T begin, T end, T start, int side, double least_slope) {
+  constexpr double resolution = std::is_same_v<T, double> ? 0x1p-52 : 0x1p-98;
+  T s = start;
+  for (int i = 0; i < 200; ++i) {
+    const Sample<T> sample = sample_at(s);
+    const Estimate e = estimate(frame<T>(), s, sample);
+    if (e.f == 0) return s;
+    if (i == 1 && least_slope > 0) {
+      if (arms_inside(s, sample, (std::abs(e.f) + e.error_f) / least_slope) < 0)
+        return std::nullopt;
+    }
+    const T next = s - sample.f / sample.df;
+    const bool last = std::abs(e.f) <= e.error_f;
+    if (last) return to_double(next - begin) >= 0 && to_double(end - next) >= 0 ? next : s;
+    (sign_of(e.f) == side ? begin : end) = s;
+    const bool within = to_double(next - begin) > 0 && to_double(end - next) > 0;
+    const T target = within ? next : begin + (end - begin) * T(0.5);
+    const double step = std::abs(to_double(target - s));
+    s = target;
+    const double size = resolution * std::abs(to_double(s));
+    if (step <= size || to_double(end - begin) <= size) break;
+  }
+  return s;
+}
+
+double Search::root_uncertainty(const Estimate& e, double s, double roundoff) const {
+  const double slope = std::abs(e.df) - e.error_df;
+  if (!(slope > 0)) return std::numeric_limits<double>::infinity();
+  return (e.error_f + std::abs(e.f)) / slope + 4 * roundoff * std::abs(s);
+}
+
+template <class T>
+int Search::arms_inside(const T& s, const Sample<T>& sample, double uncertainty) const {
+  // |s12| < 1/2 as |(u2 x r12) . x| < x . x / 2: no division by what may be nearly 0.
+  const double xx = to_double(dot(sample.x, sample.x));
+  const double x = std::sqrt(xx);
+  const double r = std::sqrt(to_double(dot(sample.r, sample.r))) + frame_.v_norm * uncertainty;
+  const double half = 0.5 * xx;
+  const double rounding = 16 * unit_roundoff<T>;
+  const double eu = director_error(sample) + rounding;
+  const double er = rounding * (frame_.r_norm + frame_.v_norm * std::abs(to_double(s)));
+  const double w = frame_.w_sum;
+  // Change of either side of the inequality over the uncertainty of the root.
+  const double drift =
+      uncertainty * ((frame_.v_norm + 2 * r * w) * (x + uncertainty * w) + (r + 1) * w);
+  const double error = ((3 * r + 2) * eu + er) * (x + eu) + (r + er) * eu + drift;
+  int verdict = 1;
+  for (int i = 0; i < 2; ++i) {
+    const T n = dot(cross(sample.u[1 - i], sample.r), sample.x);
+    // The margin is formed in T: inside and outside may differ in the last bits of a double.
+    const double margin = to_double(dot(sample.x, sample.x) * T(0.5) - (to_double(n) < 0 ? -n : n));
+    if (margin < -error * roundup) return -1;
+    if (!(margin > error * roundup) || !(half > error)) verdict = 0;
+  }
+  return verdict;
+}
+
+// The root between begin and end, when it is a contact.
+std::optional<Root> Search::accept(double begin, double end, double start, int side,
+                                   double least_slope) {
+  const std::optional<double> s = refine(begin, end, start, side, least_slope);
+  if (!s) return std::nullopt;
+  const Sample<double> sample = sample_at(*s);
+  const double off = root_uncertainty(estimate(frame_, *s, sample), *s, 0x1p-53);
+  const int inside = std::isfinite(off) ? arms_inside(*s, sample, off) : 0;
+  if (inside < 0) return std::nullopt;
+  if (inside > 0 && off <= polish_above * *s) return Root{*s, off, side};
+  return accept(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(*s), side);
+}
+
+std::optional<Root> Search::accept(const DoubleDouble& begin, const DoubleDouble& end,
+                                   const DoubleDouble& start, int side) {
+  const DoubleDouble s = *refine(begin, end, start, side, 0);
+  const Sample<DoubleDouble> sample = sample_at(s);
+  const double off = root_uncertainty(estimate(precise_frame(), s, sample), to_double(s), 0x1p-98);
+  // What double-double cannot tell from a tip or from parallel directors is no contact.
+  if (!std::isfinite(off) || arms_inside(s, sample, off) <= 0) return std::nullopt;
+  return Root{s, off, side};
+}
+
+// f'' keeps its sign on the interval.
+std::optional<Root> Search::search_fold(const Interval& interval, const Estimate& e) {
+  const int before = sign_at(interval.begin), after = sign_at(interval.end);
+  const int bend = sign_of(e.ddf);
+  if (before == 0 || after == 0) return std::nullopt;
+  if (before != after) {
+    // Newton's iteration is monotone from the end where f and f'' have one sign.
+    return accept(interval.begin, interval.end, before == bend ? interval.begin : interval.end,
+                  before);
+  }
+  if (before != bend) return std::nullopt;  // f is concave seen from its side
+  if (slope_sign_at(interval.begin) != -bend || slope_sign_at(interval.end) != bend) {
+    return std::nullopt;
+  }
+  // The extremum: Newton's iteration on f'.
+  DoubleDouble turn = interval.middle();
+  double begin = interval.begin, end = interval.end, s = interval.middle();
+  for (int i = 0; i < 60; ++i) {
+    const Estimate here = in_double(s);
+    (sign_of(here.df) == -bend ? begin : end) = s;
+    double next = s - here.df / here.ddf;
+    if (!(next > begin && next < end)) next = begin + 0.5 * (end - begin);
+    const bool done =
+        std::abs(next - s) <= 0x1p-50 * std::abs(s) || std::abs(here.df) <= here.error_df;
+    s = next;
+    if (done) break;
+  }
+  const double least_bend = std::abs(e.ddf) - e.error_ddf -
+                            interval.half() * third_derivative_bound(e.distance, interval.half());
+  Estimate extreme = in_double(s);
+  const auto clear = [&] {
+    const double slope = std::abs(extreme.df) + extreme.error_df;
+    return std::abs(extreme.f) > extreme.error_f + slope * slope / least_bend * roundup;
+  };
+  turn = s;
+  if (!clear()) {
+    for (int i = 0; i < 3; ++i) {
+      const Sample<DoubleDouble> sample = sample_at(turn);
+      turn = turn - sample.df / sample.ddf;
+    }
+    extreme = in_double_double(turn);
+    if (!clear()) return std::nullopt;  // a touch, as far as double-double can tell
+  }
+  if (sign_of(extreme.f) == before) return std::nullopt;
+  if (auto first =
+          accept(DoubleDouble(interval.begin), turn, DoubleDouble(interval.begin), before)) {
+    return first;
+  }
+  return accept(turn, DoubleDouble(interval.end), DoubleDouble(interval.end), -before);
+}
+
+// The interval that begins where the pair has just collided: f(0) = 0 is known and f does not
+// approach there. Only called where f'' keeps its sign or f' does.
+std::optional<Root> Search::search_start(const Interval& interval, const Estimate& e) {
+  const int side = pair_.touch.side, after = sign_at(interval.end);
+  if (after == side || after == 0) return std::nullopt;
+  if (sign_of(e.ddf) == side) return std::nullopt;
+  // f rises from 0, bends back and has passed 0 by the end. Until half of the least time of return
+  // it is surely above.
+  const double most_bend = std::abs(e.ddf) + e.error_ddf +
+                           interval.half() * third_derivative_bound(e.distance, interval.half());
+  const Sample<DoubleDouble> start = sample_at(DoubleDouble());
+  const double slope = to_double(start.df) * side;
+  // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
+  const double noise =
+      std::sqrt(to_double(dot(start.x, start.x))) * velocity_noise * (frame_.v_norm + frame_.w_sum);
+  if (!(slope > noise)) return Root{0.0, 0.0, side};
+  const double lift = slope / most_bend;
+  return accept(DoubleDouble(lift), DoubleDouble(interval.end), DoubleDouble(interval.end), side);
+}
+
+std::optional<Root> Search::search_interval(const Interval& interval) {
+  if (interval.end < first_ || interval.begin > last_) return std::nullopt;
+  if (interval.depth >= sharpen_depth && !amplitude_) {
+    amplitude_ = amplitude(precise_frame());
+    const double largest = amplitude_->a + amplitude_->b;
+    vanishes_ = largest <= 0x1p-90 * (frame_.r_norm + frame_.v_norm);
+  }
+  if (vanishes_) return std::nullopt;
+  Estimate e;
+  const Shape shape = classify(interval, e);
+  const bool starts = just_collided_ && interval.begin == 0;
+  switch (shape) {
+    case Shape::free:
+      return std::nullopt;
+    case Shape::monotone:
+      if (starts) {
+        // f leaves 0 and does not return, unless it approaches, which only rounding can claim.
+        return sign_of(e.df) == pair_.touch.side ? std::nullopt : search_start(interval, e);
+      } else {
+        const int before = sign_at(interval.begin), after = sign_at(interval.end);
+        if (before == after || before == 0 || after == 0) return std::nullopt;
+        const double least_slope = std::abs(e.df) - e.error_df - bent_by(e, interval.half());
+        return accept(interval.begin, interval.end, interval.middle(), before, least_slope);
+      }
+    case Shape::folded:
+      return starts ? search_start(interval, e) : search_fold(interval, e);
+    case Shape::unknown:
+      break;
+  }
+  const double middle = interval.middle();
+  if (interval.depth >= last_depth || middle == interval.begin || middle == interval.end) {
+    const int before = sign_at(interval.begin), after = sign_at(interval.end);
+    if (before == after || before == 0 || after == 0) return std::nullopt;
+    return accept(DoubleDouble(interval.begin), DoubleDouble(interval.end), DoubleDouble(middle),
+                  before);
+  }
+  if (auto root = search_interval({interval.begin, middle, interval.depth + 1})) return root;
+  return search_interval({middle, interval.end, interval.depth + 1});
+}
+
+// The times at which |r + v s| <= 1, with a margin; empty when begin > end.
+struct Window {
+  double begin, end;
+};
+
+Window sphere_window(const Vec3d& r, const Vec3d& v) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double c = dot(r, r) - (1 + 0x1p-20);
+  const double b = dot(r, v);
+  const double a = dot(v, v);
+  const double d = b * b - a * c;
+  if (c > 0 && (b >= 0 || !(d > 0))) return {infinity, -infinity};
+  if (!(d > 0)) return {-infinity, infinity};
+  const double root = std::sqrt(d);
+  // The two roots of a s^2 + 2 b s + c without cancellation.
+  const double q = b > 0 ? -(b + root) : root - b;
+  if (q == 0) return {-infinity, infinity};
+  const double s1 = c / q, s2 = a > 0 ? q / a : std::copysign(infinity, q);
+  return {std::min(s1, s2), std::max(s1, s2)};
+}
+
+Contact Search::run(double from, double until) {
+  const double end = until * scale_.per_time;
+  // A root outside the window of the spheres has an arm beyond a tip.
+  const Window window = sphere_window(frame_.r, frame_.v);
+  last_ = std::min(end, window.end * roundup);
+  first_ = std::max({0.0, from * scale_.per_time, window.begin * (1 - 0x1p-20) - 0x1p-40});
+  if (pair_.touch.touching) first_ = 0;
+  if (!(first_ <= last_)) return {};
+  if (pair_.touch_within > 0 && from == 0 && !pair_.touch.touching) {
+    const Estimate start = in_double(0);
+    if (start.distance <= 1 && std::abs(start.f) <= pair_.touch_within) {
+      Contact unknown;
+      unknown.side_unknown = true;
+      return unknown;
+    }
+  }
+  if (just_collided_ && frame_.w_sum == 0) return {};  // f is linear and leaves 0 for good
+  for (double begin = std::floor(first_ / grid) * grid; begin <= last_; begin += grid) {
+    if (const auto root = search_interval({begin, begin + grid, 0})) {
+      const double s = to_double(root->s);
+      if (s > end) return {};
+      return {.found = true,
+              .unresolvable = just_collided_ && s == 0,
+              .elapsed = {root->s.hi * scale_.per_velocity, root->s.lo * scale_.per_velocity},
+              .side = root->side};
+    }
+    if (vanishes_) return {};
+  }
+  return {};
+}
+
+}  // namespace
+
+Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters) {
+  const PairScale scale = scale_of(pair);
+  if (!scale.moves) return {};
+  return Search(pair, scale, counters).run(from, until);
+}
+
+ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed) {
+  const PairScale scale = scale_of(pair);
+  const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
+  ContactGeometry out;
+  const auto fill = [&](const auto& sample) {
+    using T = std::decay_t<decltype(sample.f)>;
+    out.u_first = to_double(sample.u[0]);
+    out.u_second = to_double(sample.u[1]);
+    const Vec3d x = to_double(sample.x);
+    out.sin_angle = std::sqrt(dot(x, x));
+    out.normal = {x.x / out.sin_angle, x.y / out.sin_angle, x.z / out.sin_angle};
+    const T xx = dot(sample.x, sample.x);
+    const auto arm = [&](const Vec3<T>& other) {
+      return std::clamp(to_double(dot(cross(other, sample.r), sample.x) / xx), -0.5, 0.5);
+    };
+    out.arm_first = arm(sample.u[1]);
+    out.arm_second = arm(sample.u[0]);
+  };
+  fill(evaluate(make_frame<double>(pair, scale), s.hi));
+  // Arms lose the digits that |u1 x u2| has lost.
+  if (!(out.sin_angle > 0x1p-10)) fill(evaluate(make_frame<DoubleDouble>(pair, scale), s));
+  return out;
+}
+
+int side_after(const Pair& pair) {
+  const PairScale scale = scale_of(pair);
+  if (!scale.moves) return 0;
+  const Frame<DoubleDouble> frame = make_frame<DoubleDouble>(pair, scale);
+  const Estimate e = estimate(frame, DoubleDouble(), evaluate(frame, DoubleDouble()));
+  return std::abs(e.df) > e.error_df ? sign_of(e.df) : sign_of(e.ddf);
+}
+
+double gap_at(const Pair& pair, const DoubleDouble& elapsed) {
+  const PairScale scale = scale_of(pair);
+  const Frame<DoubleDouble> frame = make_frame<DoubleDouble>(pair, scale);
+  const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
+  const DoubleDouble f = evaluate(frame, s).f;
+  if (!pair.touch.touching) return to_double(f);
+  return to_double(f - evaluate(frame, DoubleDouble()).f + DoubleDouble(pair.touch.gap));
+}
+
+}  // namespace needlework::kernels

@@ -1,0 +1,161 @@
+#include "src/engine/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/error.h"
+#include "src/observe/exact_sum.h"
+#include "src/physics/director.h"
+#include "src/theory/theory.h"
+
+namespace needlework {
+namespace {
+
+Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+std::array<double, 3> array(const Vec3d& a) { return {a.x, a.y, a.z}; }
+
+bool is_finite(const Vec3d& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+void check_size(std::size_t actual, std::size_t expected, const char* what) {
+  if (actual == expected || actual == 0) return;
+  throw InputError(std::string("state: ") + std::to_string(actual) + " rows of " + what +
+                   ": expected " + std::to_string(expected));
+}
+
+// Sum over needles of a term that is never negative.
+template <class Term>
+double sum_of(const Gas& gas, Term&& term) {
+  double largest = 0;
+  for (const Record& record : gas.records) largest = std::max(largest, std::abs(term(record)));
+  ExactSum sum(largest);
+  for (const Record& record : gas.records) sum.add(term(record));
+  return sum.value();
+}
+
+}  // namespace
+
+Run::Run(const Scene& scene, const State& initial)
+    : restitution{scene.collisions.epsilon, scene.collisions.beta},
+      tc_(scene.collisions.tc),
+      tc_relative_(scene.collisions.tc_relative) {
+  const std::size_t count = initial.size();
+  check_size(initial.velocity.size(), count, "velocity");
+  check_size(initial.orientation.size(), count, "orientation");
+  check_size(initial.angular_velocity.size(), count, "angular velocity");
+  check_size(initial.image.size(), count, "image");
+  check_size(initial.id.size(), count, "id");
+  for (const double edge : initial.box) {
+    if (!(edge >= 2.01) || !std::isfinite(edge)) {
+      throw InputError("state: box edge " + std::to_string(edge) + ": expected at least 2.01");
+    }
+  }
+  gas.box = initial.box;
+  gas.k = scene.needles.k;
+
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!initial.id.empty()) {
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return initial.id[a] < initial.id[b]; });
+  }
+  gas.records.resize(count);
+  gas.ids.resize(count);
+  gas.images.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t from = order[i];
+    kernels::Flight& flight = gas.records[i].flight;
+    flight.r = vector(initial.position[from]);
+    flight.v = vector(initial.velocity[from]);
+    flight.u = vector(initial.orientation[from]);
+    flight.w = vector(initial.angular_velocity[from]);
+    gas.ids[i] = initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from];
+    if (i > 0 && gas.ids[i] == gas.ids[i - 1]) {
+      throw InputError("state: id " + std::to_string(gas.ids[i]) + " twice: expected distinct ids");
+    }
+    if (!initial.image.empty()) gas.images[i] = initial.image[from];
+    const bool finite =
+        is_finite(flight.r) && is_finite(flight.u) && is_finite(flight.v) && is_finite(flight.w);
+    if (!finite || flight.u == Vec3d{}) {
+      throw InputError("state: needle " + std::to_string(gas.ids[i]) +
+                       ": expected finite numbers and a director that is not 0");
+    }
+  }
+  open_window();
+  gas.clock = Clock(mean_free_time);
+  for (Needle i = 0; i < count; ++i) {
+    const kernels::Flight flight = gas.records[i].flight;
+    renew_record(gas, i, now, flight.u, flight.v, flight.w);
+  }
+  open_window();
+  initial_energy_ = energy_;
+}
+
+void Run::open_window() {
+  const Totals sums = totals();
+  const double count = static_cast<double>(gas.size());
+  energy_ = sums.energy * count;
+  const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
+  const double rate =
+      theory::collision_rate(density, {.t_tr = sums.t_tr, .t_rot = sums.t_rot}, gas.k);
+  mean_free_time = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+  contact_time_ = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
+  const bool endless = !std::isfinite(mean_free_time);
+  const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+  window_end_ = gas.clock.add(now, span);
+  search_span_ = span;
+}
+
+bool Run::nothing_can_happen() const {
+  if (gas.size() < 2) return true;
+  const Vec3d& v = gas.records[0].flight.v;
+  return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {
+    return record.flight.omega == 0 && record.flight.v == v;
+  });
+}
+
+Totals Run::totals() const {
+  Totals out;
+  out.time = gas.clock.since_start(now);
+  out.collisions = collisions_;
+  out.tc_collisions = tc_collisions_;
+  if (gas.size() == 0) return out;
+  const double count = static_cast<double>(gas.size());
+  const double v2 = sum_of(gas, [](const Record& a) { return dot(a.flight.v, a.flight.v); });
+  const double w2 = sum_of(gas, [](const Record& a) { return dot(a.flight.w, a.flight.w); });
+  out.t_tr = v2 / (3 * count);
+  out.t_rot = w2 / (4 * gas.k * count);
+  out.energy = 1.5 * out.t_tr + out.t_rot;
+  out.momentum = {sum_of(gas, [](const Record& a) { return a.flight.v.x; }),
+                  sum_of(gas, [](const Record& a) { return a.flight.v.y; }),
+                  sum_of(gas, [](const Record& a) { return a.flight.v.z; })};
+  return out;
+}
+
+State Run::state() const {
+  State out;
+  out.box = gas.box;
+  out.id = gas.ids;
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    const kernels::Flight& flight = gas.records[i].flight;
+    const double elapsed = gas.clock.difference(now, gas.records[i].time);
+    std::array<double, 3> r = array(centre_after(flight, elapsed));
+    Shift image = gas.images[i];
+    for (int axis = 0; axis < 3; ++axis) {
+      const double boxes = std::floor(r[axis] / gas.box[axis]);
+      r[axis] -= boxes * gas.box[axis];
+      image[axis] += static_cast<std::int32_t>(boxes);
+    }
+    out.position.push_back(r);
+    out.image.push_back(image);
+    out.velocity.push_back(array(flight.v));
+    const Vec3d u = elapsed == 0 ? flight.u : normalised(director_after(flight, elapsed));
+    out.orientation.push_back(array(u));
+    out.angular_velocity.push_back(array(flight.w));
+  }
+  return out;
+}
+
+}  // namespace needlework

@@ -1,0 +1,60 @@
+// Everything of a running simulation that does not depend on how the next event is found.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+
+#include "src/engine/simulation.h"
+#include "src/observe/trajectory_hash.h"
+#include "src/physics/collision.h"
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// State, physics, windows and counters of a run.
+///
+/// Simulated time is cut into windows, each about as long as the mean free time at its start;
+/// window ends depend on the simulated history only. There, and only there, the mean free time and
+/// the contact time in force are set anew.
+class Run {
+ public:
+  /// Takes over scene parameters and the state; throws InputError for a state that cannot be run.
+  Run(const Scene& scene, const State& initial);
+  virtual ~Run() = default;
+
+  virtual Stop advance(const Scene::Until& until) = 0;
+  virtual const char* search_name() const = 0;
+  virtual const char* queue_name() const = 0;
+
+  Totals totals() const;
+  State state() const;
+
+  Gas gas;
+  Time now;
+  Restitution restitution;
+  double mean_free_time = 0;
+  Counters counters;
+  TrajectoryHash hash;
+  std::function<void(const Collision&)> callback;
+  std::atomic<bool> interrupted = false;
+
+ protected:
+  /// Sets mean free time, contact time and the next window's end from the present state.
+  void open_window();
+  bool nothing_can_happen() const;
+
+  std::optional<double> tc_, tc_relative_;
+  double contact_time_ = 0;  ///< in force in this window
+  Time window_end_;
+  double search_span_ = 0;  ///< how far ahead contacts are searched for [time]
+  std::uint64_t collisions_ = 0, tc_collisions_ = 0;
+  double energy_ = 0;  ///< of all needles, kept up by the collisions
+  double initial_energy_ = 0;
+};
+
+/// Makes the event loop that the scene asks for. Throws InputError for a search or queue that does
+/// not exist.
+std::unique_ptr<Run> make_run(const Scene& scene, const State& initial);
+
+}  // namespace needlework

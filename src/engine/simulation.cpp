@@ -1,0 +1,97 @@
+#include "src/engine/simulation.h"
+
+#include "src/calendar/indexed_heap.h"
+#include "src/engine/event_loop.h"
+#include "src/error.h"
+#include "src/io/h5md.h"
+#include "src/search/all_pairs.h"
+#include "src/search/linked_cells.h"
+
+namespace needlework {
+namespace {
+
+template <class Search, class Calendar>
+std::unique_ptr<Run> with_effects(const Scene& scene, const State& initial) {
+  const bool rough = scene.collisions.beta != -1;
+  const bool contact_time = scene.collisions.tc || scene.collisions.tc_relative;
+  const auto make = [&]<Effects effects>() -> std::unique_ptr<Run> {
+    return std::make_unique<EventLoop<Search, Calendar, effects>>(scene, initial);
+  };
+  if (rough) {
+    return contact_time ? make.template operator()<Effects{true, true}>()
+                        : make.template operator()<Effects{true, false}>();
+  }
+  return contact_time ? make.template operator()<Effects{false, true}>()
+                      : make.template operator()<Effects{false, false}>();
+}
+
+}  // namespace
+
+std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
+  const std::string& queue = scene.engine.queue;
+  if (queue != "auto" && queue != IndexedHeap::name) {
+    throw InputError("engine.queue = \"" + queue + "\": expected auto or indexed-heap");
+  }
+  const std::string& search = scene.engine.search;
+  if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial);
+  if (search == "auto" || search == LinkedCells::name) {
+    return with_effects<LinkedCells, IndexedHeap>(scene, initial);
+  }
+  throw InputError("engine.search = \"" + search + "\": expected auto, all-pairs or linked-cells");
+}
+
+struct Simulation::Implementation {
+  std::unique_ptr<Run> run;
+  std::string effects;
+};
+
+namespace {
+
+State initial_state(const Scene& scene) {
+  if (scene.initial.file.empty()) return draw_initial_state(scene);
+  return io::read_last_frame(scene.initial.file);
+}
+
+std::string name_effects(const Scene::Collisions& collisions) {
+  std::string out = collisions.epsilon < 1 ? "inelastic" : "elastic";
+  if (collisions.beta != -1) out += " rough";
+  if (collisions.tc || collisions.tc_relative) out += " tc";
+  return out;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene) : Simulation(scene, initial_state(scene)) {}
+
+Simulation::Simulation(const Scene& scene, const State& initial)
+    : implementation_(std::make_unique<Implementation>()) {
+  implementation_->run = make_run(scene, initial);
+  implementation_->effects = name_effects(scene.collisions);
+}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Stop Simulation::advance(const Scene::Until& until) { return implementation_->run->advance(until); }
+
+void Simulation::on_collision(std::function<void(const Collision&)> callback) {
+  implementation_->run->callback = std::move(callback);
+}
+
+void Simulation::interrupt() noexcept { implementation_->run->interrupted = true; }
+Totals Simulation::totals() const { return implementation_->run->totals(); }
+const Counters& Simulation::counters() const { return implementation_->run->counters; }
+double Simulation::time() const {
+  return implementation_->run->gas.clock.since_start(implementation_->run->now);
+}
+double Simulation::epoch_length() const { return implementation_->run->gas.clock.epoch_length(); }
+double Simulation::mean_free_time() const { return implementation_->run->mean_free_time; }
+std::string Simulation::trajectory_hash() const { return implementation_->run->hash.hex(); }
+State Simulation::state() const { return implementation_->run->state(); }
+std::string Simulation::search() const { return implementation_->run->search_name(); }
+std::string Simulation::queue() const { return implementation_->run->queue_name(); }
+std::string Simulation::isa() const { return "scalar"; }
+std::string Simulation::effects() const { return implementation_->effects; }
+
+}  // namespace needlework

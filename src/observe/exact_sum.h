@@ -1,0 +1,38 @@
+// Sums that do not depend on the order of their terms: every term is rounded once to a common
+// fixed-point grid and the integers are added.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace needlework {
+
+__extension__ using Int128 = __int128;
+__extension__ using UnsignedInt128 = unsigned __int128;
+
+/// Sum of terms none of which exceeds `largest` in magnitude. Fewer than 2^60 terms; the error is
+/// below the number of terms times largest 2^-61.
+class ExactSum {
+ public:
+  explicit ExactSum(double largest) : exponent_(largest > 0 ? std::ilogb(largest) : 0) {}
+
+  void add(double term) {
+    // 2^60 grid points per `largest`: what is cut off is the same for any order.
+    total_ += static_cast<std::int64_t>(std::ldexp(term, 60 - exponent_));
+  }
+  double value() const {
+    const bool negative = total_ < 0;
+    const UnsignedInt128 magnitude =
+        negative ? -static_cast<UnsignedInt128>(total_) : static_cast<UnsignedInt128>(total_);
+    const double high = static_cast<double>(static_cast<std::uint64_t>(magnitude >> 64));
+    const double low = static_cast<double>(static_cast<std::uint64_t>(magnitude));
+    const double sum = std::ldexp(high, 64) + low;
+    return std::ldexp(negative ? -sum : sum, exponent_ - 60);
+  }
+
+ private:
+  int exponent_;
+  Int128 total_ = 0;
+};
+
+}  // namespace needlework

@@ -1,0 +1,67 @@
+// Time that does not lose precision with age: whole epochs and an offset into the last.
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <limits>
+
+#include "kernels/double_double.h"
+
+namespace needlework {
+
+/// epoch * (epoch length) + offset, 0 <= offset < epoch length. Normalised, so that comparing the
+/// members in order compares the times.
+struct Time {
+  std::int64_t epoch = 0;
+  double offset = 0;
+
+  static constexpr Time never() { return {std::numeric_limits<std::int64_t>::max(), 0}; }
+  friend constexpr auto operator<=>(const Time&, const Time&) = default;
+};
+
+/// Arithmetic on times. The epoch length is a power of two near the mean free time at the start, so
+/// that scaling all times by a power of two changes no bit.
+class Clock {
+ public:
+  Clock() = default;
+  explicit Clock(double near) : length_(power_of_two(near)) {}
+
+  double epoch_length() const { return length_; }
+  /// Spacing of the times at hand. [time]
+  double resolution() const { return length_ * 0x1p-52; }
+
+  /// t + dt, dt >= 0, rounded down to the resolution or finer; `never` beyond 2^62 epochs.
+  Time add(Time t, double dt) const {
+    const double epochs = dt / length_;
+    if (!(epochs < 0x1p62) || t == Time::never()) return Time::never();
+    const double whole = std::floor(epochs);
+    const double offset = t.offset + (epochs - whole) * length_;
+    const bool carry = offset >= length_;
+    return {t.epoch + static_cast<std::int64_t>(whole) + carry, carry ? offset - length_ : offset};
+  }
+
+  /// a - b; infinite when a is `never`.
+  double difference(Time a, Time b) const {
+    if (a == Time::never()) return std::numeric_limits<double>::infinity();
+    return static_cast<double>(a.epoch - b.epoch) * length_ + (a.offset - b.offset);
+  }
+
+  /// a - b without rounding, for times less than 2^53 epochs apart.
+  DoubleDouble exact_difference(Time a, Time b) const {
+    const DoubleDouble offsets = two_sum(a.offset, -b.offset);
+    if (a.epoch == b.epoch) return offsets;
+    return DoubleDouble(static_cast<double>(a.epoch - b.epoch) * length_) + offsets;
+  }
+
+  /// Since time 0, as a plain number.
+  double since_start(Time t) const { return difference(t, {}); }
+
+ private:
+  static double power_of_two(double near) {
+    return std::isfinite(near) && near > 0 ? std::ldexp(1.0, std::ilogb(near)) : 1.0;
+  }
+  double length_ = 1;
+};
+
+}  // namespace needlework

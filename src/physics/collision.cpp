@@ -1,0 +1,73 @@
+#include "src/physics/collision.h"
+
+#include <cmath>
+
+#include "src/physics/director.h"
+
+namespace needlework {
+namespace {
+
+// The part of the impulse in the plane of the directors, M_tt dp_t = -(1 + beta) V_t, solved in an
+// orthonormal basis: in the directors' own coordinates it is singular when they are parallel.
+struct Tangential {
+  Vec3d impulse;
+  double energy_change;
+};
+
+Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double inertia_first,
+                      double inertia_second, double beta) {
+  // Along the longer bisector; under exchange of the needles both axes keep or flip their sign
+  // together with the components, so no bit changes.
+  const bool acute = dot(c.u_first, c.u_second) >= 0;
+  const Vec3d e1 = normalised(acute ? c.u_first + c.u_second : c.u_first - c.u_second);
+  const Vec3d e2 = cross(c.normal, e1);
+  const double a1 = dot(c.u_first, e1), a2 = dot(c.u_first, e2);
+  const double b1 = dot(c.u_second, e1), b2 = dot(c.u_second, e2);
+  const double v1 = dot(v, e1), v2 = dot(v, e2);
+  // Mass matrix (2/m) 1 + (s12^2/I)(1 - u1 u1) + (s21^2/I)(1 - u2 u2).
+  const double m11 = 2 + (inertia_first * (1 - a1 * a1) + inertia_second * (1 - b1 * b1));
+  const double m22 = 2 + (inertia_first * (1 - a2 * a2) + inertia_second * (1 - b2 * b2));
+  const double m12 = -(inertia_first * (a1 * a2) + inertia_second * (b1 * b2));
+  const double determinant = m11 * m22 - m12 * m12;
+  const double x1 = (m22 * v1 - m12 * v2) / determinant;
+  const double x2 = (m11 * v2 - m12 * v1) / determinant;
+  return {(e1 * x1 + e2 * x2) * -(1 + beta), -0.5 * (1 - beta * beta) * (v1 * x1 + v2 * x2)};
+}
+
+}  // namespace
+
+template <bool smooth>
+Impact collide(const kernels::Flight& first, const kernels::Flight& second,
+               const kernels::ContactGeometry& c, int side, double k,
+               const Restitution& restitution) {
+  const double epsilon = restitution.epsilon;
+  const double inverse_inertia = 2 * k;
+  const Vec3d v = (first.v - second.v) + (cross(first.w, c.u_first) * c.arm_first -
+                                          cross(second.w, c.u_second) * c.arm_second);
+  double vn = dot(v, c.normal);
+  if (vn * side > 0) vn = 0;
+  const double inertia_first = inverse_inertia * (c.arm_first * c.arm_first);
+  const double inertia_second = inverse_inertia * (c.arm_second * c.arm_second);
+  const double mass = 2 + (inertia_first + inertia_second);
+  Impact out;
+  out.normal_velocity = vn;
+  out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
+  out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
+  if constexpr (!smooth) {
+    const Tangential t = tangential(c, v, inertia_first, inertia_second, restitution.beta);
+    out.impulse += t.impulse;
+    out.energy_change += t.energy_change;
+  }
+  out.v_first = first.v + out.impulse;
+  out.v_second = second.v - out.impulse;
+  out.w_first = first.w + cross(c.u_first, out.impulse) * (inverse_inertia * c.arm_first);
+  out.w_second = second.w - cross(c.u_second, out.impulse) * (inverse_inertia * c.arm_second);
+  return out;
+}
+
+template Impact collide<true>(const kernels::Flight&, const kernels::Flight&,
+                              const kernels::ContactGeometry&, int, double, const Restitution&);
+template Impact collide<false>(const kernels::Flight&, const kernels::Flight&,
+                               const kernels::ContactGeometry&, int, double, const Restitution&);
+
+}  // namespace needlework

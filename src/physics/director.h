@@ -1,0 +1,24 @@
+// Directors are unit vectors and angular velocities are normal to them; both are restored wherever
+// a record is made.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/vec3.h"
+
+namespace needlework {
+
+/// a / |a|; a is not 0. Neither overflows nor underflows.
+inline Vec3d normalised(const Vec3d& a) {
+  const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
+  const int exponent = -std::ilogb(size);
+  const Vec3d b{std::ldexp(a.x, exponent), std::ldexp(a.y, exponent), std::ldexp(a.z, exponent)};
+  const double length = std::sqrt(dot(b, b));
+  return {b.x / length, b.y / length, b.z / length};
+}
+
+/// The part of `a` normal to the unit vector `u`.
+inline Vec3d project_out(const Vec3d& a, const Vec3d& u) { return a - u * dot(a, u); }
+
+}  // namespace needlework

@@ -1,0 +1,77 @@
+#include "src/physics/gas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/physics/director.h"
+
+namespace needlework {
+namespace {
+
+// What the record of one needle says of touching the other, if it does.
+const kernels::Touch* find_touch(const Record& record, Needle partner, const Shift& shift) {
+  for (const TouchEntry& entry : record.touches) {
+    if (entry.partner == partner && entry.shift == shift) return &entry.touch;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
+                        const Record& record_b, const Shift& shift) {
+  kernels::Pair pair;
+  pair.first = &record_a.flight;
+  pair.second = &record_b.flight;
+  const Time start = Gas::start_of(record_a, record_b);
+  if (record_a.time != start) pair.elapsed_first = gas.clock.exact_difference(start, record_a.time);
+  if (record_b.time != start)
+    pair.elapsed_second = gas.clock.exact_difference(start, record_b.time);
+  if (shift != Shift{}) {
+    pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
+                  two_prod(shift[2], gas.box[2])};
+  }
+  pair.touch_within = gas.touch_tolerance();
+  // The later record knows the touch; of two records made at one time, either may.
+  const kernels::Touch* touch = nullptr;
+  if (record_a.time == start) touch = find_touch(record_a, b, shift);
+  if (!touch && record_b.time == start) touch = find_touch(record_b, a, -shift);
+  if (touch) pair.touch = *touch;
+  return pair;
+}
+
+Time renewal_time(const Clock& clock, const Record& record) {
+  const Vec3d& v = record.flight.v;
+  const double speed = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), record.flight.omega});
+  if (speed == 0) return Time::never();
+  // A power of two near 2^10 / speed: scaling velocities scales it exactly.
+  return clock.add(record.time, std::ldexp(1.0, 10 - std::ilogb(speed)));
+}
+
+Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
+                   const Vec3d& angular_velocity) {
+  Record& record = gas.records[i];
+  const double elapsed = gas.clock.difference(now, record.time);
+  const Vec3d centre = centre_after(record.flight, elapsed);
+  double r[3] = {centre.x, centre.y, centre.z};
+  Shift wraps{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double box = gas.box[axis];
+    const double boxes = std::floor(r[axis] / box);
+    if (boxes != 0) r[axis] = to_double(DoubleDouble(r[axis]) - two_prod(boxes, box));
+    wraps[axis] = static_cast<std::int32_t>(boxes);
+    gas.images[i][axis] += wraps[axis];
+  }
+  record.flight.r = {r[0], r[1], r[2]};
+  record.flight.u = normalised(director);
+  record.flight.v = velocity;
+  record.flight.w = project_out(angular_velocity, record.flight.u);
+  set_rotation(record.flight);
+  record.time = now;
+  record.renewal = renewal_time(gas.clock, record);
+  record.touches.clear();
+  ++record.serial;
+  return wraps;
+}
+
+}  // namespace needlework
