@@ -1,9 +1,28 @@
-// H5MD 1.1 files: trajectories, series and collisions out; initial states in.
+// H5MD 1.1 files: trajectories, sums and collisions out; initial states in.
+//
+// What a Writer leaves in a file, F frames, S samples, E collisions, N needles:
+//
+//   /h5md                 version [1, 1], author, creator
+//   /particles/needles    box (edges [F][3][3]), position, velocity, image, orientation and
+//                         angular_velocity, each [F][N][3]; id [N], mass [N]
+//   /observables          t_tr, t_rot, energy, momentum [F][3], collisions, tc_collisions, each [F]
+//   /series               the same sums, each [S], and their step and time
+//   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair (ids), arms, each
+//                         [E][2]; shift, impulse, each [E][3]; see Collision
+//   /parameters           scene, title, version, seed, isa, threads, epoch_length, k, epsilon, beta
+//
+// What depends on time is an H5MD element: a group with value, step (collisions so far) and time.
+// All elements of frames share one step and one time, those of the series another. /observables is
+// on the grid of the frames because readers of H5MD, MDAnalysis among them, index it by the frame;
+// the finer series are kept apart from it. Everything is in the units of the scene, so there are no
+// unit attributes.
+//
+// HDF5 is entered by one thread at a time: the functions here wait for each other, but not for other
+// code of the process that uses HDF5.
 #pragma once
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "src/engine/simulation.h"
 #include "src/scene/scene.h"
@@ -12,44 +31,66 @@ namespace needlework::io {
 
 /// What a file says about its run besides the scene.
 struct RunInfo {
-  std::string isa;
-  int threads = 1;
-  double epoch_length = 0;
+  std::string isa;          ///< name of the instruction set in use, never "auto"
+  int threads = 1;          ///< threads in use
+  double epoch_length = 0;  ///< of the epochs in /events [time]
 };
 
-/// Writes one run to one file, created on construction. Everything written before the last flush()
-/// can be read after a crash. Throws IoError with the path and the reason.
+/// Writes one run to one file. All that was written before the last flush() survives the death of
+/// the program at any moment, kill -9 included; power failures are the file system's business. Until
+/// it is closed, and after a crash, HDF5 opens the file for SWMR reading only (h5py: `swmr=True`), as
+/// read_last_frame() and describe() do by themselves, also while the run goes on; a closed file
+/// opens anywhere, with HDF5 1.10 and later.
+///
+/// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and again
+/// when used after that; std::logic_error when used wrongly.
 class Writer {
  public:
-  /// Refuses an existing file unless `force`. The file appears under its name only when this
-  /// constructor has written a valid H5MD header.
+  /// Creates the file: under a temporary name in the same folder, and under its own when a valid
+  /// header is in it. An existing file is replaced if `force`, else IoError; a directory or a device
+  /// never. scene.needles.count must be the number of needles of all frames, also when the scene
+  /// takes its initial state from a file; /events exists if scene.output.events.
   Writer(const std::string& path, bool force, const Scene& scene, const RunInfo& run);
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
   ~Writer();
 
-  /// Appends a sample to each series under /observables (t_tr, t_rot, energy, momentum, collisions,
-  /// tc_collisions), on their common step and time.
+  /// Appends a sample to each element of /series.
   void write_series(const Totals& totals);
-  /// Appends a frame to /particles/needles. `step` is the number of collisions so far.
-  void write_frame(double time, std::uint64_t step, const State& state);
-  /// Appends to /events; buffered.
+  /// Appends a frame to /particles/needles, and the totals at its time to /observables. A state
+  /// without images has none in the file but zeros. The ids of all frames must be the same, in the
+  /// same order.
+  void write_frame(const Totals& totals, const State& state);
+  /// Appends to /events; written in blocks of a few thousand.
   void write_event(const Collision& collision);
+  /// Brings to the file what was written so far.
   void flush();
-  void close();  ///< flushes and reports errors; the destructor is silent
+  /// Flushes, closes and reports errors. The destructor does the same but is silent.
+  void close();
 
  private:
   struct Implementation;
+  template <class Action>
+  void use(Action action);
+
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Reads the last frame of any H5MD file with position, velocity, orientation, angular_velocity.
-/// Box edges as [3], [3][3], [F][3] or [F][3][3]; id as plain dataset, time-dependent or none; no
-/// mass, no image and positions on the box edge are fine. Throws IoError (unreadable) or InputError
-/// (wrong content), naming file, dataset, value and what was expected.
+/// Reads the last frame of any H5MD file that has position, velocity, orientation and
+/// angular_velocity in /particles/needles, or in the only group under /particles, whatever its name.
+///
+/// Each may be an H5MD element of [F][N][3] or a plain dataset [N][3], of any kind of number. Box
+/// edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], plain or an element; id and
+/// image plain, an element, or none; mass is not needed. Elements with steps of their own are read
+/// at the last step that all have. Centres may lie on or outside the edges of the box. Numbers are
+/// taken as they are, without any normalisation: |u| = 1 and u·w = 0 must hold within 1e-6 (of |w|).
+///
+/// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
+/// "PATH: /DATASET[index] = VALUE: expected ...".
 State read_last_frame(const std::string& path);
 
-/// What `needlework info FILE` prints: layout, sizes, times, parameters.
+/// What `needlework info FILE` prints: datasets with their shapes, frames, times and parameters of
+/// any H5MD file, some lines of text. Throws IoError if the file cannot be read.
 std::string describe(const std::string& path);
 
 }  // namespace needlework::io

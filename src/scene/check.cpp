@@ -1,0 +1,82 @@
+#include "src/scene/check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace needlework {
+namespace {
+
+std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
+  std::vector<std::string> list;
+  const double tc = c.tc.value_or(c.tc_relative.value_or(0));
+  const char* tc_key = c.tc ? "tc" : "tc_relative";
+  if (c.epsilon < 1 && tc == 0)
+    list.push_back(fmt::format(
+        "collisions.epsilon = {}: inelastic needles can collide infinitely often in a finite time, "
+        "which ends a run; set collisions.tc_relative, such as 1e-4, to prevent it",
+        c.epsilon));
+  if (c.epsilon == 0 && tc > 0)
+    list.push_back(fmt::format(
+        "collisions.{} = {}: cannot prevent collapse at epsilon = 0, where needles do not rebound",
+        tc_key, tc));
+  if (c.epsilon < 1 && c.tc_relative && tc > 0 && tc < 1e-7)
+    list.push_back(fmt::format(
+        "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
+        "collapse is not prevented",
+        tc));
+  if (c.tc_relative && tc > 0.1)
+    list.push_back(fmt::format(
+        "collisions.tc_relative = {}: a large part of all collisions will be elastic", tc));
+  if (c.epsilon == 1 && c.beta == -1 && tc > 0)
+    list.push_back(
+        fmt::format("collisions.{} = {}: has no effect on elastic smooth needles", tc_key, tc));
+  return list;
+}
+
+std::vector<std::string> until_warnings(const Scene& scene) {
+  std::vector<std::string> list;
+  const auto ratio = scene.until.energy_ratio;
+  const bool elastic = scene.collisions.epsilon == 1 && std::abs(scene.collisions.beta) == 1;
+  if (ratio && *ratio >= 1)
+    list.push_back(fmt::format("until.energy_ratio = {}: is met from the start", *ratio));
+  if (ratio && *ratio < 1 && elastic)
+    list.push_back(fmt::format(
+        "until.energy_ratio = {}: is never met, as collisions keep the energy", *ratio));
+  return list;
+}
+
+std::vector<std::string> output_warnings(const Scene& scene) {
+  std::vector<std::string> list;
+  const Scene::Output& output = scene.output;
+  const bool frames = output.frames_per_decade || !output.frame_times.empty();
+  if (output.file.empty() && (frames || output.events))
+    list.push_back(fmt::format("output.{}: nothing is written without output.file",
+                               frames ? "frames" : "events"));
+  if (scene.until.time && !output.frame_times.empty() &&
+      output.frame_times.back() > *scene.until.time)
+    list.push_back(fmt::format("output.frames: the frame at {} lies behind until.time = {}",
+                               output.frame_times.back(), *scene.until.time));
+  return list;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Scene& scene) {
+  std::vector<std::string> list;
+  const auto add = [&](std::vector<std::string> more) {
+    list.insert(list.end(), more.begin(), more.end());
+  };
+  if (scene.needles.k < 2)
+    list.push_back(fmt::format(
+        "needles.k = {}: below 2, where all mass sits at the tips, mass lies beyond them",
+        scene.needles.k));
+  if (scene.initial.file.empty() && scene.initial.t_tr == 0 && scene.initial.t_rot == 0)
+    list.push_back("initial.t_tr, initial.t_rot = 0: nothing moves");
+  add(collision_warnings(scene.collisions));
+  add(until_warnings(scene));
+  add(output_warnings(scene));
+  return list;
+}
+
+}  // namespace needlework

@@ -1,0 +1,197 @@
+#include "src/scene/document.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "src/scene/nesting.h"
+#include "src/scene/printable.h"
+
+namespace needlework {
+namespace {
+
+// Longest pieces of a message in bytes.
+constexpr std::size_t name_limit = 1000;
+constexpr std::size_t key_limit = 40;
+constexpr std::size_t value_limit = 60;
+constexpr std::size_t reason_limit = 200;
+
+Value value_of(const toml::node& node) {
+  if (const auto* boolean = node.as_boolean()) return {boolean->get()};
+  if (const auto* integer = node.as_integer()) return {integer->get()};
+  if (const auto* number = node.as_floating_point()) return {number->get()};
+  if (const auto* string = node.as_string()) return {string->get()};
+  if (const auto* array = node.as_array()) {
+    Value::Array values;
+    for (const toml::node& element : *array) values.push_back(value_of(element));
+    return {std::move(values)};
+  }
+  return {};
+}
+
+Region region_of(const toml::node& node) {
+  const toml::source_region& source = node.source();
+  return {source.begin.line, source.begin.column, source.end.line, source.end.column};
+}
+
+Entry entry_of(std::string_view section, std::string_view key, const toml::node& node) {
+  Entry entry;
+  entry.section = section;
+  entry.key = key;
+  entry.value = value_of(node);
+  entry.region = region_of(node);
+  // Such a table's place is its first key, which would not do as a value.
+  if (node.is_table() && !node.as_table()->is_inline())
+    entry.region = {entry.region.line, entry.region.column, entry.region.line, entry.region.column};
+  return entry;
+}
+
+Entry head_of(std::string_view section, const toml::node& node) {
+  Entry entry;
+  entry.section = section;
+  entry.is_head = true;
+  entry.region = region_of(node);
+  return entry;
+}
+
+std::vector<Entry> flattened(const toml::table& root) {
+  std::vector<Entry> entries;
+  for (const auto& [name, node] : root) {
+    const toml::table* table = node.as_table();
+    if (!table) {
+      entries.push_back(entry_of("", name.str(), node));
+      continue;
+    }
+    entries.push_back(head_of(name.str(), node));
+    for (const auto& [key, value] : *table)
+      entries.push_back(entry_of(name.str(), key.str(), value));
+  }
+  const auto place = [](const Entry& e) { return std::tuple(e.region.line, e.region.column); };
+  // Stable: the head of a table stays before a key at the same place, as in "until.time = 1".
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
+  return entries;
+}
+
+std::string nested_too_deep() {
+  return fmt::format("expected at most {} levels of nesting", max_nesting);
+}
+
+// The TOML library's reason without the words that the message begins with anyway.
+std::string reason(std::string_view description) {
+  constexpr std::string_view prefix = "Error while parsing ";
+  std::string text(description);
+  if (text.starts_with(prefix)) text = "bad " + text.substr(prefix.size());
+  if (text.ends_with("could not determine value type")) text += " (text needs quotes)";
+  return printable(text, reason_limit);
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view space = " \t";
+  const std::size_t begin = text.find_first_not_of(space);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+}
+
+bool is_bare_key(std::string_view text) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), allowed);
+}
+
+// The value of an override: TOML when it is one value in TOML, else the bare string.
+Value override_value(std::string_view text) {
+  try {
+    const toml::table table = toml::parse("value = " + std::string(text));
+    if (table.size() == 1) return value_of(table.begin()->second);
+  } catch (const toml::parse_error&) {
+  }
+  return {std::string(text)};
+}
+
+Entry parse_override(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const std::string_view path = trimmed(text.substr(0, equals));
+  const std::size_t dot = path.find('.');
+  const bool complete = equals != std::string_view::npos && dot != std::string_view::npos;
+  Entry entry;
+  entry.is_override = true;
+  if (complete) {
+    entry.section = trimmed(path.substr(0, dot));
+    entry.key = trimmed(path.substr(dot + 1));
+    entry.override_text = trimmed(text.substr(equals + 1));
+  }
+  if (!is_bare_key(entry.section) || !is_bare_key(entry.key))
+    throw InputError(
+        fmt::format("--set {}: expected section.key=value", printable(text, value_limit)));
+  return entry;
+}
+
+}  // namespace
+
+Document::Document(std::string_view text, std::string_view name,
+                   std::span<const std::string> overrides)
+    : text_(text), name_(name) {
+  const std::string file = printable(name, name_limit);
+  if (const auto line = line_nested_too_deep(text))
+    throw InputError(fmt::format("{}: line {}: {}", file, *line, nested_too_deep()));
+  try {
+    entries_ = flattened(toml::parse(text));
+  } catch (const toml::parse_error& error) {
+    throw InputError(fmt::format("{}: line {}: {}", file, error.source().begin.line,
+                                 reason(error.description())));
+  }
+  for (const std::string& override_text : overrides) {
+    Entry entry = parse_override(override_text);
+    if (line_nested_too_deep(entry.override_text)) throw error(entry, nested_too_deep());
+    entry.value = override_value(entry.override_text);
+    entries_.push_back(std::move(entry));
+  }
+}
+
+InputError Document::error(const Entry& entry, std::string_view expected) const {
+  std::string key = printable(entry.section, key_limit);
+  if (!entry.is_head) key += (key.empty() ? "" : ".") + printable(entry.key, key_limit);
+  if (entry.is_override)
+    return InputError(
+        fmt::format("--set {}={}: {}", key, printable(entry.override_text, value_limit), expected));
+  const std::string place =
+      fmt::format("{}: line {}: ", printable(name_, name_limit), entry.region.line);
+  if (entry.is_head) return InputError(fmt::format("{}[{}]: {}", place, key, expected));
+  const std::string source = source_of(entry.region);
+  const std::string value = source.empty() ? "{...}" : printable(source, value_limit);
+  return InputError(fmt::format("{}{} = {}: {}", place, key, value, expected));
+}
+
+InputError Document::missing(std::string_view what, std::string_view expected) const {
+  return InputError(
+      fmt::format("{}: {} is missing: {}", printable(name_, name_limit), what, expected));
+}
+
+// The text of a region; columns are code points, and a byte order mark is none of them.
+std::string Document::source_of(const Region& region) const {
+  const auto offset = [&](std::size_t line, std::size_t column) {
+    std::size_t at = text_.starts_with("\xef\xbb\xbf") ? 3 : 0;
+    for (std::size_t l = 1; l < line && at < text_.size(); ++l)
+      at = std::min(text_.find('\n', at), text_.size() - 1) + 1;
+    const auto continues = [&](std::size_t i) {
+      return i < text_.size() && (static_cast<unsigned char>(text_[i]) & 0xc0u) == 0x80u;
+    };
+    for (std::size_t c = 1; c < column && at < text_.size(); ++c) {
+      ++at;
+      while (continues(at)) ++at;
+    }
+    return at;
+  };
+  const std::size_t begin = offset(region.line, region.column);
+  const std::size_t end = std::max(begin, offset(region.end_line, region.end_column));
+  return std::string(text_.substr(begin, end - begin));
+}
+
+}  // namespace needlework

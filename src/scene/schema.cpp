@@ -1,0 +1,247 @@
+#include "src/scene/schema.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "src/scene/printable.h"
+#include "src/scene/suggest.h"
+
+namespace needlework {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::max();
+constexpr double smallest_positive = std::numeric_limits<double>::denorm_min();
+
+// Limits beyond which squares and products of physical numbers would leave the range of a double,
+// or positions could not resolve a needle.
+constexpr double largest_edge = 1e9;
+constexpr double least_temperature = 1e-200;
+constexpr double largest_temperature = 1e200;
+constexpr double most_per_decade = 1e6;
+
+constexpr std::uint64_t most_needles = (std::uint64_t{1} << 32) - 2;  // ids are 32 bits wide
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
+constexpr std::uint64_t most_threads = 1024;
+
+// Stores a value that was read; false when there is none.
+template <typename T, typename U>
+bool store(T& target, std::optional<U> value) {
+  if (value) target = static_cast<T>(*std::move(value));
+  return value.has_value();
+}
+
+std::optional<double> number(const Value& value, double least, double greatest = unlimited) {
+  std::optional<double> x;
+  if (const auto* integer = value.as<std::int64_t>()) x = static_cast<double>(*integer);
+  if (const auto* real = value.as<double>()) x = *real;
+  if (x && *x >= least && *x <= greatest) return x;  // false for NaN
+  return std::nullopt;
+}
+
+std::optional<double> temperature(const Value& value) {
+  const auto x = number(value, 0, largest_temperature);
+  return x && (*x == 0 || *x >= least_temperature) ? x : std::nullopt;
+}
+
+std::optional<std::uint64_t> whole_number(const Value& value, std::uint64_t least,
+                                          std::uint64_t greatest) {
+  const auto* integer = value.as<std::int64_t>();
+  if (!integer || *integer < 0) return std::nullopt;
+  const auto n = static_cast<std::uint64_t>(*integer);
+  return n >= least && n <= greatest ? std::optional(n) : std::nullopt;
+}
+
+std::optional<std::string> text(const Value& value) {
+  const auto* string = value.as<std::string>();
+  return string && is_printable(*string) ? std::optional(*string) : std::nullopt;
+}
+
+std::optional<std::string> one_of(const Value& value,
+                                  std::initializer_list<std::string_view> names) {
+  const auto name = text(value);
+  const bool known = name && std::find(names.begin(), names.end(), *name) != names.end();
+  return known ? name : std::nullopt;
+}
+
+std::optional<double> box_edge(const Value& value) { return number(value, 2.01, largest_edge); }
+
+std::optional<std::array<double, 3>> box(const Value& value) {
+  if (const auto side = box_edge(value)) return std::array{*side, *side, *side};
+  const auto* edges = value.as<Value::Array>();
+  if (!edges || edges->size() != 3) return std::nullopt;
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!store(result[i], box_edge((*edges)[i]))) return std::nullopt;
+  return result;
+}
+
+std::optional<std::vector<double>> increasing_times(const Value& value) {
+  const auto* array = value.as<Value::Array>();
+  if (!array) return std::nullopt;
+  std::vector<double> times;
+  for (const Value& element : *array) {
+    const auto time = number(element, 0);
+    if (!time || (!times.empty() && *time <= times.back())) return std::nullopt;
+    times.push_back(*time);
+  }
+  return times;
+}
+
+std::optional<double> per_decade(const Value& value) {
+  return number(value, smallest_positive, most_per_decade);
+}
+
+bool read_frames(Scene& scene, const Value& value) {
+  if (store(scene.output.frames_per_decade, per_decade(value))) return true;
+  return store(scene.output.frame_times, increasing_times(value));
+}
+
+std::optional<std::vector<std::string>> observables(const Value& value) {
+  const auto* array = value.as<Value::Array>();
+  if (!array || !array->empty()) return std::nullopt;
+  return std::vector<std::string>{};
+}
+
+using V = const Value&;
+
+// In the order of their documentation; messages list keys in it.
+constexpr SceneKey keys[] = {
+    {"", "title", "a string without control characters",
+     [](Scene& s, V v) { return store(s.title, text(v)); }},
+
+    {"needles", "count", "a whole number in digits, from 0 to 4294967294",
+     [](Scene& s, V v) { return store(s.needles.count, whole_number(v, 0, most_needles)); }},
+    {"needles", "box", "an edge from 2.01 to 1e9, or an array of three edges",
+     [](Scene& s, V v) { return store(s.needles.box, box(v)); }},
+    {"needles", "k", "a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)",
+     [](Scene& s, V v) { return store(s.needles.k, number(v, 1e-9, 1e9)); }},
+    {"needles", "seed", "a whole number in digits, from 0 to 9223372036854775807",
+     [](Scene& s, V v) { return store(s.needles.seed, whole_number(v, 0, largest_seed)); }},
+
+    {"initial", "t_tr", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
+     [](Scene& s, V v) { return store(s.initial.t_tr, temperature(v)); }},
+    {"initial", "t_rot", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
+     [](Scene& s, V v) { return store(s.initial.t_rot, temperature(v)); }},
+    {"initial", "file", "the path of an H5MD file",
+     [](Scene& s, V v) { return store(s.initial.file, text(v)) && !s.initial.file.empty(); }},
+
+    {"collisions", "epsilon", "a number from 0 to 1",
+     [](Scene& s, V v) { return store(s.collisions.epsilon, number(v, 0, 1)); }},
+    {"collisions", "beta", "a number from -1 (smooth) to 1 (perfectly rough)",
+     [](Scene& s, V v) { return store(s.collisions.beta, number(v, -1, 1)); }},
+    {"collisions", "tc", "a time >= 0",
+     [](Scene& s, V v) { return store(s.collisions.tc, number(v, 0)); }},
+    {"collisions", "tc_relative", "a number >= 0 of mean free times",
+     [](Scene& s, V v) { return store(s.collisions.tc_relative, number(v, 0)); }},
+
+    {"engine", "search", R"("auto", "all-pairs", "linked-cells" or "capsules")",
+     [](Scene& s, V v) {
+       return store(s.engine.search, one_of(v, {"auto", "all-pairs", "linked-cells", "capsules"}));
+     }},
+    {"engine", "queue",
+     R"("auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")",
+     [](Scene& s, V v) {
+       return store(s.engine.queue, one_of(v, {"auto", "lazy-heap", "indexed-heap", "tournament",
+                                               "bucket", "cell-calendar"}));
+     }},
+    {"engine", "accuracy", R"("fast", "standard" or "rigorous")",
+     [](Scene& s, V v) {
+       return store(s.engine.accuracy, one_of(v, {"fast", "standard", "rigorous"}));
+     }},
+    {"engine", "threads", "a whole number in digits, from 1 to 1024",
+     [](Scene& s, V v) { return store(s.engine.threads, whole_number(v, 1, most_threads)); }},
+    {"engine", "isa", R"("auto", "scalar", "sse4", "avx2" or "avx512")",
+     [](Scene& s, V v) {
+       return store(s.engine.isa, one_of(v, {"auto", "scalar", "sse4", "avx2", "avx512"}));
+     }},
+
+    {"until", "time", "a time >= 0",
+     [](Scene& s, V v) { return store(s.until.time, number(v, 0)); }},
+    {"until", "collisions_per_needle", "a number >= 0",
+     [](Scene& s, V v) { return store(s.until.collisions_per_needle, number(v, 0)); }},
+    {"until", "energy_ratio", "a number > 0",
+     [](Scene& s, V v) { return store(s.until.energy_ratio, number(v, smallest_positive)); }},
+    {"until", "wall_s", "a number >= 0 of seconds",
+     [](Scene& s, V v) { return store(s.until.wall_s, number(v, 0)); }},
+
+    {"output", "file", "the path of a file to write, or \"\" for none",
+     [](Scene& s, V v) { return store(s.output.file, text(v)); }},
+    {"output", "series_per_decade", "a number > 0 (at most 1e6)",
+     [](Scene& s, V v) { return store(s.output.series_per_decade, per_decade(v)); }},
+    {"output", "frames",
+     "a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, increasing",
+     read_frames},
+    {"output", "observables", "an empty array: there are no extra observables yet",
+     [](Scene& s, V v) { return store(s.output.observables, observables(v)); }},
+    {"output", "events", "true or false",
+     [](Scene& s, V v) {
+       const bool* events = v.as<bool>();
+       return store(s.output.events, events ? std::optional(*events) : std::nullopt);
+     }},
+};
+
+constexpr std::string_view sections[] = {"needles", "initial", "collisions",
+                                         "engine",  "until",   "output"};
+
+std::vector<std::string_view> keys_of(std::string_view section) {
+  std::vector<std::string_view> names;
+  for (const SceneKey& k : keys)
+    if (k.section == section) names.push_back(k.key);
+  return names;
+}
+
+std::string did_you_mean(std::string_view name) {
+  return name.empty() ? "" : fmt::format(", did you mean {}?", name);
+}
+
+std::string expected_instead_of_section(std::string_view name) {
+  const std::string_view nearest = nearest_word(name, sections);
+  return fmt::format("expected one of the sections {}{}", fmt::join(sections, ", "),
+                     did_you_mean(nearest));
+}
+
+}  // namespace
+
+const SceneKey* find_scene_key(std::string_view section, std::string_view key) {
+  const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const SceneKey& k) {
+    return k.section == section && k.key == key;
+  });
+  return found == std::end(keys) ? nullptr : found;
+}
+
+bool is_scene_section(std::string_view section) {
+  return std::find(std::begin(sections), std::end(sections), section) != std::end(sections);
+}
+
+std::string expected_instead(const Entry& unknown) {
+  if (unknown.section.empty() && is_scene_section(unknown.key))
+    return fmt::format("expected a section [{}]", unknown.key);
+  if (!unknown.section.empty() && !is_scene_section(unknown.section))
+    return expected_instead_of_section(unknown.section);
+  const std::vector<std::string_view> names = keys_of(unknown.section);
+  const std::string_view nearest = nearest_word(unknown.key, names);
+  std::string suggestion(nearest);
+  // Without a likely slip within the section: the right key in the wrong section.
+  for (const SceneKey& k : keys) {
+    if (!nearest.empty() || k.key != unknown.key) continue;
+    suggestion += suggestion.empty() ? "" : " or ";
+    suggestion += k.section.empty() ? k.key : fmt::format("{}.{}", k.section, k.key);
+  }
+  if (unknown.section.empty() && suggestion.empty())
+    suggestion = nearest_word(unknown.key, sections);
+  return fmt::format("expected {}{}{}", unknown.section.empty() ? "a section or " : "one of ",
+                     fmt::join(names, ", "), did_you_mean(suggestion));
+}
+
+}  // namespace needlework

@@ -1,0 +1,209 @@
+// Input made to break a parser: nothing but InputError may come of it, with a message fit to print.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "src/error.h"
+#include "src/scene/nesting.h"
+#include "src/scene/parse.h"
+#include "src/scene/printable.h"
+
+namespace needlework {
+namespace {
+
+std::string message(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_scene(text, "s.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string repeated(const std::string& piece, std::size_t times) {
+  std::string text;
+  for (std::size_t i = 0; i < times; ++i) text += piece;
+  return text;
+}
+
+TEST(HostileScene, DeepNestingIsRefusedBeforeItCanOverflowTheStack) {
+  const std::string reason = ": expected at most 16 levels of nesting";
+  EXPECT_EQ(message(repeated("a.", 500000) + "a = 1"), "s.toml: line 1" + reason);
+  EXPECT_EQ(message("\n\n[" + repeated("a.", 400000) + "a]"), "s.toml: line 3" + reason);
+  EXPECT_EQ(message("\na = " + repeated("[", 400000)), "s.toml: line 2" + reason);
+  EXPECT_EQ(message("a = " + repeated("{a=", 300000)), "s.toml: line 1" + reason);
+  EXPECT_EQ(message("a = [" + repeated("\"\"\".\"\"\",", 2) + "\n{" + repeated("'a,\"b'.", 20)),
+            "s.toml: line 2" + reason);
+  EXPECT_EQ(message("", {"a.b=" + repeated("[", 40)}), "--set a.b=" + repeated("[", 40) + reason);
+}
+
+TEST(Nesting, LooksPastStringsCommentsAndNumbers) {
+  const std::string dots = repeated(".", 50);
+  const std::string brackets = repeated("[", 50);
+  for (const std::string& harmless :
+       {"a = \"" + dots + brackets + "\"", "a = '" + dots + "'", "# " + brackets + dots,
+        "a = \"\"\"\n" + brackets + "\n\"\" \\\"\"\" " + dots + "\"\"\"\"\"",
+        "a = '''\\'' " + brackets + "\n'''", "a = \"\\\"" + brackets + "\"", "a = \"\" # " + dots,
+        "a = [" + repeated("0.5, ", 100) + "]", repeated("a.b = 1.5\n", 100),
+        "a = " + repeated("[", 16) + repeated("]", 16), repeated("a.", 16) + "a = 1"})
+    EXPECT_FALSE(line_nested_too_deep(harmless)) << harmless;
+  EXPECT_EQ(line_nested_too_deep("a = \"\"\"\n\n\"\"\"\n" + repeated("a.", 17)), 4u);
+  EXPECT_EQ(line_nested_too_deep("a = \"\\\\\"\n" + brackets), 2u);
+  EXPECT_EQ(line_nested_too_deep("a = '\\'" + brackets), 1u);
+}
+
+TEST(HostileScene, BytesThatAreNoTextAreRefused) {
+  EXPECT_EQ(message("title = \"\xff\""), "s.toml: line 1: Encountered invalid utf-8 sequence");
+  EXPECT_EQ(message(std::string("title = 'a\0b'", 13)),
+            "s.toml: line 1: bad literal string: control characters other than TAB (U+0009) are "
+            "explicitly prohibited");
+  EXPECT_EQ(message(std::string(1000, '\0')),
+            "s.toml: line 1: bad root table: expected keys, tables, whitespace or comments, saw "
+            "'\\u0000'");
+  EXPECT_EQ(message(std::string("\xff\xfe[\0n\0", 6)),
+            "s.toml: line 1: Encountered invalid utf-8 sequence");
+  EXPECT_EQ(message("a = 5\rb = 6"),
+            "s.toml: line 1: bad key-value pair: expected '\\n' after '\\r', saw 'b'");
+}
+
+TEST(HostileScene, MessageEscapesControlCharacters) {
+  EXPECT_EQ(message(R"("\u001b[2J" = 1)"),
+            "s.toml: line 1: \\x1b[2J = 1: expected a section or title");
+  EXPECT_EQ(message(R"(["a\nb"])"),
+            "s.toml: line 1: [a\\nb]: expected one of the sections needles, initial, collisions, "
+            "engine, until, output");
+  EXPECT_EQ(message("until.time = '\xe2\x80\xae'"),
+            "s.toml: line 1: until.time = '\\u202e': expected a time >= 0");
+  EXPECT_EQ(message(R"(title = "\u001b[2J")"),
+            R"(s.toml: line 1: title = "\u001b[2J": expected a string without control characters)");
+  try {
+    parse_scene("= 5", "a\x1b[2J\nb");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("a\\x1b[2J\\nb: line 1: ")) << error.what();
+  }
+}
+
+TEST(HostileScene, MessageIsCutToASaneLength) {
+  const std::string x(100000, 'x');
+  for (const std::string& text :
+       {"until.time = '" + x + "'", x + " = 1", "[" + x + "]", "[" + x + "]\n[" + x + "]",
+        "a = " + x, "a = 1" + x, "[needles]\n" + x + " = '" + x + "'",
+        "a = " + std::string(100000, '1')})
+    EXPECT_LT(message(text).size(), 400u) << message(text);
+  EXPECT_LT(message("", {"needles." + x + "=" + x}).size(), 400u);
+  EXPECT_LT(message("", {x}).size(), 400u);
+  EXPECT_EQ(message("until.time = '" + x + "'"),
+            "s.toml: line 1: until.time = '" + std::string(56, 'x') + "...: expected a time >= 0");
+}
+
+TEST(HostileScene, OfManyBadKeysCostsLittle) {
+  std::string lines = "[needles]\n";
+  std::string one_line = "needles = {";
+  for (int i = 0; i < 50000; ++i) {
+    const std::string name = std::to_string(i);
+    lines.append("k").append(name).append(" = 1\n");
+    one_line.append(i ? ", k" : "k").append(name).append(" = 1");
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(message(lines).starts_with("s.toml: line 2: needles.k0 = 1: "));
+  EXPECT_TRUE(message(one_line + "}").starts_with("s.toml: line 1: needles.k0 = 1: "));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(seconds.count(), 20) << "something grows with the square of the number of keys";
+}
+
+// Bytes and pieces of TOML put in, taken out and exchanged at random.
+std::string mutated(std::string text, std::mt19937_64& random) {
+  static const std::vector<std::string> pieces = {"[",
+                                                  "]",
+                                                  "{",
+                                                  "}",
+                                                  "=",
+                                                  ".",
+                                                  ",",
+                                                  "\n",
+                                                  "\"",
+                                                  "'",
+                                                  "\"\"\"",
+                                                  "'''",
+                                                  "#",
+                                                  "\\",
+                                                  "\\u0000",
+                                                  "\r",
+                                                  "[[",
+                                                  "]]",
+                                                  "nan",
+                                                  "-inf",
+                                                  "1e400",
+                                                  "99999999999999999999",
+                                                  "-1",
+                                                  "0x",
+                                                  "true",
+                                                  "1979-05-27T07:32:00Z",
+                                                  "needles",
+                                                  "count",
+                                                  "until.time = 1\n",
+                                                  "\xff",
+                                                  "\xe2\x80\xa8",
+                                                  "\xef\xbb\xbf",
+                                                  "a.",
+                                                  std::string(1, '\0')};
+  const auto below = [&](std::size_t n) { return random() % n; };
+  for (std::size_t n = 1 + below(4); n > 0; --n) {
+    const std::size_t at = below(text.size() + 1);
+    const std::size_t length = std::min(text.size() - at, below(8));
+    switch (below(4)) {
+      case 0:
+        text.insert(at, pieces[below(pieces.size())]);
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.replace(at, length, pieces[below(pieces.size())]);
+        break;
+      default:
+        text.insert(below(text.size() + 1), text.substr(at, below(40)));
+        break;
+    }
+  }
+  return text;
+}
+
+TEST(HostileScene, OfRandomEditsIsASceneOrAnInputError) {
+  const std::string good =
+      "title = \"a\"\n[needles]\ncount = 10\nbox = [4, 5.0, 6]\nk = 6.0\nseed = 1\n[initial]\n"
+      "t_tr = 1.0\nt_rot = 0\n[collisions]\nepsilon = 0.8\nbeta = -1.0\ntc_relative = 1e-4\n"
+      "[engine]\nsearch = \"auto\"\nthreads = 1\n[until]\ntime = 1e3\nenergy_ratio = 1e-3\n"
+      "[output]\nfile = \"run.h5\"\nframes = [0, 1, 2]\nobservables = []\nevents = false\n";
+  const std::string override_text = "needles.box=[4, 5, 6]";
+  constexpr int trials = 30000;
+  int scenes = 0;
+  for (int seed = 0; seed < trials; ++seed) {
+    std::mt19937_64 random(seed);
+    const std::string text = mutated(good, random);
+    const bool with_override = random() % 4 == 0;
+    const std::vector<std::string> overrides(with_override ? 1 : 0, mutated(override_text, random));
+    try {
+      const Scene scene = parse_scene(text, "s.toml", overrides);
+      ++scenes;
+      EXPECT_GE(scene.collisions.epsilon, 0);
+      EXPECT_GT(scene.needles.k, 0);
+      EXPECT_TRUE(scene.text.starts_with(text));
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(is_printable(what) && what.size() < 400) << "seed " << seed << ": " << what;
+      EXPECT_TRUE(what.starts_with("s.toml: ") || what.starts_with("--set "))
+          << "seed " << seed << ": " << what;
+    }  // anything else fails the test
+  }
+  // Both outcomes must be common, or the edits test nothing.
+  EXPECT_GT(scenes, trials / 100);
+  EXPECT_LT(scenes, trials * 9 / 10);
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,132 @@
+// Overrides of the form section.key=value, as given to --set.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "src/error.h"
+#include "src/scene/parse.h"
+
+namespace needlework {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+const std::string least = "needles.count = 10\nneedles.box = 4\nuntil.time = 5\n";
+
+Scene parse(const Overrides& overrides, const std::string& more = "") {
+  return parse_scene(least + more, "s.toml", overrides);
+}
+
+std::string message(const Overrides& overrides, const std::string& more = "") {
+  try {
+    parse(overrides, more);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Override, ReplacesOrAddsAKey) {
+  const Scene scene = parse({"needles.count=7", "collisions.epsilon = 0.5", "needles.box=[3,4,5]"});
+  EXPECT_EQ(scene.needles.count, 7u);
+  EXPECT_EQ(scene.needles.box, (std::array{3.0, 4.0, 5.0}));
+  EXPECT_EQ(scene.collisions.epsilon, 0.5);
+}
+
+TEST(Override, TakesABareWordForAString) {
+  EXPECT_EQ(parse({"engine.search=all-pairs"}).engine.search, "all-pairs");
+  EXPECT_EQ(parse({"engine.search=\"all-pairs\""}).engine.search, "all-pairs");
+  EXPECT_EQ(parse({"output.file=out/run#1 = b.h5"}).output.file, "out/run#1 = b.h5");
+  EXPECT_EQ(parse({"output.file="}, "output.file = 'x'").output.file, "");
+  EXPECT_EQ(parse({"output.events=true"}).output.events, true);
+}
+
+TEST(Override, LastOneForAKeyCounts) {
+  EXPECT_EQ(parse({"needles.count=-1", "needles.count=8"}).needles.count, 8u);
+}
+
+TEST(Override, HidesABadValueInTheFile) {
+  EXPECT_EQ(parse({"needles.k=3"}, "needles.k = -1").needles.k, 3);
+}
+
+TEST(Override, SuppliesWhatIsMissing) {
+  const Scene scene =
+      parse_scene("", "s.toml", Overrides{"needles.count=1", "needles.box=4", "until.wall_s=1"});
+  EXPECT_EQ(scene.needles.count, 1u);
+}
+
+TEST(Override, OfAnAlternativeReplacesTheChoiceOfTheFile) {
+  const Scene absolute = parse({"collisions.tc=0.1"}, "collisions.tc_relative = 1e-3");
+  EXPECT_EQ(absolute.collisions.tc, 0.1);
+  EXPECT_FALSE(absolute.collisions.tc_relative);
+  const Scene relative = parse({"collisions.tc_relative=0.1"}, "collisions.tc = 1e-3");
+  EXPECT_EQ(relative.collisions.tc_relative, 0.1);
+  EXPECT_FALSE(relative.collisions.tc);
+  const Scene restart = parse({"initial.file=a.h5"}, "initial = {t_tr = 2, t_rot = 0}");
+  EXPECT_EQ(restart.initial.file, "a.h5");
+  EXPECT_EQ(restart.initial.t_tr, 1);
+}
+
+TEST(Override, CannotChooseBothAlternatives) {
+  EXPECT_EQ(message({"collisions.tc=0.1", "collisions.tc_relative=1"}),
+            "--set collisions.tc_relative=1: expected either tc or tc_relative, not both");
+  EXPECT_EQ(message({"initial.t_tr=1"}, "initial.file = 'a.h5'"),
+            "--set initial.t_tr=1: expected either file or temperatures to draw, not both");
+  EXPECT_EQ(message({"initial.file=a.h5", "initial.t_rot=1"}),
+            "--set initial.t_rot=1: expected either file or temperatures to draw, not both");
+}
+
+TEST(Override, IsNamedInItsError) {
+  const std::string count = "expected a whole number in digits, from 0 to 4294967294";
+  EXPECT_EQ(message({"needles.count=-1"}), "--set needles.count=-1: " + count);
+  EXPECT_EQ(message({"needles.count= 10k "}), "--set needles.count=10k: " + count);
+  EXPECT_EQ(message({"needles.count="}), "--set needles.count=: " + count);
+  EXPECT_EQ(message({"needles.count=99999999999999999999"}),
+            "--set needles.count=99999999999999999999: " + count);
+  EXPECT_EQ(message({"needles.cuont=5"}),
+            "--set needles.cuont=5: expected one of count, box, k, seed, did you mean count?");
+  EXPECT_EQ(message({"neddles.count=5"}),
+            "--set neddles.count=5: expected one of the sections needles, initial, collisions, "
+            "engine, until, output, did you mean needles?");
+}
+
+TEST(Override, ErrorsOfTheFileComeFirst) {
+  EXPECT_EQ(message({"needles.count=-1"}, "needles.k ="),
+            "s.toml: line 4: bad key-value pair: encountered end-of-file");
+  EXPECT_EQ(message({"needles.count=-1"}, "collisions.beta = 3"),
+            "s.toml: line 4: collisions.beta = 3: expected a number from -1 (smooth) to 1 "
+            "(perfectly rough)");
+}
+
+TEST(Override, WithoutSectionKeyAndValueIsRefused) {
+  for (const std::string bad :
+       {"", "needles", "needles.count", "count=5", "=5", ".=5", "needles.=5", ".count=5", "a.b.c=5",
+        "need les.count=5", "needles.\"count\"=5"})
+    EXPECT_EQ(message({bad}), "--set " + bad + ": expected section.key=value");
+}
+
+TEST(Override, CannotSmuggleInMoreThanOneValue) {
+  EXPECT_EQ(message({"needles.k=5\nseed=7"}),
+            "--set needles.k=5\\nseed=7: expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform "
+            "rod)");
+  EXPECT_EQ(message({"needles.k=5\n[engine]\nthreads=2"}),
+            "--set needles.k=5\\n[engine]\\nthreads=2: expected a number > 0 (from 1e-9 to 1e9; 6 "
+            "is a uniform rod)");
+  EXPECT_EQ(message({"output.file=a\x1b[31m"}),
+            "--set output.file=a\\x1b[31m: expected the path of a file to write, or \"\" for none");
+  EXPECT_EQ(message({"output.file=\xff.h5"}),
+            "--set output.file=\\xff.h5: expected the path of a file to write, or \"\" for none");
+}
+
+TEST(Override, IsKeptInTheTextAsAComment) {
+  EXPECT_EQ(parse({}).text, least);
+  EXPECT_EQ(parse({"needles.k=2", "needles.box=[3,\n3,3]"}, "# end").text,
+            least + "# end\n# --set needles.k=2\n# --set needles.box=[3,\\n3,3]\n");
+  const Scene scene = parse({"needles.k=2"});
+  EXPECT_EQ(scene.text, least + "# --set needles.k=2\n");
+  EXPECT_EQ(parse_scene(scene.text, "s.toml").needles.k, 6) << "a comment changes nothing";
+}
+
+}  // namespace
+}  // namespace needlework

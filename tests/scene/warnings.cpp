@@ -1,0 +1,75 @@
+// Warnings about valid scenes: each is given when it should be, and not otherwise.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "src/scene/check.h"
+#include "src/scene/parse.h"
+
+namespace needlework {
+namespace {
+
+std::vector<std::string> warnings_of(const std::string& more) {
+  return warnings(parse_scene("needles.count = 10\nneedles.box = 4\n" + more, "s.toml"));
+}
+
+// The keys that a scene's warnings begin with.
+std::vector<std::string> warned_of(const std::string& more) {
+  std::vector<std::string> keys;
+  for (const std::string& w : warnings_of(more)) keys.push_back(w.substr(0, w.find_first_of(" :")));
+  return keys;
+}
+
+using Keys = std::vector<std::string>;
+
+TEST(Warning, IsNotGivenForOrdinaryScenes) {
+  EXPECT_EQ(warned_of("until.time = 1"), Keys{});
+  EXPECT_EQ(warned_of("until.energy_ratio = 1e-3\n[collisions]\nepsilon = 0.8\ntc_relative = 1e-4"),
+            Keys{});
+  EXPECT_EQ(warned_of("until.time = 5\n[output]\nfile = 'a.h5'\nframes = [0, 5]\nevents = true"),
+            Keys{});
+}
+
+TEST(Warning, NamesTcRelativeForInelasticNeedlesWithoutIt) {
+  const auto list = warnings_of("until.time = 1\ncollisions.epsilon = 0.8");
+  ASSERT_EQ(list.size(), 1u);
+  EXPECT_TRUE(list[0].starts_with("collisions.epsilon = 0.8: ")) << list[0];
+  EXPECT_NE(list[0].find("collisions.tc_relative"), std::string::npos) << list[0];
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.8, tc = 0}"),
+            Keys{"collisions.epsilon"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions.beta = 0"), Keys{});
+}
+
+TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0, tc = 0.1}"),
+            Keys{"collisions.tc"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 1e-8}"),
+            Keys{"collisions.tc_relative"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 0.5}"),
+            Keys{"collisions.tc_relative"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc = 0.1"), Keys{"collisions.tc"});
+}
+
+TEST(Warning, IsGivenForEndsThatAreNeverOrAtOnceMet) {
+  EXPECT_EQ(warned_of("until.energy_ratio = 0.5"), Keys{"until.energy_ratio"});
+  EXPECT_EQ(warned_of("until.energy_ratio = 0.5\ncollisions.beta = 1"), Keys{"until.energy_ratio"});
+  EXPECT_EQ(warned_of("until.energy_ratio = 0.5\ncollisions.beta = 0"), Keys{});
+  EXPECT_EQ(warned_of("until.energy_ratio = 1"), Keys{"until.energy_ratio"});
+}
+
+TEST(Warning, IsGivenForStillnessAndOddMassDistributions) {
+  EXPECT_EQ(warned_of("until.time = 1\ninitial = {t_tr = 0, t_rot = 0}"), Keys{"initial.t_tr,"});
+  EXPECT_EQ(warned_of("until.time = 1\ninitial = {t_tr = 0}"), Keys{});
+  EXPECT_EQ(warned_of("until.time = 1\nneedles.k = 1"), Keys{"needles.k"});
+}
+
+TEST(Warning, IsGivenForOutputThatIsLost) {
+  EXPECT_EQ(warned_of("until.time = 1\noutput.events = true"), Keys{"output.events"});
+  EXPECT_EQ(warned_of("until.time = 1\noutput.frames = 2"), Keys{"output.frames"});
+  EXPECT_EQ(warned_of("until.time = 1\noutput = {file = 'a', frames = [0, 2]}"),
+            Keys{"output.frames"});
+}
+
+}  // namespace
+}  // namespace needlework
