@@ -52,6 +52,11 @@ Temperatures cooling_rates(const Gas& gas, Temperatures now);
 std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
                                         std::span<const double> taus);
 
+/// The collisions that one needle has taken part in, from 0 to each of the times `taus` of the same
+/// cooling curve.
+std::vector<double> collisions_per_needle(const Gas& gas, Temperatures initial,
+                                          std::span<const double> taus);
+
 /// Long-time ratio c = T_tr / T_rot of a cooling gas; NaN when the gas does not cool, which is when
 /// it is elastic (epsilon = 1 and beta = -1 or 1).
 double asymptotic_ratio(const Gas& gas);
