@@ -355,7 +355,10 @@ std::optional<Root> Search::search_start(const Interval& interval, const Estimat
       std::sqrt(to_double(dot(start.x, start.x))) * velocity_noise * (frame_.v_norm + frame_.w_sum);
   if (!(slope > noise)) return Root{0.0, 0.0, side};
   const double lift = slope / most_bend;
-  return accept(DoubleDouble(lift), DoubleDouble(interval.end), DoubleDouble(interval.end), side);
+  // The parabola's return is a good start for short bounces.
+  const double bend = -to_double(start.ddf) * side;
+  const double back = bend > 0 ? std::clamp(2 * slope / bend, lift, interval.end) : interval.end;
+  return accept(DoubleDouble(lift), DoubleDouble(interval.end), DoubleDouble(back), side);
 }
 
 std::optional<Root> Search::search_interval(const Interval& interval) {

@@ -1,0 +1,147 @@
+// The cooling curve: the temperatures of a gas that stays Gaussian and homogeneous, against time.
+#include <algorithm>
+#include <boost/numeric/odeint.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "src/theory/cooling_law.h"
+#include "src/theory/requirements.h"
+#include "src/theory/theory.h"
+
+namespace needlework::theory {
+
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+/// What is integrated: the share of the energy that is rotational, the logarithm of the energy (it
+/// falls by many decades), and the collisions per needle. The share obeys an equation of its own,
+/// ends included: neither T_tr = 0 nor T_rot = 0 is special.
+using State = std::vector<double>;
+enum Component { rotational_share, log_energy, collisions, component_count };
+
+Temperatures split(double share) { return {.t_tr = (1.0 - share) / 1.5, .t_rot = share}; }
+
+/// The gas on its way through time, in units where the initial energy per needle is 1. First the
+/// ratio of the temperatures relaxes, within a few collisions per needle; that is integrated. When
+/// it has, the rates are constant but for the energy's own decay, and the rest of the curve, to any
+/// age, is Haff's law: exact, and free of the stiffness that the relaxed ratio would bring.
+class CoolingGas {
+ public:
+  CoolingGas(const Gas& gas, Temperatures initial)
+      : law_(gas), final_share_(share_at(law_.stationary_q())) {
+    state_[rotational_share] = initial.t_rot / initial.energy();
+  }
+
+  /// Goes on to a time not before the present one.
+  void advance(double tau) {
+    while (tau_ < tau) {
+      if (std::abs(state_[rotational_share] - final_share_) <= relaxed * final_share_) {
+        follow_haffs_law(tau);
+      } else {
+        integrate_one_step(tau);
+      }
+    }
+  }
+
+  const State& state() const { return state_; }
+
+ private:
+  /// Not Fehlberg 7(8): its error estimate does not see a slope that changes with time alone, which
+  /// is nearly what is left once the ratio has relaxed.
+  using Stepper = odeint::runge_kutta_dopri5<State>;
+  static constexpr double absolute_tolerance = 1e-15;
+  static constexpr double relative_tolerance = 1e-13;
+  static constexpr double relaxed = 1e-12;
+
+  static double share_at(double q) { return q / (1.5 + q); }
+
+  void differentiate(const State& state, State& slope) const {
+    // The stages of a step too long, which will be rejected, can lie outside.
+    const double share = std::clamp(state[rotational_share], 0.0, 1.0);
+    const double root_energy = std::exp(0.5 * state[log_energy]);
+    const auto [change, collision_rate] = law_.rates(split(share));
+    slope[rotational_share] = root_energy * (change.t_rot - share * change.energy());
+    slope[log_energy] = root_energy * change.energy();
+    slope[collisions] = root_energy * collision_rate;
+  }
+
+  void integrate_one_step(double end) {
+    const double remaining = end - tau_;
+    const auto system = [this](const State& state, State& slope, double) {
+      differentiate(state, slope);
+    };
+    if (step_ < remaining) {
+      stepper_.try_step(system, state_, tau_, step_);
+      return;
+    }
+    double last_step = remaining;  // cut short by the end: no reason to go on with short steps
+    if (stepper_.try_step(system, state_, tau_, last_step) == odeint::success) {
+      tau_ = end;
+    } else {
+      step_ = last_step;
+    }
+  }
+
+  /// dE/dtau = -loss E^(3/2), with a constant loss.
+  void follow_haffs_law(double end) {
+    state_[rotational_share] = final_share_;
+    const auto [change, collision_rate] = law_.rates(split(final_share_));
+    const double scaled_time = (end - tau_) * std::exp(0.5 * state_[log_energy]);
+    const double decay = -0.5 * change.energy() * scaled_time;
+    state_[log_energy] -= 2.0 * std::log1p(decay);
+    state_[collisions] +=
+        collision_rate * scaled_time * (decay == 0.0 ? 1.0 : std::log1p(decay) / decay);
+    tau_ = end;
+  }
+
+  CoolingLaw law_;
+  double final_share_;
+  State state_ = State(component_count);
+  double tau_ = 0.0;
+  double step_ = 1e-3;
+  odeint::result_of::make_controlled<Stepper>::type stepper_ =
+      odeint::make_controlled<Stepper>(absolute_tolerance, relative_tolerance);
+};
+
+/// Calls visit(index, state) for each of `taus`, in units where the initial energy is 1.
+template <class Visit>
+void follow(const Gas& gas, Temperatures initial, std::span<const double> taus, Visit visit) {
+  require_valid(gas);
+  require_valid(initial);
+  for (const double tau : taus) require_not_negative("tau", tau);
+  if (initial.energy() == 0.0) return;
+
+  std::vector<std::size_t> order(taus.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return taus[i]; });
+  CoolingGas evolving(gas, initial);
+  for (const std::size_t i : order) {
+    evolving.advance(taus[i] * std::sqrt(initial.energy()));
+    visit(i, evolving.state());
+  }
+}
+
+}  // namespace
+
+std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
+                                        std::span<const double> taus) {
+  std::vector<Temperatures> curve(taus.size(), initial);
+  follow(gas, initial, taus, [&](std::size_t i, const State& state) {
+    if (taus[i] == 0.0) return;  // exactly the initial state
+    const double energy = initial.energy() * std::exp(state[log_energy]);
+    const Temperatures unit = split(state[rotational_share]);
+    curve[i] = {.t_tr = energy * unit.t_tr, .t_rot = energy * unit.t_rot};
+  });
+  return curve;
+}
+
+std::vector<double> collisions_per_needle(const Gas& gas, Temperatures initial,
+                                          std::span<const double> taus) {
+  std::vector<double> counts(taus.size(), 0.0);
+  follow(gas, initial, taus,
+         [&](std::size_t i, const State& state) { counts[i] = state[collisions]; });
+  return counts;
+}
+
+}  // namespace needlework::theory

@@ -1,0 +1,78 @@
+// Kinetic theory of the homogeneous needle gas: rates and ratios.
+#include "src/theory/theory.h"
+
+#include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+
+#include "src/theory/contact_integrals.h"
+#include "src/theory/cooling_law.h"
+#include "src/theory/requirements.h"
+
+namespace needlework::theory {
+
+namespace {
+
+const double half_root_pi = 0.5 * std::sqrt(std::numbers::pi);
+
+double flux(Temperatures temperatures, double k) {
+  return ContactIntegrals(k, /*tangential=*/false).sums(temperatures).flux;
+}
+
+}  // namespace
+
+double collision_integral(double q, double k) {
+  require_not_negative("q", q);
+  require_positive("k", k);
+  return flux({.t_tr = 1.0, .t_rot = q}, k);
+}
+
+double collision_rate(double density, Temperatures temperatures, double k) {
+  require_not_negative("density", density);
+  require_valid(temperatures);
+  require_positive("k", k);
+  return density * half_root_pi * flux(temperatures, k);
+}
+
+double equilibrium_rate(double count, double volume, double total_energy, double k) {
+  require(std::isfinite(count) && count >= 2.0, "count", count, "a finite number, 2 or more");
+  require_positive("volume", volume);
+  require_not_negative("total_energy", total_energy);
+  const double degrees = 5.0 * count - 3.0;
+  const double temperature = 2.0 * total_energy / degrees;
+  // The mean speed over its canonical value, when velocities lie on a sphere in `degrees`
+  // dimensions.
+  const double microcanonical =
+      std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5);
+  return microcanonical *
+         collision_rate((count - 1.0) / volume, {.t_tr = temperature, .t_rot = temperature}, k);
+}
+
+Temperatures cooling_rates(const Gas& gas, Temperatures now) {
+  require_valid(now);
+  return CoolingLaw(gas).rates(now).temperatures;
+}
+
+double asymptotic_ratio(const Gas& gas) {
+  const CoolingLaw law(gas);
+  if (law.is_elastic()) return std::numeric_limits<double>::quiet_NaN();
+  return 1.0 / law.stationary_q();
+}
+
+double equipartition_k() {
+  // At q = 1 both rates of a smooth gas are proportional to 1 - epsilon^2: any epsilon will do.
+  const auto drift = [](double k) {
+    const Temperatures change =
+        cooling_rates({.k = k, .epsilon = 0.0, .beta = -1.0}, {.t_tr = 1.0, .t_rot = 1.0});
+    return change.t_rot - change.t_tr;
+  };
+  std::uintmax_t iterations = 100;
+  const auto [low, high] = boost::math::tools::bracket_and_solve_root(
+      drift, 4.0, 2.0, /*rising=*/false, boost::math::tools::eps_tolerance<double>(52), iterations);
+  return 0.5 * (low + high);
+}
+
+}  // namespace needlework::theory

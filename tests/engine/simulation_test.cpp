@@ -1,0 +1,225 @@
+// The simulation as a client sees it.
+#include "src/engine/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/error.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+Scene::Until until_time(double time) {
+  Scene::Until until;
+  until.time = time;
+  return until;
+}
+
+Scene::Until until_collisions(double per_needle) {
+  Scene::Until until;
+  until.collisions_per_needle = per_needle;
+  return until;
+}
+
+TEST(Simulation, IsNotChangedByStoppingToLook) {
+  Scene scene = test::scene_of(200, 6);
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.tc_relative = 1e-3;
+  Simulation whole(scene), pieces(scene);
+  whole.advance(until_time(5));
+  for (int n = 1; n <= 1000; ++n) {
+    ASSERT_EQ(pieces.advance(until_time(5 * n / 1000.0)), Stop::time);
+    (void)pieces.state();
+  }
+  EXPECT_EQ(whole.trajectory_hash(), pieces.trajectory_hash());
+  EXPECT_EQ(whole.state().position, pieces.state().position);
+  EXPECT_GT(whole.totals().collisions, 200u);
+}
+
+TEST(Simulation, EndsAtTheExactCollision) {
+  const Scene scene = test::scene_of(100, 5);
+  Simulation simulation(scene);
+  double last = 0;
+  simulation.on_collision([&](const Collision& c) { last = c.time; });
+  EXPECT_EQ(simulation.advance(until_collisions(4)), Stop::collisions);
+  EXPECT_EQ(simulation.totals().collisions, 200u);
+  EXPECT_EQ(simulation.time(), last);
+}
+
+TEST(Simulation, EndsAtTheFirstCollisionBelowTheEnergy) {
+  Scene scene = test::scene_of(100, 5);
+  scene.collisions.epsilon = 0.7;
+  scene.collisions.tc_relative = 1e-3;
+  Simulation simulation(scene);
+  const double start = simulation.totals().energy;
+  double before_last = 0, energy = start;
+  simulation.on_collision([&](const Collision& c) {
+    before_last = energy;
+    energy += c.energy_change / 100;
+  });
+  Scene::Until until;
+  until.energy_ratio = 0.5;
+  EXPECT_EQ(simulation.advance(until), Stop::energy);
+  EXPECT_LE(simulation.totals().energy, 0.5 * start * (1 + 1e-12));
+  EXPECT_GT(before_last, 0.5 * start);
+}
+
+TEST(Simulation, LosesTheEnergyThatTheRuleSays) {
+  for (const double beta : {-1.0, 0.2}) {
+    Scene scene = test::scene_of(150, 5);
+    scene.collisions.epsilon = 0.85;
+    scene.collisions.beta = beta;
+    scene.collisions.tc_relative = 1e-3;
+    Simulation simulation(scene);
+    double energy = simulation.totals().energy * 150;
+    std::size_t by_rule = 0;
+    simulation.on_collision([&](const Collision& c) {
+      energy += c.energy_change;
+      by_rule += c.contact_time_rule;
+      if (c.contact_time_rule) {
+        ASSERT_EQ(c.energy_change, 0);
+      } else if (beta == -1) {
+        const double s2 = c.arm_first * c.arm_first + c.arm_second * c.arm_second;
+        const double loss =
+            0.5 * (1 - 0.85 * 0.85) * c.normal_velocity * c.normal_velocity / (2 + 12 * s2);
+        ASSERT_NEAR(c.energy_change, -loss, 1e-12 * loss);
+      } else {
+        ASSERT_LT(c.energy_change, 0);
+      }
+    });
+    for (int n = 1; n <= 20; ++n) {
+      simulation.advance(until_collisions(n));
+      const double now = simulation.totals().energy * 150;
+      ASSERT_NEAR(now, energy, 1e-12 * now) << "beta " << beta << ", step " << n;
+    }
+  }
+}
+
+TEST(Simulation, KeepsElasticEnergyAndMomentum) {
+  for (const double beta : {-1.0, 1.0}) {
+    Scene scene = test::scene_of(200, 5);
+    scene.collisions.beta = beta;
+    Simulation simulation(scene);
+    const Totals start = simulation.totals();
+    simulation.advance(until_collisions(300));
+    const Totals end = simulation.totals();
+    EXPECT_NEAR(end.energy, start.energy, 1e-12 * start.energy) << "beta " << beta;
+    for (const double p : end.momentum) EXPECT_NEAR(p, 0, 1e-11);
+  }
+}
+
+TEST(Simulation, RunsWithNoneOneAndRestingNeedles) {
+  for (const std::uint64_t count : {0u, 1u}) {
+    const Scene scene = test::scene_of(count, 3);
+    Simulation simulation(scene);
+    EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::nothing_can_happen);
+    EXPECT_EQ(simulation.advance(until_time(1e6)), Stop::time);
+    EXPECT_EQ(simulation.time(), 1e6);
+    EXPECT_EQ(simulation.state().size(), count);
+  }
+  Scene resting = test::scene_of(50, 3);
+  resting.initial.t_tr = resting.initial.t_rot = 0;
+  Simulation simulation(resting);
+  EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::nothing_can_happen);
+  EXPECT_EQ(simulation.advance(until_time(1e15)), Stop::time);
+  EXPECT_EQ(simulation.totals().energy, 0);
+}
+
+TEST(Simulation, LetsNeedlesCollideThatOnlyRotateOrDoNotRotate) {
+  Scene turning = test::scene_of(200, 4);
+  turning.initial.t_tr = 0;
+  Scene flying = test::scene_of(200, 4);
+  flying.initial.t_rot = 0;
+  for (const Scene& scene : {turning, flying}) {
+    Simulation simulation(scene);
+    const double energy = simulation.totals().energy;
+    EXPECT_EQ(simulation.advance(until_collisions(20)), Stop::collisions);
+    EXPECT_NEAR(simulation.totals().energy, energy, 1e-12 * energy);
+    EXPECT_NEAR(simulation.totals().t_tr / simulation.totals().t_rot, 1, 0.4);
+  }
+}
+
+TEST(Simulation, StopsWhenInterrupted) {
+  const Scene scene = test::scene_of(200, 5);
+  Simulation simulation(scene);
+  std::size_t seen = 0;
+  simulation.on_collision([&](const Collision&) {
+    if (++seen == 500) simulation.interrupt();
+  });
+  EXPECT_EQ(simulation.advance(until_collisions(1000)), Stop::interrupted);
+  EXPECT_GE(seen, 500u);
+  EXPECT_LT(seen, 2000u);
+}
+
+TEST(Simulation, RefusesStatesThatAreNotGases) {
+  const Scene scene = test::scene_of(3, 3);
+  const State good = draw_initial_state(scene);
+  const auto refused = [&](auto change, const std::string& word) {
+    State bad = good;
+    change(bad);
+    try {
+      Simulation simulation(scene, bad);
+      ADD_FAILURE() << "accepted: " << word;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  };
+  refused([](State& s) { s.position[1][2] = NAN; }, "finite");
+  refused([](State& s) { s.orientation[0] = {0, 0, 0}; }, "director");
+  refused([](State& s) { s.box[1] = 2.0; }, "2.01");
+  refused([](State& s) { s.velocity.pop_back(); }, "velocity");
+  refused([](State& s) { s.id = {4, 7, 4}; }, "distinct");
+  Scene unknown = scene;
+  unknown.engine.search = "guess";
+  EXPECT_THROW(Simulation(unknown, good), InputError);
+  unknown = scene;
+  unknown.engine.queue = "guess";
+  EXPECT_THROW(Simulation(unknown, good), InputError);
+  EXPECT_THROW(Simulation(scene).advance({}), InputError);
+}
+
+TEST(Simulation, GivesAWrappedStateWithImages) {
+  const Scene scene = test::scene_of(50, 3);
+  Simulation simulation(scene);
+  const State start = simulation.state();
+  simulation.advance(until_time(20));
+  const State end = simulation.state();
+  std::int64_t crossed = 0;
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_GE(end.position[i][axis], 0);
+      EXPECT_LT(end.position[i][axis], 3);
+      crossed += std::abs(end.image[i][axis]);
+    }
+    const auto& u = end.orientation[i];
+    EXPECT_NEAR(u[0] * u[0] + u[1] * u[1] + u[2] * u[2], 1, 1e-15);
+  }
+  EXPECT_GT(crossed, 100);
+}
+
+// Unwrapped centres move by v dt between looks, whatever is wrapped when.
+TEST(Simulation, MovesCentresWithTheirVelocities) {
+  const Scene scene = test::scene_of(30, 3);
+  Simulation simulation(scene);
+  State before = simulation.state();
+  for (int n = 1; n <= 200; ++n) {
+    std::uint64_t collisions = simulation.totals().collisions;
+    simulation.advance(until_time(n * 0.01));
+    const State after = simulation.state();
+    if (simulation.totals().collisions == collisions) {
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const double moved = after.position[i][axis] - before.position[i][axis] +
+                               3.0 * (after.image[i][axis] - before.image[i][axis]);
+          ASSERT_NEAR(moved, before.velocity[i][axis] * 0.01, 1e-13);
+        }
+      }
+    }
+    before = after;
+  }
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,57 @@
+// Small runs for tests: scenes made in code, their collisions recorded, their states transformed.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/engine/simulation.h"
+
+namespace needlework::test {
+
+/// A scene of `count` needles in a cubic box of this side, equilibrium temperatures, elastic.
+inline Scene scene_of(std::uint64_t count, double side, std::uint64_t seed = 1) {
+  Scene scene;
+  scene.needles.count = count;
+  scene.needles.box = {side, side, side};
+  scene.needles.seed = seed;
+  return scene;
+}
+
+/// One line that says which scene a failing test ran.
+inline std::string name_of(const Scene& scene) {
+  const auto& c = scene.collisions;
+  return std::to_string(scene.needles.count) + " needles, box " +
+         std::to_string(scene.needles.box[0]) + ", epsilon " + std::to_string(c.epsilon) +
+         ", beta " + std::to_string(c.beta) + ", T_rot " + std::to_string(scene.initial.t_rot) +
+         ", seed " + std::to_string(scene.needles.seed);
+}
+
+struct Recorded {
+  std::vector<Collision> collisions;
+  State end;
+  Totals totals;
+  std::string hash;
+  double epoch_length;
+};
+
+/// Runs for `count` collisions from a state, recording each.
+inline Recorded record(const Scene& scene, const State& initial, double count) {
+  Simulation simulation(scene, initial);
+  Recorded out;
+  simulation.on_collision([&](const Collision& c) { out.collisions.push_back(c); });
+  Scene::Until until;
+  until.collisions_per_needle = 2 * count / static_cast<double>(initial.size());
+  simulation.advance(until);
+  out.end = simulation.state();
+  out.totals = simulation.totals();
+  out.hash = simulation.trajectory_hash();
+  out.epoch_length = simulation.epoch_length();
+  return out;
+}
+
+inline Recorded record(const Scene& scene, double count) {
+  return record(scene, draw_initial_state(scene), count);
+}
+
+}  // namespace needlework::test
