@@ -136,11 +136,11 @@ TEST(Collapse, StruckByAThirdNeedleStaysOnItsSide) {
   for (int n = 0; n < 20; ++n) {
     Scene scene = test::scene_of(3, 6);
     scene.collisions.epsilon = 0.5;
-    scene.collisions.tc = 2e-6;
+    scene.collisions.tc = 2e-8;  // gaps of 1e-16: below the rounding of the records
     State state = collapsing_pair(0.05);
-    // The third comes from above on needle 0, across its far arm, soon after the pair has collapsed;
-    // where needle 0 will be by then, a rehearsal without the third tells.
-    const double arrival = 0.0845 + 0.00007 * n;
+    // The third comes from above on needle 0, across its far arm, soon after the pair has
+    // collapsed; where needle 0 will be by then, a rehearsal without the third tells.
+    const double arrival = 0.084024 + 1e-6 * n;
     Simulation rehearsal(scene, state);
     rehearsal.advance(until_time(arrival));
     const double height = rehearsal.state().position[0][2];
@@ -152,13 +152,14 @@ TEST(Collapse, StruckByAThirdNeedleStaysOnItsSide) {
     bool third = false;
     simulation.on_collision([&](const Collision& c) { third |= c.second == 2; });
     SideWatch watch;
+    ASSERT_TRUE(watch.keeps_side(simulation.state()));
     for (int step = 1; step <= 100 && !third; ++step) {
-      simulation.advance(until_time(0.001 * step));
+      simulation.advance(until_time(0.08403 + 1e-6 * step));
       ASSERT_TRUE(watch.keeps_side(simulation.state())) << "n " << n << ", step " << step;
     }
     const double then = simulation.time();
     for (int step = 1; step <= 20; ++step) {
-      simulation.advance(until_time(then + 0.00005 * step));
+      simulation.advance(until_time(then + 2.5e-6 * step));
       ASSERT_TRUE(watch.keeps_side(simulation.state())) << "n " << n << ", step " << step;
     }
     struck += third;
