@@ -7,7 +7,7 @@
 #include "src/error.h"
 #include "src/observe/exact_sum.h"
 #include "src/physics/director.h"
-#include "src/theory/theory.h"
+#include "src/physics/mean_free_time.h"
 
 namespace needlework {
 namespace {
@@ -98,9 +98,7 @@ void Run::open_window() {
   const double count = static_cast<double>(gas.size());
   energy_ = sums.energy * count;
   const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
-  const double rate =
-      theory::collision_rate(density, {.t_tr = sums.t_tr, .t_rot = sums.t_rot}, gas.k);
-  mean_free_time = rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+  mean_free_time = needlework::mean_free_time(density, sums.t_tr, sums.t_rot, gas.k);
   contact_time_ = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
   const bool endless = !std::isfinite(mean_free_time);
   const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
