@@ -88,7 +88,7 @@ class CoolingGas {
     state_[rotational_share] = final_share_;
     const auto [change, collision_rate] = law_.rates(split(final_share_));
     const double scaled_time = (end - tau_) * std::exp(0.5 * state_[log_energy]);
-    const double decay = -0.5 * change.energy() * scaled_time;
+    const double decay = law_.is_elastic() ? 0.0 : -0.5 * change.energy() * scaled_time;
     state_[log_energy] -= 2.0 * std::log1p(decay);
     state_[collisions] +=
         collision_rate * scaled_time * (decay == 0.0 ? 1.0 : std::log1p(decay) / decay);
