@@ -1,0 +1,258 @@
+// `predict` against the oracle, over thermal pairs and all hard families.
+//
+// Law: a decision must be right when it is at least `few_ulp` units of the inputs' noise away from
+// the other one; a time is right within 1e-12 relative or four times the pair's condition limit;
+// an arm within 1e-9 or four times its limit (all defined at OracleAnswer). Pairs nearer to the
+// other decision are counted and printed; outside of families made of them they are rare.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <ostream>
+#include <string>
+
+#include "src/physics/predict.h"
+#include "tests/support/oracle.h"
+#include "tests/support/pair_families.h"
+#include "tests/support/pairs_csv.h"
+
+namespace needlework::test {
+
+static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
+
+namespace {
+
+constexpr std::uint64_t seed = 20240611;
+constexpr double few_ulp = 8;
+#ifdef NDEBUG
+constexpr int thin = 1;
+#else
+constexpr int thin = 50;  // unoptimised: the same test on fewer pairs
+#endif
+constexpr std::size_t thermal_count = 100000 / thin, hard_count = 10000 / thin;
+constexpr std::size_t symmetry_count = 2000 / thin;
+constexpr int most_complaints = 3;
+
+FirstContact engine(const NeedlePair& pair) {
+  return predict(pair.first, pair.second, pair.horizon, pair.just_collided);
+}
+
+OracleAnswer oracle(const NeedlePair& pair) {
+  return first_contact(pair.first, pair.second, pair.horizon, pair.just_collided);
+}
+
+/// What came out over one family. "Over limit" means divided by what is allowed.
+struct Report {
+  std::size_t pairs = 0, contacts = 0, near = 0, near_differs = 0;
+  std::size_t wrong = 0, late = 0, arms_off = 0, undefined = 0;
+  double worst_relative = 0, worst_over_limit = 0, worst_arm = 0, worst_arm_over_limit = 0;
+  double evaluations = 0, escalations = 0;
+  std::string complaints;
+
+  void complain(std::size_t id, const NeedlePair& pair, const FirstContact& found,
+                const OracleAnswer& truth, const char* what) {
+    if (wrong + late + arms_off + undefined > most_complaints) return;
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "%s: time %.17g arms %.17g %.17g, oracle: %s, time %.17g arms %.17g %.17g, "
+                  "limits %.2g %.2g, margin %.2g\n  ",
+                  what, found.time, found.arm_first, found.arm_second, name(truth.outcome),
+                  truth.time, truth.arm_first, truth.arm_second, truth.time_limit, truth.arm_limit,
+                  truth.decision_margin);
+    complaints += text + csv_line(id, pair) + '\n';
+  }
+
+  void check(std::size_t id, const NeedlePair& pair) {
+    const FirstContact found = engine(pair);
+    const OracleAnswer truth = oracle(pair);
+    ++pairs;
+    contacts += truth.contact;
+    evaluations += static_cast<double>(found.evaluations);
+    escalations += static_cast<double>(found.escalations);
+    const bool contact = std::isfinite(found.time);
+    const bool well_formed =
+        contact ? found.time > 0 && found.time <= pair.horizon && std::abs(found.arm_first) < 0.5 &&
+                      std::abs(found.arm_second) < 0.5
+                : found.time == std::numeric_limits<double>::infinity() &&
+                      std::isnan(found.arm_first) && std::isnan(found.arm_second);
+    if (!well_formed) {
+      ++undefined;
+      complain(id, pair, found, truth, "not an answer");
+      return;
+    }
+    const bool differs = contact != truth.contact || (contact && std::abs(found.time - truth.time) >
+                                                                     allowed(truth) * truth.time);
+    if (truth.decision_margin < few_ulp) {
+      ++near;
+      near_differs += differs;
+      return;
+    }
+    if (contact != truth.contact) {
+      ++wrong;
+      complain(id, pair, found, truth, contact ? "spurious" : "missed");
+    } else if (contact) {
+      compare(id, pair, found, truth);
+    }
+  }
+
+  static double allowed(const OracleAnswer& truth) { return std::max(1e-12, 4 * truth.time_limit); }
+
+  void compare(std::size_t id, const NeedlePair& pair, const FirstContact& found,
+               const OracleAnswer& truth) {
+    const double error = std::abs((found.time - truth.time) - truth.time_low) / truth.time;
+    worst_relative = std::max(worst_relative, error);
+    worst_over_limit = std::max(worst_over_limit, error / allowed(truth));
+    if (error > allowed(truth)) {
+      ++late;
+      complain(id, pair, found, truth, found.time < truth.time ? "early" : "late");
+      return;
+    }
+    const double arm = std::max(std::abs(found.arm_first - truth.arm_first),
+                                std::abs(found.arm_second - truth.arm_second));
+    const double arm_allowed = std::max(1e-9, 4 * truth.arm_limit);
+    worst_arm = std::max(worst_arm, arm);
+    worst_arm_over_limit = std::max(worst_arm_over_limit, arm / arm_allowed);
+    if (!(arm <= arm_allowed)) {
+      ++arms_off;
+      complain(id, pair, found, truth, "arms off");
+    }
+  }
+
+  void print(std::string_view family) const {
+    std::printf(
+        "%-14.*s pairs %6zu contacts %6zu | wrong %zu time off %zu arms off %zu undefined %zu | "
+        "inside the limit %zu, differing %zu | max relative error %.1e, over its limit %.2g | "
+        "max arm error %.1e, over its limit %.2g | evaluations %.2f escalations %.4f\n",
+        static_cast<int>(family.size()), family.data(), pairs, contacts, wrong, late, arms_off,
+        undefined, near, near_differs, worst_relative, worst_over_limit, worst_arm,
+        worst_arm_over_limit, evaluations / static_cast<double>(pairs),
+        escalations / static_cast<double>(pairs));
+  }
+
+  void expect_clean() const {
+    EXPECT_EQ(wrong, 0u) << complaints;
+    EXPECT_EQ(late, 0u) << complaints;
+    EXPECT_EQ(arms_off, 0u) << complaints;
+    EXPECT_EQ(undefined, 0u) << complaints;
+    EXPECT_GT(contacts, 0u);
+  }
+};
+
+bool same_bits(double a, double b) {
+  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+class PredictOracle : public testing::TestWithParam<PairFamily> {};
+
+TEST_P(PredictOracle, AgreesOnEveryPair) {
+  const PairFamily& family = GetParam();
+  const auto pairs = draw_pairs(family.name, family.thermal ? thermal_count : hard_count, seed);
+  Report report;
+  for (std::size_t i = 0; i < pairs.size(); ++i) report.check(i, pairs[i]);
+  report.print(family.name);
+  report.expect_clean();
+  if (!family.made_of_limits) {
+    EXPECT_LT(static_cast<double>(report.near), 0.01 * static_cast<double>(report.pairs));
+  }
+}
+
+TEST_P(PredictOracle, AgreesOnTheMotionRunBackwards) {
+  const PairFamily& family = GetParam();
+  const auto pairs = draw_pairs(family.name, symmetry_count, seed + 1);
+  Report report;
+  for (std::size_t i = 0; i < pairs.size(); ++i) report.check(i, reversed(pairs[i]));
+  report.print(family.name);
+  report.expect_clean();
+}
+
+TEST_P(PredictOracle, ExchangingTheNeedlesExchangesTheArmsBitForBit) {
+  for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 2)) {
+    const FirstContact one = engine(pair), two = engine(exchanged(pair));
+    EXPECT_TRUE(same_bits(one.time, two.time) && same_bits(one.arm_first, two.arm_second) &&
+                same_bits(one.arm_second, two.arm_first))
+        << csv_line(0, pair);
+    if (HasFailure()) break;
+  }
+}
+
+TEST_P(PredictOracle, SlowerMotionTakesLongerBitForBit) {
+  for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 3)) {
+    const FirstContact one = engine(pair), two = engine(slowed(pair, 60));
+    EXPECT_TRUE(same_bits(std::ldexp(one.time, 60), two.time) &&
+                same_bits(one.arm_first, two.arm_first) &&
+                same_bits(one.arm_second, two.arm_second))
+        << csv_line(0, pair);
+    if (HasFailure()) break;
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<PairFamily>& info) {
+  std::string text(info.param.name);
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, PredictOracle, testing::ValuesIn(pair_families()), test_name);
+
+TEST(PredictOracleByHand, NeedlesInOnePlaneNeverMeet) {
+  NeedlePair pair;
+  pair.first = {{0.1, 0.2, 0}, {1, 0.5, 0}, {-0.3, 0.1, 0}, {0, 0, 1.5}};
+  pair.second = {{0, 0, 0}, {0.3, 1, 0}, {0.1, 0.7, 0}, {0, 0, -2}};
+  pair.horizon = 50;
+  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
+  pair.just_collided = true;
+  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
+}
+
+TEST(PredictOracleByHand, ParallelPassIsNoContact) {
+  NeedlePair pair;
+  pair.first = {{0, 0, 0.3}, {1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+  pair.second = {{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, -0.5}};
+  pair.horizon = 50;
+  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
+}
+
+TEST(PredictOracleByHand, NeedlesAtRestNeverMeet) {
+  NeedlePair pair;
+  pair.first = {{0.1, 0.05, 0.01}, {1, 0, 0}, {0.5, 1, 2}, {0, 0, 0}};
+  pair.second = {{0, 0, 0}, {0, 1, 0}, {0.5, 1, 2}, {0, 0, 0}};
+  pair.horizon = 1e9;
+  EXPECT_EQ(engine(pair).time, std::numeric_limits<double>::infinity());
+}
+
+TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
+  NeedlePair pair;
+  pair.first = {{0.25, -0.125, -0.5}, {1, 0, 0}, {0, 0, 0.75}, {50, 0, 0}};
+  pair.second = {{0, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, -7, 0}};
+  pair.horizon = 2;
+  EXPECT_NEAR(engine(pair).time, 2.0 / 3, 1e-15);
+}
+
+/// The harness must be able to fail: an answer wrong by a little is caught.
+TEST(PredictOracleByHand, WrongAnswersAreSeen) {
+  NeedlePair pair;
+  pair.first = {{0.25, -0.125, -0.5}, {1, 0, 0}, {0, 0, 0.75}, {0, 0, 0}};
+  pair.second = {{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}};
+  pair.horizon = 2;
+  const OracleAnswer truth = oracle(pair);
+  ASSERT_TRUE(truth.contact);
+  const auto compared = [&](FirstContact found) {
+    Report report;
+    report.compare(0, pair, found, truth);
+    return report;
+  };
+  const FirstContact right{truth.time, truth.arm_first, truth.arm_second, 0, 0};
+  EXPECT_EQ(compared(right).late + compared(right).arms_off, 0u);
+  FirstContact late = right;
+  late.time *= 1 + 3e-12;
+  EXPECT_EQ(compared(late).late, 1u);
+  FirstContact off = right;
+  off.arm_second += 2e-9;
+  EXPECT_EQ(compared(off).arms_off, 1u);
+}
+
+}  // namespace
+}  // namespace needlework::test

@@ -1,0 +1,276 @@
+#include "tests/support/pair_families.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/contact_state.h"
+
+namespace needlework::test {
+namespace {
+
+constexpr double rod_spin = 3.4641016151377544;  // sqrt(2k), k = 6: thermal at T = 1
+
+double any_arm(Random& random) { return random.uniform(-0.5, 0.5); }
+
+/// A time for the built contact, and a horizon that now and then cuts it off.
+NeedlePair before(const PairState& state, Random& random, double longest) {
+  const double time = longest * random.uniform(0.05, 1);
+  return before_contact(state, time, time * random.uniform(0.9, 3));
+}
+
+NeedlePair thermal(Random& random, double k) {
+  const Vec<double> entry = random.direction();
+  // Flux through the sphere: the normal component is Rayleigh distributed.
+  const Vec<double> free = random.normal_vector(std::sqrt(2.0));
+  const double inwards = 2 * std::sqrt(random.exponential());
+  const Vec<double> velocity = free - (dot(free, entry) + inwards) * entry;
+  const Vec<double> centre = random.normal_vector(std::sqrt(0.5));
+  const double delay = random.uniform(0, 0.3);
+  const double crossing = -2 * dot(entry, velocity) / dot(velocity, velocity);
+  const Vec<double> place = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  NeedlePair pair;
+  pair.first.position = place + (entry - delay * velocity);
+  pair.second.position = place;
+  pair.first.velocity = centre + 0.5 * velocity;
+  pair.second.velocity = centre - 0.5 * velocity;
+  for (FreeNeedle* needle : {&pair.first, &pair.second}) {
+    const Vec<double> u = random.direction();
+    const Vec<double> w = random.normal_vector(std::sqrt(2 * k));
+    needle->orientation = u;
+    needle->angular_velocity = w - dot(w, u) * u;
+  }
+  pair.horizon = 1.05 * (delay + crossing);
+  return pair;
+}
+
+NeedlePair draw_rods(Random& random) { return thermal(random, 6); }
+NeedlePair draw_dumbbells(Random& random) { return thermal(random, 2); }
+
+NeedlePair draw_parallel(Random& random) {
+  // Slow rotation keeps the pair nearly parallel all the time, fast one leads through it.
+  const double spin = random.coin() ? rod_spin : random.log_uniform(1e-4, 1);
+  const PairState state = draw_contact(random, {.angle_sine = random.log_uniform(1e-7, 1e-1),
+                                                .arms = {any_arm(random), any_arm(random)},
+                                                .spin = {spin, spin}});
+  return before(state, random, 1);
+}
+
+NeedlePair draw_tip(Random& random) {
+  const double offset = random.log_uniform(1e-13, 1e-3);
+  const bool outside = random.coin();
+  const double tip = (random.coin() ? 1 : -1) * (outside ? 0.5 + offset : 0.5 - offset);
+  const double other = any_arm(random);
+  const bool first = random.coin();
+  const PairState state = draw_contact(
+      random, {.arms = {first ? tip : other, first ? other : tip}, .spin = {rod_spin, rod_spin}});
+  NeedlePair pair = before(state, random, 1);
+  if (outside) pair.contact_time.reset();
+  return pair;
+}
+
+NeedlePair draw_grazing(Random& random) {
+  PairState state = draw_contact(
+      random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
+  const Real sine = norm(cross(state.first.orientation, state.second.orientation));
+  const double apart = random.log_uniform(1e-10, 1e-2);
+  const bool miss = random.coin();
+  // f = f2 ((t - t*)^2 - apart^2 / 4) / 2, or with a plus: no velocity along f, and a gap.
+  push(state, -slopes(state).f1 / sine);
+  const Real gap = slopes(state).f2 * Real(apart) * Real(apart) / 8 * (miss ? 1 : -1);
+  state.first.position = state.first.position + Real(gap / sine) * contact_normal(state);
+  push(state, -slopes(state).f1 / sine);
+  NeedlePair pair = before(state, random, 1);
+  if (miss) {
+    pair.contact_time.reset();
+  } else {
+    *pair.contact_time -= apart / 2;
+  }
+  return pair;
+}
+
+NeedlePair draw_just_collided(Random& random) {
+  PairState state = draw_contact(
+      random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
+  const bool comes_back = random.below(4) > 0;
+  const double after = random.log_uniform(1e-6, 1);
+  if (comes_back) {
+    // f1 + f2 after / 2 = 0; both are linear in the normal velocity.
+    PairState other = state;
+    push(other, Real(1));
+    const auto value = [&](const PairState& at) {
+      const Slopes s = slopes(at);
+      return Real(s.f1 + s.f2 * Real(after) / 2);
+    };
+    const Real here = value(state), slope = value(other) - here;
+    push(state, -here / slope);
+  }
+  NeedlePair pair = before_contact(state, 0, random.uniform(1.5, 3) * (comes_back ? after : 1));
+  pair.just_collided = true;
+  if (comes_back) pair.contact_time = after;
+  return pair;
+}
+
+NeedlePair draw_fast_spin(Random& random) {
+  const double fast = random.log_uniform(1, 1e4);
+  const double other = random.coin() ? fast : random.log_uniform(1, 1e4);
+  const PairState state =
+      draw_contact(random, {.arms = {any_arm(random), any_arm(random)}, .spin = {fast, other}});
+  // |w| t stays below about 1e3 up to the horizon.
+  return before(state, random, std::min(1.0, 100 / std::max(fast, other)));
+}
+
+NeedlePair draw_still(Random& random) {
+  const int which = random.below(3);
+  const double reach = random.uniform(0.3, 0.6);
+  const std::array<double, 2> arms = {reach * random.uniform(-1, 1), reach * random.uniform(-1, 1)};
+  const PairState state = draw_contact(
+      random, {.arms = arms, .spin = {which == 0 ? rod_spin : 0, which == 1 ? rod_spin : 0}});
+  NeedlePair pair = before(state, random, 1);
+  if (std::abs(arms[0]) >= 0.5 || std::abs(arms[1]) >= 0.5) pair.contact_time.reset();
+  return pair;
+}
+
+NeedlePair draw_slow(Random& random) {
+  NeedlePair pair = thermal(random, 6);
+  if (random.coin()) return slowed(pair, 600);
+  const double factor = random.log_uniform(1e-12, 1e-1);
+  for (FreeNeedle* needle : {&pair.first, &pair.second}) {
+    needle->velocity = factor * needle->velocity;
+    needle->angular_velocity = factor * needle->angular_velocity;
+  }
+  pair.horizon /= factor;
+  return pair;
+}
+
+NeedlePair draw_planar(Random& random) {
+  PairState state = draw_contact(random, {.spin = {0, 0}});
+  // Half of the planes are normal to an axis, where the directors stay in them exactly.
+  Vec<Real> e1 = {Real(0), Real(0), Real(0)}, e2 = e1, e3 = e1;
+  if (random.coin()) {
+    const int axis = random.below(3);
+    e1[axis] = 1;
+    e2[(axis + 1) % 3] = 1;
+    e3[(axis + 2) % 3] = 1;
+  } else {
+    e1 = Real(1 / norm(state.first.orientation)) * state.first.orientation;
+    e3 = cross(e1, state.second.orientation);
+    e3 = Real(1 / norm(e3)) * e3;
+    e2 = cross(e3, e1);
+  }
+  const double angle = random.uniform(0, 6);
+  const double between = random.coin() ? random.uniform(0, 6) : random.log_uniform(1e-8, 1);
+  const auto director = [&](double a) { return Real(cos(Real(a))) * e1 + Real(sin(Real(a))) * e2; };
+  const double spin = rod_spin * random.normal();
+  const double other = random.below(4) > 0 ? rod_spin * random.normal() : spin;
+  const Vec<Real> point = state.first.position;
+  state.first.orientation = director(angle);
+  state.second.orientation = director(angle + between);
+  state.first.angular_velocity = Real(spin) * e3;
+  state.second.angular_velocity = Real(other) * e3;
+  state.first.position = point - Real(any_arm(random)) * state.first.orientation;
+  state.second.position = point - Real(any_arm(random)) * state.second.orientation;
+  return before(state, random, 1);
+}
+
+NeedlePair draw_mixed_scales(Random& random) {
+  const bool fast = random.coin();
+  const double spin = fast ? 1e6 : 1e-6;
+  const PairState state =
+      draw_contact(random, {.arms = {any_arm(random), any_arm(random)}, .spin = {spin, spin}});
+  return before(state, random, fast ? 1e-4 : 1);
+}
+
+/// FNV-1a, so that families of one seed have nothing in common.
+std::uint64_t hash(std::string_view text) {
+  std::uint64_t value = 0xcbf29ce484222325u;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return value;
+}
+
+template <class Change>
+NeedlePair changed(NeedlePair pair, Change change) {
+  change(pair.first);
+  change(pair.second);
+  return pair;
+}
+
+}  // namespace
+
+const std::vector<PairFamily>& pair_families() {
+  static const std::vector<PairFamily> families = {
+      {"thermal-k6", true, false, draw_rods},
+      {"thermal-k2", true, false, draw_dumbbells},
+      {"parallel", false, false, draw_parallel},
+      {"tip", false, false, draw_tip},
+      {"grazing", false, true, draw_grazing},
+      {"just-collided", false, false, draw_just_collided},
+      {"fast-spin", false, false, draw_fast_spin},
+      {"still", false, false, draw_still},
+      {"slow", false, false, draw_slow},
+      {"planar", false, false, draw_planar},
+      {"mixed-scales", false, false, draw_mixed_scales},
+  };
+  return families;
+}
+
+std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed) {
+  for (const PairFamily& candidate : pair_families()) {
+    if (candidate.name != family) continue;
+    Random random(seed ^ hash(family));
+    std::vector<NeedlePair> pairs;
+    pairs.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      pairs.push_back(candidate.draw(random));
+      pairs.back().family = candidate.name;
+    }
+    return pairs;
+  }
+  throw std::invalid_argument("no family of pairs is named " + std::string(family));
+}
+
+NeedlePair exchanged(const NeedlePair& pair) {
+  NeedlePair other = pair;
+  std::swap(other.first, other.second);
+  return other;
+}
+
+NeedlePair mirrored(const NeedlePair& pair) {
+  return changed(pair, [](FreeNeedle& needle) {
+    needle.position = -1.0 * needle.position;
+    needle.orientation = -1.0 * needle.orientation;
+    needle.velocity = -1.0 * needle.velocity;
+  });
+}
+
+NeedlePair slowed(const NeedlePair& pair, int power) {
+  NeedlePair other = changed(pair, [&](FreeNeedle& needle) {
+    for (int i = 0; i < 3; ++i) {
+      needle.velocity[i] = std::ldexp(needle.velocity[i], -power);
+      needle.angular_velocity[i] = std::ldexp(needle.angular_velocity[i], -power);
+    }
+  });
+  other.horizon = std::ldexp(pair.horizon, power);
+  if (pair.contact_time) other.contact_time = std::ldexp(*pair.contact_time, power);
+  return other;
+}
+
+NeedlePair advanced(const NeedlePair& pair, double time) {
+  NeedlePair other =
+      changed(pair, [&](FreeNeedle& needle) { needle = rounded(flown(read(needle), Real(time))); });
+  other.horizon = pair.horizon - time;
+  other.just_collided = false;
+  other.contact_time.reset();
+  return other;
+}
+
+NeedlePair reversed(const NeedlePair& pair) {
+  NeedlePair other = changed(advanced(pair, pair.horizon), [](FreeNeedle& needle) {
+    needle.velocity = -1.0 * needle.velocity;
+    needle.angular_velocity = -1.0 * needle.angular_velocity;
+  });
+  other.horizon = pair.horizon;
+  return other;
+}
+
+}  // namespace needlework::test
