@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "src/scene/nesting.h"
 #include "src/scene/printable.h"
+#include "src/scene/toml_guard.h"
 
 namespace needlework {
 namespace {
@@ -77,10 +77,6 @@ std::vector<Entry> flattened(const toml::table& root) {
   return entries;
 }
 
-std::string nested_too_deep() {
-  return fmt::format("expected at most {} levels of nesting", max_nesting);
-}
-
 // The TOML library's reason without the words that the message begins with anyway.
 std::string reason(std::string_view description) {
   constexpr std::string_view prefix = "Error while parsing ";
@@ -107,8 +103,9 @@ bool is_bare_key(std::string_view text) {
 
 // The value of an override: TOML when it is one value in TOML, else the bare string.
 Value override_value(std::string_view text) {
+  const std::string toml = "value = " + std::string(text);
   try {
-    const toml::table table = toml::parse("value = " + std::string(text));
+    const toml::table table = find_toml_hazard(toml) ? toml::table() : toml::parse(toml);
     if (table.size() == 1) return value_of(table.begin()->second);
   } catch (const toml::parse_error&) {
   }
@@ -139,8 +136,8 @@ Document::Document(std::string_view text, std::string_view name,
                    std::span<const std::string> overrides)
     : text_(text), name_(name) {
   const std::string file = printable(name, name_limit);
-  if (const auto line = line_nested_too_deep(text))
-    throw InputError(fmt::format("{}: line {}: {}", file, *line, nested_too_deep()));
+  if (const auto hazard = find_toml_hazard(text))
+    throw InputError(fmt::format("{}: line {}: {}", file, hazard->line, hazard->reason));
   try {
     entries_ = flattened(toml::parse(text));
   } catch (const toml::parse_error& error) {
@@ -149,7 +146,6 @@ Document::Document(std::string_view text, std::string_view name,
   }
   for (const std::string& override_text : overrides) {
     Entry entry = parse_override(override_text);
-    if (line_nested_too_deep(entry.override_text)) throw error(entry, nested_too_deep());
     entry.value = override_value(entry.override_text);
     entries_.push_back(std::move(entry));
   }

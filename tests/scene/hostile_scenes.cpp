@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "src/error.h"
-#include "src/scene/nesting.h"
 #include "src/scene/parse.h"
 #include "src/scene/printable.h"
+#include "src/scene/toml_guard.h"
 
 namespace needlework {
 namespace {
@@ -37,22 +37,51 @@ TEST(HostileScene, DeepNestingIsRefusedBeforeItCanOverflowTheStack) {
   EXPECT_EQ(message("a = " + repeated("{a=", 300000)), "s.toml: line 1" + reason);
   EXPECT_EQ(message("a = [" + repeated("\"\"\".\"\"\",", 2) + "\n{" + repeated("'a,\"b'.", 20)),
             "s.toml: line 2" + reason);
-  EXPECT_EQ(message("", {"a.b=" + repeated("[", 40)}), "--set a.b=" + repeated("[", 40) + reason);
+  EXPECT_EQ(message("", {"needles.box=" + repeated("[", 100000)}),
+            "--set needles.box=" + repeated("[", 57) +
+                "...: expected an edge from 2.01 to 1e9, or an array of three edges");
 }
 
-TEST(Nesting, LooksPastStringsCommentsAndNumbers) {
-  const std::string dots = repeated(".", 50);
+std::size_t hazard_line(const std::string& toml) {
+  const auto hazard = find_toml_hazard(toml);
+  return hazard ? hazard->line : 0;
+}
+
+TEST(TomlGuard, LooksPastStringsCommentsAndNumbers) {
+  const std::string dots = repeated(".", 50) + "\xc3\xa9";
   const std::string brackets = repeated("[", 50);
   for (const std::string& harmless :
        {"a = \"" + dots + brackets + "\"", "a = '" + dots + "'", "# " + brackets + dots,
         "a = \"\"\"\n" + brackets + "\n\"\" \\\"\"\" " + dots + "\"\"\"\"\"",
         "a = '''\\'' " + brackets + "\n'''", "a = \"\\\"" + brackets + "\"", "a = \"\" # " + dots,
         "a = [" + repeated("0.5, ", 100) + "]", repeated("a.b = 1.5\n", 100),
-        "a = " + repeated("[", 16) + repeated("]", 16), repeated("a.", 16) + "a = 1"})
-    EXPECT_FALSE(line_nested_too_deep(harmless)) << harmless;
-  EXPECT_EQ(line_nested_too_deep("a = \"\"\"\n\n\"\"\"\n" + repeated("a.", 17)), 4u);
-  EXPECT_EQ(line_nested_too_deep("a = \"\\\\\"\n" + brackets), 2u);
-  EXPECT_EQ(line_nested_too_deep("a = '\\'" + brackets), 1u);
+        "a = " + repeated("[", 16) + repeated("]", 16), repeated("a.", 16) + "a = 1",
+        "\xef\xbb\xbf# " + dots, "\xef\xbb\xbf'" + dots + "' = 1", "a = '''\\\n" + dots + "'''",
+        "a = \"\"\"\\\n  b" + dots + "\"\"\"", "{'" + dots + "'.'" + dots + "'"})
+    EXPECT_EQ(hazard_line(harmless), 0u) << harmless;
+}
+
+TEST(TomlGuard, FindsTheLine) {
+  const std::string brackets = repeated("[", 50);
+  EXPECT_EQ(hazard_line("a = \"\"\"\n\n\"\"\"\n" + repeated("a.", 17)), 4u);
+  EXPECT_EQ(hazard_line("a = \"\"\"\\\n\\\n\"\"\"\n" + brackets), 4u);
+  EXPECT_EQ(hazard_line("a = \"\\\\\"\n" + brackets), 2u);
+  EXPECT_EQ(hazard_line("a = '\\'" + brackets), 1u);
+  EXPECT_EQ(hazard_line("# \xc3\xa9\n\xc3\xa9 = 1"), 2u);
+  EXPECT_EQ(hazard_line("a = \"\"\"\\ \n \t\xc3\xa9\"\"\""), 2u);
+  EXPECT_EQ(hazard_line("a = \"\"\"\\\xc3\xa9\"\"\""), 1u);
+  EXPECT_EQ(hazard_line("a = 1\n\nb = 1\"\xc3\xa9\""), 3u) << "this quote begins no string";
+}
+
+TEST(HostileScene, CharactersThatTheParserMistakesForWhiteSpaceAreRefused) {
+  EXPECT_EQ(message("[engine]\nsearch = \u201cauto\u201d"),
+            "s.toml: line 2: unexpected '\u201c': expected ASCII outside quotes and comments");
+  EXPECT_EQ(message("title = \"\"\"a\\\n  \u00e9\"\"\""),
+            "s.toml: line 2: unexpected '\u00e9': expected ASCII after a backslash that ends a "
+            "line");
+  const std::vector<std::string> overrides = {"needles.count=1", "needles.box=3", "until.time=1",
+                                              "output.file=\u00e9t\u00e9.h5"};
+  EXPECT_EQ(parse_scene("", "s.toml", overrides).output.file, "\u00e9t\u00e9.h5");
 }
 
 TEST(HostileScene, BytesThatAreNoTextAreRefused) {
@@ -64,7 +93,7 @@ TEST(HostileScene, BytesThatAreNoTextAreRefused) {
             "s.toml: line 1: bad root table: expected keys, tables, whitespace or comments, saw "
             "'\\u0000'");
   EXPECT_EQ(message(std::string("\xff\xfe[\0n\0", 6)),
-            "s.toml: line 1: Encountered invalid utf-8 sequence");
+            "s.toml: line 1: unexpected '\\xff': expected ASCII outside quotes and comments");
   EXPECT_EQ(message("a = 5\rb = 6"),
             "s.toml: line 1: bad key-value pair: expected '\\n' after '\\r', saw 'b'");
 }

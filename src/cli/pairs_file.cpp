@@ -1,0 +1,143 @@
+#include "src/cli/pairs_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <system_error>
+
+#include "src/error.h"
+
+namespace needlework {
+namespace {
+
+constexpr int column_count = 28;
+
+std::string column_name(int column) {
+  constexpr std::array<std::string_view, 3> leading = {"id", "family", "horizon"};
+  if (column < 3) return std::string(leading[column]);
+  if (column == column_count - 1) return "skip";
+  const int number = column - 3;
+  const char quantity = "ruvw"[number % 12 / 3];
+  return fmt::format("{}{}{}", quantity, 1 + number / 12, "xyz"[number % 3]);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const auto comma = line.find(',');
+    fields.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// One line and where it stands, for messages.
+struct Line {
+  std::string_view file;
+  std::size_t number;
+  std::vector<std::string_view> fields;
+
+  [[noreturn]] void reject(std::string_view column, std::string_view value,
+                           std::string_view expected) const {
+    throw InputError(fmt::format("{}: line {}: column {} = {}: expected {}", file, number, column,
+                                 value, expected));
+  }
+
+  double number_at(int column) const {
+    const std::string_view text = fields[column];
+    double value = 0;
+    // from_chars knows no leading plus.
+    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + plus, end, value);
+    if (error == std::errc::result_out_of_range) {
+      reject(column_name(column), text, "a number that a double can hold");
+    }
+    if (error != std::errc() || stop != end || !std::isfinite(value)) {
+      reject(column_name(column), text, "a finite number");
+    }
+    return value;
+  }
+};
+
+FreeNeedle read_needle(const Line& line, int column) {
+  FreeNeedle needle;
+  for (auto* vector :
+       {&needle.position, &needle.orientation, &needle.velocity, &needle.angular_velocity}) {
+    for (double& value : *vector) value = line.number_at(column++);
+  }
+  return needle;
+}
+
+void check_director(const Line& line, const FreeNeedle& needle, std::string_view name) {
+  const auto& u = needle.orientation;
+  if (u[0] == 0 && u[1] == 0 && u[2] == 0) {
+    line.reject(name, "(0, 0, 0)", "a director that is not 0");
+  }
+}
+
+PairLine read_pair(const Line& line) {
+  const int found = static_cast<int>(line.fields.size());
+  if (found < column_count) {
+    line.reject(column_name(found), "(missing)",
+                fmt::format("{} columns, found {}", column_count, found));
+  }
+  if (found > column_count) {
+    line.reject(fmt::format("{}", column_count + 1), line.fields[column_count],
+                fmt::format("{} columns, found {}", column_count, found));
+  }
+  PairLine pair;
+  pair.line = line.number;
+  pair.id = line.fields[0];
+  if (pair.id.empty()) line.reject("id", "(empty)", "a name or number");
+  pair.horizon = line.number_at(2);
+  if (pair.horizon < 0) line.reject("horizon", line.fields[2], "a time, 0 or later");
+  pair.first = read_needle(line, 3);
+  pair.second = read_needle(line, 15);
+  check_director(line, pair.first, "u1");
+  check_director(line, pair.second, "u2");
+  const std::string_view skip = line.fields[column_count - 1];
+  if (skip != "0" && skip != "1") line.reject("skip", skip, "0 or 1");
+  pair.just_collided = skip == "1";
+  return pair;
+}
+
+}  // namespace
+
+std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
+  std::vector<PairLine> pairs;
+  bool header_allowed = true;
+  std::string text;
+  for (std::size_t number = 1; std::getline(in, text); ++number) {
+    const std::string_view line = trimmed(text);
+    if (line.empty() || line.front() == '#') continue;
+    const Line fields{name, number, split(line)};
+    const bool header =
+        fields.fields.size() > 1 && fields.fields[0] == "id" && fields.fields[1] == "family";
+    if (!(header && header_allowed)) pairs.push_back(read_pair(fields));
+    header_allowed = false;
+  }
+  if (in.bad()) throw IoError(fmt::format("{}: reading failed", name));
+  return pairs;
+}
+
+std::vector<PairLine> read_pairs(const std::string& path) {
+  if (path == "-") return read_pairs(std::cin, "stdin");
+  std::ifstream file(path);
+  if (!file) throw IoError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  return read_pairs(file, path);
+}
+
+}  // namespace needlework

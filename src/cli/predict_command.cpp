@@ -1,0 +1,131 @@
+#include "src/cli/predict_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/cli/pairs_file.h"
+#include "src/error.h"
+#include "src/physics/predict.h"
+
+namespace needlework {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order of the columns
+
+struct Options {
+  std::string path;
+  std::string accuracy = "standard";
+  bool json = false;
+};
+
+struct Answer {
+  std::string id;
+  FirstContact contact;
+};
+
+std::vector<Answer> solve(const std::vector<PairLine>& pairs, const std::string& path) {
+  std::vector<Answer> answers;
+  answers.reserve(pairs.size());
+  for (const PairLine& pair : pairs) {
+    try {
+      answers.push_back(
+          {pair.id, predict(pair.first, pair.second, pair.horizon, pair.just_collided)});
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: line {}: {}", path, pair.line, error.what()));
+    }
+  }
+  return answers;
+}
+
+/// 17 digits; a number that is not one reads "nan" whatever its sign.
+std::string text(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value); }
+
+std::string as_lines(const std::vector<Answer>& answers) {
+  std::string out;
+  for (const Answer& answer : answers) {
+    const FirstContact& contact = answer.contact;
+    out += fmt::format("{},{},{},{}\n", answer.id, text(contact.time), text(contact.arm_first),
+                       text(contact.arm_second));
+  }
+  return out;
+}
+
+/// An id that is an integer stays one.
+Json json_id(const std::string& id) {
+  std::int64_t number = 0;
+  const char* end = id.data() + id.size();
+  const auto [stop, error] = std::from_chars(id.data(), end, number);
+  if (error == std::errc() && stop == end && std::to_string(number) == id) return number;
+  return id;
+}
+
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string as_json(const std::vector<Answer>& answers) {
+  Json pairs = Json::array();
+  for (const Answer& answer : answers) {
+    const FirstContact& contact = answer.contact;
+    pairs.push_back({{"id", json_id(answer.id)},
+                     {"time", json_number(contact.time)},
+                     {"s12", json_number(contact.arm_first)},
+                     {"s21", json_number(contact.arm_second)},
+                     {"evaluations", contact.evaluations},
+                     {"escalations", contact.escalations}});
+  }
+  return Json{{"pairs", pairs}}.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+void run(const Options& options) {
+  if (options.accuracy != "standard") {
+    throw InputError(fmt::format("--accuracy = {}: expected standard, the only level there is yet",
+                                 options.accuracy));
+  }
+  const std::vector<Answer> answers = solve(read_pairs(options.path), options.path);
+  const std::string out = options.json ? as_json(answers) : as_lines(answers);
+  if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
+    throw IoError("stdout: writing failed");
+  }
+}
+
+int run_and_report(const Options& options) {
+  const auto report = [](const std::exception& error, int code) {
+    fmt::print(stderr, "{}\n", error.what());
+    return code;
+  };
+  try {
+    run(options);
+  } catch (const InputError& error) {
+    return report(error, 3);
+  } catch (const InvalidStateError& error) {
+    return report(error, 4);
+  } catch (const IoError& error) {
+    return report(error, 5);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_predict_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("predict", "First contact of each pair of needles");
+  const auto options = std::make_shared<Options>();
+  command->add_option("pairs", options->path, "Pairs, one a line; - reads stdin")
+      ->type_name("PAIRS.csv")
+      ->required();
+  command->add_option("--accuracy", options->accuracy, "Accuracy level")
+      ->check(CLI::IsMember({"fast", "standard", "rigorous"}))
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print one JSON object");
+  command->callback([options, &exit_code] { exit_code = run_and_report(*options); });
+}
+
+}  // namespace needlework

@@ -1,0 +1,144 @@
+#include "src/scene/toml_guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "src/scene/printable.h"
+
+namespace needlework {
+namespace {
+
+bool beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+
+// The bytes of the character that begins at `begin`, as far as they can be told.
+std::string_view character(std::string_view text, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < text.size() && end < begin + 4 && (text[end] & '\xc0') == '\x80') ++end;
+  return text.substr(begin, end - begin);
+}
+
+// Follows TOML closely enough to know where a string begins; in text that is no TOML, as far as the
+// parser follows it.
+class Scanner {
+ public:
+  explicit Scanner(std::string_view toml) : toml_(toml) {
+    if (toml_.starts_with("\xef\xbb\xbf")) at_ = 3;
+  }
+
+  std::optional<TomlHazard> first_hazard() {
+    constexpr std::string_view not_bare = " \t\r\n#\"'[]{},";
+    while (at_ < toml_.size() && !hazard_) {
+      const char c = toml_[at_];
+      if (c == '#')
+        at_ = std::min(toml_.find('\n', at_), toml_.size());
+      else if ((c == '"' || c == '\'') && next_ != Next::end)
+        skip_string();
+      else if (next_ == Next::value && not_bare.find(c) == not_bare.npos)
+        skip_bare_value();
+      else
+        step_over(c);
+    }
+    return hazard_;
+  }
+
+ private:
+  enum class Next { key, value, end };  // end: of what a value stands in
+
+  // Outside strings, comments and bare values.
+  void step_over(char c) {
+    if (beyond_ascii(c)) return report_character("outside quotes and comments");
+    if (c == '.') ++dots_;
+    if (c == '=') begin(Next::value);
+    if (c == ',') begin(in_array() ? Next::value : Next::key);
+    if (c == '\n') {
+      ++line_;
+      if (open_.empty()) begin(Next::key);
+    }
+    if (c == '[' || c == '{') {
+      const bool header = c == '[' && next_ == Next::key;
+      open_.push_back(header ? 'h' : c);
+      begin(in_array() ? Next::value : Next::key);
+    }
+    if (c == ']' || c == '}') {
+      if (!open_.empty()) open_.pop_back();
+      begin(Next::end);
+    }
+    if (open_.size() > max_nesting || dots_ > max_nesting)
+      hazard_ = {line_, fmt::format("expected at most {} levels of nesting", max_nesting)};
+    ++at_;
+  }
+
+  void begin(Next next) {
+    next_ = next;
+    dots_ = 0;
+  }
+
+  bool in_array() const { return !open_.empty() && open_.back() == '['; }
+
+  // A number, a date, or what the parser takes for one before it finds the error.
+  void skip_bare_value() {
+    constexpr std::string_view ends = " \t\r\n#,]}";
+    for (; at_ < toml_.size() && ends.find(toml_[at_]) == ends.npos; ++at_)
+      if (beyond_ascii(toml_[at_])) return report_character("outside quotes and comments");
+    begin(Next::end);
+  }
+
+  void skip_string() {
+    const char quote = toml_[at_];
+    const std::string_view opening = toml_.substr(at_, 3);
+    const bool triple = opening == std::string_view(quote == '"' ? R"(""")" : "'''");
+    at_ += triple ? 3 : 1;
+    if (next_ == Next::value) begin(Next::end);
+    int quotes = 0;  // in a row
+    for (; at_ < toml_.size() && !hazard_; ++at_) {
+      const char c = toml_[at_];
+      if (c == '\n' && !triple) return;  // an error; the line ends as any other
+      if (c == '\n') ++line_;
+      quotes = c == quote ? quotes + 1 : 0;
+      // One or two more may follow the closing three; behind a value they do no harm.
+      if (quotes == (triple ? 3 : 1)) {
+        ++at_;
+        return;
+      }
+      if (c == '\\' && quote == '"') skip_escape(triple);
+    }
+  }
+
+  // Leaves at_ on the last character that belongs to the escape.
+  void skip_escape(bool triple) {
+    constexpr std::string_view white_space = " \t\r\n";
+    const auto next_is_space = [&] {
+      return at_ + 1 < toml_.size() && white_space.find(toml_[at_ + 1]) != std::string_view::npos;
+    };
+    if (!triple || !next_is_space()) {
+      ++at_;
+    } else {
+      while (next_is_space()) line_ += toml_[++at_] == '\n';
+      if (at_ + 1 < toml_.size() && beyond_ascii(toml_[at_ + 1])) ++at_;
+    }
+    if (triple && at_ < toml_.size() && beyond_ascii(toml_[at_]))
+      report_character("after a backslash that ends a line");
+  }
+
+  void report_character(std::string_view place) {
+    hazard_ = {line_, fmt::format("unexpected '{}': expected ASCII {}",
+                                  printable(character(toml_, at_)), place)};
+  }
+
+  std::string_view toml_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+  Next next_ = Next::key;
+  std::string open_;      // brackets: '[' array, '{' table, 'h' head of a table
+  std::size_t dots_ = 0;  // in the present key
+  std::optional<TomlHazard> hazard_;
+};
+
+}  // namespace
+
+std::optional<TomlHazard> find_toml_hazard(std::string_view toml) {
+  return Scanner(toml).first_hazard();
+}
+
+}  // namespace needlework

@@ -1,0 +1,168 @@
+// `needlework predict` as a user meets it: lines in, lines or JSON out, exit codes.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "src/physics/predict.h"
+#include "tests/support/pairs_csv.h"
+
+namespace needlework::test {
+namespace {
+
+struct Outcome {
+  int exit_code;
+  std::string out, error;
+};
+
+class PredictCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "needlework-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(path(name));
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string command = std::string(NEEDLEWORK_PROGRAM) + " predict " + arguments + " > " +
+                                path("out") + " 2> " + path("error");
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("error")};
+  }
+
+  Outcome run_on(const std::string& text, const std::string& flags = "") const {
+    std::ofstream(path("pairs.csv")) << text;
+    return run(path("pairs.csv") + " " + flags);
+  }
+
+  std::filesystem::path folder_;
+};
+
+const std::string meets = "7,hand,2,.25,-.125,-.5,1,0,0,0,0,.75,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0";
+const std::string misses = "b,,2,.75,-.125,-.5,1,0,0,0,0,.75,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0";
+
+/// The line that the pair `meets` must give: at 2/3, with the digits that the library finds.
+std::string answer_to_meets() {
+  const FirstContact contact = predict({{.25, -.125, -.5}, {1, 0, 0}, {0, 0, .75}, {0, 0, 0}},
+                                       {{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}}, 2, false);
+  EXPECT_NEAR(contact.time, 2.0 / 3, 1e-15);
+  EXPECT_NEAR(contact.arm_first, -.25, 1e-15);
+  EXPECT_NEAR(contact.arm_second, -.125, 1e-15);
+  return fmt::format("7,{:.17g},{:.17g},{:.17g}\n", contact.time, contact.arm_first,
+                     contact.arm_second);
+}
+
+TEST_F(PredictCommand, AnswersOneLineAPair) {
+  const Outcome outcome = run_on("# a comment\nid,family,horizon\n\n" + meets + "\r\n  " + misses);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.out, answer_to_meets() + "b,inf,nan,nan\n");
+  EXPECT_EQ(outcome.error, "");
+}
+
+TEST_F(PredictCommand, PrintsJsonWithNullsForWhatIsUndefined) {
+  const Outcome outcome = run_on(meets + '\n' + misses + '\n', "--json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto pairs = nlohmann::json::parse(outcome.out).at("pairs");
+  ASSERT_EQ(pairs.size(), 2u);
+  EXPECT_EQ(pairs[0].at("id"), 7);
+  EXPECT_NEAR(pairs[0].at("time").get<double>(), 2.0 / 3, 1e-15);
+  EXPECT_NEAR(pairs[0].at("s12").get<double>(), -0.25, 1e-15);
+  EXPECT_NEAR(pairs[0].at("s21").get<double>(), -0.125, 1e-15);
+  EXPECT_TRUE(pairs[0].at("evaluations").is_number_unsigned());
+  EXPECT_TRUE(pairs[0].at("escalations").is_number_unsigned());
+  EXPECT_EQ(pairs[1].at("id"), "b");
+  for (const char* key : {"time", "s12", "s21"}) EXPECT_TRUE(pairs[1].at(key).is_null()) << key;
+}
+
+TEST_F(PredictCommand, ReadsStandardInput) {
+  std::ofstream(path("pairs.csv")) << meets << '\n';
+  EXPECT_EQ(run("- < " + path("pairs.csv")).out, answer_to_meets());
+  EXPECT_EQ(run("- < /dev/null").exit_code, 0);
+  EXPECT_EQ(run("--json - < /dev/null").out, "{\"pairs\":[]}\n");
+}
+
+TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
+  const auto expect = [&](std::size_t column, const char* value, const std::string& message) {
+    std::stringstream fields(meets);
+    std::string line, field;
+    for (std::size_t i = 0; std::getline(fields, field, ','); ++i) {
+      if (i > 0) line += ',';
+      line += i == column ? value : field;
+    }
+    const Outcome outcome = run_on(meets + '\n' + line + '\n');
+    EXPECT_EQ(outcome.exit_code, 3) << line;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(outcome.error, path("pairs.csv") + ": line 2: column " + message + '\n');
+  };
+  expect(2, "-1", "horizon = -1: expected a time, 0 or later");
+  expect(2, "inf", "horizon = inf: expected a finite number");
+  expect(3, "x", "r1x = x: expected a finite number");
+  expect(10, "1.5.5", "v1y = 1.5.5: expected a finite number");
+  expect(14, "", "w1z = : expected a finite number");
+  expect(15, "nan", "r2x = nan: expected a finite number");
+  expect(26, "1e999", "w2z = 1e999: expected a number that a double can hold");
+  expect(27, "2", "skip = 2: expected 0 or 1");
+  expect(27, "0,1", "29 = 1: expected 28 columns, found 29");
+  expect(6, "0", "u1 = (0, 0, 0): expected a director that is not 0");
+  expect(0, "", "id = (empty): expected a name or number");
+  const Outcome cut = run_on(std::string("\n").append(meets, 0, meets.size() - 2));
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_EQ(cut.error, path("pairs.csv") +
+                           ": line 2: column skip = (missing): expected 28 columns, found 27\n");
+}
+
+TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
+  EXPECT_EQ(run(path("absent.csv")).exit_code, 5);
+  EXPECT_EQ(run(path("absent.csv")).out, "");
+  EXPECT_EQ(run_on(meets, "--accuracy standard").exit_code, 0);
+  EXPECT_EQ(run_on(meets, "--accuracy rigorous").exit_code, 3);
+  EXPECT_EQ(run_on(meets, "--accuracy fast").error,
+            "--accuracy = fast: expected standard, the only level there is yet\n");
+  EXPECT_EQ(run_on(meets, "--accuracy best").exit_code, 2);
+  EXPECT_EQ(run("").exit_code, 2);
+  EXPECT_EQ(run(folder_.string()).exit_code, 5);
+}
+
+TEST_F(PredictCommand, GivesWhatTheLibraryGives) {
+  std::vector<NeedlePair> pairs;
+  for (const PairFamily& family : pair_families()) {
+    for (const NeedlePair& pair : draw_pairs(family.name, 50, 9)) pairs.push_back(pair);
+  }
+  std::stringstream file;
+  write_pairs(file, pairs);
+  const Outcome outcome = run_on(file.str());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  std::stringstream lines(outcome.out);
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const NeedlePair& pair = pairs[i];
+    const FirstContact found = predict(pair.first, pair.second, pair.horizon, pair.just_collided);
+    std::string line;
+    ASSERT_TRUE(std::getline(lines, line));
+    char* at = nullptr;
+    EXPECT_EQ(std::strtoul(line.c_str(), &at, 10), i);
+    for (const double value : {found.time, found.arm_first, found.arm_second}) {
+      EXPECT_TRUE(same(std::strtod(at + 1, &at), value)) << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace needlework::test
