@@ -69,7 +69,7 @@ PairScale scale_of(const Pair& pair);
 template <class T>
 inline constexpr double unit_roundoff = 0x1p-53;
 template <>
-inline constexpr double unit_roundoff<DoubleDouble> = 0x1p-98;
+inline constexpr double unit_roundoff<DoubleDouble> = 0x1p-102;
 
 /// The pair in scaled time, seen from s = 0.
 template <class T>

@@ -240,26 +240,29 @@ double Search::root_uncertainty(const Estimate& e, double s, double roundoff) co
 
 template <class T>
 int Search::arms_inside(const T& s, const Sample<T>& sample, double uncertainty) const {
-  // |s12| < 1/2 as |(u2 x r12) . x| < x . x / 2: no division by what may be nearly 0.
-  const double xx = to_double(dot(sample.x, sample.x));
-  const double x = std::sqrt(xx);
-  const double r = std::sqrt(to_double(dot(sample.r, sample.r))) + frame_.v_norm * uncertainty;
-  const double half = 0.5 * xx;
+  // |s12| < 1/2 as |c . x| < x . x / 2, c = u2 x r12: no division by what may be nearly 0. Near a
+  // contact c is s12 x, so that every error below shrinks with |x|; near parallel directors that is
+  // what tells contacts from the roots at which only x vanishes.
+  const T xx = dot(sample.x, sample.x);
+  const double w = frame_.w_sum, v = frame_.v_norm;
   const double rounding = 16 * unit_roundoff<T>;
   const double eu = director_error(sample) + rounding;
-  const double er = rounding * (frame_.r_norm + frame_.v_norm * std::abs(to_double(s)));
-  const double w = frame_.w_sum;
-  // Change of either side of the inequality over the uncertainty of the root.
-  const double drift =
-      uncertainty * ((frame_.v_norm + 2 * r * w) * (x + uncertainty * w) + (r + 1) * w);
-  const double error = ((3 * r + 2) * eu + er) * (x + eu) + (r + er) * eu + drift;
+  const double er = rounding * (frame_.r_norm + v * std::abs(to_double(s)));
+  const double r = std::sqrt(to_double(dot(sample.r, sample.r))) + v * uncertainty;
+  // How far x and c may be off, by rounding and over the uncertainty of the root.
+  const double off_x = eu + uncertainty * w;
+  const double off_c = 2 * r * eu + er + uncertainty * (v + r * w);
+  const double x = std::sqrt(to_double(xx)) + off_x;
   int verdict = 1;
   for (int i = 0; i < 2; ++i) {
-    const T n = dot(cross(sample.u[1 - i], sample.r), sample.x);
-    // The margin is formed in T: inside and outside may differ in the last bits of a double.
-    const double margin = to_double(dot(sample.x, sample.x) * T(0.5) - (to_double(n) < 0 ? -n : n));
-    if (margin < -error * roundup) return -1;
-    if (!(margin > error * roundup) || !(half > error)) verdict = 0;
+    const Vec3<T> c = cross(sample.u[1 - i], sample.r);
+    const T n = dot(c, sample.x);
+    const double length = std::sqrt(to_double(dot(c, c))) + off_c;
+    const double error = (off_c * x + (length + x) * off_x) * roundup;
+    // Formed in T: inside and outside may differ in the last bits of a double.
+    const double margin = to_double(xx * T(0.5) - (to_double(n) < 0 ? -n : n));
+    if (margin < -error) return -1;
+    if (!(margin > error)) verdict = 0;
   }
   return verdict;
 }
@@ -281,7 +284,7 @@ std::optional<Root> Search::accept(const DoubleDouble& begin, const DoubleDouble
                                    const DoubleDouble& start, int side) {
   const DoubleDouble s = *refine(begin, end, start, side, 0);
   const Sample<DoubleDouble> sample = sample_at(s);
-  const double off = root_uncertainty(estimate(precise_frame(), s, sample), to_double(s), 0x1p-98);
+  const double off = root_uncertainty(estimate(precise_frame(), s, sample), to_double(s), 0x1p-102);
   // What double-double cannot tell from a tip or from parallel directors is no contact.
   if (!std::isfinite(off) || arms_inside(s, sample, off) <= 0) return std::nullopt;
   return Root{s, off, side};
