@@ -55,8 +55,6 @@ void set_rotation(Flight& flight) {
   flight.p = {p.x / length, p.y / length, p.z / length};
 }
 
-Vec3d centre_after(const Flight& flight, double elapsed) { return flight.r + flight.v * elapsed; }
-
 Vec3d director_after(const Flight& flight, double elapsed) {
   const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
   return flight.u * sc.cosine + flight.p * sc.sine;

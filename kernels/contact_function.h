@@ -22,8 +22,8 @@ namespace needlework::kernels {
 /// A needle's free flight since its record: r(t) = r + v t, u(t) = u cos(|w| t) + p sin(|w| t).
 struct Flight {
   Vec3d r;           ///< centre [L]
-  Vec3d u;           ///< director
   Vec3d v;           ///< velocity [L / time]
+  Vec3d u;           ///< director
   Vec3d w;           ///< angular velocity, normal to u [1 / time]
   Vec3d p;           ///< w x u / |w|, or 0
   double omega = 0;  ///< |w|
@@ -33,7 +33,9 @@ struct Flight {
 void set_rotation(Flight& flight);
 
 /// Centre and director after `elapsed`.
-Vec3d centre_after(const Flight& flight, double elapsed);
+inline Vec3d centre_after(const Flight& flight, double elapsed) {
+  return flight.r + flight.v * elapsed;
+}
 Vec3d director_after(const Flight& flight, double elapsed);
 
 /// What two needles carry from having touched at s = 0: the contact function is continued from the

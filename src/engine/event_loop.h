@@ -43,7 +43,7 @@ class EventLoop final : public Run {
   };
 
   void schedule(Needle i);
-  void consider(Needle i, const Vec3d& centre, Needle j, const Shift& shift, Event& best);
+  void consider(Needle i, Needle j, const Shift& shift, Event& best);
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, Time until);
   void settle_touch(Needle a, Needle b, const Shift& shift);
   Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v, const Vec3d& w);
@@ -232,29 +232,31 @@ void EventLoop<Search, Calendar, effects>::schedule(Needle i) {
   best.time =
       std::min({search_.complete_until(i, now), record.renewal, gas.clock.add(now, search_span_)});
   const Vec3d centre = centre_after(record.flight, gas.clock.difference(now, record.time));
+  double ahead = gas.clock.difference(best.time, now);
   search_.for_each_candidate(i, now, best.time, [&](Needle j, const Shift& shift) {
-    consider(i, centre, j, shift, best);
+    ++counters.candidates;
+    const Record& other = gas.records[j];
+    const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
+    const Vec3d r =
+        (centre - centre_after(other.flight, gas.clock.difference(now, other.time))) - image;
+    if (kernels::spheres_stay_apart(r, record.flight.v - other.flight.v, ahead)) {
+      ++counters.filtered;
+    } else {
+      consider(i, j, shift, best);
+      ahead = gas.clock.difference(best.time, now);
+    }
   });
   calendar_.set(best);
 }
 
 // Looks for a contact of i with this candidate before `best`, and makes it the best.
 template <class Search, class Calendar, Effects effects>
-void EventLoop<Search, Calendar, effects>::consider(Needle i, const Vec3d& centre, Needle j,
-                                                    const Shift& shift, Event& best) {
-  ++counters.candidates;
+void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Shift& shift,
+                                                    Event& best) {
   const Record& mine = gas.records[i];
   const Record& other = gas.records[j];
   // Beyond the renewal of j its own event takes over.
   const Time until = std::min(best.time, other.renewal);
-  const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
-  const Vec3d r =
-      (centre - centre_after(other.flight, gas.clock.difference(now, other.time))) - image;
-  if (kernels::spheres_stay_apart(r, mine.flight.v - other.flight.v,
-                                  gas.clock.difference(until, now))) {
-    ++counters.filtered;
-    return;
-  }
   Event event;
   event.owner = i;
   event.partner = j;

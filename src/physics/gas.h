@@ -30,13 +30,17 @@ struct TouchEntry {
 };
 
 /// What a needle carries since its own last collision or renewal. Nothing else changes a record.
-struct Record {
+/// Its first cache line, time, centre and velocity, is all that the first filter of candidates
+/// reads.
+struct alignas(64) Record {
+  Time time;  ///< of the record
   kernels::Flight flight;
-  Time time;                        ///< of the record
   Time renewal;                     ///< when the record is made anew to stay precise
   std::uint32_t serial = 0;         ///< counts the records of this needle
   std::vector<TouchEntry> touches;  ///< the partner just hit first; almost always that or nothing
 };
+
+static_assert(sizeof(Record) == 192);
 
 /// All needles. Contacts are pure functions of two records and a shift, made here.
 struct Gas {
