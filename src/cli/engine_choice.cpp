@@ -68,14 +68,17 @@ void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlag
   }
   require_instruction_set(engine.isa, isa_place);
 
-  std::string threads_place = fmt::format("{}: engine.threads = {}", scene_path, engine.threads);
+  // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
+  std::string threads_place =
+      fmt::format("{}: engine.threads = {}", scene_path, engine.threads.value_or(1));
   if (flags.threads) {
     engine.threads = *flags.threads;
-    threads_place = fmt::format("--threads {}", engine.threads);
+    threads_place = fmt::format("--threads {}", *flags.threads);
   }
-  if (engine.threads != 1) {
+  if (engine.threads.value_or(1) != 1) {
     throw InputError(threads_place + ": expected 1: this version runs on one thread");
   }
+  engine.threads = 1;
 }
 
 std::string resolved_search(const Scene::Engine& engine) {

@@ -97,8 +97,8 @@ std::string expected_text(const Explanation& e) {
 
 std::string engine_text(const Scene::Engine& engine) {
   return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", resolved_search(engine),
-                     resolved_queue(engine), engine.accuracy, engine.threads,
-                     engine.threads == 1 ? "" : "s", resolved_isa(engine));
+                     resolved_queue(engine), engine.accuracy, engine.threads.value_or(1),
+                     engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
 }
 
 std::string output_text(const Scene::Output& output) {
@@ -168,7 +168,7 @@ Json json_of(const Explanation& e) {
   json["search"] = resolved_search(scene.engine);
   json["queue"] = resolved_queue(scene.engine);
   json["accuracy"] = scene.engine.accuracy;
-  json["threads"] = scene.engine.threads;
+  json["threads"] = scene.engine.threads.value_or(1);
   json["isa"] = resolved_isa(scene.engine);
   json["memory_bytes"] = number(e.memory);
   json["available_bytes"] = number(available_memory());

@@ -117,7 +117,7 @@ Json json_of(const Report& report) {
   json["collisions_per_s"] = number(ratio(static_cast<double>(last.collisions), loop.wall()));
   json["us_per_collision"] = number(report.us_per_collision());
   json["peak_rss_bytes"] = peak_memory();
-  json["threads"] = scene.engine.threads;
+  json["threads"] = scene.engine.threads.value_or(1);
   json["isa"] = simulation.isa();
   json["search"] = simulation.search();
   json["queue"] = simulation.queue();

@@ -101,7 +101,7 @@ int run(const RunArguments& arguments) {
   if (!file.empty()) {
     writer.emplace(file, arguments.force, scene,
                    io::RunInfo{.isa = simulation.isa(),
-                               .threads = scene.engine.threads,
+                               .threads = scene.engine.threads.value_or(1),
                                .epoch_length = simulation.epoch_length()});
   }
   const SignalGuard guard(simulation);

@@ -111,8 +111,8 @@ std::string summary_of(const Report& report) {
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
   if (starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
-  text +=
-      line("collisions", "{}, {:.4g} per needle", last.collisions, report.collisions_per_needle());
+  text += line("collisions", "{}, {:.4g} per needle", last.collisions,
+               last.collisions ? report.collisions_per_needle() : 0.0);
   if (scene.collisions.tc || scene.collisions.tc_relative) {
     const double share = static_cast<double>(last.tc_collisions) / last.collisions;
     text.pop_back();

@@ -33,7 +33,7 @@ struct Scene {
     std::string search = "auto";
     std::string queue = "auto";
     std::string accuracy = "standard";
-    int threads = 1;
+    std::optional<int> threads;  ///< absent: OMP_NUM_THREADS, else 1
     std::string isa = "auto";
   };
   /// The first condition met ends the run; all count from the start of the run.

@@ -32,7 +32,7 @@ TEST(GoodScene, HasTheDocumentedDefaults) {
   EXPECT_EQ(scene.engine.search, "auto");
   EXPECT_EQ(scene.engine.queue, "auto");
   EXPECT_EQ(scene.engine.accuracy, "standard");
-  EXPECT_EQ(scene.engine.threads, 1);
+  EXPECT_FALSE(scene.engine.threads.has_value());
   EXPECT_EQ(scene.engine.isa, "auto");
   EXPECT_EQ(scene.until.time, 5);
   EXPECT_FALSE(scene.until.collisions_per_needle || scene.until.energy_ratio || scene.until.wall_s);
