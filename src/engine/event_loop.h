@@ -50,10 +50,13 @@ class EventLoop final : public Run {
   void happen(const Event& event);
   void horizon(Needle i);
   void collide(const Event& event);
+  void count_at_instant(Needle a, Needle b);
   [[noreturn]] void report_collapse(const Event& event) const;
 
   Search search_;
   Calendar calendar_;
+  Time instant_;  ///< of the last collision
+  std::uint64_t collisions_at_instant_ = 0;
   std::vector<Time> last_collision_;  ///< for the t_c rule; renewals do not count
   Replaced replaced_[2];
   int replaced_count_ = 0;
@@ -166,6 +169,7 @@ Shift EventLoop<Search, Calendar, effects>::replace_record(Needle i, const Vec3d
 template <class Search, class Calendar, Effects effects>
 void EventLoop<Search, Calendar, effects>::collide(const Event& event) {
   const Needle a = event.lower(), b = event.higher();
+  count_at_instant(a, b);
   const Record& first = gas.records[a];
   const Record& second = gas.records[b];
   const kernels::Pair pair = make_pair(gas, a, first, b, second, event.shift);
@@ -328,6 +332,21 @@ void EventLoop<Search, Calendar, effects>::settle_touch(Needle a, Needle b, cons
   Record& later = gas.records[a].time >= gas.records[b].time ? gas.records[a] : gas.records[b];
   const bool is_first = &later == &gas.records[a];
   later.touches.push_back({is_first ? b : a, is_first ? shift : -shift, touch});
+}
+
+// Three needles or more can collapse too, by hitting each other in turn. When that has come to
+// where the clock stands still, more collisions happen at one instant than needles could have
+// there.
+template <class Search, class Calendar, Effects effects>
+void EventLoop<Search, Calendar, effects>::count_at_instant(Needle a, Needle b) {
+  if (now != instant_) collisions_at_instant_ = 0;
+  instant_ = now;
+  if (++collisions_at_instant_ <= 64 + 2 * gas.size()) return;
+  throw InvalidStateError("needles " + std::to_string(gas.ids[a]) + " and " +
+                          std::to_string(gas.ids[b]) + " and others collapse at time " +
+                          std::to_string(gas.clock.since_start(now)) + ": " +
+                          std::to_string(collisions_at_instant_) +
+                          " collisions at one instant; set collisions.tc_relative, to 1e-3 say");
 }
 
 template <class Search, class Calendar, Effects effects>

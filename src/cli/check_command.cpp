@@ -1,0 +1,38 @@
+#include "src/cli/check_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/cli/exit_codes.h"
+#include "src/cli/explanation.h"
+#include "src/cli/messages.h"
+#include "src/cli/scene_source.h"
+
+namespace needlework::cli {
+
+void add_check_command(CLI::App& app, int& exit_code) {
+  struct CheckArguments {
+    SceneArguments scene;
+    bool json = false;
+  };
+  CLI::App* command = app.add_subcommand("check", "explain a scene and what it will cost");
+  const auto arguments = std::make_shared<CheckArguments>();
+  add_scene_arguments(*command, arguments->scene);
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->callback([arguments, &exit_code] {
+    const LoadedScene loaded = load_scene(arguments->scene);
+    const Explanation explanation(loaded);
+    for (const std::string& warning : explanation.warnings) print_warning(warning);
+    if (arguments->json) {
+      fmt::print(
+          "{}\n",
+          json_of(explanation).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+      fmt::print("{}", text_of(explanation));
+    }
+    exit_code = ok;
+  });
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,89 @@
+#include "src/cli/engine_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "src/cli/resources.h"
+#include "src/error.h"
+
+namespace needlework::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// What `auto` stands for comes first.
+const Names searches{"linked-cells", "all-pairs"};
+const Names queues{"indexed-heap"};
+const Names accuracies{"standard"};
+const Names instruction_sets{"scalar"};
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string list(const Names& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+void require_offered(const std::string& value, const std::string& place, const Names& offered) {
+  if (value == "auto" || contains(offered, value)) return;
+  throw InputError(fmt::format("{}: expected one of auto, {} (all that this version offers)", place,
+                               list(offered)));
+}
+
+void require_instruction_set(const std::string& isa, const std::string& place) {
+  const Names of_cpu = instruction_sets_of_this_cpu();
+  if (isa != "auto" && !contains(of_cpu, isa)) {
+    throw InputError(
+        fmt::format("{}: expected auto or one that this CPU has ({})", place, list(of_cpu)));
+  }
+  require_offered(isa, place, instruction_sets);
+}
+
+std::string resolved(const std::string& name, const Names& offered) {
+  return name == "auto" ? offered.front() : name;
+}
+
+}  // namespace
+
+void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlags& flags) {
+  Scene::Engine& engine = scene.engine;
+  const auto place = [&](const char* key, const std::string& value) {
+    return fmt::format("{}: engine.{} = \"{}\"", scene_path, key, value);
+  };
+  require_offered(engine.search, place("search", engine.search), searches);
+  require_offered(engine.queue, place("queue", engine.queue), queues);
+  require_offered(engine.accuracy, place("accuracy", engine.accuracy), accuracies);
+
+  std::string isa_place = place("isa", engine.isa);
+  const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
+  if (flags.isa) {
+    engine.isa = *flags.isa;
+    isa_place = "--isa " + engine.isa;
+  } else if (engine.isa == "auto" && isa_of_environment && *isa_of_environment) {
+    engine.isa = isa_of_environment;
+    isa_place = "NEEDLEWORK_ISA=" + engine.isa;
+  }
+  require_instruction_set(engine.isa, isa_place);
+
+  std::string threads_place = fmt::format("{}: engine.threads = {}", scene_path, engine.threads);
+  if (flags.threads) {
+    engine.threads = *flags.threads;
+    threads_place = fmt::format("--threads {}", engine.threads);
+  }
+  if (engine.threads != 1) {
+    throw InputError(threads_place + ": expected 1: this version runs on one thread");
+  }
+}
+
+std::string resolved_search(const Scene::Engine& engine) {
+  return resolved(engine.search, searches);
+}
+std::string resolved_queue(const Scene::Engine& engine) { return resolved(engine.queue, queues); }
+std::string resolved_isa(const Scene::Engine& engine) {
+  return resolved(engine.isa, instruction_sets);
+}
+
+}  // namespace needlework::cli

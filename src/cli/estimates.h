@@ -1,0 +1,17 @@
+// What a run will need, told before it begins.
+#pragma once
+
+#include "src/scene/scene.h"
+
+namespace needlework::cli {
+
+/// Memory of a run of this scene at its peak [bytes].
+double estimated_memory(const Scene& scene);
+
+/// Wall time per collision on a machine of 2.5 GHz [s].
+double estimated_seconds_per_collision(const Scene& scene, double density);
+
+/// Throws InputError naming needles.count if the run needs more memory than there is.
+void require_memory(const Scene& scene, const std::string& scene_path);
+
+}  // namespace needlework::cli

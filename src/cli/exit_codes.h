@@ -1,0 +1,16 @@
+// How the program ends.
+#pragma once
+
+namespace needlework::cli {
+
+enum ExitCode {
+  ok = 0,
+  differences_found = 1,
+  bad_usage = 2,
+  bad_input = 3,
+  invalid_state = 4,
+  input_output_error = 5,
+  stopped = 75,  ///< by a signal or a time limit, after saving
+};
+
+}  // namespace needlework::cli

@@ -1,0 +1,56 @@
+#include "src/cli/progress.h"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "src/cli/messages.h"
+
+namespace needlework::cli {
+namespace {
+
+constexpr double terminal_interval = 1, line_interval = 10;  // [s]
+
+std::size_t terminal_width() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col : 80;
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      next_(terminal_ ? terminal_interval : line_interval) {}
+
+bool Progress::is_due(double elapsed) const { return !quiet_ && elapsed >= next_; }
+
+void Progress::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
+  next_ = elapsed + (terminal_ ? terminal_interval : line_interval);
+  const double left = elapsed / fraction - elapsed;  // infinite at 0, and then not known
+  std::string line = fmt::format("{:4.1f} % done, {} left: {} collisions, time {:.4g}",
+                                 100 * fraction, duration_text(left), now.collisions, now.time);
+  if (now.energy < 0.999 * initial_energy) {
+    line += fmt::format(", E/E(0) = {:.3g}", now.energy / initial_energy);
+  }
+  if (!terminal_) {
+    fmt::print(stderr, "{}\n", line);
+    return;
+  }
+  line.resize(std::min(line.size(), terminal_width() - 1));
+  fmt::print(stderr, "\r{:<{}}", line, std::max(line.size(), drawn_));
+  drawn_ = line.size();
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  if (drawn_ > 0) fmt::print(stderr, "\r{:<{}}\r", "", drawn_);
+  drawn_ = 0;
+}
+
+}  // namespace needlework::cli

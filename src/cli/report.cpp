@@ -1,0 +1,137 @@
+#include "src/cli/report.h"
+
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "src/cli/resources.h"
+#include "src/cli/scene_source.h"
+#include "src/observe/forecast.h"
+
+namespace needlework::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
+
+// JSON has no NaN and no infinity.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json stats_of(const Counters& counters) {
+  return {{"candidates", counters.candidates},
+          {"filtered", counters.filtered},
+          {"evaluated", counters.evaluated},
+          {"escalated", counters.escalated},
+          {"rebuilds", 0},  // there are no neighbour lists to rebuild yet
+          {"crossings", counters.crossings},
+          {"stale", counters.stale},
+          {"renewals", counters.renewals},
+          {"searches", counters.searches},
+          {"touches", counters.touches}};
+}
+
+}  // namespace
+
+double Report::collision_rate() const { return ratio(collisions_per_needle(), course.last.time); }
+
+double Report::collision_rate_error() const {
+  return 2 * course.system_rate.standard_error / static_cast<double>(scene.needles.count);
+}
+
+double Report::collision_rate_exact() const {
+  if (!starts_in_equilibrium(scene)) return undefined;
+  const auto& box = scene.needles.box;
+  const double count = static_cast<double>(scene.needles.count);
+  return theory::equilibrium_rate(count, box[0] * box[1] * box[2], count * course.initial.energy,
+                                  scene.needles.k);
+}
+
+double Report::collisions_per_needle() const {
+  return ratio(2 * static_cast<double>(course.last.collisions),
+               static_cast<double>(scene.needles.count));
+}
+
+double Report::us_per_collision() const {
+  return ratio(1e6 * course.loop.cpu(), static_cast<double>(course.last.collisions));
+}
+
+std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
+  if (!scene.initial.file.empty() || !(course.initial.energy > 0)) return std::nullopt;
+  const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
+  const double tau = theory_time_scale(density_of(scene)) * sample.time;
+  return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))
+      .front();
+}
+
+std::string stop_name(const Course& course) {
+  if (course.failure) return "invalid_state";
+  switch (course.stop) {
+    case Stop::time:
+      return "time";
+    case Stop::collisions:
+      return "collisions";
+    case Stop::energy:
+      return "energy";
+    case Stop::wall_time:
+      return "wall_time";
+    case Stop::interrupted:
+      return "interrupted";
+    case Stop::nothing_can_happen:
+      break;
+  }
+  return "nothing_can_happen";
+}
+
+Json json_of(const Report& report) {
+  const Totals& last = report.course.last;
+  const Stopwatch& loop = report.course.loop;
+  const Scene& scene = report.scene;
+  const Simulation& simulation = report.simulation;
+  Json json;
+  json["needles"] = scene.needles.count;
+  json["collisions"] = last.collisions;
+  json["events"] = simulation.counters().events;
+  json["time"] = number(last.time);
+  json["collisions_per_needle"] = number(report.collisions_per_needle());
+  json["collision_rate"] = number(report.collision_rate());
+  json["collision_rate_error"] = number(report.collision_rate_error());
+  json["collision_rate_exact"] = number(report.collision_rate_exact());
+  json["energy"] = number(last.energy);
+  json["energy_initial"] = number(report.course.initial.energy);
+  json["t_tr"] = number(last.t_tr);
+  json["t_rot"] = number(last.t_rot);
+  json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
+  json["theory"] = nullptr;
+  if (const auto theory = report.theory_at(last)) {
+    json["theory"] = {{"energy", number(theory->energy())},
+                      {"t_tr", number(theory->t_tr)},
+                      {"t_rot", number(theory->t_rot)}};
+  }
+  json["setup_s"] = report.setup_s;
+  json["wall_s"] = loop.wall();
+  json["cpu_s"] = loop.cpu();
+  json["total_s"] = seconds_since_launch();
+  json["collisions_per_s"] = number(ratio(static_cast<double>(last.collisions), loop.wall()));
+  json["us_per_collision"] = number(report.us_per_collision());
+  json["peak_rss_bytes"] = peak_memory();
+  json["threads"] = scene.engine.threads;
+  json["isa"] = simulation.isa();
+  json["search"] = simulation.search();
+  json["queue"] = simulation.queue();
+  json["accuracy"] = scene.engine.accuracy;
+  json["effects"] = simulation.effects();
+  json["tc_collisions"] = last.tc_collisions;
+  json["trajectory_hash"] = simulation.trajectory_hash();
+  json["seed"] = scene.needles.seed;
+  json["version"] = NEEDLEWORK_VERSION;
+  json["stop"] = stop_name(report.course);
+  json["title"] = scene.title;
+  json["file"] = scene.output.file.empty() ? Json(nullptr) : Json(scene.output.file);
+  json["stats"] = stats_of(simulation.counters());
+  return json;
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,44 @@
+// What is told of a run when it is over.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "src/cli/drive.h"
+#include "src/engine/simulation.h"
+#include "src/scene/scene.h"
+#include "src/theory/theory.h"
+
+namespace needlework::cli {
+
+/// The facts of a run, for people and for programs. Borrows what it is about.
+struct Report {
+  const Scene& scene;
+  const Simulation& simulation;
+  const Course& course;
+  double setup_s = 0;
+
+  /// Per needle and unit time, over the run; NaN if no time has passed.
+  double collision_rate() const;
+  /// The exact rate of a gas in equilibrium, and the standard error of the measured one; NaN for
+  /// other gases, the error also for runs too short to tell.
+  double collision_rate_exact() const;
+  double collision_rate_error() const;
+  /// Collisions that a needle has taken part in; NaN without needles.
+  double collisions_per_needle() const;
+  double us_per_collision() const;  ///< of CPU time
+  /// What the cooling curve has for a sample; none for a state read from a file or at rest.
+  std::optional<theory::Temperatures> theory_at(const Totals& sample) const;
+};
+
+/// One word for why the run stopped.
+std::string stop_name(const Course& course);
+
+/// The object that `run --json` prints.
+nlohmann::ordered_json json_of(const Report& report);
+
+/// Some lines for people: what happened, how it compares with theory, what it cost.
+std::string summary_of(const Report& report);
+
+}  // namespace needlework::cli

@@ -1,0 +1,37 @@
+// What this machine offers and what the process has used of it.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace needlework::cli {
+
+/// Instruction sets that this CPU has, by the names of `--isa`, the narrowest first.
+std::vector<std::string> instruction_sets_of_this_cpu();
+
+/// Memory that the process can expect to get [bytes]: what the machine has available, or the limit
+/// of its control group if that is less. Infinity where neither is known.
+double available_memory();
+
+/// Most memory that the process has held so far [bytes].
+std::uint64_t peak_memory();
+
+/// Wall and CPU time (of all threads) of the stretches between start() and stop() [s].
+class Stopwatch {
+ public:
+  void start();
+  void stop();
+  double wall() const { return wall_; }
+  double cpu() const { return cpu_; }
+
+ private:
+  std::chrono::steady_clock::time_point wall_start_;
+  double cpu_start_ = 0, wall_ = 0, cpu_ = 0;
+};
+
+/// Seconds since the program began, of wall time.
+double seconds_since_launch();
+
+}  // namespace needlework::cli

@@ -1,0 +1,95 @@
+#include "src/cli/scene_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "src/cli/estimates.h"
+#include "src/error.h"
+#include "src/io/h5md.h"
+#include "src/scene/parse.h"
+
+namespace needlework::cli {
+namespace {
+
+double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+
+// Count and box of the scene, if given, must agree with the file's; else they are taken from it.
+void complete(Scene& scene, const State& state, const std::string& path) {
+  Scene::Needles& needles = scene.needles;
+  if (needles.count != 0 && needles.count != state.size()) {
+    throw InputError(fmt::format("{}: needles.count = {}: expected {}, as in {}", path,
+                                 needles.count, state.size(), scene.initial.file));
+  }
+  bool agrees = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double edge = state.box[axis];
+    agrees = agrees && std::abs(needles.box[axis] - edge) <= 1e-12 * edge;
+  }
+  if (needles.box[0] != 0 && !agrees) {
+    throw InputError(fmt::format("{}: needles.box = [{}]: expected [{}], as in {}", path,
+                                 fmt::join(needles.box, ", "), fmt::join(state.box, ", "),
+                                 scene.initial.file));
+  }
+  needles.count = state.size();
+  needles.box = state.box;
+}
+
+}  // namespace
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE", arguments.path, "scene file (TOML)")->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "replace a key of the scene, such as needles.count=500; may be repeated")
+      ->option_text("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--threads", arguments.engine.threads, "number of threads")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--isa", arguments.engine.isa,
+                  "instruction set: auto, scalar, sse4, avx2 or avx512")
+      ->option_text("NAME");
+}
+
+LoadedScene load_scene(const SceneArguments& arguments) {
+  LoadedScene loaded;
+  Scene& scene = loaded.scene;
+  scene = read_scene(arguments.path, arguments.overrides);
+  choose_engine(scene, arguments.path, arguments.engine);
+  require_memory(scene, arguments.path);
+  if (!scene.initial.file.empty()) {
+    loaded.initial = io::read_last_frame(scene.initial.file);
+    complete(scene, *loaded.initial, arguments.path);
+    require_memory(scene, arguments.path);
+  }
+  return loaded;
+}
+
+Totals totals_of(const State& state, double k) {
+  Totals totals;
+  const double count = static_cast<double>(state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    totals.t_tr += square(state.velocity[i]) / (3 * count);
+    totals.t_rot += square(state.angular_velocity[i]) / (4 * k * count);
+    for (int axis = 0; axis < 3; ++axis) totals.momentum[axis] += state.velocity[i][axis];
+  }
+  totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  return totals;
+}
+
+bool starts_in_equilibrium(const Scene& scene) {
+  const Scene::Collisions& c = scene.collisions;
+  const Scene::Initial& initial = scene.initial;
+  return c.epsilon == 1 && std::abs(c.beta) == 1 && initial.file.empty() &&
+         initial.t_tr == initial.t_rot && initial.t_tr > 0 && scene.needles.count >= 2;
+}
+
+double density_of(const Scene& scene) {
+  const auto& box = scene.needles.box;
+  return static_cast<double>(scene.needles.count) / (box[0] * box[1] * box[2]);
+}
+
+}  // namespace needlework::cli

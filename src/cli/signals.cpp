@@ -1,0 +1,61 @@
+#include "src/cli/signals.h"
+
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+
+namespace needlework::cli {
+namespace {
+
+// A signal handler can reach nothing but globals.
+std::atomic<Simulation*> interrupted_by_signals = nullptr;
+std::atomic<int> signal_received = 0;
+std::atomic<std::int64_t> received_at = 0;  // [ns]
+static_assert(std::atomic<Simulation*>::is_always_lock_free);
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t nanoseconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * std::int64_t{1000000000} + now.tv_nsec;
+}
+
+void set_handler(int signal, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+// All of it may be done in a signal handler.
+void handle(int signal) {
+  if (signal_received == 0) {
+    received_at = nanoseconds();
+    signal_received = signal;
+  } else if (nanoseconds() - received_at > 1000000000) {
+    set_handler(signal, SIG_DFL);
+    raise(signal);
+  }
+  if (Simulation* simulation = interrupted_by_signals) simulation->interrupt();
+}
+
+}  // namespace
+
+SignalGuard::SignalGuard(Simulation& simulation) {
+  interrupted_by_signals = &simulation;
+  signal_received = 0;
+  set_handler(SIGINT, handle);
+  set_handler(SIGTERM, handle);
+}
+
+SignalGuard::~SignalGuard() {
+  set_handler(SIGINT, SIG_DFL);
+  set_handler(SIGTERM, SIG_DFL);
+  interrupted_by_signals = nullptr;
+}
+
+int SignalGuard::received() { return signal_received; }
+
+}  // namespace needlework::cli

@@ -1,0 +1,131 @@
+// The lines that a run ends with.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/cli/messages.h"
+#include "src/cli/report.h"
+#include "src/cli/scene_source.h"
+
+namespace needlework::cli {
+namespace {
+
+template <class... Arguments>
+std::string line(const char* name, fmt::format_string<Arguments...> format,
+                 Arguments&&... arguments) {
+  return fmt::format("  {:<14}", name) +
+         fmt::format(format, std::forward<Arguments>(arguments)...) + "\n";
+}
+
+std::string per_cent(double share) {
+  const double value = 100 * share;
+  return value > 0 && value < 0.01 ? "less than 0.01 %" : fmt::format("{:.3g} %", value);
+}
+
+std::string reason(const Course& course) {
+  if (course.failure) return "stopped in an invalid state";
+  switch (course.stop) {
+    case Stop::time:
+      return "ran to its end time";
+    case Stop::collisions:
+      return "ran to its number of collisions";
+    case Stop::energy:
+      return "ran to its energy";
+    case Stop::wall_time:
+      return "stopped at the limit of wall time";
+    case Stop::interrupted:
+      return "stopped by a signal";
+    case Stop::nothing_can_happen:
+      break;
+  }
+  return "nothing can happen any more";
+}
+
+// The sample nearest to a tenth of the end's time, for the slope over the last decade.
+const Totals* decade_before(const Course& course) {
+  const Totals* found = nullptr;
+  for (const Totals& sample : course.samples) {
+    if (sample.time > 0 && sample.time <= 0.101 * course.last.time) found = &sample;
+  }
+  return found;
+}
+
+double slope(double energy_before, double energy_after, double time_before, double time_after) {
+  return std::log(energy_after / energy_before) / std::log(time_after / time_before);
+}
+
+std::string energy_lines(const Report& report) {
+  const Totals& first = report.course.initial;
+  const Totals& last = report.course.last;
+  std::string text;
+  const auto theory = report.theory_at(last);
+  const bool cools = last.energy < 0.999 * first.energy;
+  if (cools) {
+    text += line("energy", "E/E(0) = {:.4g}", last.energy / first.energy);
+    if (theory) {
+      text.pop_back();
+      text += fmt::format(", theory {:.4g}, measured/theory {:.3f}\n",
+                          theory->energy() / first.energy, last.energy / theory->energy());
+    }
+    const Totals* before = decade_before(report.course);
+    const auto theory_before = before ? report.theory_at(*before) : std::nullopt;
+    if (theory && theory_before) {
+      text += line("", "fell as t^{:.2f} over the last decade of time, theory t^{:.2f}",
+                   slope(before->energy, last.energy, before->time, last.time),
+                   slope(theory_before->energy(), theory->energy(), before->time, last.time));
+    }
+  } else {
+    text += line("energy", "E = {:.6g} per needle, changed by {:.1e} of it", last.energy,
+                 last.energy / first.energy - 1);
+  }
+  text += line("temperatures", "T_tr = {:.4g}, T_rot = {:.4g}, T_tr/T_rot = {:.4f}", last.t_tr,
+               last.t_rot, last.t_tr / last.t_rot);
+  if (theory) {
+    text.pop_back();
+    text += fmt::format(", theory {:.4f}\n", theory->t_tr / theory->t_rot);
+  }
+  return text;
+}
+
+std::string rate_line(const Report& report) {
+  const double rate = report.collision_rate();
+  const double exact = report.collision_rate_exact();
+  const double error = report.collision_rate_error();
+  if (!(error > 0)) {
+    return line("rate", "{:.5g} per needle and time, exact {:.5g}: ratio {:.4f}", rate, exact,
+                rate / exact);
+  }
+  return line("rate", "{:.5g} per needle and time, exact {:.5g}: ratio {:.4f} +- {:.4f}", rate,
+              exact, rate / exact, error / exact);
+}
+
+}  // namespace
+
+std::string summary_of(const Report& report) {
+  const Scene& scene = report.scene;
+  const Totals& last = report.course.last;
+  const auto& box = scene.needles.box;
+  std::string text = scene.title.empty() ? "" : scene.title + "\n";
+  text += line("gas", "{} needles in a box of {:g} x {:g} x {:g}, {}", scene.needles.count, box[0],
+               box[1], box[2], report.simulation.effects());
+  text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
+  if (report.course.initial.energy > 0) text += energy_lines(report);
+  if (starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
+  text +=
+      line("collisions", "{}, {:.4g} per needle", last.collisions, report.collisions_per_needle());
+  if (scene.collisions.tc || scene.collisions.tc_relative) {
+    const double share = static_cast<double>(last.tc_collisions) / last.collisions;
+    text.pop_back();
+    text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
+                        per_cent(last.collisions ? share : 0));
+  }
+  text += line("took", "{}", duration_text(report.course.loop.wall()));
+  if (last.collisions > 0) {
+    text.pop_back();
+    text += fmt::format(", {:.3g} us per collision\n", report.us_per_collision());
+  }
+  if (!scene.output.file.empty()) text += line("file", "{}", scene.output.file);
+  return text;
+}
+
+}  // namespace needlework::cli

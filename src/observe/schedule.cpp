@@ -1,0 +1,40 @@
+#include "src/observe/schedule.h"
+
+#include <cmath>
+#include <utility>
+
+namespace needlework {
+
+Schedule Schedule::logarithmic(double per_decade, double start) {
+  Schedule schedule;
+  if (!(start > 0) || !std::isfinite(start)) return schedule;
+  schedule.per_decade_ = per_decade;
+  // One too low rather than one too high, then up to the start: the logarithm is rounded.
+  schedule.n_ = std::ceil(std::log10(start) * per_decade) - 1;
+  while (schedule.grid_time(schedule.n_) < start) ++schedule.n_;
+  schedule.next_ = schedule.grid_time(schedule.n_);
+  return schedule;
+}
+
+Schedule Schedule::at(std::vector<double> times) {
+  Schedule schedule;
+  schedule.times_ = std::move(times);
+  if (!schedule.times_.empty()) schedule.next_ = schedule.times_.front();
+  return schedule;
+}
+
+double Schedule::grid_time(double n) const { return std::pow(10.0, n / per_decade_); }
+
+void Schedule::pass(double time) {
+  while (next_ <= time) {
+    if (per_decade_ > 0) {
+      next_ = grid_time(++n_);
+    } else {
+      ++position_;
+      next_ =
+          position_ < times_.size() ? times_[position_] : std::numeric_limits<double>::infinity();
+    }
+  }
+}
+
+}  // namespace needlework

@@ -1,0 +1,71 @@
+// What `needlework check` and `needlework info` tell.
+#include <string>
+
+#include "src/theory/theory.h"
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using CheckCommand = ProgramTest;
+
+TEST_F(CheckCommand, ExplainsAScene) {
+  const Outcome outcome = run("check small.toml --set collisions.tc_relative=1e-3");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* part : {"Small gas\n", "50, k = 6, uniform rods", "elastic (epsilon = 1)",
+                           "0.001 of the present mean free time", "collisions_per_needle = 10",
+                           "250 collisions", "memory", "wall time"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+}
+
+TEST_F(CheckCommand, PrintsOneJsonObject) {
+  const Outcome outcome = run("check small.toml --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  const auto json = outcome.json();
+  EXPECT_EQ(json["needles"], 50);
+  EXPECT_DOUBLE_EQ(json["density"].get<double>(), 0.4);
+  EXPECT_DOUBLE_EQ(json["mean_free_time"].get<double>(),
+                   1 / theory::collision_rate(0.4, {1, 1}, 6));
+  EXPECT_NEAR(json["expected"]["collisions"].get<double>(), 250, 1e-6);
+  EXPECT_EQ(json["expected"]["stop"], "collisions_per_needle");
+  EXPECT_TRUE(json["tc"].is_null());
+  EXPECT_GT(json["memory_bytes"].get<double>(), 0);
+}
+
+TEST_F(CheckCommand, WarnsOfWhatIsHardlyMeant) {
+  const Outcome outcome = run("check small.toml --set collisions.epsilon=0.9");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.complains("warning: collisions.epsilon = 0.9: "));
+}
+
+TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {
+  const auto json =
+      run("check small.toml --json --set initial.t_tr=0 --set initial.t_rot=0").json();
+  EXPECT_TRUE(json["expected"].is_null());
+  EXPECT_TRUE(json["mean_free_time"].is_null());
+}
+
+TEST_F(CheckCommand, WritesNothing) {
+  EXPECT_EQ(run("check small.toml --set output.file=a.h5").exit_code, 0);
+  EXPECT_EQ(files(), std::vector<std::string>{small});
+}
+
+TEST_F(CheckCommand, AcceptsAllProfiles) {
+  for (const auto& entry : std::filesystem::directory_iterator(NEEDLEWORK_SOURCE "/profiles")) {
+    const Outcome outcome = run("check '" + entry.path().string() + "'");
+    EXPECT_EQ(outcome.exit_code, 0) << entry.path() << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err, "") << entry.path();
+  }
+}
+
+TEST_F(CheckCommand, InfoTellsWhatAFileHolds) {
+  ASSERT_EQ(run("run small.toml --quiet --out a.h5").exit_code, 0);
+  const Outcome outcome = run("info a.h5");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("needles"), std::string::npos);
+  EXPECT_EQ(outcome.err, "");
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,87 @@
+#include "tests/cli/program.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace needlework {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// A folder that no other test uses, also when tests run at the same time.
+fs::path new_folder() {
+  std::string name = (fs::temp_directory_path() / "needlework-test-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  return name;
+}
+
+}  // namespace
+
+testing::AssertionResult Outcome::complains(const std::string& part) const {
+  const bool one_line = std::count(err.begin(), err.end(), '\n') == 1 && err.back() == '\n';
+  if (one_line && err.starts_with("needlework: ") && err.find(part) != std::string::npos) {
+    return testing::AssertionSuccess();
+  }
+  return testing::AssertionFailure() << "expected one line with \"" << part << "\", got:\n" << err;
+}
+
+ProgramTest::ProgramTest() : folder_(new_folder()) {
+  write(small, R"(title = "Small gas"
+[needles]
+count = 50
+box = 5
+[until]
+collisions_per_needle = 10
+)");
+}
+
+ProgramTest::~ProgramTest() { fs::remove_all(folder_); }
+
+Outcome ProgramTest::run(const std::string& arguments, const std::string& before,
+                         const std::string& out) const {
+  return shell(before + " '" + NEEDLEWORK_PROGRAM + "' " + arguments, out);
+}
+
+Outcome ProgramTest::shell(const std::string& command, const std::string& out) const {
+  const fs::path streams = new_folder();
+  const std::string out_path = out.empty() ? (streams / "out").string() : out;
+  const std::string redirections =
+      " </dev/null >'" + out_path + "' 2>'" + (streams / "err").string() + "'";
+  const int status =
+      std::system(("cd '" + folder_.string() + "' && " + command + redirections).c_str());
+  Outcome outcome;
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  if (out.empty()) outcome.out = contents(out_path);
+  outcome.err = contents(streams / "err");
+  fs::remove_all(streams);
+  return outcome;
+}
+
+void ProgramTest::write(const std::string& name, const std::string& text) const {
+  std::ofstream(folder_ / name, std::ios::binary) << text;
+}
+
+std::string ProgramTest::read(const std::string& name) const { return contents(folder_ / name); }
+
+bool ProgramTest::exists(const std::string& name) const { return fs::exists(folder_ / name); }
+
+std::vector<std::string> ProgramTest::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace needlework

@@ -1,0 +1,51 @@
+// Runs the program as its users do, in a folder of its own.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace needlework {
+
+/// What came of a run of the program.
+struct Outcome {
+  int exit_code = -1;  ///< -1: it was killed
+  std::string out, err;
+
+  /// The one object on stdout.
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+  /// Whether stderr is just this one line.
+  testing::AssertionResult complains(const std::string& part) const;
+};
+
+/// A test with an empty folder, in which the program runs, and a scene there.
+class ProgramTest : public testing::Test {
+ protected:
+  ProgramTest();
+  ~ProgramTest() override;
+
+  /// Runs `needlework ARGUMENTS`, words as for a shell. `before` is what stands before the program,
+  /// such as VARIABLE=value; stdout goes to `out` if that is given.
+  Outcome run(const std::string& arguments, const std::string& before = "",
+              const std::string& out = "") const;
+  /// Runs any command of the shell.
+  Outcome shell(const std::string& command, const std::string& out = "") const;
+
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+  bool exists(const std::string& name) const;
+  /// Names of the files in the folder.
+  std::vector<std::string> files() const;
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Name of an elastic scene in equilibrium that takes some milliseconds.
+  static constexpr const char* small = "small.toml";
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace needlework

@@ -1,0 +1,237 @@
+// What `needlework run` computes, prints and keeps.
+#include <cmath>
+#include <set>
+
+#include "src/io/h5md.h"
+#include "src/theory/theory.h"
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using nlohmann::json;
+
+class RunCommand : public ProgramTest {
+ protected:
+  RunCommand() {
+    write("cooling.toml", R"(title = "Cooling gas"
+[needles]
+count = 200
+box = 7
+[collisions]
+epsilon = 0.9
+tc_relative = 1e-3
+[until]
+energy_ratio = 0.05
+)");
+    write("endless.toml", R"(
+[needles]
+count = 500
+box = 10
+[until]
+time = 1e12
+)");
+  }
+
+  json result(const std::string& arguments, const std::string& before = "") const {
+    const Outcome outcome = run("run --json " + arguments, before);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.json();
+  }
+};
+
+TEST_F(RunCommand, PrintsAllKeysAndNothingElse) {
+  const Outcome outcome = run("run --json small.toml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  const json object = outcome.json();
+  for (const char* key :
+       {"needles", "collisions", "events", "threads", "tc_collisions", "seed", "peak_rss_bytes"}) {
+    EXPECT_TRUE(object[key].is_number_integer()) << key;
+  }
+  for (const char* key : {"time", "collisions_per_needle", "collision_rate", "collision_rate_exact",
+                          "energy", "energy_initial", "t_tr", "t_rot", "setup_s", "wall_s", "cpu_s",
+                          "total_s", "collisions_per_s", "us_per_collision"}) {
+    EXPECT_TRUE(object[key].is_number()) << key;
+  }
+  for (const char* key :
+       {"isa", "search", "queue", "accuracy", "effects", "trajectory_hash", "version", "stop"}) {
+    EXPECT_TRUE(object[key].is_string()) << key;
+  }
+  EXPECT_EQ(object["momentum"].size(), 3u);
+  for (const char* key :
+       {"candidates", "filtered", "evaluated", "escalated", "rebuilds", "crossings"}) {
+    EXPECT_TRUE(object["stats"][key].is_number_integer()) << key;
+  }
+  EXPECT_EQ(object["trajectory_hash"].get<std::string>().size(), 32u);
+}
+
+TEST_F(RunCommand, ReportsConsistentNumbers) {
+  const json object = result("small.toml");
+  EXPECT_EQ(object["needles"], 50);
+  EXPECT_EQ(object["collisions"], 250);
+  EXPECT_EQ(object["collisions_per_needle"], 10.0);
+  EXPECT_EQ(object["stop"], "collisions");
+  EXPECT_EQ(object["isa"], "scalar");
+  EXPECT_NE(object["search"], "auto");
+  EXPECT_NEAR(object["energy"].get<double>(), 2.5, 1e-12);
+  EXPECT_DOUBLE_EQ(object["collision_rate"].get<double>(), 10 / object["time"].get<double>());
+  EXPECT_DOUBLE_EQ(object["collision_rate_exact"].get<double>(),
+                   theory::equilibrium_rate(50, 125, 50 * 2.5, 6));
+  EXPECT_GE(object["total_s"].get<double>(), object["wall_s"].get<double>());
+  EXPECT_GE(object["events"].get<int>(), 250);
+}
+
+TEST_F(RunCommand, GivesNullForWhatIsUndefined) {
+  EXPECT_TRUE(result("cooling.toml")["collision_rate_exact"].is_null());
+  const json empty = result("small.toml --set needles.count=0 --set until.time=1");
+  for (const char* key : {"collisions_per_needle", "collision_rate", "us_per_collision"}) {
+    EXPECT_TRUE(empty[key].is_null()) << key;
+  }
+}
+
+TEST_F(RunCommand, EndsExactlyAtItsEnd) {
+  EXPECT_EQ(result("small.toml --set until.time=1.2345")["time"], 1.2345);
+  EXPECT_EQ(result("small.toml --set until.collisions_per_needle=3")["collisions"], 75);
+  const json cooled = result("cooling.toml");
+  EXPECT_EQ(cooled["stop"], "energy");
+  const double ratio = cooled["energy"].get<double>() / cooled["energy_initial"].get<double>();
+  EXPECT_LE(ratio, 0.05);
+  EXPECT_GT(ratio, 0.0495);
+}
+
+TEST_F(RunCommand, SamplingDoesNotChangeTheTrajectory) {
+  std::set<std::string> hashes;
+  for (const char* sampling :
+       {"", "--set output.series_per_decade=0.1", "--set output.series_per_decade=1000",
+        "--out a.h5 --set output.frames=20 --set output.events=true",
+        "--out b.h5 --set output.frames=[0.5,1,2]"}) {
+    const json object = result(std::string("cooling.toml ") + sampling);
+    hashes.insert(object["trajectory_hash"].get<std::string>() + object["time"].dump() +
+                  object["energy"].dump());
+  }
+  EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST_F(RunCommand, TakesFlagOverSetOverScene) {
+  write("thrice.toml", R"(
+[needles]
+count = 10
+box = 5
+seed = 1
+[engine]
+threads = 2
+isa = "avx512"
+[until]
+time = 1
+[output]
+file = "scene.h5"
+)");
+  const std::string one_thread = "thrice.toml --set engine.threads=1 --set engine.isa=scalar ";
+  EXPECT_EQ(result(one_thread)["file"], "scene.h5");
+  EXPECT_EQ(result(one_thread + "--set output.file=set.h5")["file"], "set.h5");
+  EXPECT_EQ(result(one_thread + "--set output.file=set2.h5 --out flag.h5")["file"], "flag.h5");
+  EXPECT_FALSE(exists("set2.h5"));
+  EXPECT_EQ(result("thrice.toml --out x.h5 --threads 1 --isa scalar")["threads"], 1);
+  EXPECT_EQ(run("run thrice.toml --out y.h5 --set engine.threads=1 --threads 2").exit_code, 3);
+  EXPECT_EQ(result("small.toml --set needles.seed=8 --set needles.seed=9")["seed"], 9);
+}
+
+TEST_F(RunCommand, TakesTheEnvironmentLast) {
+  EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=8")["threads"], 1);
+  EXPECT_EQ(run("run small.toml", "NEEDLEWORK_ISA=bogus").exit_code, 3);
+  EXPECT_EQ(result("small.toml", "NEEDLEWORK_ISA=scalar")["isa"], "scalar");
+  EXPECT_EQ(result("small.toml --isa scalar", "NEEDLEWORK_ISA=bogus")["isa"], "scalar");
+  EXPECT_EQ(result("small.toml --set engine.isa=scalar", "NEEDLEWORK_ISA=bogus")["isa"], "scalar");
+}
+
+TEST_F(RunCommand, KeepsTheFirstAndTheLastFrame) {
+  ASSERT_EQ(run("run small.toml --out two.h5").exit_code, 0);
+  EXPECT_NE(run("info two.h5").out.find("2 frames"), std::string::npos);
+  ASSERT_EQ(run("run small.toml --out four.h5 --set output.frames=[0,1,2,1e9]").exit_code, 0);
+  EXPECT_NE(run("info four.h5").out.find("4 frames"), std::string::npos);
+  const std::string at_rest = " --set initial.t_tr=0 --set initial.t_rot=0 --set until.time=0";
+  ASSERT_EQ(run("run small.toml --out one.h5" + at_rest).exit_code, 0);
+  EXPECT_NE(run("info one.h5").out.find("1 frame"), std::string::npos);
+}
+
+TEST_F(RunCommand, GoesOnFromItsOwnFile) {
+  write("next.toml", "[initial]\nfile = \"first.h5\"\n[until]\ncollisions_per_needle = 5\n");
+  const json first = result("small.toml --out first.h5");
+  const json next = result("next.toml");
+  EXPECT_EQ(next["needles"], 50);
+  EXPECT_EQ(next["collisions"], 125);
+  EXPECT_NEAR(next["energy_initial"].get<double>(), first["energy"].get<double>(), 1e-14);
+  EXPECT_TRUE(next["collision_rate_exact"].is_null());
+
+  const Outcome other = run("run next.toml --set needles.count=49");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_TRUE(other.complains("needles.count = 49: expected 50, as in first.h5"));
+  const Outcome wider = run("run next.toml --set needles.box=6");
+  EXPECT_EQ(wider.exit_code, 3);
+  EXPECT_TRUE(wider.complains("needles.box = [6, 6, 6]: expected [5, 5, 5], as in first.h5"));
+}
+
+TEST_F(RunCommand, SavesAndExitsWith75AfterASignal) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const std::string file = signal + ".h5";
+    const Outcome outcome = run("run endless.toml --json --out " + file,
+                                "timeout --preserve-status -s " + signal + " 1");
+    EXPECT_EQ(outcome.exit_code, 75) << signal;
+    EXPECT_TRUE(outcome.complains("stopped by a signal"));
+    EXPECT_EQ(outcome.json()["stop"], "interrupted");
+    EXPECT_EQ(io::read_last_frame(path(file)).size(), 500u);
+    EXPECT_NE(run("info " + file).out.find("2 frames"), std::string::npos);
+  }
+}
+
+TEST_F(RunCommand, SavesAndExitsWith75AtTheLimitOfWallTime) {
+  const Outcome outcome = run("run endless.toml --json --out wall.h5 --set until.wall_s=0.5");
+  EXPECT_EQ(outcome.exit_code, 75);
+  EXPECT_TRUE(outcome.complains("saved in wall.h5"));
+  EXPECT_EQ(outcome.json()["stop"], "wall_time");
+  EXPECT_NEAR(outcome.json()["wall_s"].get<double>(), 0.5, 0.4);
+  EXPECT_EQ(io::read_last_frame(path("wall.h5")).size(), 500u);
+}
+
+// Inelastic pairs collapse sooner or later; without the t_c rule no correct run goes past that.
+TEST_F(RunCommand, SavesAndExitsWith4WhenItCannotGoOnCorrectly) {
+  const Outcome outcome =
+      run("run small.toml --json --out end.h5 --set needles.count=200 --set needles.box=6 "
+          "--set collisions.epsilon=0.5 --set until.collisions_per_needle=10000");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.err.find("collapse of needles "), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.json()["stop"], "invalid_state");
+  EXPECT_EQ(io::read_last_frame(path("end.h5")).size(), 200u);
+}
+
+TEST_F(RunCommand, IsSilentWhenQuietButForErrorsAndWarnings) {
+  const Outcome quiet = run("run small.toml --quiet");
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  const Outcome warned = run("run small.toml --quiet --set needles.k=1");
+  EXPECT_EQ(warned.out, "");
+  EXPECT_TRUE(warned.complains("needlework: warning: needles.k = 1: "));
+  EXPECT_EQ(run("run small.toml --quiet --threads 2").exit_code, 3);
+}
+
+TEST_F(RunCommand, SumsUpInPlainWords) {
+  const Outcome cooling = run("run cooling.toml --out c.h5");
+  for (const char* part : {"Cooling gas\n", "200 needles", "ran to its energy", "E/E(0) = 0.0",
+                           "measured/theory", "T_tr/T_rot", "t_c rule", "us per collision", "c.h5"})
+    EXPECT_NE(cooling.out.find(part), std::string::npos) << part << " in\n" << cooling.out;
+  const Outcome elastic = run("run small.toml");
+  for (const char* part : {"Small gas\n", "250, 10 per needle", "exact 0.4886", " +- "})
+    EXPECT_NE(elastic.out.find(part), std::string::npos) << part << " in\n" << elastic.out;
+}
+
+TEST_F(RunCommand, DrawsOneLineOfProgressOnATerminal) {
+  const Outcome outcome = shell("script -qec \"'" NEEDLEWORK_PROGRAM
+                                "' run endless.toml --set until.wall_s=2.5 --json\" screen");
+  EXPECT_NE(outcome.out.find('\r'), std::string::npos);
+  EXPECT_NE(outcome.out.find(" % done, "), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find('\033'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace needlework

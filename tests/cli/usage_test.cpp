@@ -1,0 +1,134 @@
+// Exit codes and messages: what scripts rely on when something is wrong.
+#include <fstream>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using Usage = ProgramTest;
+
+TEST_F(Usage, ErrorsOfUsageExitWith2) {
+  for (const char* arguments :
+       {"", "fly", "run", "run small.toml more.toml", "run small.toml --fast", "run --threads",
+        "run small.toml --threads 0", "run small.toml --threads two", "check", "info",
+        "run small.toml --set"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_TRUE(outcome.complains("--help")) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+}
+
+TEST_F(Usage, HelpAndVersionExitWith0) {
+  EXPECT_EQ(run("--help").exit_code, 0);
+  EXPECT_EQ(run("run --help").exit_code, 0);
+  const Outcome version = run("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  for (const char* part : {"needlework 0.", "compiler", "ISA       scalar", "HDF5      1."}) {
+    EXPECT_NE(version.out.find(part), std::string::npos) << part << " in\n" << version.out;
+  }
+}
+
+TEST_F(Usage, BadScenesExitWith3) {
+  write("wrong.toml", "[needles]\ncount = 50\nbox = 1\n[until]\ntime = 1\n");
+  for (const char* command : {"run", "check"}) {
+    const Outcome outcome = run(std::string(command) + " wrong.toml");
+    EXPECT_EQ(outcome.exit_code, 3) << command;
+    EXPECT_TRUE(outcome.complains("needlework: wrong.toml: line 3: needles.box = 1: expected "));
+  }
+  const Outcome outcome = run("run small.toml --set collisions.epsilon=2");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_TRUE(outcome.complains("--set collisions.epsilon=2: expected "));
+}
+
+TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--set engine.search=capsules", "engine.search = \"capsules\": expected one of auto, "},
+      {"--set engine.queue=bucket", "engine.queue = \"bucket\": expected one of auto, "},
+      {"--set engine.accuracy=fast", "engine.accuracy = \"fast\": expected one of auto, standard"},
+      {"--threads 2", "--threads 2: expected 1"},
+      {"--set engine.threads=2", "engine.threads = 2: expected 1"},
+      {"--isa bogus", "--isa bogus: expected auto or one that this CPU has (scalar"},
+      {"--isa avx512", "--isa avx512: expected "},
+      {"--set engine.isa=avx2", "engine.isa = \"avx2\": expected "}};
+  for (const auto& [arguments, message] : cases) {
+    const Outcome outcome = run(std::string("run small.toml ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << arguments;
+    EXPECT_TRUE(outcome.complains(message));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST_F(Usage, MoreNeedlesThanMemoryExitWith3) {
+  const Outcome outcome = run("run small.toml --set needles.count=4000000000");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_TRUE(outcome.complains("needles.count = 4000000000: expected fewer: "));
+}
+
+TEST_F(Usage, RunsInWhichNothingHappensNeedAnEndTime) {
+  for (const char* scene : {"--set needles.count=1", "--set needles.count=0",
+                            "--set initial.t_tr=0 --set initial.t_rot=0"}) {
+    const std::string arguments = std::string("run small.toml --quiet --out none.h5 ") + scene;
+    const Outcome endless = run(arguments);
+    EXPECT_EQ(endless.exit_code, 3) << scene;
+    EXPECT_NE(endless.err.find("nothing can ever happen"), std::string::npos) << endless.err;
+    EXPECT_FALSE(exists("none.h5"));
+  }
+  const Outcome alone = run("run small.toml --json --set needles.count=1 --set until.time=7.5");
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(alone.json()["time"], 7.5);
+  EXPECT_EQ(alone.json()["stop"], "time");
+}
+
+TEST_F(Usage, FilesThatCannotBeReadExitWith5) {
+  for (const char* arguments : {"run absent.toml", "check absent.toml", "info absent.h5",
+                                "run small.toml --set initial.file=absent.h5"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 5) << arguments;
+    EXPECT_TRUE(outcome.complains("absent"));
+  }
+}
+
+TEST_F(Usage, FilesThatCannotBeWrittenExitWith5BeforeAnyComputing) {
+  write("endless.toml",
+        "[needles]\ncount = 5000\nbox = 20\n[until]\ntime = 1e9\n[output]\nfile = \"x/y.h5\"\n");
+  const Outcome outcome = run("run endless.toml");
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_TRUE(outcome.complains("x/y.h5: cannot be written: there is no folder x"));
+  EXPECT_EQ(run("run endless.toml --out .").exit_code, 5);
+  EXPECT_EQ(run("run endless.toml --out /dev/full --force").exit_code, 5);
+}
+
+TEST_F(Usage, AnExistingFileIsKeptUnlessForced) {
+  write("kept.h5", "precious");
+  const Outcome refused = run("run small.toml --out kept.h5");
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(refused.complains("kept.h5: exists already: expected a new file, or --force"));
+  EXPECT_EQ(read("kept.h5"), "precious");
+
+  const Outcome forced = run("run small.toml --out kept.h5 --force");
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_EQ(run("info kept.h5").exit_code, 0);
+}
+
+TEST_F(Usage, NothingIsWrittenAfterAnErrorOrWithoutAName) {
+  for (const char* arguments :
+       {"run small.toml", "run small.toml --out a.h5 --threads 2",
+        "run small.toml --out a.h5 --set needles.box=1", "run small.toml --out a.h5 --json --fast",
+        "run small.toml --out a.h5 --set needles.count=4000000000"}) {
+    run(arguments);
+    EXPECT_EQ(files(), std::vector<std::string>{small}) << arguments;
+  }
+}
+
+TEST_F(Usage, ResultsThatCannotBePrintedExitWith5) {
+  for (const char* arguments : {"run small.toml --json", "run small.toml", "check small.toml"}) {
+    const Outcome outcome = run(arguments, "", "/dev/full");
+    EXPECT_EQ(outcome.exit_code, 5) << arguments;
+    EXPECT_TRUE(outcome.complains("standard output"));
+  }
+}
+
+}  // namespace
+}  // namespace needlework

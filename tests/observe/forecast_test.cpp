@@ -1,0 +1,100 @@
+#include "src/observe/forecast.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace needlework {
+namespace {
+
+constexpr theory::Gas cooling{.k = 6, .epsilon = 0.8, .beta = -1};
+constexpr theory::Gas elastic{.k = 6, .epsilon = 1, .beta = -1};
+
+Scene::Until until_energy(double ratio) {
+  Scene::Until until;
+  until.energy_ratio = ratio;
+  return until;
+}
+
+// E/E(0) = 1e-11 is reached at tau = 1.087e7 after 352.9 collisions per needle: the dilute gas of
+// the profiles.
+TEST(Forecast, KnowsTheEndOfTheDiluteCoolingGas) {
+  const double density = 10000 / std::pow(24.0, 3);
+  const auto result = forecast(cooling, {1, 0}, density, until_energy(1e-11));
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->stop, Stop::energy);
+  EXPECT_NEAR(result->time * theory_time_scale(density) / 1.087e7, 1, 1e-3);
+  EXPECT_NEAR(result->collisions_per_needle, 352.9, 0.1);
+  EXPECT_NEAR(result->energy_ratio, 1e-11, 1e-15);
+}
+
+TEST(Forecast, EndsAtTheTimeAskedFor) {
+  Scene::Until until;
+  until.time = 20;
+  const double density = 0.7;
+  const auto result = forecast(elastic, {1, 1}, density, until);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->stop, Stop::time);
+  EXPECT_DOUBLE_EQ(result->time, 20);
+  EXPECT_NEAR(result->collisions_per_needle, 20 * theory::collision_rate(density, {1, 1}, 6), 1e-6);
+  EXPECT_NEAR(result->energy_ratio, 1, 1e-12);
+}
+
+TEST(Forecast, AgreesWithTheCurveWhereverItEnds) {
+  const double density = 3;
+  for (const double collisions : {1e-6, 0.01, 1.0, 30.0, 500.0}) {
+    Scene::Until until;
+    until.collisions_per_needle = collisions;
+    const auto result = forecast(cooling, {1, 0.3}, density, until);
+    ASSERT_TRUE(result) << collisions;
+    EXPECT_EQ(result->stop, Stop::collisions);
+    const std::vector<double> taus{result->time * theory_time_scale(density)};
+    EXPECT_NEAR(theory::collisions_per_needle(cooling, {1, 0.3}, taus)[0] / collisions, 1, 2e-3);
+    const double energy = theory::cooling_curve(cooling, {1, 0.3}, taus)[0].energy();
+    EXPECT_NEAR(result->energy_ratio / (energy / 1.8), 1, 2e-3) << collisions;
+  }
+}
+
+TEST(Forecast, TakesTheFirstConditionMet) {
+  Scene::Until until = until_energy(0.5);
+  until.collisions_per_needle = 1000;
+  until.time = 1e9;
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until)->stop, Stop::energy);
+  until.time = 1e-3;
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until)->stop, Stop::time);
+  until.collisions_per_needle = 1e-5;
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until)->stop, Stop::collisions);
+}
+
+TEST(Forecast, SaysNothingOfWhatNeverHappens) {
+  EXPECT_FALSE(forecast(elastic, {1, 1}, 1, until_energy(0.5)));
+  Scene::Until until;
+  until.collisions_per_needle = 1;
+  EXPECT_FALSE(forecast(cooling, {0, 0}, 1, until));
+  until = {};
+  until.wall_s = 10;
+  EXPECT_FALSE(forecast(cooling, {1, 1}, 1, until));
+}
+
+TEST(Forecast, KnowsWhatIsMetFromTheStart) {
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until_energy(1))->time, 0);
+  Scene::Until until;
+  until.time = 0;
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until)->collisions_per_needle, 0);
+  until = {};
+  until.collisions_per_needle = 0;
+  EXPECT_EQ(forecast(cooling, {1, 1}, 1, until)->time, 0);
+}
+
+TEST(Forecast, OfAGasAtRestIsItsEndTime) {
+  Scene::Until until;
+  until.time = 7;
+  const auto result = forecast(cooling, {0, 0}, 1, until);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->time, 7);
+  EXPECT_EQ(result->collisions_per_needle, 0);
+}
+
+}  // namespace
+}  // namespace needlework
