@@ -8,4 +8,4 @@ install_packages
 configure_release OFF
 cmake --build --preset release
 echo
-build/release/needlework run profiles/quickstart.toml
+build/release/needlework run profiles/quickstart.toml --out build/quickstart.h5 --force
