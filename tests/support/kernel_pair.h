@@ -7,6 +7,7 @@
 #include "kernels/contact_function.h"
 #include "src/physics/director.h"
 #include "tests/support/pair_families.h"
+#include "tests/support/vector.h"
 
 namespace needlework::test {
 
