@@ -35,7 +35,7 @@ inline DoubleDouble quick_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-/// a * b exactly; |a|, |b| < 2^990 and the product's low part not subnormal.
+/// a * b exactly; |a|, |b| < 2^990, |a b| < 2^1023 and the product's low part not subnormal.
 inline DoubleDouble two_prod(double a, double b) {
   constexpr double splitter = 134217729.0;  // 2^27 + 1
   const double p = a * b;

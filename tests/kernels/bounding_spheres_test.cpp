@@ -1,0 +1,132 @@
+// The first filter: it must never drop a pair that comes within L, and should drop the rest.
+#include "kernels/bounding_spheres.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/kernel_pair.h"
+#include "tests/support/random.h"
+#include "tests/support/real.h"
+
+namespace needlework::kernels {
+namespace {
+
+using test::Quad;
+using test::Random;
+using test::vec3;
+
+constexpr std::uint64_t seed = 808;
+constexpr int count = 20000;
+
+// The least of |r + v s|^2 for s in [0, until], in 113 bits.
+Quad least_square(const Vec3d& r, const Vec3d& v, double until) {
+  const auto product = [](const Vec3d& a, const Vec3d& b) {
+    return Quad(Quad(a.x) * b.x + Quad(a.y) * b.y + Quad(a.z) * b.z);
+  };
+  const Quad rr = product(r, r), rv = product(r, v), vv = product(v, v);
+  Quad s = vv > 0 ? Quad(-rv / vv) : Quad(0);
+  s = std::min(std::max(s, Quad(0)), Quad(until));
+  return rr + 2 * rv * s + vv * s * s;
+}
+
+// Centres that pass each other at this distance of closest approach, at `time`.
+struct Passage {
+  Vec3d r, v;
+};
+Passage passage(Random& random, double distance, double time, double speed) {
+  const Vec3d v = vec3(random.direction());
+  const Vec3d across = normalised(cross(v, vec3(random.direction())));
+  return {across * distance - v * (speed * time), v * speed};
+}
+
+TEST(BoundingSpheres, NeverDropAPairThatComesWithinReach) {
+  Random random(seed);
+  int near = 0;
+  for (int n = 0; n < count; ++n) {
+    const double speed = random.log_uniform(1e-6, 1e6);
+    const double time = random.log_uniform(1e-3, 1e3) / speed;
+    const double distance = 1 + (n % 4 - 2) * random.log_uniform(1e-17, 1e-1);
+    const Passage p = passage(random, distance, n % 3 == 0 ? 0 : time, speed);
+    // Some searches end before the nearest approach, next to it, or after.
+    const double until = n % 5 == 0 ? time : n % 5 == 1 ? time * random.uniform() : 3 * time;
+    if (least_square(p.r, p.v, until) > 1) continue;
+    ++near;
+    ASSERT_FALSE(spheres_stay_apart(p.r, p.v, until))
+        << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
+        << seed << ", pair " << n;
+  }
+  EXPECT_GT(near, count / 4);
+}
+
+TEST(BoundingSpheres, DropAPairThatStaysBeyondTheMargin) {
+  Random random(seed);
+  int apart = 0;
+  for (int n = 0; n < count; ++n) {
+    const double speed = random.log_uniform(1e-6, 1e6);
+    const double time = random.log_uniform(1e-3, 1e2) / speed;
+    const double distance = 1 + random.log_uniform(1e-6, 1);
+    const Passage p = passage(random, distance, time, speed);
+    const double until = 2 * random.uniform() * time;
+    if (least_square(p.r, p.v, until) < 1 + 0x1p-19) continue;
+    ++apart;
+    ASSERT_TRUE(spheres_stay_apart(p.r, p.v, until))
+        << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
+        << seed << ", pair " << n;
+  }
+  EXPECT_GT(apart, count / 2);
+}
+
+TEST(BoundingSpheres, AgreeWithSampledMotion) {
+  Random random(seed);
+  int apart = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Vec3d r = vec3(random.normal_vector(1.5)), v = vec3(random.normal_vector(1));
+    const double until = random.uniform(0, 4);
+    double least = HUGE_VAL;
+    for (int i = 0; i <= 200; ++i) {
+      const Vec3d here = r + v * (until * i / 200);
+      least = std::min(least, dot(here, here));
+    }
+    const bool says = spheres_stay_apart(r, v, until);
+    apart += says;
+    // Between two samples the distance changes by at most |v| until / 400.
+    const double slack = std::sqrt(dot(v, v)) * until / 400;
+    if (least < 1) {
+      ASSERT_FALSE(says) << "seed " << seed << ", pair " << n;
+    } else if (std::sqrt(least) > 1 + 1e-6 + slack) {
+      ASSERT_TRUE(says) << "seed " << seed << ", pair " << n;
+    }
+  }
+  EXPECT_GT(apart, 1000);
+}
+
+TEST(BoundingSpheres, SettleTheSimpleCases) {
+  EXPECT_FALSE(spheres_stay_apart({0.5, 0, 0}, {1, 0, 0}, 1)) << "within reach at once";
+  EXPECT_FALSE(spheres_stay_apart({1, 0, 0}, {0, 0, 0}, 1)) << "on the border";
+  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {0, 0, 0}, 1e300)) << "at rest";
+  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {1, 0, 0}, 1e300)) << "parting";
+  EXPECT_TRUE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 1.9)) << "not there yet";
+  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 2.1)) << "there in time";
+  EXPECT_TRUE(spheres_stay_apart({3, 1.01, 0}, {-1, 0, 0}, 10)) << "passing by";
+  EXPECT_FALSE(spheres_stay_apart({3, 0.99, 0}, {-1, 0, 0}, 10)) << "passing through";
+  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, HUGE_VAL)) << "without an end";
+}
+
+TEST(BoundingSpheres, KnowNoUnitOfTime) {
+  Random random(seed);
+  for (int n = 0; n < 5000; ++n) {
+    const Passage p =
+        passage(random, 1 + random.uniform(-0x1p-19, 0x1p-18), random.uniform(0, 5), 1);
+    const double until = random.uniform(0, 5);
+    const bool says = spheres_stay_apart(p.r, p.v, until);
+    for (const double slow : {0x1p-60, 0x1p60, 0x1p-300}) {
+      ASSERT_EQ(spheres_stay_apart(p.r, p.v * slow, until / slow), says) << "seed " << seed;
+    }
+    ASSERT_EQ(spheres_stay_apart(-p.r, -p.v, until), says) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace needlework::kernels

@@ -1,0 +1,99 @@
+// Pairs as the kernels see them, held by value, and what leaves their contacts the same.
+#pragma once
+
+#include <cmath>
+#include <utility>
+
+#include "kernels/contact_function.h"
+#include "src/physics/director.h"
+#include "tests/support/pair_families.h"
+#include "tests/support/vector.h"
+
+namespace needlework::test {
+
+struct KernelPair {
+  kernels::Flight first, second;
+  DoubleDouble elapsed_first, elapsed_second;
+  Vec3dd shift;
+  kernels::Touch touch;
+  double touch_within = 0;
+
+  /// Refers to this pair, which must outlive it.
+  kernels::Pair view() const {
+    return {.first = &first,
+            .second = &second,
+            .elapsed_first = elapsed_first,
+            .elapsed_second = elapsed_second,
+            .shift = shift,
+            .touch = touch,
+            .touch_within = touch_within};
+  }
+};
+
+inline Vec3d vec3(const Vec<double>& a) { return {a[0], a[1], a[2]}; }
+
+/// A record: director normalised, angular velocity made normal to it.
+inline kernels::Flight flight(const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
+  kernels::Flight out;
+  out.r = r;
+  out.u = normalised(u);
+  out.v = v;
+  out.w = project_out(w, out.u);
+  set_rotation(out);
+  return out;
+}
+
+inline kernels::Flight flight(const FreeNeedle& needle) {
+  return flight(vec3(needle.position), vec3(needle.orientation), vec3(needle.velocity),
+                vec3(needle.angular_velocity));
+}
+
+inline KernelPair kernel_pair(const NeedlePair& pair) {
+  KernelPair out;
+  out.first = flight(pair.first);
+  out.second = flight(pair.second);
+  return out;
+}
+
+inline double power_of_two(double a, int power) { return std::ldexp(a, power); }
+inline DoubleDouble power_of_two(const DoubleDouble& a, int power) {
+  return {std::ldexp(a.hi, power), std::ldexp(a.lo, power)};
+}
+
+/// The contact function stays the same.
+inline KernelPair exchanged(KernelPair pair) {
+  std::swap(pair.first, pair.second);
+  std::swap(pair.elapsed_first, pair.elapsed_second);
+  pair.shift = -pair.shift;
+  return pair;
+}
+
+/// The mirror image in the plane x = y: the contact function changes its sign.
+inline KernelPair axes_swapped(KernelPair pair) {
+  for (kernels::Flight* needle : {&pair.first, &pair.second}) {
+    std::swap(needle->r.x, needle->r.y);
+    std::swap(needle->u.x, needle->u.y);
+    std::swap(needle->v.x, needle->v.y);
+    needle->w = {-needle->w.y, -needle->w.x, -needle->w.z};
+    set_rotation(*needle);
+  }
+  std::swap(pair.shift.x, pair.shift.y);
+  pair.touch.side = -pair.touch.side;
+  pair.touch.gap = -pair.touch.gap;
+  return pair;
+}
+
+/// Velocities times 2^-power, times times 2^power.
+inline KernelPair slowed(KernelPair pair, int power) {
+  for (kernels::Flight* needle : {&pair.first, &pair.second}) {
+    for (Vec3d* a : {&needle->v, &needle->w}) {
+      *a = {std::ldexp(a->x, -power), std::ldexp(a->y, -power), std::ldexp(a->z, -power)};
+    }
+    set_rotation(*needle);
+  }
+  pair.elapsed_first = power_of_two(pair.elapsed_first, power);
+  pair.elapsed_second = power_of_two(pair.elapsed_second, power);
+  return pair;
+}
+
+}  // namespace needlework::test
