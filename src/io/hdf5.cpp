@@ -1,0 +1,240 @@
+#include "src/io/hdf5.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src/error.h"
+
+namespace needlework::io::hdf5 {
+namespace {
+
+std::recursive_mutex& library_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
+  if (depth == 0 && error->desc) *static_cast<std::string*>(text) = error->desc;
+  return 0;
+}
+
+// The message of a failed system call is long and spans lines; the reason stands in it as
+// "error message = 'REASON', buf = ...".
+std::string system_reason(const std::string& text) {
+  const std::string mark = "error message = '";
+  const auto mark_at = text.find(mark);
+  if (mark_at == std::string::npos) return {};
+  const auto begin = mark_at + mark.size();
+  const auto end = text.find('\'', begin);
+  return end == std::string::npos ? std::string() : text.substr(begin, end - begin);
+}
+
+std::vector<std::string> split_fixed(const std::vector<char>& bytes, std::size_t length) {
+  std::vector<std::string> strings;
+  for (std::size_t at = 0; at + length <= bytes.size(); at += length) {
+    std::string text(bytes.data() + at, length);
+    strings.push_back(text.substr(0, text.find('\0')));
+  }
+  return strings;
+}
+
+// Reads strings with `read(memory_type, buffer)`, the one call in which attributes and datasets
+// differ.
+template <class Read>
+std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::string& place,
+                                           Read read) {
+  if (H5Tget_class(type) != H5T_STRING) return {};
+  const auto count = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), place));
+  const Handle memory(H5Tcopy(type), H5Tclose, place);
+  if (check(H5Tis_variable_str(type), place) == 0) {
+    const std::size_t length = H5Tget_size(type);
+    std::vector<char> bytes(count * length);
+    check(read(memory.get(), bytes.data()), place);
+    return split_fixed(bytes, length);
+  }
+  std::vector<char*> pointers(count, nullptr);
+  check(read(memory.get(), pointers.data()), place);
+  std::vector<std::string> strings;
+  for (const char* pointer : pointers) strings.emplace_back(pointer ? pointer : "");
+  check(H5Dvlen_reclaim(memory.get(), space, H5P_DEFAULT, pointers.data()), place);
+  return strings;
+}
+
+bool is_kind(hid_t parent, const std::string& name, H5I_type_t kind, const std::string& place) {
+  if (!exists(parent, name, place)) return false;
+  const Handle object(H5Oopen(parent, name.c_str(), H5P_DEFAULT), H5Oclose, place);
+  return H5Iget_type(object.get()) == kind;
+}
+
+}  // namespace
+
+Session::Session() : lock_(library_mutex()) {
+  H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+
+std::string last_error() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &text);
+  if (std::string reason = system_reason(text); !reason.empty()) return reason;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "unknown HDF5 error" : "HDF5: " + text;
+}
+
+void fail(const std::string& place) { throw IoError(fmt::format("{}: {}", place, last_error())); }
+
+Handle::Handle(Handle&& other) noexcept
+    : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    release();
+    id_ = std::exchange(other.id_, H5I_INVALID_HID);
+    close_ = other.close_;
+  }
+  return *this;
+}
+
+void Handle::close(const std::string& place) {
+  const Session session;
+  check(release(), place);
+}
+
+herr_t Handle::release() noexcept {
+  const hid_t id = std::exchange(id_, H5I_INVALID_HID);
+  if (id < 0) return 0;
+  const Session session;
+  return close_(id);
+}
+
+std::string to_string(const Shape& shape) {
+  if (shape.empty()) return "[]";
+  std::string text;
+  for (const hsize_t extent : shape) text += fmt::format("[{}]", extent);
+  return text;
+}
+
+Handle create_group(hid_t parent, const std::string& name, const std::string& place) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, place};
+}
+
+Handle open_group(hid_t parent, const std::string& name, const std::string& place) {
+  return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, place};
+}
+
+Handle open_dataset(hid_t parent, const std::string& name, const std::string& place) {
+  return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, place};
+}
+
+void write_attribute(hid_t object, const std::string& name, const std::string& value,
+                     const std::string& place) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
+  check(H5Tset_size(type.get(), std::max<std::size_t>(value.size(), 1)), place);
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      place);
+  check(H5Awrite(attribute.get(), type.get(), value.c_str()), place);
+}
+
+void write_attribute(hid_t object, const std::string& name, std::span<const std::string> values,
+                     const std::string& place) {
+  std::string bytes;
+  for (const std::string& value : values) bytes += value;
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
+  check(H5Tset_size(type.get(), bytes.size() / values.size()), place);
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
+  const hsize_t count = values.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, place);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      place);
+  check(H5Awrite(attribute.get(), type.get(), bytes.data()), place);
+}
+
+void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> values,
+                     const Shape& dimensions, const std::string& place) {
+  const hid_t space_id = dimensions.empty() ? H5Screate(H5S_SCALAR)
+                                            : H5Screate_simple(static_cast<int>(dimensions.size()),
+                                                               dimensions.data(), nullptr);
+  const Handle space(space_id, H5Sclose, place);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), H5T_NATIVE_INT32, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, place);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_INT32, values.data()), place);
+}
+
+void write_scalar(hid_t group, const std::string& name, const std::string& value,
+                  const std::string& place) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
+  check(H5Tset_size(type.get(), H5T_VARIABLE), place);
+  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
+  const Handle dataset(H5Dcreate2(group, name.c_str(), type.get(), space.get(), H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose, place);
+  const char* text = value.c_str();
+  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text), place);
+}
+
+Shape shape_of(hid_t dataset, const std::string& place) {
+  const Handle space(H5Dget_space(dataset), H5Sclose, place);
+  Shape shape(static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space.get()), place)));
+  check(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), place);
+  return shape;
+}
+
+bool exists(hid_t object, const std::string& path, const std::string& place) {
+  // H5Lexists asks for the last link only, and fails when one before it is missing.
+  for (auto end = path.find('/');; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (!part.empty()) {
+      if (check(H5Lexists(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
+      if (check(H5Oexists_by_name(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
+    }
+    if (end == std::string::npos) return true;
+  }
+}
+
+std::vector<std::string> children(hid_t group, const std::string& place) {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), place);
+  return names;
+}
+
+bool is_group(hid_t parent, const std::string& name, const std::string& place) {
+  return is_kind(parent, name, H5I_GROUP, place);
+}
+
+bool is_dataset(hid_t parent, const std::string& name, const std::string& place) {
+  return is_kind(parent, name, H5I_DATASET, place);
+}
+
+std::vector<std::string> read_strings_attribute(hid_t object, const std::string& name,
+                                                const std::string& place) {
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, place);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose, place);
+  const Handle space(H5Aget_space(attribute.get()), H5Sclose, place);
+  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
+    return H5Aread(attribute.get(), memory, buffer);
+  });
+}
+
+std::vector<std::string> read_strings(hid_t dataset, const std::string& place) {
+  const Handle type(H5Dget_type(dataset), H5Tclose, place);
+  const Handle space(H5Dget_space(dataset), H5Sclose, place);
+  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
+    return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+  });
+}
+
+}  // namespace needlework::io::hdf5
