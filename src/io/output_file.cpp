@@ -1,0 +1,291 @@
+#include "src/io/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "src/error.h"
+
+#if H5_VERSION_GE(1, 13, 0)
+#include <H5FDdevelop.h>
+#endif
+
+namespace needlework::io {
+
+using hdf5::check;
+using hdf5::Handle;
+
+namespace {
+
+// The system's, over which a write is not atomic: kill -9 can end one at a page boundary, and
+// metadata with half of a change in them have a wrong checksum. So HDF5 must not let them cross
+// one. (Blocks of its chunk index that are larger begin with the 8181st chunk of a dataset.)
+constexpr hsize_t page_size = 4096;
+
+// The driver's entry in a list of file access properties.
+struct DriverSettings {
+  int* error;
+};
+
+// A file as HDF5 sees it. The disk lacks what is in `kept`: metadata between flushes, and after a
+// failed write everything.
+struct DriverFile : H5FD_t {
+  struct Kept {
+    haddr_t address;
+    std::vector<std::byte> bytes;
+  };
+
+  int descriptor = -1;
+  int* error = nullptr;
+  haddr_t end_of_allocation = 0;
+  haddr_t end_of_file = 0;
+  haddr_t size_on_disk = 0;
+  std::vector<Kept> kept;  // in the order of writing
+};
+
+DriverFile& driver_file(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
+
+const DriverFile& driver_file(const H5FD_t* file) { return *static_cast<const DriverFile*>(file); }
+
+// Nothing may be thrown through HDF5.
+template <class Action>
+herr_t guarded(Action action) noexcept {
+  try {
+    action();
+    return 0;
+  } catch (const std::exception&) {
+    return -1;
+  }
+}
+
+H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
+  const auto* settings = static_cast<const DriverSettings*>(H5Pget_driver_info(access));
+  const int create = (flags & H5F_ACC_TRUNC) != 0 ? O_CREAT | O_TRUNC : 0;
+  const int descriptor = open(name, O_RDWR | O_CLOEXEC | create, 0666);
+  if (descriptor < 0) {
+    *settings->error = errno;
+    return nullptr;
+  }
+  struct stat status;
+  auto* file = fstat(descriptor, &status) == 0 ? new (std::nothrow) DriverFile : nullptr;
+  if (!file) {
+    close(descriptor);
+    return nullptr;
+  }
+  file->descriptor = descriptor;
+  file->error = settings->error;
+  file->end_of_file = file->size_on_disk = static_cast<haddr_t>(status.st_size);
+  // Readers lock files of theirs in the same way, writers exclusively. Not all file systems can.
+  flock(descriptor, LOCK_SH | LOCK_NB);
+  return file;
+}
+
+herr_t driver_query(const H5FD_t*, unsigned long* flags) {
+  if (!flags) return 0;
+  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
+           H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE |
+           H5FD_FEAT_SUPPORTS_SWMR_IO | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  return 0;
+}
+
+haddr_t driver_get_eoa(const H5FD_t* file, H5FD_mem_t) {
+  return driver_file(file).end_of_allocation;
+}
+
+herr_t driver_set_eoa(H5FD_t* file, H5FD_mem_t, haddr_t address) {
+  driver_file(file).end_of_allocation = address;
+  return 0;
+}
+
+haddr_t driver_get_eof(const H5FD_t* file, H5FD_mem_t) { return driver_file(file).end_of_file; }
+
+herr_t driver_get_handle(H5FD_t* file, hid_t, void** handle) {
+  *handle = &driver_file(file).descriptor;
+  return 0;
+}
+
+// Copies the part of what was kept that lies in the `size` bytes from `address` on.
+void copy_kept(const DriverFile::Kept& kept, haddr_t address, std::size_t size, std::byte* to) {
+  const haddr_t begin = std::max(address, kept.address);
+  const haddr_t end = std::min(address + size, kept.address + kept.bytes.size());
+  if (begin >= end) return;
+  std::memcpy(to + (begin - address), kept.bytes.data() + (begin - kept.address), end - begin);
+}
+
+herr_t driver_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
+                   void* buffer) {
+  const DriverFile& file = driver_file(base);
+  auto* const bytes = static_cast<std::byte*>(buffer);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t got =
+        pread(file.descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
+    if (got < 0 && errno != EINTR) return -1;
+    if (got == 0) break;
+    if (got > 0) done += static_cast<std::size_t>(got);
+  }
+  // What was allocated but never written is zero.
+  std::fill(bytes + done, bytes + size, std::byte{0});
+  for (const DriverFile::Kept& kept : file.kept) copy_kept(kept, address, size, bytes);
+  return 0;
+}
+
+// The result is an errno, or 0.
+int write_fully(int descriptor, const std::byte* bytes, std::size_t size, haddr_t address) {
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t put =
+        pwrite(descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
+    if (put < 0 && errno != EINTR) return errno;
+    if (put == 0) return ENOSPC;
+    if (put > 0) done += static_cast<std::size_t>(put);
+  }
+  return 0;
+}
+
+void write_to_disk(DriverFile& file, haddr_t address, const std::byte* bytes, std::size_t size) {
+  *file.error = write_fully(file.descriptor, bytes, size, address);
+  file.size_on_disk = std::max(file.size_on_disk, address + size);
+}
+
+herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size,
+                    const void* buffer) {
+  return guarded([&] {
+    DriverFile& file = driver_file(base);
+    const auto* const bytes = static_cast<const std::byte*>(buffer);
+    if (type == H5FD_MEM_DRAW && *file.error == 0) write_to_disk(file, address, bytes, size);
+    if (type != H5FD_MEM_DRAW || *file.error != 0) {
+      file.kept.push_back({address, {bytes, bytes + size}});
+    }
+    file.end_of_file = std::max(file.end_of_file, address + size);
+  });
+}
+
+void set_size_on_disk(DriverFile& file, haddr_t size) {
+  if (*file.error != 0 || size == file.size_on_disk) return;
+  if (ftruncate(file.descriptor, static_cast<off_t>(size)) != 0) *file.error = errno;
+  file.size_on_disk = size;
+}
+
+// The superblock, at address 0, tells the size of the file, and readers refuse a file that is
+// shorter and metadata that point behind it. So the order is size, superblock, metadata.
+void write_kept(DriverFile& file) {
+  set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
+  std::stable_partition(file.kept.begin(), file.kept.end(),
+                        [](const DriverFile::Kept& kept) { return kept.address == 0; });
+  for (const DriverFile::Kept& kept : file.kept) {
+    if (*file.error != 0) return;
+    write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
+  }
+  file.kept.clear();
+}
+
+herr_t driver_flush(H5FD_t* base, hid_t, hbool_t) {
+  return guarded([&] { write_kept(driver_file(base)); });
+}
+
+herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t) {
+  DriverFile& file = driver_file(base);
+  file.end_of_file = file.end_of_allocation;
+  return 0;
+}
+
+herr_t driver_close(H5FD_t* base) {
+  DriverFile& file = driver_file(base);
+  guarded([&] { write_kept(file); });
+  set_size_on_disk(file, file.end_of_allocation);
+  // Some file systems tell only now that there was no room.
+  if (close(file.descriptor) != 0 && *file.error == 0) *file.error = errno;
+  delete &file;
+  return 0;
+}
+
+Handle register_driver(const std::string& place) {
+  H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = 311;  // of those left for testing and own use
+#endif
+  driver.name = "needlework";
+  driver.maxaddr = (haddr_t{1} << 63) - 1;
+  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.fapl_size = sizeof(DriverSettings);
+  driver.open = driver_open;
+  driver.close = driver_close;
+  driver.query = driver_query;
+  driver.get_eoa = driver_get_eoa;
+  driver.set_eoa = driver_set_eoa;
+  driver.get_eof = driver_get_eof;
+  driver.get_handle = driver_get_handle;
+  driver.read = driver_read;
+  driver.write = driver_write;
+  driver.flush = driver_flush;
+  driver.truncate = driver_truncate;
+  const H5FD_mem_t map[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
+  std::copy(std::begin(map), std::end(map), std::begin(driver.fl_map));
+  return {H5FDregister(&driver), H5FDunregister, place};
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string name, std::string place)
+    : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, place_);
+  const bool keep_free_space = false;
+  check(H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, keep_free_space, 1),
+        place_);
+  check(H5Pset_file_space_page_size(creation.get(), page_size), place_);
+  const Handle access = make_access();
+  const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
+  if (file < 0) require_written();
+  file_ = Handle(file, H5Fclose, place_);
+}
+
+OutputFile::~OutputFile() = default;
+
+void OutputFile::require_written() const {
+  if (*error_ == 0) return;
+  throw IoError(fmt::format("{}: {}", place_, std::generic_category().message(*error_)));
+}
+
+Handle OutputFile::make_access() const {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, place_);
+  // SWMR needs the format of HDF5 1.10; nothing newer is allowed, so that 1.10 can read the file.
+  check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
+  const Handle driver = register_driver(place_);
+  const DriverSettings settings{error_.get()};
+  check(H5Pset_driver(access.get(), driver.get(), &settings), place_);
+  return access;
+}
+
+// H5Fstart_swmr_write would mark the file as open.
+void OutputFile::start_swmr() {
+  close();
+  const Handle access = make_access();
+  const hid_t file = H5Fopen(name_.c_str(), H5F_ACC_RDWR | H5F_ACC_SWMR_WRITE, access.get());
+  if (file < 0) require_written();
+  file_ = Handle(file, H5Fclose, place_);
+}
+
+void OutputFile::flush() {
+  check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), place_);
+  require_written();
+}
+
+void OutputFile::close() {
+  file_.close(place_);
+  require_written();
+}
+
+}  // namespace needlework::io
