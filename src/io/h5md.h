@@ -7,7 +7,8 @@
 //                         angular_velocity, each [F][N][3]; id [N], mass [N]
 //   /observables          t_tr, t_rot, energy, momentum [F][3], collisions, tc_collisions, each [F]
 //   /series               the same sums, each [S], and their step and time
-//   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair (ids), arms, each
+//   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair (ids), arms,
+//   each
 //                         [E][2]; shift, impulse, each [E][3]; see Collision
 //   /parameters           scene, title, version, seed, isa, threads, epoch_length, k, epsilon, beta
 //
@@ -17,8 +18,8 @@
 // the finer series are kept apart from it. Everything is in the units of the scene, so there are no
 // unit attributes.
 //
-// HDF5 is entered by one thread at a time: the functions here wait for each other, but not for other
-// code of the process that uses HDF5.
+// HDF5 is entered by one thread at a time: the functions here wait for each other, but not for
+// other code of the process that uses HDF5.
 #pragma once
 
 #include <memory>
@@ -37,19 +38,18 @@ struct RunInfo {
 };
 
 /// Writes one run to one file. All that was written before the last flush() survives the death of
-/// the program at any moment, kill -9 included; power failures are the file system's business. Until
-/// it is closed, and after a crash, HDF5 opens the file for SWMR reading only (h5py: `swmr=True`), as
-/// read_last_frame() and describe() do by themselves, also while the run goes on; a closed file
-/// opens anywhere, with HDF5 1.10 and later.
+/// the program at any moment, kill -9 and full disks included; power failures are the file system's
+/// business. The file opens in HDF5 1.10 and later like any other, be it closed, left behind or
+/// still being written; in the latter two, only rows that have a step count.
 ///
-/// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and again
-/// when used after that; std::logic_error when used wrongly.
+/// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and
+/// again when used after that; std::logic_error when used wrongly.
 class Writer {
  public:
   /// Creates the file: under a temporary name in the same folder, and under its own when a valid
-  /// header is in it. An existing file is replaced if `force`, else IoError; a directory or a device
-  /// never. scene.needles.count must be the number of needles of all frames, also when the scene
-  /// takes its initial state from a file; /events exists if scene.output.events.
+  /// header is in it. An existing file is replaced if `force`, else IoError; a directory or a
+  /// device never. scene.needles.count must be the number of needles of all frames, also when the
+  /// scene takes its initial state from a file; /events exists if scene.output.events.
   Writer(const std::string& path, bool force, const Scene& scene, const RunInfo& run);
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
@@ -77,13 +77,15 @@ class Writer {
 };
 
 /// Reads the last frame of any H5MD file that has position, velocity, orientation and
-/// angular_velocity in /particles/needles, or in the only group under /particles, whatever its name.
+/// angular_velocity in /particles/needles, or in the only group under /particles, whatever its
+/// name.
 ///
 /// Each may be an H5MD element of [F][N][3] or a plain dataset [N][3], of any kind of number. Box
 /// edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], plain or an element; id and
 /// image plain, an element, or none; mass is not needed. Elements with steps of their own are read
 /// at the last step that all have. Centres may lie on or outside the edges of the box. Numbers are
-/// taken as they are, without any normalisation: |u| = 1 and u·w = 0 must hold within 1e-6 (of |w|).
+/// taken as they are, without any normalisation: |u| = 1 and u·w = 0 must hold within 1e-6 (of
+/// |w|).
 ///
 /// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
 /// "PATH: /DATASET[index] = VALUE: expected ...".

@@ -1,0 +1,165 @@
+#include "src/io/layout.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+
+#include "src/io/column.h"
+
+namespace needlework::io {
+
+using hdf5::check;
+using hdf5::create_group;
+using hdf5::Handle;
+using hdf5::Shape;
+using hdf5::type_of;
+
+namespace {
+
+constexpr hsize_t samples_per_chunk = 256;
+constexpr hsize_t events_per_chunk = 8192;
+
+// Small frames share a chunk of about 16 kB, large ones have one each.
+hsize_t frames_per_chunk(std::uint64_t needles) {
+  return std::clamp<hsize_t>(16384 / (24 * std::max<std::uint64_t>(needles, 1)), 1, 64);
+}
+
+// The step and time datasets of one time grid.
+struct Grid {
+  Handle step;
+  Handle time;
+};
+
+Grid make_grid(hid_t group, const std::string& place) {
+  return {Column::create(group, "step", type_of<std::int64_t>(), {}, samples_per_chunk, place),
+          Column::create(group, "time", type_of<double>(), {}, samples_per_chunk, place)};
+}
+
+// An H5MD element. What is sampled together has the same step and time by hard links.
+void make_element(hid_t parent, const std::string& name, const Grid& grid, hid_t type,
+                  const Shape& row, hsize_t chunk_rows, const std::string& place) {
+  const Handle group = create_group(parent, name, place);
+  check(H5Olink(grid.step.get(), group.get(), "step", H5P_DEFAULT, H5P_DEFAULT), place);
+  check(H5Olink(grid.time.get(), group.get(), "time", H5P_DEFAULT, H5P_DEFAULT), place);
+  Column::create(group.get(), "value", type, row, chunk_rows, place);
+}
+
+void make_totals(hid_t group, const Grid& grid, const std::string& place) {
+  const auto make = [&](const char* name, hid_t type, const Shape& row) {
+    make_element(group, name, grid, type, row, samples_per_chunk, place);
+  };
+  make("t_tr", type_of<double>(), {});
+  make("t_rot", type_of<double>(), {});
+  make("energy", type_of<double>(), {});
+  make("momentum", type_of<double>(), {3});
+  // Signed, because NumPy makes floating point of uint64 and int64 together.
+  make("collisions", type_of<std::int64_t>(), {});
+  make("tc_collisions", type_of<std::int64_t>(), {});
+}
+
+// A dataset that does not depend on time, one number a needle.
+template <class Number>
+void make_constant(hid_t group, const char* name, const std::vector<Number>& values,
+                   const std::string& place) {
+  const hsize_t rows = values.size();
+  const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose, place);
+  const hid_t type = type_of<Number>();
+  const Handle dataset(
+      H5Dcreate2(group, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+      place);
+  if (rows > 0) {
+    check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
+  }
+}
+
+Handle make_box(hid_t needles, const std::string& place) {
+  Handle box = create_group(needles, "box", place);
+  const std::int32_t dimension = 3;
+  hdf5::write_attribute(box.get(), "dimension", std::span(&dimension, 1), {}, place);
+  const std::vector<std::string> boundary(3, "periodic");
+  hdf5::write_attribute(box.get(), "boundary", boundary, place);
+  return box;
+}
+
+Grid make_needles(hid_t group, std::uint64_t count, const std::string& place) {
+  const hsize_t rows = frames_per_chunk(count);
+  const Shape row{count, 3};
+  // H5MD has box and image share the step and time of position, so these lie there.
+  const Handle position = create_group(group, "position", place);
+  Grid grid = make_grid(position.get(), place);
+  Column::create(position.get(), "value", type_of<double>(), row, rows, place);
+  make_element(group, "image", grid, type_of<std::int32_t>(), row, rows, place);
+  for (const char* name : {"velocity", "orientation", "angular_velocity"}) {
+    make_element(group, name, grid, type_of<double>(), row, rows, place);
+  }
+  // MDAnalysis takes the edges as a matrix only.
+  const Handle box = make_box(group, place);
+  make_element(box.get(), "edges", grid, type_of<double>(), {3, 3}, 64, place);
+
+  std::vector<std::uint32_t> ids(count);
+  std::iota(ids.begin(), ids.end(), 0u);
+  make_constant(group, "id", ids, place);
+  make_constant(group, "mass", std::vector<double>(count, 1.0), place);
+  return grid;
+}
+
+void make_events(hid_t group, const std::string& place) {
+  const auto make = [&](const char* name, hid_t type, const Shape& row) {
+    Column::create(group, name, type, row, events_per_chunk, place);
+  };
+  make("time", type_of<double>(), {});
+  make("epoch", type_of<std::int64_t>(), {});
+  make("offset", type_of<double>(), {});
+  make("pair", type_of<std::uint32_t>(), {2});
+  make("arms", type_of<double>(), {2});
+  make("normal_velocity", type_of<double>(), {});
+  make("tc", type_of<std::uint8_t>(), {});
+  make("shift", type_of<std::int32_t>(), {3});
+  make("impulse", type_of<double>(), {3});
+}
+
+// H5MD 1.1 wants strings of fixed length in its attributes.
+void make_metadata(hid_t file, const std::string& place) {
+  const Handle h5md = create_group(file, "h5md", place);
+  const std::array<std::int32_t, 2> version{1, 1};
+  hdf5::write_attribute(h5md.get(), "version", version, {2}, place);
+  const Handle author = create_group(h5md.get(), "author", place);
+  hdf5::write_attribute(author.get(), "name", std::string("unknown"), place);
+  const Handle creator = create_group(h5md.get(), "creator", place);
+  hdf5::write_attribute(creator.get(), "name", std::string("needlework"), place);
+  hdf5::write_attribute(creator.get(), "version", std::string(NEEDLEWORK_VERSION), place);
+}
+
+void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place) {
+  const Handle parameters = create_group(file, "parameters", place);
+  const auto keep = [&](const char* name, const auto& value) {
+    hdf5::write_scalar(parameters.get(), name, value, place);
+  };
+  keep("scene", scene.text);
+  keep("title", scene.title);
+  keep("version", std::string(NEEDLEWORK_VERSION));
+  keep("seed", scene.needles.seed);
+  keep("isa", run.isa);
+  keep("threads", static_cast<std::int32_t>(run.threads));
+  keep("epoch_length", run.epoch_length);
+  keep("k", scene.needles.k);
+  keep("epsilon", scene.collisions.epsilon);
+  keep("beta", scene.collisions.beta);
+}
+
+}  // namespace
+
+void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place) {
+  make_metadata(file, place);
+  make_parameters(file, scene, run, place);
+  const Handle particles = create_group(file, "particles", place);
+  const Grid frames = make_needles(create_group(particles.get(), "needles", place).get(),
+                                   scene.needles.count, place);
+  make_totals(create_group(file, "observables", place).get(), frames, place);
+  const Handle series = create_group(file, "series", place);
+  make_totals(series.get(), make_grid(series.get(), place), place);
+  if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
+}
+
+}  // namespace needlework::io

@@ -1,0 +1,151 @@
+#include "src/io/tables.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace needlework::io {
+
+using hdf5::check;
+using hdf5::type_of;
+
+namespace {
+
+// Appends to `column` what `number(row, put)` puts for each row.
+template <class Number, class Row, class Numbers>
+void append_each(Column& column, std::span<const Row> rows, Numbers numbers) {
+  std::vector<Number> values;
+  const auto put = [&](auto value) { values.push_back(static_cast<Number>(value)); };
+  for (const Row& row : rows) numbers(row, put);
+  column.append(values.data(), rows.size());
+}
+
+template <class Number, class Row, class Member>
+void append_member(Column& column, std::span<const Row> rows, Member Row::*member) {
+  append_each<Number>(column, rows, [&](const Row& row, auto put) { put(row.*member); });
+}
+
+template <class Number, class Row, std::size_t size>
+void append_member(Column& column, std::span<const Row> rows,
+                   std::array<Number, size> Row::*member) {
+  append_each<Number>(column, rows, [&](const Row& row, auto put) {
+    for (const Number component : row.*member) put(component);
+  });
+}
+
+}  // namespace
+
+Clock::Clock(hid_t file, const std::string& group, const std::string& place)
+    : step_(file, group + "/step", place), time_(file, group + "/time", place) {}
+
+void Clock::append(std::span<const Totals> samples) {
+  append_member<double>(time_, samples, &Totals::time);
+  append_member<std::int64_t>(step_, samples, &Totals::collisions);
+}
+
+TotalsTable::TotalsTable(hid_t file, const std::string& group, const std::string& place)
+    : t_tr_(file, group + "/t_tr/value", place),
+      t_rot_(file, group + "/t_rot/value", place),
+      energy_(file, group + "/energy/value", place),
+      momentum_(file, group + "/momentum/value", place),
+      collisions_(file, group + "/collisions/value", place),
+      tc_collisions_(file, group + "/tc_collisions/value", place) {}
+
+void TotalsTable::append(std::span<const Totals> samples) {
+  append_member<double>(t_tr_, samples, &Totals::t_tr);
+  append_member<double>(t_rot_, samples, &Totals::t_rot);
+  append_member<double>(energy_, samples, &Totals::energy);
+  append_member(momentum_, samples, &Totals::momentum);
+  append_member<std::int64_t>(collisions_, samples, &Totals::collisions);
+  append_member<std::int64_t>(tc_collisions_, samples, &Totals::tc_collisions);
+}
+
+Frames::Frames(hid_t file, const std::string& place)
+    : place_(place),
+      id_(hdf5::open_dataset(file, "/particles/needles/id", place)),
+      needles_(hdf5::shape_of(id_.get(), place).at(0)),
+      ids_(needles_),
+      edges_(file, "/particles/needles/box/edges/value", place),
+      position_(file, "/particles/needles/position/value", place),
+      image_(file, "/particles/needles/image/value", place),
+      velocity_(file, "/particles/needles/velocity/value", place),
+      orientation_(file, "/particles/needles/orientation/value", place),
+      angular_velocity_(file, "/particles/needles/angular_velocity/value", place) {
+  std::iota(ids_.begin(), ids_.end(), 0u);
+}
+
+void Frames::append(const State& state) {
+  const auto fits = [&](const auto& array) { return array.size() == needles_; };
+  if (!fits(state.position) || !fits(state.velocity) || !fits(state.orientation) ||
+      !fits(state.angular_velocity) || !(state.image.empty() || fits(state.image)) ||
+      !(state.id.empty() || fits(state.id))) {
+    throw std::invalid_argument(fmt::format("{}: a frame of {} needles: expected {} in each array",
+                                            place_, state.size(), needles_));
+  }
+  keep_ids(state);
+  const std::array<double, 9> matrix{state.box[0], 0, 0, 0, state.box[1], 0, 0, 0, state.box[2]};
+  edges_.append(matrix.data(), 1);
+  const auto append_frame = [](Column& column, const auto& rows) {
+    column.append(
+        reinterpret_cast<const typename std::decay_t<decltype(rows[0])>::value_type*>(rows.data()),
+        1);
+  };
+  append_frame(position_, state.position);
+  append_frame(velocity_, state.velocity);
+  append_frame(orientation_, state.orientation);
+  append_frame(angular_velocity_, state.angular_velocity);
+  if (state.image.empty()) {
+    append_frame(image_, std::vector<std::array<std::int32_t, 3>>(needles_));
+  } else {
+    append_frame(image_, state.image);
+  }
+}
+
+void Frames::keep_ids(const State& state) {
+  const bool first = !std::exchange(ids_kept_, true);
+  if (state.id.empty() || state.id == ids_) return;
+  if (!first) {
+    throw std::invalid_argument(
+        fmt::format("{}: ids of a frame: expected those of the frame before", place_));
+  }
+  ids_ = state.id;
+  check(H5Dwrite(id_.get(), type_of<std::uint32_t>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, ids_.data()),
+        place_);
+}
+
+Events::Events(hid_t file, const std::string& place)
+    : time_(file, "/events/time", place),
+      epoch_(file, "/events/epoch", place),
+      offset_(file, "/events/offset", place),
+      pair_(file, "/events/pair", place),
+      arms_(file, "/events/arms", place),
+      normal_velocity_(file, "/events/normal_velocity", place),
+      tc_(file, "/events/tc", place),
+      shift_(file, "/events/shift", place),
+      impulse_(file, "/events/impulse", place) {}
+
+void Events::append(std::span<const Collision> collisions) {
+  append_member<std::int64_t>(epoch_, collisions, &Collision::epoch);
+  append_member<double>(offset_, collisions, &Collision::offset);
+  append_each<std::uint32_t>(pair_, collisions, [](const Collision& collision, auto put) {
+    put(collision.first);
+    put(collision.second);
+  });
+  append_each<double>(arms_, collisions, [](const Collision& collision, auto put) {
+    put(collision.arm_first);
+    put(collision.arm_second);
+  });
+  append_member<double>(normal_velocity_, collisions, &Collision::normal_velocity);
+  append_member<std::uint8_t>(tc_, collisions, &Collision::contact_time_rule);
+  append_member(shift_, collisions, &Collision::shift);
+  append_member(impulse_, collisions, &Collision::impulse);
+}
+
+void Events::append_times(std::span<const Collision> collisions) {
+  append_member<double>(time_, collisions, &Collision::time);
+}
+
+}  // namespace needlework::io
