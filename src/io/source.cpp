@@ -1,0 +1,163 @@
+#include "src/io/source.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <numeric>
+#include <system_error>
+
+#include "src/error.h"
+
+namespace needlework::io {
+
+using hdf5::check;
+using hdf5::Handle;
+using hdf5::Shape;
+
+namespace {
+
+std::uint64_t product(const Shape& shape, std::size_t first) {
+  return std::accumulate(shape.begin() + static_cast<std::ptrdiff_t>(first), shape.end(),
+                         std::uint64_t{1}, std::multiplies<>());
+}
+
+}  // namespace
+
+Source::Source(const std::string& path) : path_(path) {
+  const auto fail = [&](int error) {
+    throw IoError(fmt::format("{}: {}", path_, std::generic_category().message(error)));
+  };
+  // Not to wait for the other end of a pipe, O_NONBLOCK.
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) fail(errno);
+  struct stat status;
+  const int error = fstat(descriptor, &status) == 0 ? 0 : errno;
+  close(descriptor);
+  if (error != 0) fail(error);
+  if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (!S_ISREG(status.st_mode)) throw IoError(path + ": not a regular file");
+  bytes_ = static_cast<std::uint64_t>(status.st_size);
+
+  if (H5Fis_hdf5(path.c_str()) <= 0) throw IoError(path + ": not an HDF5 file");
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (file < 0) {
+    throw IoError(fmt::format("{}: damaged or cut short: {}", path, hdf5::last_error()));
+  }
+  file_ = Handle(file, H5Fclose, path);
+}
+
+Element::Element(const Source& source, const std::string& path)
+    : source_(&source),
+      path_(path),
+      is_group_(hdf5::is_group(source.get(), path, source.place(path))) {
+  name_ = is_group_ ? path + "/value" : path;
+  const std::string place = source.place(name_);
+  if (!hdf5::is_dataset(source.get(), name_, place)) {
+    throw InputError(fmt::format("{}: missing: expected a dataset", place));
+  }
+  value_ = hdf5::open_dataset(source.get(), name_, place);
+  const Handle type(H5Dget_type(value_.get()), H5Tclose, place);
+  if (const H5T_class_t kind = H5Tget_class(type.get()); kind != H5T_FLOAT && kind != H5T_INTEGER) {
+    throw InputError(
+        fmt::format("{}: no numbers in it: expected floating point or integers", place));
+  }
+  shape_ = hdf5::shape_of(value_.get(), place);
+  rows_ = shape_.empty() ? 0 : shape_[0];
+  if (!is_group_) return;
+
+  steps_ = read_grid<std::int64_t>("step");
+  if (!steps_) return;
+  if (steps_->size() > rows_) {
+    throw InputError(fmt::format("{}: {} steps: expected {}, one a row of {}",
+                                 source.place(path_ + "/step"), steps_->size(), rows_, name_));
+  }
+  rows_ = steps_->size();
+  const auto back = std::adjacent_find(steps_->begin(), steps_->end(), std::greater<>());
+  if (back != steps_->end()) {
+    throw InputError(fmt::format("{}[{}] = {}: expected {} or more, the step before",
+                                 source.place(path_ + "/step"), back - steps_->begin() + 1, back[1],
+                                 back[0]));
+  }
+}
+
+std::optional<std::vector<double>> Element::times() const {
+  auto times = read_grid<double>("time");
+  if (times) times->resize(std::min<std::size_t>(times->size(), rows_));
+  return times;
+}
+
+// H5MD has steps and times either one a row, or as an increment with an offset.
+template <class Number>
+std::optional<std::vector<Number>> Element::read_grid(const char* name) const {
+  const std::string path = path_ + "/" + name;
+  const std::string place = source_->place(path);
+  if (!hdf5::is_dataset(source_->get(), path, place)) return {};
+  const Handle dataset = hdf5::open_dataset(source_->get(), path, place);
+  const Shape shape = hdf5::shape_of(dataset.get(), place);
+  if (shape.size() > 1) {
+    throw InputError(
+        fmt::format("{}: shape {}: expected one number a row", place, hdf5::to_string(shape)));
+  }
+  const hid_t type = hdf5::type_of<Number>();
+  std::vector<Number> values(product(shape, 0));
+  check(H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
+  if (!shape.empty()) return values;
+
+  Number offset = 0;
+  if (check(H5Aexists(dataset.get(), "offset"), place) > 0) {
+    const Handle attribute(H5Aopen(dataset.get(), "offset", H5P_DEFAULT), H5Aclose, place);
+    check(H5Aread(attribute.get(), type, &offset), place);
+  }
+  const Number increment = values[0];
+  values.resize(shape_.empty() ? 0 : shape_[0]);
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    values[row] = offset + static_cast<Number>(row) * increment;
+  }
+  return values;
+}
+
+std::size_t Element::size(std::optional<hsize_t> row) const { return product(shape_, row ? 1 : 0); }
+
+void Element::read_as(hid_t type, std::optional<hsize_t> row, void* values) const {
+  if (size(row) == 0) return;
+  const std::string place = source_->place(name_);
+  if (!row) {
+    check(H5Dread(value_.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), place);
+    return;
+  }
+  Shape start(shape_.size(), 0);
+  start[0] = *row;
+  Shape block = shape_;
+  block[0] = 1;
+  const Handle in_file(H5Dget_space(value_.get()), H5Sclose, place);
+  check(H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(),
+                            nullptr),
+        place);
+  const Handle in_memory(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
+                         H5Sclose, place);
+  check(H5Dread(value_.get(), type, in_memory.get(), in_file.get(), H5P_DEFAULT, values), place);
+}
+
+std::string find_particles(const Source& source) {
+  const std::string root = "/particles";
+  const std::string place = source.place(root);
+  if (!hdf5::is_group(source.get(), root, place)) {
+    throw InputError(place + ": missing: expected a group, as in H5MD files");
+  }
+  if (hdf5::is_group(source.get(), root + "/needles", place)) return root + "/needles";
+  const Handle group = hdf5::open_group(source.get(), root, place);
+  std::vector<std::string> names = hdf5::children(group.get(), place);
+  std::erase_if(names,
+                [&](const std::string& name) { return !hdf5::is_group(group.get(), name, place); });
+  if (names.size() != 1) {
+    throw InputError(fmt::format("{}: {} groups{}{}: expected one, or one named needles", place,
+                                 names.size(), names.empty() ? "" : ": ", fmt::join(names, ", ")));
+  }
+  return root + "/" + names[0];
+}
+
+}  // namespace needlework::io
