@@ -1,0 +1,478 @@
+// Files of other programs, made by hand: what is accepted and what is refused, with which words.
+#include <fstream>
+#include <limits>
+
+#include "tests/io/support.h"
+
+namespace needlework::io {
+namespace {
+
+using hdf5::Shape;
+
+class Reading : public InFolder {
+ protected:
+  // A file with `frames` frames of two needles in /particles/GROUP and a plain box, changed by
+  // `edit`.
+  std::string make(const std::function<void(HandMade&)>& edit, hsize_t frames = 1,
+                   const std::string& group = "all", hid_t type = H5T_IEEE_F64LE) {
+    const std::string path = file("made.h5");
+    HandMade made(path);
+    made.put_needles(group, frames, type);
+    made.put("/particles/" + group + "/box/edges", {3}, {10, 11, 12});
+    edit(made);
+    return path;
+  }
+
+  // What reading the file says against it, without the name of the file.
+  std::string complaint(const std::function<void(HandMade&)>& edit, hsize_t frames = 1) {
+    const std::string path = make(edit, frames);
+    std::string message = message_of<InputError>([&] { read_last_frame(path); });
+    EXPECT_TRUE(message.starts_with(path + ": ")) << message;
+    return message.substr(std::min(message.size(), path.size() + 2));
+  }
+};
+
+const auto unchanged = [](HandMade&) {};
+const std::array<double, 3> box{10, 11, 12};
+
+void expect_made(const State& state) {
+  EXPECT_EQ(state.box, box);
+  ASSERT_EQ(state.size(), 2u);
+  // On an edge of the box and outside.
+  EXPECT_EQ(state.position[0], (std::array<double, 3>{0, 10, 11}));
+  EXPECT_EQ(state.position[1], (std::array<double, 3>{-0.5, 20, 12}));
+  EXPECT_EQ(state.velocity[1], (std::array<double, 3>{4, 5, 6}));
+  EXPECT_EQ(state.orientation[0], (std::array<double, 3>{1, 0, 0}));
+  EXPECT_EQ(state.angular_velocity[0], (std::array<double, 3>{0, 1, 2}));
+}
+
+TEST_F(Reading, TheLeastThatIsNeededIsRead) {
+  for (const hsize_t frames : {1u, 2u, 3u, 7u}) {
+    const State state = read_last_frame(make(unchanged, frames));
+    expect_made(state);
+    EXPECT_TRUE(state.image.empty());
+    EXPECT_TRUE(state.id.empty());
+  }
+}
+
+TEST_F(Reading, AnyNameOfTheOnlyGroupIsAccepted) {
+  expect_made(read_last_frame(make(unchanged, 2, "needles")));
+  expect_made(read_last_frame(make(unchanged, 2, "trajectory")));
+}
+
+TEST_F(Reading, NeedlesIsPreferredToOtherGroups) {
+  expect_made(read_last_frame(
+      make([](HandMade& file) { file.put("/particles/atoms/x", {1}, {0}); }, 2, "needles")));
+}
+
+TEST_F(Reading, PlainDatasetsAreAccepted) {
+  expect_made(read_last_frame(make([](HandMade& file) {
+    for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+      const std::string path = std::string("/particles/all/") + name;
+      H5Lmove(file.get(), (path + "/value").c_str(), file.get(), "/aside", H5P_DEFAULT,
+              H5P_DEFAULT);
+      file.remove(path);
+      H5Lmove(file.get(), "/aside", file.get(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    }
+  })));
+  expect_made(read_last_frame(make([](HandMade& file) {
+    file.remove("/particles/all/position");
+    file.put("/particles/all/position", {2, 3}, {0, 10, 11, -0.5, 20, 12});
+  })));
+}
+
+TEST_F(Reading, OtherKindsOfNumbersAreAccepted) {
+  for (const hid_t type : {H5T_IEEE_F32LE, H5T_IEEE_F32BE, H5T_IEEE_F64BE}) {
+    const State state = read_last_frame(make(unchanged, 2, "all", type));
+    expect_made(state);
+    EXPECT_NEAR(state.orientation[1][1], 0.6, 1e-7);
+  }
+  expect_made(read_last_frame(make([](HandMade& file) {
+    file.put("/particles/all/velocity/value", {1, 2, 3}, {1, 2, 3, 4, 5, 6}, H5T_STD_I16BE);
+  })));
+}
+
+TEST_F(Reading, BoxEdgesOfAllShapesAreAccepted) {
+  const std::vector<double> row{10, 11, 12};
+  const std::vector<double> matrix{10, 0, 0, 0, 11, 0, 0, 0, 12};
+  const auto repeat = [](const std::vector<double>& values, int count) {
+    std::vector<double> all;
+    for (int i = 0; i < count; ++i) all.insert(all.end(), values.begin(), values.end());
+    return all;
+  };
+  for (const int frames : {1, 2, 3, 4}) {
+    const auto count = static_cast<hsize_t>(frames);
+    const std::vector<std::pair<Shape, std::vector<double>>> layouts{
+        {{3}, row},
+        {{3, 3}, matrix},
+        {{count, 3}, repeat(row, frames)},
+        {{count, 3, 3}, repeat(matrix, frames)}};
+    for (const auto& [shape, values] : layouts) {
+      for (const bool group : {false, true}) {
+        // In an element of three frames, [3][3] is three rows.
+        if (group && frames == 3 && values == matrix) continue;
+        SCOPED_TRACE(testing::Message() << hdf5::to_string(shape) << ", group " << group << ", "
+                                        << frames << " frames");
+        const auto& numbers = values;
+        const auto& dimensions = shape;
+        expect_made(read_last_frame(make(
+            [&](HandMade& file) {
+              file.remove("/particles/all/box/edges");
+              const std::string name = "/particles/all/box/edges";
+              file.put(group ? name + "/value" : name, dimensions, numbers);
+            },
+            count)));
+      }
+    }
+  }
+}
+
+TEST_F(Reading, BoxOfTheLastFrameCounts) {
+  const State state = read_last_frame(make(
+      [](HandMade& file) {
+        file.remove("/particles/all/box/edges");
+        file.put("/particles/all/box/edges/value", {3, 3}, {1, 1, 1, 2, 2, 2, 10, 11, 12});
+      },
+      3));
+  EXPECT_EQ(state.box, box);
+}
+
+TEST_F(Reading, IdsOfAllLayoutsAreAccepted) {
+  const std::vector<std::uint32_t> ids{4294967295u, 7};
+  EXPECT_EQ(read_last_frame(make([](HandMade& file) {
+              file.put("/particles/all/id", {2}, {4294967295.0, 7}, H5T_STD_U32LE);
+            })).id,
+            ids);
+  EXPECT_EQ(
+      read_last_frame(
+          make(
+              [](HandMade& file) {
+                file.put("/particles/all/id/value", {2, 2}, {1, 1, 4294967295.0, 7}, H5T_STD_I64LE);
+              },
+              2))
+          .id,
+      ids);
+}
+
+TEST_F(Reading, ImagesOfAllKindsAreAccepted) {
+  const std::vector<std::array<std::int32_t, 3>> images{{1, -2, 3}, {-4, 5, -2147483647}};
+  for (const hid_t type : {H5T_STD_I32LE, H5T_STD_I64BE, H5T_IEEE_F64LE}) {
+    EXPECT_EQ(
+        read_last_frame(make([&](HandMade& file) {
+          file.put("/particles/all/image/value", {1, 2, 3}, {1, -2, 3, -4, 5, -2147483647}, type);
+        })).image,
+        images);
+  }
+}
+
+TEST_F(Reading, ElementsAreMatchedByStep) {
+  const auto with_steps = [](HandMade& file, const char* name, const std::vector<double>& steps) {
+    file.put(std::string("/particles/all/") + name + "/step", {steps.size()}, steps, H5T_STD_I64LE);
+  };
+  // Positions go on to step 40, the last step of all is 30.
+  const auto edit = [&](HandMade& file) {
+    file.put("/particles/all/position/value", {4, 2, 3},
+             {9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 9, 0, 10, 11, -0.5, 20, 12, 9, 9, 9, 9, 9, 9});
+    with_steps(file, "position", {10, 20, 30, 40});
+    with_steps(file, "velocity", {10, 30});
+    with_steps(file, "orientation", {0, 30});
+    with_steps(file, "angular_velocity", {20, 30});
+  };
+  expect_made(read_last_frame(make(edit, 2)));
+  EXPECT_EQ(complaint(
+                [&](HandMade& file) {
+                  edit(file);
+                  with_steps(file, "velocity", {11, 31});
+                },
+                2),
+            "/particles/all/angular_velocity/value: no step in common with the other elements: "
+            "expected one");
+}
+
+TEST_F(Reading, StepsMayBeAnIncrement) {
+  expect_made(read_last_frame(make(
+      [](HandMade& file) {
+        for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+          file.put(std::string("/particles/all/") + name + "/step", {}, {5}, H5T_STD_I32LE);
+        }
+      },
+      4)));
+}
+
+TEST_F(Reading, RowsWithoutAStepDoNotCount) {
+  expect_made(read_last_frame(make(
+      [](HandMade& file) {
+        file.put("/particles/all/velocity/value", {3, 2, 3},
+                 {9, 9, 9, 9, 9, 9, 1, 2, 3, 4, 5, 6, 9, 9, 9, 9, 9, 9});
+        for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+          file.put(std::string("/particles/all/") + name + "/step", {2}, {0, 1}, H5T_STD_I32LE);
+        }
+      },
+      2)));
+}
+
+TEST_F(Reading, MissingThingsAreNamed) {
+  for (const std::string name : {"position", "velocity", "orientation", "angular_velocity"}) {
+    EXPECT_EQ(complaint([&](HandMade& file) { file.remove("/particles/all/" + name); }),
+              "/particles/all/" + name + ": missing: expected a dataset");
+    EXPECT_EQ(complaint([&](HandMade& file) { file.remove("/particles/all/" + name + "/value"); }),
+              "/particles/all/" + name + "/value: missing: expected a dataset");
+  }
+  EXPECT_EQ(complaint([](HandMade& file) { file.remove("/particles/all/box"); }),
+            "/particles/all/box/edges: missing: expected edges");
+  EXPECT_EQ(complaint([](HandMade& file) { file.remove("/particles"); }),
+            "/particles: missing: expected a group, as in H5MD files");
+  EXPECT_EQ(complaint([](HandMade& file) { file.remove("/particles/all"); }),
+            "/particles: 0 groups: expected one, or one named needles");
+  EXPECT_EQ(complaint([](HandMade& file) { file.put("/particles/more/x", {1}, {0}); }),
+            "/particles: 2 groups: all, more: expected one, or one named needles");
+}
+
+TEST_F(Reading, WrongShapesAreRefused) {
+  const auto shape = [&](const std::string& name, const Shape& shape) {
+    std::size_t size = 1;
+    for (const hsize_t extent : shape) size *= extent;
+    return complaint([&](HandMade& file) {
+      file.remove("/particles/all/" + name);
+      file.put("/particles/all/" + name, shape, std::vector<double>(std::max(size, size_t{1}), 1));
+    });
+  };
+  EXPECT_EQ(shape("velocity/value", {1, 3, 3}),
+            "/particles/all/velocity/value: shape [1][3][3]: expected [1][2][3]");
+  EXPECT_EQ(shape("velocity/value", {1, 2, 2}),
+            "/particles/all/velocity/value: shape [1][2][2]: expected [1][2][3]");
+  EXPECT_EQ(shape("velocity/value", {2, 3}),
+            "/particles/all/velocity/value: shape [2][3]: expected [2][2][3]");
+  EXPECT_EQ(shape("orientation", {6}), "/particles/all/orientation: shape [6]: expected [2][3]");
+  EXPECT_EQ(shape("position/value", {6}),
+            "/particles/all/position/value: shape [6]: expected [frames][needles][3]");
+  EXPECT_EQ(shape("position/value", {}),
+            "/particles/all/position/value: shape []: expected [frames][needles][3]");
+  EXPECT_EQ(shape("box/edges", {2}),
+            "/particles/all/box/edges: shape [2]: expected [3], [3][3], [frames][3] or "
+            "[frames][3][3]");
+  EXPECT_EQ(shape("id", {3}), "/particles/all/id: shape [3]: expected [2] or [frames][2]");
+  EXPECT_EQ(shape("image/value", {1, 2, 4}),
+            "/particles/all/image/value: shape [1][2][4]: expected [1][2][3]");
+}
+
+TEST_F(Reading, UnequalNumbersOfFramesAreRefused) {
+  EXPECT_EQ(complaint(
+                [](HandMade& file) {
+                  file.put("/particles/all/velocity/value", {1, 2, 3}, {1, 2, 3, 4, 5, 6});
+                },
+                2),
+            "/particles/all/velocity/value: 1 frames: expected 2, as "
+            "/particles/all/position/value");
+  EXPECT_EQ(complaint([](HandMade& file) {
+              file.put("/particles/all/velocity/step", {2}, {0, 1}, H5T_STD_I32LE);
+            }),
+            "/particles/all/velocity/step: 2 steps: expected 1, one a row of "
+            "/particles/all/velocity/value");
+}
+
+TEST_F(Reading, NoFramesAreRefused) {
+  EXPECT_EQ(complaint([](HandMade& file) {
+              for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+                file.put(std::string("/particles/all/") + name + "/value", {0, 2, 3}, {});
+              }
+            }),
+            "/particles/all/position/value: no frames: expected at least one");
+  Writer(file("header.h5"), false, make_scene(2), {}).close();
+  const auto message = message_of<InputError>([&] { read_last_frame(file("header.h5")); });
+  EXPECT_TRUE(message.ends_with("no frames: expected at least one")) << message;
+}
+
+TEST_F(Reading, StepsOutOfOrderAreRefused) {
+  EXPECT_EQ(complaint(
+                [](HandMade& file) {
+                  file.put("/particles/all/position/step", {3}, {0, 7, 5}, H5T_STD_I32LE);
+                },
+                3),
+            "/particles/all/position/step[2] = 5: expected 7 or more, the step before");
+}
+
+TEST_F(Reading, WrongNumbersAreNamedWithTheirPlace) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto put = [&](const std::string& name, const std::vector<double>& values) {
+    return complaint(
+        [&](HandMade& file) { file.put_frames("all/" + name, 3, values, H5T_IEEE_F64LE); }, 3);
+  };
+  EXPECT_EQ(put("position", {0, 0, 0, 0, nan, 0}),
+            "/particles/all/position/value[2][1][1] = nan: expected a finite number");
+  EXPECT_EQ(put("velocity", {0, 0, -infinity, 0, 0, 0}),
+            "/particles/all/velocity/value[2][0][2] = -inf: expected a finite number");
+  EXPECT_EQ(put("orientation", {1, 0, 0, 0, 0, 0}),
+            "/particles/all/orientation/value[2][1] = (0, 0, 0), of length 0: expected a unit "
+            "vector, within 1e-06");
+  EXPECT_EQ(put("orientation", {1.000002, 0, 0, 0, 0.6, 0.8}),
+            "/particles/all/orientation/value[2][0] = (1.000002, 0, 0), of length 1.000002: "
+            "expected a unit vector, within 1e-06");
+  EXPECT_EQ(put("angular_velocity", {3, 0, 4, 0, 0, 0}),
+            "/particles/all/angular_velocity/value[2][0] = (3, 0, 4), of which 0.6 of its length "
+            "along the director: expected none, within 1e-06");
+  // As wrong at the ends of the range of numbers.
+  EXPECT_NE(put("angular_velocity", {3e-320, 0, 4e-320, 0, 0, 0}), "");
+  EXPECT_NE(put("angular_velocity", {3e307, 0, 1e308, 0, 0, 0}), "");
+  EXPECT_EQ(put("image", {0, 0, 0.5, 0, 0, 0}),
+            "/particles/all/image/value[2][0][2] = 0.5: expected a whole number of 32 bits");
+  EXPECT_EQ(put("image", {0, 0, 0, 0, 0, 3e9}),
+            "/particles/all/image/value[2][1][2] = 3000000000: expected a whole number of 32 bits");
+}
+
+TEST_F(Reading, DirectorsWithinTheToleranceAreTakenAsTheyAre) {
+  const State state = read_last_frame(make([](HandMade& file) {
+    file.put_frames("all/orientation", 1, {1 - 9e-7, 0, 0, 0, 0.6, 0.8});
+    file.put_frames("all/angular_velocity", 1, {9e-7, 0, 1, 0, 0, 0});
+  }));
+  EXPECT_EQ(state.orientation[0][0], 1 - 9e-7);
+  EXPECT_EQ(state.angular_velocity[0][0], 9e-7);
+}
+
+TEST_F(Reading, WrongIdsAreRefused) {
+  const auto put = [&](const std::vector<double>& values, hid_t type) {
+    return complaint([&](HandMade& file) { file.put("/particles/all/id", {2}, values, type); });
+  };
+  EXPECT_EQ(put({7, 7}, H5T_STD_I32LE),
+            "/particles/all/id[1] = 7: expected another id than that of entry 0");
+  EXPECT_EQ(put({7, -1}, H5T_STD_I32LE),
+            "/particles/all/id[1] = -1: expected a whole number from 0 to 2^32 - 1");
+  EXPECT_EQ(put({4294967296.0, 1}, H5T_STD_I64LE),
+            "/particles/all/id[0] = 4294967296: expected a whole number from 0 to 2^32 - 1");
+  EXPECT_EQ(put({0.5, 1}, H5T_IEEE_F64LE),
+            "/particles/all/id[0] = 0.5: expected a whole number from 0 to 2^32 - 1");
+}
+
+TEST_F(Reading, WrongBoxesAreRefused) {
+  const auto put = [&](const Shape& shape, const std::vector<double>& values, hsize_t frames = 1) {
+    return complaint([&](HandMade& file) { file.put("/particles/all/box/edges", shape, values); },
+                     frames);
+  };
+  const std::string edges = "/particles/all/box/edges";
+  EXPECT_EQ(put({3, 3}, {10, 0, 0, 0, 10, 0, 0, 2.5, 10}),
+            edges + "[2][1] = 2.5: expected 0, a rectangular box");
+  EXPECT_EQ(put({3, 3}, {10, 1, 1, 1, 10, 1, 1, 1, 10}, 3),
+            edges + "[0][1] = 1: expected 0, a rectangular box");
+  EXPECT_EQ(put({1, 3, 3}, {10, 0, 1e-9, 0, 10, 0, 0, 0, 10}),
+            edges + "[0][0][2] = 1e-09: expected 0, a rectangular box");
+  EXPECT_EQ(put({3}, {10, 0, 10}), edges + ", axis 1 = 0: expected an edge above 0");
+  EXPECT_EQ(put({3}, {10, 10, -1}), edges + ", axis 2 = -1: expected an edge above 0");
+  EXPECT_EQ(put({3}, {std::numeric_limits<double>::quiet_NaN(), 10, 1}),
+            edges + ", axis 0 = nan: expected an edge above 0");
+  EXPECT_EQ(put({3}, {std::numeric_limits<double>::infinity(), 10, 1}),
+            edges + ", axis 0 = inf: expected an edge above 0");
+  EXPECT_EQ(put({2, 3}, {1, 1, 1, 1, 1, 1}, 4),
+            edges + ": 2 frames: expected 4, as /particles/all/position/value");
+}
+
+TEST_F(Reading, BoxMustBePeriodic) {
+  const auto boundary = [](const std::vector<std::string>& values) {
+    return [values](HandMade& file) {
+      const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all/box", "");
+      hdf5::write_attribute(group.get(), "boundary", values, "");
+    };
+  };
+  expect_made(read_last_frame(make(boundary({"periodic", "periodic", "periodic"}))));
+  EXPECT_EQ(complaint(boundary({"periodic", "none    ", "periodic"})),
+            "/particles/all/box: boundary = none    : expected periodic");
+}
+
+TEST_F(Reading, OtherThanNumbersAreRefused) {
+  EXPECT_EQ(complaint([](HandMade& file) {
+              file.remove("/particles/all/velocity");
+              const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all", "");
+              hdf5::write_scalar(group.get(), "velocity", std::string("fast"), "");
+            }),
+            "/particles/all/velocity: no numbers in it: expected floating point or integers");
+}
+
+TEST_F(Reading, WhatIsNotAWholeHdf5FileIsNamed) {
+  const auto message = [](const std::string& path) {
+    return message_of<IoError>([&] { read_last_frame(path); });
+  };
+  EXPECT_EQ(message(file("none.h5")), file("none.h5") + ": No such file or directory");
+  EXPECT_EQ(message(folder_.string()), folder_.string() + ": Is a directory");
+  EXPECT_EQ(message("/dev/null"), "/dev/null: not a regular file");
+  std::ofstream(file("empty.h5")).flush();
+  EXPECT_EQ(message(file("empty.h5")), file("empty.h5") + ": not an HDF5 file");
+  std::ofstream(file("text.h5")) << std::string(5000, 'x');
+  EXPECT_EQ(message(file("text.h5")), file("text.h5") + ": not an HDF5 file");
+}
+
+// Every length from a bare signature on; the file is that of a killed program and that of a closed
+// one.
+TEST_F(Reading, FilesCutShortAreRefused) {
+  const State state = make_state(40);
+  Writer writer(file("whole.h5"), false, make_scene(40), {});
+  for (int frame = 0; frame < 20; ++frame) writer.write_frame(make_totals(frame), state);
+  writer.flush();
+  std::filesystem::copy_file(file("whole.h5"), file("left.h5"));
+  writer.close();
+  for (const char* name : {"whole.h5", "left.h5"}) {
+    expect_same(state, read_last_frame(file(name)));
+    const auto size = std::filesystem::file_size(file(name));
+    for (std::uintmax_t cut = 8; cut < size; cut += 1 + cut / 15) {
+      std::filesystem::copy_file(file(name), file("cut.h5"),
+                                 std::filesystem::copy_options::overwrite_existing);
+      std::filesystem::resize_file(file("cut.h5"), cut);
+      const auto message = message_of<IoError>([&] { read_last_frame(file("cut.h5")); });
+      EXPECT_TRUE(message.starts_with(file("cut.h5") + ": damaged or cut short: ")) << message;
+      EXPECT_THROW(describe(file("cut.h5")), IoError);
+    }
+  }
+}
+
+TEST_F(Reading, ClientsErrorHandlingIsLeftAlone) {
+  H5E_auto2_t before, after;
+  void *data_before, *data_after;
+  H5Eget_auto2(H5E_DEFAULT, &before, &data_before);
+  EXPECT_THROW(read_last_frame(file("none.h5")), IoError);
+  H5Eget_auto2(H5E_DEFAULT, &after, &data_after);
+  EXPECT_EQ(before, after);
+  EXPECT_NE(after, nullptr);
+}
+
+TEST_F(Reading, DescriptionTellsWhatIsInAFile) {
+  Writer writer(file("a.h5"), false, make_scene(7, true), {"avx2", 2, 0.125});
+  for (int frame = 0; frame < 3; ++frame) writer.write_frame(make_totals(frame), make_state(7));
+  for (int i = 0; i < 4; ++i) writer.write_series(make_totals(10 * i));
+  Collision collision;
+  for (int i = 0; i < 5; ++i) collision.time = i, writer.write_event(collision);
+  writer.close();
+  const std::string text = describe(file("a.h5"));
+  for (const std::string part : {
+           "H5MD 1.1, written by needlework ",
+           "/particles/needles: 7 particles, 3 frames",
+           "position           float64  [3][7][3]        time 0 to 0.25  step 0 to 20",
+           "energy               float64  [4]              time 0 to 3.75  step 0 to 300",
+           "pair                 uint32   [5][2]",
+           "time                 float64  [5]              0 to 4",
+           "seed                 18446744073709551615",
+           "epsilon              0.8",
+           "threads              2",
+           "isa                  avx2",
+           "title                Nadeln & é",
+           "scene:\n[needles]\ncount = 7\n",
+       }) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
+  }
+}
+
+TEST_F(Reading, DescriptionOfOtherFilesIsFair) {
+  const std::string text = describe(make(unchanged, 2));
+  EXPECT_NE(text.find("not H5MD"), std::string::npos) << text;
+  EXPECT_NE(text.find("/particles/all: 2 particles, 2 frames"), std::string::npos) << text;
+  const std::string odd = describe(make([](HandMade& file) {
+    file.put("/parameters/list", {2}, {1, 2});
+    file.put("/parameters/number", {}, {-5}, H5T_STD_I16LE);
+    H5Lcreate_soft("/nowhere", file.get(), "/dangling", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_hard(file.get(), "/", file.get(), "/particles/circle", H5P_DEFAULT, H5P_DEFAULT);
+  }));
+  EXPECT_NE(odd.find("dangling"), std::string::npos) << odd;
+  EXPECT_NE(odd.find("number               -5"), std::string::npos) << odd;
+  EXPECT_LT(odd.size(), 100000u);
+}
+
+}  // namespace
+}  // namespace needlework::io
