@@ -42,7 +42,7 @@ int rename_if_new(const std::string& from, const std::string& to) {
 std::string create_beside(const std::string& path, const std::filesystem::path& target) {
   for (int attempt = 0;; ++attempt) {
     const auto name = fmt::format(".needlework-{}-{}.part", getpid(), attempt);
-    const std::string temporary = (target.parent_path() / name).string();
+    std::string temporary = (target.parent_path() / name).string();
     const int descriptor = open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
       close(descriptor);

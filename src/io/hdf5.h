@@ -47,8 +47,9 @@ class Handle {
   using Close = herr_t (*)(hid_t);
 
   Handle() = default;
-  /// Takes `id`, which must come from the function that `close` belongs to; see fail() for `place`.
-  Handle(hid_t id, Close close, const std::string& place) : id_(check(id, place)), close_(close) {}
+  /// Takes `id`, which must come from a function that `closer` belongs to; see fail() for `place`.
+  Handle(hid_t id, Close closer, const std::string& place)
+      : id_(check(id, place)), close_(closer) {}
   Handle(Handle&& other) noexcept;
   Handle& operator=(Handle&& other) noexcept;
   ~Handle() { release(); }

@@ -18,7 +18,7 @@ using hdf5::type_of;
 namespace {
 
 constexpr hsize_t samples_per_chunk = 256;
-constexpr hsize_t events_per_chunk = 4096;
+constexpr hsize_t events_per_chunk = 8192;
 
 // Small frames share a chunk of about 16 kB, large ones have one each.
 hsize_t frames_per_chunk(std::uint64_t needles) {

@@ -28,6 +28,11 @@ using hdf5::Handle;
 
 namespace {
 
+// The system's, over which a write is not atomic: kill -9 can end one at a page boundary, and
+// metadata with half of a change in them have a wrong checksum. So HDF5 must not let them cross
+// one. (Blocks of its chunk index that are larger begin with the 8181st chunk of a dataset.)
+constexpr hsize_t page_size = 4096;
+
 // The driver's entry in a list of file access properties.
 struct DriverSettings {
   int* error;
@@ -236,8 +241,13 @@ Handle register_driver(const std::string& place) {
 
 OutputFile::OutputFile(std::string name, std::string place)
     : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, place_);
+  const bool keep_free_space = false;
+  check(H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, keep_free_space, 1),
+        place_);
+  check(H5Pset_file_space_page_size(creation.get(), page_size), place_);
   const Handle access = make_access();
-  const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
+  const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   if (file < 0) require_written();
   file_ = Handle(file, H5Fclose, place_);
 }

@@ -22,8 +22,8 @@ using hdf5::Session;
 
 namespace {
 
-// How much is kept in memory before it is written.
-constexpr std::size_t block = 4096;
+// Rows kept in memory before they are written; of events, those of a chunk.
+constexpr std::size_t block = 8192;
 
 }  // namespace
 

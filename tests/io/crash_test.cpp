@@ -101,7 +101,16 @@ TEST_F(Crash, KillAtAnyMomentLeavesTheFlushedFrames) {
     const int frame = state.image.at(0)[0];
     EXPECT_GE(frame, flushed.frame);
     expect_same(make_frame(needles, frame), state);
+    // All that is in the file can be read, by any program.
     EXPECT_FALSE(describe(file("killed.h5")).empty());
+    EXPECT_EQ(read_numbers(file("killed.h5"), "/particles/needles/id").size(), needles);
+    EXPECT_GT(read_numbers(file("killed.h5"), "/series/energy/step").size(), flushed.frame);
+    const auto rows =
+        static_cast<std::size_t>(flushed.frame + 1) * static_cast<std::size_t>(events);
+    EXPECT_GE(read_numbers(file("killed.h5"), "/events/time").size(), rows);
+    for (const char* name : {"pair", "arms", "impulse", "shift", "tc", "epoch", "offset"}) {
+      EXPECT_GE(read_numbers(file("killed.h5"), std::string("/events/") + name).size(), rows);
+    }
   }
 }
 
