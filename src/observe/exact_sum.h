@@ -11,7 +11,7 @@ __extension__ using Int128 = __int128;
 __extension__ using UnsignedInt128 = unsigned __int128;
 
 /// Sum of terms none of which exceeds `largest` in magnitude. Fewer than 2^60 terms; the error is
-/// below the number of terms times largest 2^-61.
+/// below the number of terms times largest 2^-60.
 class ExactSum {
  public:
   explicit ExactSum(double largest) : exponent_(largest > 0 ? std::ilogb(largest) : 0) {}

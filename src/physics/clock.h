@@ -31,7 +31,8 @@ class Clock {
   /// Spacing of the times at hand. [time]
   double resolution() const { return length_ * 0x1p-52; }
 
-  /// t + dt, dt >= 0, rounded down to the resolution or finer; `never` beyond 2^62 epochs.
+  /// t + dt, dt >= 0, rounded to the nearest at the resolution or finer; `never` for dt of 2^62
+  /// epochs or more.
   Time add(Time t, double dt) const {
     const double epochs = dt / length_;
     if (!(epochs < 0x1p62) || t == Time::never()) return Time::never();
@@ -47,7 +48,8 @@ class Clock {
     return static_cast<double>(a.epoch - b.epoch) * length_ + (a.offset - b.offset);
   }
 
-  /// a - b without rounding, for times less than 2^53 epochs apart.
+  /// a - b for times less than 2^53 epochs apart; exact for offsets on the grid of the resolution,
+  /// else within 2^-104 relative.
   DoubleDouble exact_difference(Time a, Time b) const {
     const DoubleDouble offsets = two_sum(a.offset, -b.offset);
     if (a.epoch == b.epoch) return offsets;

@@ -129,6 +129,18 @@ TEST(FirstContactOfFlatFunctions, DISABLED_OnTheGridIsFoundFromTheContactItself)
   EXPECT_TRUE(find(pair, 0.5, 1).contact.found);
 }
 
+// Beyond 1e8 the window in which the centres are near must not drown in the rounding of |r|^2.
+TEST(FirstContactOfFlatFunctions, DISABLED_IsFoundFromFarAway) {
+  for (const double distance : {1e7, 1e8, 1e9, 1e10}) {
+    KernelPair pair;
+    pair.first = flight({0.25, 0, -distance}, {1, 0, 0}, {0, 0, 1}, {});
+    pair.second = flight({0, 0.25, 0}, {0, 1, 0}, {}, {});
+    const Contact contact = find(pair, 0, 2 * distance).contact;
+    EXPECT_TRUE(contact.found) << distance;
+    EXPECT_EQ(contact.elapsed.hi, contact.found ? distance : 0);
+  }
+}
+
 // Equal directors, equal angular velocities: f vanishes at all times, though none of its
 // coefficients does.
 TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedForParallelNeedlesThatTurnTogether) {

@@ -1,0 +1,232 @@
+// Records: made anew, wrapped, and seen in pairs.
+#include "src/physics/gas.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "src/physics/mean_free_time.h"
+#include "src/theory/theory.h"
+#include "tests/support/kernel_pair.h"
+#include "tests/support/random.h"
+#include "tests/support/real.h"
+
+namespace needlework {
+namespace {
+
+using test::Random;
+using test::vec3;
+using test::Wide;
+
+constexpr std::uint64_t seed = 1111;
+constexpr int count = 3000;
+
+Gas gas_of(Needle needles, std::array<double, 3> box) {
+  Gas gas;
+  gas.records.resize(needles);
+  gas.ids.resize(needles);
+  gas.images.resize(needles);
+  gas.box = box;
+  return gas;
+}
+
+std::array<double, 3> components(const Vec3d& a) { return {a.x, a.y, a.z}; }
+
+TEST(RenewRecord, WrapsTheCentreAndCountsTheImages) {
+  Random random(seed);
+  const std::array<double, 3> box{2.5, 7.3, 100.1};
+  Gas gas = gas_of(1, box);
+  gas.records[0].flight = test::flight({1, 2, 3}, {1, 0, 0}, {}, {});
+  std::array<Wide, 3> free{1, 2, 3};  // where it would be without walls
+  for (int n = 0; n < count; ++n) {
+    const double dt = random.uniform(0, 3);
+    const Vec3d v = gas.records[0].flight.v;
+    const Time now = gas.clock.add(gas.records[0].time, dt);
+    const double elapsed = gas.clock.difference(now, gas.records[0].time);
+    const Shift images = gas.images[0];
+    const Shift wraps = renew_record(gas, 0, now, {0, 1, 0}, vec3(random.normal_vector(20)), {});
+    ASSERT_EQ(gas.images[0], images + wraps);
+    const auto r = components(gas.records[0].flight.r), speed = components(v);
+    for (int axis = 0; axis < 3; ++axis) {
+      ASSERT_GE(r[axis], 0) << "seed " << seed << ", step " << n;
+      ASSERT_LE(r[axis], box[axis]) << "seed " << seed << ", step " << n;
+      free[axis] += Wide(speed[axis]) * elapsed;
+      const Wide here = r[axis] + Wide(gas.images[0][axis]) * box[axis];
+      ASSERT_LT(abs(here - free[axis]), 1e-13 * (n + 1) * box[axis]) << "seed " << seed;
+    }
+    ASSERT_EQ(gas.records[0].time, now);
+    ASSERT_EQ(gas.records[0].serial, static_cast<std::uint32_t>(n + 1));
+  }
+  EXPECT_NE(gas.images[0], Shift{});
+}
+
+TEST(RenewRecord, WrapsCentresOnAndNextToTheWallsWithoutLosingTheirPlace) {
+  const double box = 2.5;
+  for (const double x : {0.0, -0.0, box, -box, 2 * box, std::nextafter(box, 0),
+                         std::nextafter(box, 3), -1e-18, -1e-300, 1e-300, -1e9}) {
+    Gas gas = gas_of(1, {box, box, box});
+    gas.records[0].flight = test::flight({x, 1, 1}, {1, 0, 0}, {}, {});
+    const Shift wraps = renew_record(gas, 0, {}, {1, 0, 0}, {}, {});
+    const double r = gas.records[0].flight.r.x;
+    EXPECT_GE(r, 0) << x;
+    EXPECT_LE(r, box) << x;
+    EXPECT_LE(abs(Wide(r) + Wide(wraps[0]) * box - x), 0x1p-53 * box) << x;
+    EXPECT_EQ(gas.records[0].flight.r.y, 1);
+    EXPECT_EQ(wraps[1], 0);
+  }
+}
+
+TEST(RenewRecord, LeavesAUnitDirectorAndAnAngularVelocityNormalToIt) {
+  Random random(seed);
+  Gas gas = gas_of(1, {5, 5, 5});
+  for (int n = 0; n < count; ++n) {
+    const double size = random.log_uniform(1e-300, 1e300), spin = random.log_uniform(1e-100, 1e100);
+    const Vec3d director = vec3(random.direction()) * size, w = vec3(random.direction()) * spin;
+    const Vec3d v = vec3(random.direction());
+    gas.records[0].touches.push_back({});
+    renew_record(gas, 0, {}, director, v, w);
+    const kernels::Flight& flight = gas.records[0].flight;
+    ASSERT_NEAR(dot(flight.u, flight.u), 1, 1e-15) << "seed " << seed << ", " << n;
+    ASSERT_NEAR(dot(flight.w * (1 / spin), flight.u), 0, 1e-15) << "seed " << seed << ", " << n;
+    ASSERT_NEAR(flight.omega / spin, std::sqrt(dot(flight.w * (1 / spin), flight.w * (1 / spin))),
+                1e-15);
+    ASSERT_NEAR(dot(flight.p, flight.p), 1, 1e-15);
+    ASSERT_EQ(flight.v, v);
+    ASSERT_TRUE(gas.records[0].touches.empty());
+    // Nothing is taken from w but its part along u.
+    const Vec3d along = normalised(director) * dot(w, normalised(director));
+    const Vec3d lost = (w - along - flight.w) * (1 / spin);
+    ASSERT_LT(std::sqrt(dot(lost, lost)), 1e-15);
+  }
+}
+
+TEST(RenewRecord, FromItsOwnFreeFlightChangesNothingButRounding) {
+  Random random(seed);
+  Gas gas = gas_of(1, {5, 5, 5});
+  for (int n = 0; n < count; ++n) {
+    Record& record = gas.records[0];
+    record.flight = test::flight(vec3(random.normal_vector(1)), vec3(random.direction()),
+                                 vec3(random.normal_vector(1)), vec3(random.normal_vector(3)));
+    const kernels::Flight before = record.flight;
+    const Time now = gas.clock.add(record.time, random.uniform(0, 2));
+    const double elapsed = gas.clock.difference(now, record.time), later = random.uniform(0, 2);
+    renew_record(gas, 0, now, director_after(before, elapsed), before.v, before.w);
+    const Vec3d u = director_after(record.flight, later) - director_after(before, elapsed + later);
+    ASSERT_LT(std::sqrt(dot(u, u)), 1e-14) << "seed " << seed << ", " << n;
+  }
+}
+
+TEST(RenewalTime, IsAboutAThousandLengthsOrRadiansAhead) {
+  Random random(seed);
+  Record record;
+  for (int n = 0; n < count; ++n) {
+    record.flight = test::flight({}, vec3(random.direction()), vec3(random.normal_vector(1)),
+                                 vec3(random.normal_vector(random.uniform(0, 5))));
+    const Clock clock(random.log_uniform(0.1, 10));
+    const double life = clock.difference(renewal_time(clock, record), record.time);
+    const auto [x, y, z] = components(record.flight.v);
+    const double speed = std::max({std::abs(x), std::abs(y), std::abs(z), record.flight.omega});
+    ASSERT_GE(life * speed, 0x1p10) << "seed " << seed << ", " << n;
+    ASSERT_LT(life * speed, 0x1p11) << "seed " << seed << ", " << n;
+    // Below the range in which sine and cosine are accurate.
+    ASSERT_LE(life * record.flight.omega, 0x1p12);
+    for (const int power : {-60, 60}) {
+      Record slow = record;
+      for (Vec3d* a : {&slow.flight.v, &slow.flight.w}) {
+        *a = *a * std::ldexp(1.0, -power);
+      }
+      set_rotation(slow.flight);
+      const Clock slower(std::ldexp(clock.epoch_length(), power));
+      const Time a = renewal_time(clock, record), b = renewal_time(slower, slow);
+      ASSERT_EQ(a.epoch, b.epoch);
+      ASSERT_EQ(std::ldexp(a.offset, power), b.offset);
+    }
+  }
+  record.flight = test::flight({}, {1, 0, 0}, {}, {});
+  EXPECT_EQ(renewal_time(Clock(1), record), Time::never());
+}
+
+TEST(MakePair, StartsAtTheLaterRecord) {
+  Gas gas = gas_of(2, {3, 4, 5});
+  gas.clock = Clock(1);
+  gas.records[0].time = {5, 0.25};
+  gas.records[1].time = {7, 0.5};
+  const Shift shift{1, 0, -2};
+  const kernels::Pair pair = make_pair(gas, 0, gas.records[0], 1, gas.records[1], shift);
+  EXPECT_EQ(pair.first, &gas.records[0].flight);
+  EXPECT_EQ(pair.second, &gas.records[1].flight);
+  EXPECT_EQ(pair.elapsed_first, DoubleDouble(2.25));
+  EXPECT_EQ(pair.elapsed_second, DoubleDouble());
+  EXPECT_EQ(to_double(pair.shift), (Vec3d{3, 0, -10}));
+  EXPECT_FALSE(pair.touch.touching);
+  EXPECT_EQ(pair.touch_within, gas.touch_tolerance());
+  EXPECT_EQ(Gas::start_of(gas.records[0], gas.records[1]), (Time{7, 0.5}));
+}
+
+TEST(MakePair, ShiftsByWholeBoxesExactly) {
+  Gas gas = gas_of(2, {10.1, 0.3, 7.7});
+  const Shift shift{-3, 1000000007, 5};
+  const kernels::Pair pair = make_pair(gas, 0, gas.records[0], 1, gas.records[1], shift);
+  EXPECT_TRUE(Wide(pair.shift.x.hi) + pair.shift.x.lo == Wide(10.1) * -3);
+  EXPECT_TRUE(Wide(pair.shift.y.hi) + pair.shift.y.lo == Wide(0.3) * 1000000007);
+  EXPECT_TRUE(Wide(pair.shift.z.hi) + pair.shift.z.lo == Wide(7.7) * 5);
+}
+
+// What an earlier record says of a touch has been overtaken by the later one.
+TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
+  Gas gas = gas_of(3, {4, 4, 4});
+  Record &a = gas.records[0], &b = gas.records[1];
+  const Shift shift{0, 1, -1};
+  const kernels::Touch of_a{.touching = true, .collided = true, .side = 1, .gap = 0};
+  const kernels::Touch of_b{.touching = true, .collided = false, .side = -1, .gap = -1e-15};
+  a.touches = {{2, shift, of_b}, {1, shift, of_a}};
+  const auto touch = [&](const Shift& at) { return make_pair(gas, 0, a, 1, b, at).touch; };
+  a.time = {3, 0};
+  b.time = {2, 0};
+  EXPECT_TRUE(touch(shift).collided);
+  EXPECT_EQ(touch(shift).side, 1);
+  EXPECT_FALSE(touch({}).touching) << "another image";
+  EXPECT_FALSE(touch(-shift).touching) << "the opposite image";
+  b.time = {3, 1e-9};
+  EXPECT_FALSE(touch(shift).touching) << "the other record is later";
+  b.touches = {{0, -shift, of_b}};
+  EXPECT_EQ(touch(shift).gap, -1e-15);
+  EXPECT_EQ(touch(shift).side, -1);
+  b.touches = {{0, shift, of_b}};
+  EXPECT_FALSE(touch(shift).touching) << "the shift is of the partner";
+  // Records of one time: either may know.
+  b.time = a.time;
+  EXPECT_EQ(touch(shift).side, 1);
+  a.touches.clear();
+  EXPECT_FALSE(touch(shift).touching);
+  b.touches = {{0, -shift, of_b}};
+  EXPECT_EQ(touch(shift).side, -1);
+}
+
+TEST(Shift, AddsAndSubtracts) {
+  const Shift a{1, -2, 3}, b{10, 20, -30};
+  EXPECT_EQ(a + b, (Shift{11, 18, -27}));
+  EXPECT_EQ(a - b, (Shift{-9, -22, 33}));
+  EXPECT_EQ(-a, (Shift{-1, 2, -3}));
+}
+
+// Windows are as long as the theory says, without its libm.
+TEST(MeanFreeTime, AgreesWithTheTheory) {
+  Random random(seed);
+  for (int n = 0; n < 50; ++n) {
+    const double density = random.log_uniform(1e-3, 100);
+    const double t_tr = n == 0 ? 0 : random.log_uniform(1e-10, 1);
+    const double t_rot = n > 0 && random.coin() ? 0 : random.log_uniform(1e-10, 1),
+                 k = random.uniform(2, 20);
+    const double rate = theory::collision_rate(density, {.t_tr = t_tr, .t_rot = t_rot}, k);
+    EXPECT_NEAR(mean_free_time(density, t_tr, t_rot, k) * rate, 1, 1e-6)
+        << "T_tr " << t_tr << ", T_rot " << t_rot << ", k " << k << ", seed " << seed;
+  }
+  EXPECT_EQ(mean_free_time(1, 0, 0, 6), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mean_free_time(1, 0x1p-120, 0x1p-120, 6), 0x1p60 * mean_free_time(1, 1, 1, 6));
+}
+
+}  // namespace
+}  // namespace needlework
