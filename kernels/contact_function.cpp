@@ -116,17 +116,29 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
 }
 
 Amplitude amplitude(const Frame<DoubleDouble>& frame) {
-  Amplitude out{0, 0};
-  for (const Vec3dd* a : {&frame.u[0], &frame.p[0]}) {
-    for (const Vec3dd* b : {&frame.u[1], &frame.p[1]}) {
-      const Vec3dd x = cross(*a, *b);
-      out.a += std::abs(to_double(dot(frame.r, x)));
-      out.b += std::abs(to_double(dot(frame.v, x)));
-    }
+  const auto part = [&](double sign) {
+    // cos cos and sin sin, cos sin and sin cos, join in the cosine and sine of the sum (sign +1)
+    // and of the difference (-1) of the phases.
+    const DoubleDouble minus(-sign), plus(sign), half(0.5);
+    const Vec3dd c = cross(frame.u[0], frame.u[1]) + cross(frame.p[0], frame.p[1]) * minus;
+    const Vec3dd s = cross(frame.p[0], frame.u[1]) + cross(frame.u[0], frame.p[1]) * plus;
+    const auto size = [&](const Vec3dd& r) {
+      return (std::abs(to_double(dot(r, c) * half)) + std::abs(to_double(dot(r, s) * half))) *
+             roundup;
+    };
+    const double w = std::abs(to_double(frame.omega[0] + frame.omega[1] * plus));
+    return Amplitude::Part{size(frame.r), size(frame.v), w * roundup};
+  };
+  return {part(-1), part(1)};
+}
+
+double Amplitude::derivative_bound(int n, double s) const {
+  double sum = 0;
+  for (const Part& part : {slow, fast}) {
+    const double w = part.w, w2 = n == 2 ? w : w * w;
+    sum += ((part.a + part.b * s) * w + n * part.b) * w2;
   }
-  out.a *= roundup;
-  out.b *= roundup;
-  return out;
+  return sum * roundup;
 }
 
 }  // namespace needlework::kernels

@@ -157,10 +157,18 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   return out;
 }
 
-/// Sums of the magnitudes of the coefficients of f = sum (a_q + b_q s) {cos, sin}{cos, sin}: they
-/// bound f and its derivatives for needles that stay close to one plane, where |r| and |v| do not.
+/// f as the sum of a slow and a fast part, each (a + b s) times sines and cosines of one frequency,
+/// |w1| - |w2| and |w1| + |w2|: bounds on f's derivatives for needles that stay close to one plane
+/// or parallel, where |r|, |v| and the sum of the frequencies say too much.
 struct Amplitude {
-  double a, b;
+  struct Part {
+    double a, b;  ///< sums of the magnitudes of the coefficients
+    double w;     ///< frequency
+  };
+  Part slow, fast;
+
+  /// Bound on the derivative of order n, 2 or 3, for times in [0, s].
+  double derivative_bound(int n, double s) const;
 };
 Amplitude amplitude(const Frame<DoubleDouble>& frame);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double grid = 0.5;
 // From this depth on, bounds are sharpened by the coefficients of f: costly, but the only way when
 // f is small everywhere, as for needles in nearly one plane.
-constexpr int sharpen_depth = 4;
+constexpr int sharpen_depth = 3;
 // Halving ends here: f, f' and f'' all vanish to double-double precision, and only the signs at the
 // ends decide.
 constexpr int last_depth = 44;
@@ -24,7 +24,8 @@ constexpr double roundup = 1 + 0x1p-40;
 
 constexpr int sign_of(double a) { return (a > 0) - (a < 0); }
 
-enum class Shape { free, monotone, folded, unknown };
+// flat: not told from 0 anywhere, even in double-double.
+enum class Shape { free, monotone, folded, flat, unknown };
 
 struct Interval {
   double begin, end;
@@ -61,9 +62,9 @@ class Search {
     return estimate(precise_frame(), s, sample_at(s));
   }
 
-  double third_derivative_bound(double distance, double half) const;
-  double second_derivative_bound(double distance, double half) const;
-  double bent_by(const Estimate& e, double half) const;
+  double third_derivative_bound(const Estimate& e, const Interval& interval) const;
+  double second_derivative_bound(const Estimate& e, const Interval& interval) const;
+  double bent_by(const Estimate& e, const Interval& interval) const;
   Shape shape_of(const Estimate& e, const Interval& interval) const;
   Shape classify(const Interval& interval, Estimate& e);
 
@@ -133,37 +134,43 @@ Sample<DoubleDouble> Search::sample_at(const DoubleDouble& s) {
   return evaluate(precise_frame(), s);
 }
 
-double Search::second_derivative_bound(double distance, double half) const {
+// Whether the sharper bounds apply is a matter of the interval alone, not of what was searched
+// before.
+double Search::second_derivative_bound(const Estimate& e, const Interval& interval) const {
   const double w = frame_.w_sum, v = frame_.v_length;
-  const double general = (2 * v + (distance + v * half) * w) * w;
-  if (!amplitude_) return general;
-  return std::min(general, (amplitude_->a * w + 2 * amplitude_->b) * w);
+  const double general = (2 * v + (e.distance + v * interval.half()) * w) * w;
+  if (interval.depth < sharpen_depth) return general;
+  return std::min(general, amplitude_->derivative_bound(2, interval.end));
 }
 
-double Search::third_derivative_bound(double distance, double half) const {
+double Search::third_derivative_bound(const Estimate& e, const Interval& interval) const {
   const double w = frame_.w_sum, v = frame_.v_length;
-  const double general = (3 * v + (distance + v * half) * w) * w * w;
-  if (!amplitude_) return general;
-  return std::min(general, (amplitude_->a * w + 3 * amplitude_->b) * w * w);
+  const double general = (3 * v + (e.distance + v * interval.half()) * w) * w * w;
+  if (interval.depth < sharpen_depth) return general;
+  return std::min(general, amplitude_->derivative_bound(3, interval.end));
 }
 
-// How much f' can change within `half` of where e was taken.
-double Search::bent_by(const Estimate& e, double half) const {
+// How much f' can change between the middle of the interval, where e was taken, and its ends.
+double Search::bent_by(const Estimate& e, const Interval& interval) const {
+  const double half = interval.half();
   const double ddf =
-      std::abs(e.ddf) + e.error_ddf + 0.5 * half * third_derivative_bound(e.distance, half);
-  return half * std::min(second_derivative_bound(e.distance, half), ddf) * roundup;
+      std::abs(e.ddf) + e.error_ddf + 0.5 * half * third_derivative_bound(e, interval);
+  return half * std::min(second_derivative_bound(e, interval), ddf) * roundup;
 }
 
 Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
   const double half = interval.half();
-  const double m2 = second_derivative_bound(e.distance, half);
-  const double m3 = third_derivative_bound(e.distance, half);
+  const double m2 = second_derivative_bound(e, interval);
+  const double m3 = third_derivative_bound(e, interval);
   const double ddf = std::abs(e.ddf) + e.error_ddf;
   const double curved = half * half * std::min(0.5 * m2, 0.5 * ddf + half * m3 * (1.0 / 6));
   const double df = std::abs(e.df) + e.error_df;
-  if (std::abs(e.f) > (df * half + curved) * roundup + e.error_f) return Shape::free;
-  if (std::abs(e.df) > bent_by(e, half) + e.error_df) return Shape::monotone;
+  const double change = (df * half + curved) * roundup;
+  if (std::abs(e.f) > change + e.error_f) return Shape::free;
+  if (std::abs(e.df) > bent_by(e, interval) + e.error_df) return Shape::monotone;
   if (std::abs(e.ddf) > half * m3 * roundup + e.error_ddf) return Shape::folded;
+  // The terms of the errors in `change` shrink with the interval, f's own does not.
+  if (std::abs(e.f) + change <= 4 * e.error_f) return Shape::flat;
   return Shape::unknown;
 }
 
@@ -172,13 +179,13 @@ Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
 Shape Search::classify(const Interval& interval, Estimate& e) {
   e = in_double(interval.middle());
   Shape shape = shape_of(e, interval);
-  if (shape != Shape::unknown) return shape;
+  if (shape != Shape::unknown && shape != Shape::flat) return shape;
   const double half = interval.half();
-  const double m3 = third_derivative_bound(e.distance, half);
+  const double m3 = third_derivative_bound(e, interval);
   const double curved = half * half * half * m3;
   if (e.error_f < 0x1p-6 * curved && e.error_df * half < 0x1p-6 * curved &&
       e.error_ddf * half * half < 0x1p-6 * curved) {
-    return shape;
+    return Shape::unknown;
   }
   e = in_double_double(interval.middle());
   return shape_of(e, interval);
@@ -317,8 +324,8 @@ std::optional<Root> Search::search_fold(const Interval& interval, const Estimate
     s = next;
     if (done) break;
   }
-  const double least_bend = std::abs(e.ddf) - e.error_ddf -
-                            interval.half() * third_derivative_bound(e.distance, interval.half());
+  const double least_bend =
+      std::abs(e.ddf) - e.error_ddf - interval.half() * third_derivative_bound(e, interval);
   Estimate extreme = in_double(s);
   const auto clear = [&] {
     const double slope = std::abs(extreme.df) + extreme.error_df;
@@ -349,8 +356,8 @@ std::optional<Root> Search::search_start(const Interval& interval, const Estimat
   if (sign_of(e.ddf) == side) return std::nullopt;
   // f rises from 0, bends back and has passed 0 by the end. Until half of the least time of return
   // it is surely above.
-  const double most_bend = std::abs(e.ddf) + e.error_ddf +
-                           interval.half() * third_derivative_bound(e.distance, interval.half());
+  const double most_bend =
+      std::abs(e.ddf) + e.error_ddf + interval.half() * third_derivative_bound(e, interval);
   const Sample<DoubleDouble> start = sample_at(DoubleDouble());
   const double slope = to_double(start.df) * side;
   // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
@@ -368,8 +375,10 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
   if (interval.end < first_ || interval.begin > last_) return std::nullopt;
   if (interval.depth >= sharpen_depth && !amplitude_) {
     amplitude_ = amplitude(precise_frame());
-    const double largest = amplitude_->a + amplitude_->b;
-    vanishes_ = largest <= 0x1p-90 * (frame_.r_norm + frame_.v_norm);
+    const auto& [slow, fast] = *amplitude_;
+    // Below the errors of f everywhere: every interval is flat, so the rest need not be searched.
+    vanishes_ =
+        slow.a + fast.a <= 0x1p-98 * frame_.r_norm && slow.b + fast.b <= 0x1p-98 * frame_.v_norm;
   }
   if (vanishes_) return std::nullopt;
   Estimate e;
@@ -377,6 +386,7 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
   const bool starts = just_collided_ && interval.begin == 0;
   switch (shape) {
     case Shape::free:
+    case Shape::flat:
       return std::nullopt;
     case Shape::monotone:
       if (starts) {
@@ -385,7 +395,7 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
       } else {
         const int before = sign_at(interval.begin), after = sign_at(interval.end);
         if (before == after || before == 0 || after == 0) return std::nullopt;
-        const double least_slope = std::abs(e.df) - e.error_df - bent_by(e, interval.half());
+        const double least_slope = std::abs(e.df) - e.error_df - bent_by(e, interval);
         return accept(interval.begin, interval.end, interval.middle(), before, least_slope);
       }
     case Shape::folded:
@@ -411,10 +421,14 @@ struct Window {
 
 Window sphere_window(const Vec3d& r, const Vec3d& v) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double c = dot(r, r) - (1 + 0x1p-20);
+  const double r2 = dot(r, r);
+  // The second term covers the rounding of r x v and of r . r, for needles far apart.
+  const double radius2 = 1 + 0x1p-20 + 0x1p-48 * r2;
+  const double c = r2 - radius2;
   const double b = dot(r, v);
   const double a = dot(v, v);
-  const double d = b * b - a * c;
+  const Vec3d n = cross(r, v);
+  const double d = a * radius2 - dot(n, n);
   if (c > 0 && (b >= 0 || !(d > 0))) return {infinity, -infinity};
   if (!(d > 0)) return {-infinity, infinity};
   const double root = std::sqrt(d);
@@ -442,7 +456,9 @@ Contact Search::run(double from, double until) {
     }
   }
   if (just_collided_ && frame_.w_sum == 0) return {};  // f is linear and leaves 0 for good
-  for (double begin = std::floor(first_ / grid) * grid; begin <= last_; begin += grid) {
+  // A root at the end of an interval belongs to it, so the first ends at first_ or later.
+  const double start = std::max(0.0, (std::ceil(first_ / grid) - 1) * grid);
+  for (double begin = start; begin <= last_; begin += grid) {
     if (const auto root = search_interval({begin, begin + grid, 0})) {
       const double s = to_double(root->s);
       if (s > end) return {};

@@ -87,7 +87,7 @@ TEST(FirstContactOfFlatFunctions, MissesNothingBetweenSlowConcentricNeedles) {
 
 // f is bounded by the magnitudes of its coefficients, which grow with time as the centres part: the
 // only contact is at s = 7.98 in scaled time.
-TEST(FirstContactOfFlatFunctions, DISABLED_IsFoundLongAfterTheCentresMet) {
+TEST(FirstContactOfFlatFunctions, IsFoundLongAfterTheCentresMet) {
   KernelPair pair;
   pair.first = flight({0, 0, 0}, {0.4, 0.8, 0.4}, {0.05, 0.08, 0.04}, {-0.1, 0, -0.9});
   pair.second = flight({0, 0, 0}, {-0.6, 0.8, 0.1}, {}, {0.9, 0.4, 0.4});
@@ -100,7 +100,7 @@ TEST(FirstContactOfFlatFunctions, DISABLED_IsFoundLongAfterTheCentresMet) {
 }
 
 // An early start must not sharpen bounds that a later one lacks.
-TEST(FirstContactOfFlatFunctions, DISABLED_DoesNotDependOnWhereTheSearchStarts) {
+TEST(FirstContactOfFlatFunctions, DoesNotDependOnWhereTheSearchStarts) {
   Random random(seed);
   int contacts = 0;
   for (int n = 0; n < 3 * count; ++n) {
@@ -121,7 +121,7 @@ TEST(FirstContactOfFlatFunctions, DISABLED_DoesNotDependOnWhereTheSearchStarts) 
 }
 
 // Centres and records coincide with the grid: an interval that ends at the contact holds it.
-TEST(FirstContactOfFlatFunctions, DISABLED_OnTheGridIsFoundFromTheContactItself) {
+TEST(FirstContactOfFlatFunctions, OnTheGridIsFoundFromTheContactItself) {
   KernelPair pair;
   pair.first = flight({0.1, 0.05, -0.5}, {1, 0, 0}, {0, 0, 1}, {});
   pair.second = flight({0, 0, 0}, {0, 1, 0}, {}, {});
@@ -130,7 +130,7 @@ TEST(FirstContactOfFlatFunctions, DISABLED_OnTheGridIsFoundFromTheContactItself)
 }
 
 // Beyond 1e8 the window in which the centres are near must not drown in the rounding of |r|^2.
-TEST(FirstContactOfFlatFunctions, DISABLED_IsFoundFromFarAway) {
+TEST(FirstContactOfFlatFunctions, IsFoundFromFarAway) {
   for (const double distance : {1e7, 1e8, 1e9, 1e10}) {
     KernelPair pair;
     pair.first = flight({0.25, 0, -distance}, {1, 0, 0}, {0, 0, 1}, {});
@@ -143,7 +143,7 @@ TEST(FirstContactOfFlatFunctions, DISABLED_IsFoundFromFarAway) {
 
 // Equal directors, equal angular velocities: f vanishes at all times, though none of its
 // coefficients does.
-TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedForParallelNeedlesThatTurnTogether) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedForParallelNeedlesThatTurnTogether) {
   KernelPair pair;
   pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
   pair.second = flight({0.1, 0.2, 0.3}, {1, 0, 0}, {0, 0.01, 0}, {0, 0, 1});
@@ -153,7 +153,7 @@ TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedForParallelNeedlesThatTu
 }
 
 // As above, but at a small angle: it is all that f, f' and f'' are made of.
-TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedForNearlyParallelNeedlesThatTurnTogether) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedForNearlyParallelNeedlesThatTurnTogether) {
   for (const double angle : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16}) {
     KernelPair pair;
     pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
@@ -164,7 +164,7 @@ TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedForNearlyParallelNeedles
 
 // Out of plane by less than double-double resolves beside the terms in the plane, whose phases are
 // large.
-TEST(FirstContactCostOfFlatFunctions, DISABLED_IsBoundedWhereDoubleDoubleResolvesNothing) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedWhereDoubleDoubleResolvesNothing) {
   for (const int power : {-80, -84, -88, -92, -100}) {
     KernelPair pair;
     pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});

@@ -170,23 +170,8 @@ static std::string family_name(const testing::TestParamInfo<test::PairFamily>& i
 INSTANTIATE_TEST_SUITE_P(Families, FirstContact, testing::ValuesIn(test::pair_families()),
                          family_name);
 
-// Families whose intervals are halved so often that bounds are sharpened on the way.
-bool sharpens(const test::PairFamily& family) {
-  return family.name == "planar" || family.name == "parallel";
-}
-
-std::vector<test::PairFamily> families_that_sharpen(bool wanted) {
-  std::vector<test::PairFamily> out;
-  for (const test::PairFamily& family : test::pair_families()) {
-    if (sharpens(family) == wanted) out.push_back(family);
-  }
-  return out;
-}
-
 INSTANTIATE_TEST_SUITE_P(Families, FirstContactFromAnywhere,
-                         testing::ValuesIn(families_that_sharpen(false)), family_name);
-INSTANTIATE_TEST_SUITE_P(DISABLED_Families, FirstContactFromAnywhere,
-                         testing::ValuesIn(families_that_sharpen(true)), family_name);
+                         testing::ValuesIn(test::pair_families()), family_name);
 
 // Without rotation f is linear: the only root and the arms are rational functions of the records.
 TEST(FirstContactWithoutRotation, IsWhereTheLinesMeet) {
