@@ -54,8 +54,8 @@ struct Rates {
 };
 
 // Mean rates over this time from the start. A pair that collapses, and no contact time helps it,
-// ends its run with an error or bounces on and on. In the limit of no time there is none; a run with
-// one is left out, which is one chain of collisions out of thousands of collisions.
+// ends its run with an error or bounces on and on. In the limit of no time there is none; a run
+// with one is left out, which is one chain of collisions out of thousands of collisions.
 Rates measure(const Gas& gas, double time) {
   Scene scene = test::scene_of(count, std::cbrt(count / gas.density), gas.seed);
   scene.needles.k = gas.needles.k;
