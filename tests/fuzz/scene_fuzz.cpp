@@ -28,7 +28,7 @@ void check_scene(const needlework::Scene& scene, const std::string& text) {
   require(scene.collisions.epsilon >= 0 && scene.collisions.epsilon <= 1);
   require(std::abs(scene.collisions.beta) <= 1);
   require(!(scene.collisions.tc && scene.collisions.tc_relative));
-  require(scene.engine.threads >= 1);
+  require(!scene.engine.threads || *scene.engine.threads >= 1);
   require(scene.output.series_per_decade > 0);
   require(needlework::is_printable(scene.title) && needlework::is_printable(scene.output.file));
   for (const double edge : scene.needles.box)

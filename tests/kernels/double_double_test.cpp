@@ -88,7 +88,7 @@ TEST(DoubleDouble, ProductIsWithinItsBound) {
 
 TEST(DoubleDouble, QuotientIsWithinItsBound) {
   const auto quotient = [](const auto& a, const auto& b) { return a / b; };
-  EXPECT_LT(worst_error(200, quotient, quotient), 0x1p-102);
+  EXPECT_LT(worst_error(200, quotient, quotient), 0x1p-104);
 }
 
 TEST(DoubleDouble, SquareRootIsWithinItsBound) {

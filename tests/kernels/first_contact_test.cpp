@@ -305,6 +305,25 @@ TEST(FirstContactByHand, ATouchWithoutChangeOfSignIsNoContact) {
   }
 }
 
+// Two roots close to time 1, and a tip that slides over the other needle just between them.
+TEST(FirstContactByHand, OfTwoCloseRootsOnlyTheOneInsideTheNeedlesCounts) {
+  for (const double h : {-1e-3, -1e-6, -1e-10}) {
+    for (const double slide : {1.0, -1.0}) {
+      const double way = std::sqrt(8 * -h), ahead = 1;
+      KernelPair held = swinging(h);
+      held.first.r = centre_after(held.first, -ahead);
+      held.first.u = director_after(held.first, -ahead);
+      set_rotation(held.first);
+      held.second = flight({0, 0.5 + slide * ahead, 0}, {0, 1, 0}, {0, -slide, 0}, {});
+      const Contact contact = find(held, 3);
+      ASSERT_TRUE(contact.found) << h;
+      // Inside is after the tip has passed, or before.
+      EXPECT_NEAR(contact.elapsed.hi, ahead + slide * way, 0.1 * way) << h;
+      EXPECT_EQ(contact.side, -slide);
+    }
+  }
+}
+
 TEST(FirstContactByHand, OnAPointOfTheDyadicGridIsFoundOnce) {
   for (const double t : {0.5, 1.0, 0.25, 0.375, 1.5}) {
     for (const double spin : {0.0, 0.5}) {

@@ -8,7 +8,9 @@
 // A run lasts a small part of a mean free time. Meanwhile the rates drift by a few percent as the
 // temperatures change; the theory gives that drift well enough to take it off. What is left is of
 // second order: pairs that meet again within the run, and velocities that are no longer Gaussian.
-// BIASNOTE
+// That bias is in proportion to the duration and below the tolerance here: the largest seen, in ten
+// times as many runs, is -1.2 +- 0.3 % of the change of T_rot at k = 20, epsilon = beta = 0.5, and
+// -4.2 +- 0.3 % in runs four times as long.
 // Tolerance: 3 standard errors, from the scatter of the runs, each with a seed of its own.
 #include <gtest/gtest.h>
 
