@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "kernels/closest_approach.h"
+
 namespace needlework::kernels {
 namespace {
 
@@ -19,6 +21,9 @@ constexpr int last_depth = 44;
 constexpr double polish_above = 0x1p-41;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
+// Segments farther apart do not touch, however small f is; far above what rounding does to them, and
+// below the margins of every filter.
+constexpr double touching = 0x1p-18;
 // Bounds computed with a few roundings are enlarged by this.
 constexpr double roundup = 1 + 0x1p-40;
 
@@ -448,8 +453,10 @@ Contact Search::run(double from, double until) {
   if (pair_.touch.touching) first_ = 0;
   if (!(first_ <= last_)) return {};
   if (pair_.touch_within > 0 && from == 0 && !pair_.touch.touching) {
-    const Estimate start = in_double(0);
-    if (start.distance <= 1 && std::abs(start.f) <= pair_.touch_within) {
+    const Sample<double> start = sample_at(0.0);
+    if (std::abs(start.f) <= pair_.touch_within &&
+        segment_distance_squared(start.r, start.u[0], start.u[1], start.x,
+                                 dot(start.x, start.x)) < touching * touching) {
       Contact unknown;
       unknown.side_unknown = true;
       return unknown;

@@ -16,7 +16,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 // What `auto` stands for comes first.
-const Names searches{"linked-cells", "all-pairs"};
+const Names searches{"linked-lists", "all-pairs"};
 const Names queues{"indexed-heap"};
 const Names accuracies{"standard"};
 const Names instruction_sets{"scalar"};

@@ -23,9 +23,10 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json stats_of(const Counters& counters) {
   return {{"candidates", counters.candidates},
           {"filtered", counters.filtered},
+          {"predicted", counters.predicted},
           {"evaluated", counters.evaluated},
           {"escalated", counters.escalated},
-          {"rebuilds", 0},  // there are no neighbour lists to rebuild yet
+          {"rebuilds", counters.rebuilds},
           {"crossings", counters.crossings},
           {"stale", counters.stale},
           {"renewals", counters.renewals},

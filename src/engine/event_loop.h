@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "kernels/bounding_spheres.h"
 #include "src/engine/run.h"
 #include "src/error.h"
 
@@ -42,9 +41,9 @@ class EventLoop final : public Run {
     Shift wraps{};
   };
 
-  void schedule(Needle i);
-  void consider(Needle i, Needle j, const Shift& shift, Event& best);
-  kernels::Contact predict(Needle a, Needle b, const Shift& shift, Time until);
+  void schedule(Needle i, Time placed_until);
+  void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
+  kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from, Time until);
   void settle_touch(Needle a, Needle b, const Shift& shift);
   Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v, const Vec3d& w);
   void happen(const Event& event);
@@ -65,13 +64,14 @@ class EventLoop final : public Run {
 
 template <class Search, class Calendar, Effects effects>
 EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial)
-    : Run(scene, initial), search_(gas), calendar_(gas.size()) {
+    : Run(scene, initial), search_(gas, counters), calendar_(gas.size()) {
   if constexpr (effects.contact_time) {
     last_collision_.assign(gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }
   const Needle count = static_cast<Needle>(gas.size());
-  for (Needle i = 0; i < count; ++i) search_.insert(i, now);
-  for (Needle i = 0; i < count; ++i) schedule(i);
+  std::vector<Time> placed_until(count);
+  for (Needle i = 0; i < count; ++i) placed_until[i] = search_.place(i, now);
+  for (Needle i = 0; i < count; ++i) schedule(i, placed_until[i]);
 }
 
 template <class Search, class Calendar, Effects effects>
@@ -136,7 +136,7 @@ void EventLoop<Search, Calendar, effects>::happen(const Event& event) {
     horizon(event.owner);
   } else if (gas.records[event.partner].serial != event.partner_serial) {
     ++counters.stale;
-    schedule(event.owner);
+    schedule(event.owner, search_.place(event.owner, now));
   } else {
     collide(event);
   }
@@ -151,8 +151,7 @@ void EventLoop<Search, Calendar, effects>::horizon(Needle i) {
     const double elapsed = gas.clock.difference(now, record.time);
     replace_record(i, director_after(record.flight, elapsed), record.flight.v, record.flight.w);
   }
-  if (search_.move_on(i, now)) ++counters.crossings;
-  schedule(i);
+  schedule(i, search_.place(i, now));
 }
 
 template <class Search, class Calendar, Effects effects>
@@ -162,7 +161,6 @@ Shift EventLoop<Search, Calendar, effects>::replace_record(Needle i, const Vec3d
   old.needle = i;
   old.record = gas.records[i];
   old.wraps = renew_record(gas, i, now, director, v, w);
-  search_.rewrap(i, old.wraps);
   return old.wraps;
 }
 
@@ -217,42 +215,34 @@ void EventLoop<Search, Calendar, effects>::collide(const Event& event) {
   ++collisions_;
   tc_collisions_ += by_contact_time;
   hash.add(report);
-  schedule(a);
-  schedule(b);
+  const Time placed_a = search_.place(a, now), placed_b = search_.place(b, now);
+  schedule(a, placed_a);
+  schedule(b, placed_b);
   if (callback) callback(report);
 }
 
 // Searches contacts of needle i from now on and enters its next event.
 template <class Search, class Calendar, Effects effects>
-void EventLoop<Search, Calendar, effects>::schedule(Needle i) {
+void EventLoop<Search, Calendar, effects>::schedule(Needle i, Time placed_until) {
   ++counters.searches;
-  const Record& record = gas.records[i];
   Event best;
   best.owner = i;
+  best.lower_id = best.higher_id = gas.ids[i];
   best.time =
-      std::min({search_.complete_until(i, now), record.renewal, gas.clock.add(now, search_span_)});
-  const Vec3d centre = centre_after(record.flight, gas.clock.difference(now, record.time));
-  double ahead = gas.clock.difference(best.time, now);
-  search_.for_each_candidate(i, now, best.time, [&](Needle j, const Shift& shift) {
-    ++counters.candidates;
-    const Record& other = gas.records[j];
-    const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
-    const Vec3d r =
-        (centre - centre_after(other.flight, gas.clock.difference(now, other.time))) - image;
-    if (kernels::spheres_stay_apart(r, record.flight.v - other.flight.v, ahead)) {
-      ++counters.filtered;
-    } else {
-      consider(i, j, shift, best);
-      ahead = gas.clock.difference(best.time, now);
-    }
-  });
+      std::min({placed_until, gas.records[i].renewal, gas.clock.add(now, search_span_)});
+  search_.find(i, now, gas.clock.difference(best.time, now),
+               [&](Needle j, const Shift& shift, double from) {
+                 consider(i, j, shift, from, best);
+                 return gas.clock.difference(best.time, now);
+               });
   calendar_.set(best);
 }
 
-// Looks for a contact of i with this candidate before `best`, and makes it the best.
+// Looks for a contact of i with this candidate before `best`, and makes it the best. There is none
+// until the time `from` from now.
 template <class Search, class Calendar, Effects effects>
 void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Shift& shift,
-                                                    Event& best) {
+                                                    double from, Event& best) {
   const Record& mine = gas.records[i];
   const Record& other = gas.records[j];
   // Beyond the renewal of j its own event takes over.
@@ -261,17 +251,19 @@ void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Sh
   event.owner = i;
   event.partner = j;
   event.partner_serial = other.serial;
-  event.shift = i < j ? shift : -shift;
+  event.owner_is_lower = gas.ids[i] < gas.ids[j];
+  event.shift = event.owner_is_lower ? shift : -shift;
   const Needle a = event.lower(), b = event.higher();
-  const kernels::Contact contact = predict(a, b, event.shift, until);
+  event.lower_id = gas.ids[a];
+  event.higher_id = gas.ids[b];
+  const kernels::Contact contact = predict(a, b, event.shift, from, until);
   if (!contact.found) return;
-  const Time start = Gas::start_of(mine, other);
-  event.time = gas.clock.add(start, contact.elapsed.hi);
+  event.time = gas.clock.add(Gas::start_of(mine, other), contact.elapsed.hi);
   event.side = static_cast<std::int8_t>(contact.side);
   event.resolvable = !contact.unresolvable;
   if (event.time < now) {
-    throw InvalidStateError("needles " + std::to_string(gas.ids[a]) + " and " +
-                            std::to_string(gas.ids[b]) + ": a contact at time " +
+    throw InvalidStateError("needles " + std::to_string(event.lower_id) + " and " +
+                            std::to_string(event.higher_id) + ": a contact at time " +
                             std::to_string(gas.clock.since_start(event.time)) +
                             " was missed; this is a defect of the program");
   }
@@ -280,12 +272,14 @@ void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Sh
 
 template <class Search, class Calendar, Effects effects>
 kernels::Contact EventLoop<Search, Calendar, effects>::predict(Needle a, Needle b,
-                                                               const Shift& shift, Time until) {
+                                                               const Shift& shift,
+                                                               double from_now, Time until) {
+  ++counters.predicted;
   const Record& first = gas.records[a];
   const Record& second = gas.records[b];
   const Time start = Gas::start_of(first, second);
   // Rounded outwards; the times themselves are compared exactly.
-  const double from = gas.clock.difference(now, start) * (1 - 0x1p-50);
+  const double from = (gas.clock.difference(now, start) + from_now) * (1 - 0x1p-50);
   const double to = gas.clock.difference(until, start) * (1 + 0x1p-50);
   kernels::Pair pair = make_pair(gas, a, first, b, second, shift);
   kernels::Contact contact = first_contact(pair, from, to, kernel_counters_);

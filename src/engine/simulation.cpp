@@ -5,7 +5,7 @@
 #include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/search/all_pairs.h"
-#include "src/search/linked_cells.h"
+#include "src/search/linked_lists.h"
 
 namespace needlework {
 namespace {
@@ -34,10 +34,10 @@ std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
   }
   const std::string& search = scene.engine.search;
   if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial);
-  if (search == "auto" || search == LinkedCells::name) {
-    return with_effects<LinkedCells, IndexedHeap>(scene, initial);
+  if (search == "auto" || search == LinkedLists::name) {
+    return with_effects<LinkedLists, IndexedHeap>(scene, initial);
   }
-  throw InputError("engine.search = \"" + search + "\": expected auto, all-pairs or linked-cells");
+  throw InputError("engine.search = \"" + search + "\": expected auto, all-pairs or linked-lists");
 }
 
 struct Simulation::Implementation {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "src/engine/counters.h"
 #include "src/scene/scene.h"
 
 namespace needlework {
@@ -37,20 +38,6 @@ struct Totals {
   std::array<double, 3> momentum{};  ///< total
   std::uint64_t collisions = 0;      ///< since the start of the run
   std::uint64_t tc_collisions = 0;
-};
-
-/// Counters of the work done. Nothing in a trajectory depends on them.
-struct Counters {
-  std::uint64_t events = 0;      ///< all that was popped
-  std::uint64_t stale = 0;       ///< popped contacts whose partner had changed
-  std::uint64_t crossings = 0;   ///< cell crossings
-  std::uint64_t renewals = 0;    ///< records renewed by their own clock
-  std::uint64_t searches = 0;    ///< searches over all candidates of a needle
-  std::uint64_t candidates = 0;  ///< pairs proposed by the search
-  std::uint64_t filtered = 0;    ///< of these, settled by the bounding spheres
-  std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
-  std::uint64_t escalated = 0;   ///< decisions handed to double-double
-  std::uint64_t touches = 0;     ///< third needles found touching at a renewal
 };
 
 enum class Stop { time, collisions, energy, wall_time, interrupted, nothing_can_happen };

@@ -60,7 +60,7 @@ struct Gas {
   static Time start_of(const Record& a, const Record& b) { return std::max(a.time, b.time); }
 };
 
-/// The pair of two records. Needle a's index is below b's; `shift` is added to b's centre.
+/// The pair of two records. Needle a has the lower id; `shift` is added to b's centre.
 kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
                         const Record& record_b, const Shift& shift);
 

@@ -145,9 +145,9 @@ constexpr SceneKey keys[] = {
     {"collisions", "tc_relative", "a number >= 0 of mean free times",
      [](Scene& s, V v) { return store(s.collisions.tc_relative, number(v, 0)); }},
 
-    {"engine", "search", R"("auto", "all-pairs", "linked-cells" or "capsules")",
+    {"engine", "search", R"("auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")",
      [](Scene& s, V v) {
-       return store(s.engine.search, one_of(v, {"auto", "all-pairs", "linked-cells", "capsules"}));
+       return store(s.engine.search, one_of(v, {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"}));
      }},
     {"engine", "queue",
      R"("auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")",

@@ -4,43 +4,46 @@
 
 #include <cmath>
 
-#include "src/physics/gas.h"
+#include "src/search/bounding_filter.h"
 
 namespace needlework {
 
 /// A search proposes, for one needle, the (needle, shift) pairs that it might meet before a time.
 /// It may propose too many, never too few.
+///
+///   Time place(Needle i, Time now)
+///     enters i where it is now; called whenever its record has changed, before any search that
+///     could meet it, and when the time that this returns has come. Until then i is found where it
+///     has been placed.
+///   find(i, now, ahead, visit)
+///     calls visit(j, shift, from) -> ahead for each (j, shift) that i might meet within the time
+///     `ahead` and before j is placed anew: not before the time `from` from now. shift is added to
+///     the centre of j. What visit returns is the time ahead that still matters.
 class AllPairs {
  public:
   static constexpr const char* name = "all-pairs";
 
-  explicit AllPairs(const Gas& gas) : gas_(gas) {}
+  AllPairs(const Gas& gas, Counters& counters) : gas_(gas), counters_(counters) {}
 
-  void insert(Needle, Time) {}
-  /// The candidates proposed for i are complete at least until this time.
-  Time complete_until(Needle, Time) const { return Time::never(); }
-  /// Takes the step that this time asks for, if it has come; says whether.
-  bool move_on(Needle, Time) { return false; }
-  /// Called when a record has been wrapped.
-  void rewrap(Needle, const Shift&) {}
+  Time place(Needle, Time) { return Time::never(); }
 
-  /// Calls visit(j, shift) for each candidate of i; shift is added to the centre of j.
   template <class Visit>
-  void for_each_candidate(Needle i, Time now, Time until, Visit&& visit) const {
-    const Record& a = gas_.records[i];
-    const double dt = gas_.clock.difference(until, now);
-    const Vec3d ra = centre_after(a.flight, gas_.clock.difference(now, a.time));
+  void find(Needle i, Time now, double ahead, Visit&& visit) const {
+    const Vec3d& v_i = gas_.records[i].flight.v;
+    BoundingFilter filter(gas_, counters_, i, now, ahead);
     for (Needle j = 0; j < gas_.size(); ++j) {
       if (j == i) continue;
       const Record& b = gas_.records[j];
-      const Vec3d r = ra - centre_after(b.flight, gas_.clock.difference(now, b.time));
-      const Vec3d v = a.flight.v - b.flight.v;
-      const Range x = images(r.x, v.x, dt, gas_.box[0]);
-      const Range y = images(r.y, v.y, dt, gas_.box[1]);
-      const Range z = images(r.z, v.z, dt, gas_.box[2]);
+      const Vec3d r = filter.centre() - centre_after(b.flight, gas_.clock.difference(now, b.time));
+      const Vec3d v = v_i - b.flight.v;
+      const Range x = images(r.x, v.x, filter.ahead(), gas_.box[0]);
+      const Range y = images(r.y, v.y, filter.ahead(), gas_.box[1]);
+      const Range z = images(r.z, v.z, filter.ahead(), gas_.box[2]);
       for (std::int32_t sx = x.first; sx <= x.last; ++sx) {
         for (std::int32_t sy = y.first; sy <= y.last; ++sy) {
-          for (std::int32_t sz = z.first; sz <= z.last; ++sz) visit(j, Shift{sx, sy, sz});
+          for (std::int32_t sz = z.first; sz <= z.last; ++sz) {
+            filter(j, Shift{sx, sy, sz}, visit);
+          }
         }
       }
     }
@@ -59,6 +62,7 @@ class AllPairs {
   }
 
   const Gas& gas_;
+  Counters& counters_;
 };
 
 }  // namespace needlework

@@ -122,7 +122,7 @@ TEST(GoodScene, TakesEveryNamedStrategy) {
   const auto engine = [](const std::string& line) {
     return parse_scene(least + ("engine." + line), "s.toml").engine;
   };
-  for (const std::string name : {"auto", "all-pairs", "linked-cells", "capsules"})
+  for (const std::string name : {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"})
     EXPECT_EQ(engine("search = '" + name + "'").search, name);
   for (const std::string name :
        {"auto", "lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"})

@@ -1,0 +1,23 @@
+// Counters of the work done. Nothing in a trajectory depends on them.
+#pragma once
+
+#include <cstdint>
+
+namespace needlework {
+
+struct Counters {
+  std::uint64_t events = 0;      ///< all that was popped
+  std::uint64_t stale = 0;       ///< popped contacts whose partner had changed
+  std::uint64_t crossings = 0;   ///< changes of cell
+  std::uint64_t rebuilds = 0;    ///< hulls set anew because their needle left them
+  std::uint64_t renewals = 0;    ///< records renewed by their own clock
+  std::uint64_t searches = 0;    ///< searches over all candidates of a needle
+  std::uint64_t candidates = 0;  ///< pairs proposed by the search
+  std::uint64_t filtered = 0;    ///< of these, settled by a filter
+  std::uint64_t predicted = 0;   ///< pairs whose first contact was computed
+  std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
+  std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double
+  std::uint64_t touches = 0;     ///< third needles found touching at a renewal
+};
+
+}  // namespace needlework

@@ -1,0 +1,99 @@
+// The box cut into equal cells, for searches that look for neighbours cell by cell.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "kernels/vec3.h"
+
+namespace needlework {
+
+/// Cell of a centre in the frame of the needle's record: not wrapped into the box.
+using Cell = std::array<std::int32_t, 3>;
+
+class CellGrid {
+ public:
+  CellGrid() = default;
+  /// As many cells as fit with sides of at least `least_side`, one at least.
+  CellGrid(const std::array<double, 3>& box, double least_side) {
+    for (int axis = 0; axis < 3; ++axis) {
+      count_[axis] = std::max(1, static_cast<std::int32_t>(std::floor(box[axis] / least_side)));
+      side_[axis] = box[axis] / count_[axis];
+      reciprocal_[axis] = 1 / side_[axis];
+    }
+  }
+
+  std::array<std::int32_t, 3> counts() const { return count_; }
+  std::array<double, 3> sides() const { return side_; }
+  std::size_t size() const {
+    return static_cast<std::size_t>(count_[0]) * count_[1] * static_cast<std::size_t>(count_[2]);
+  }
+
+  /// The cell of a centre; one next to its border may fall on either side.
+  Cell cell_of(const Vec3d& r) const {
+    return {floor(r.x * reciprocal_[0]), floor(r.y * reciprocal_[1]), floor(r.z * reciprocal_[2])};
+  }
+  Vec3d corner(const Cell& cell) const {
+    return {cell[0] * side_[0], cell[1] * side_[1], cell[2] * side_[2]};
+  }
+
+  std::int32_t wrap(std::int32_t c, int axis) const {
+    const std::int32_t n = count_[axis];
+    const std::int32_t m = c % n;
+    return m < 0 ? m + n : m;
+  }
+  std::size_t index(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return (static_cast<std::size_t>(z) * count_[1] + y) * count_[0] + x;
+  }
+  std::size_t index_of(const Cell& cell) const {
+    return index(wrap(cell[0], 0), wrap(cell[1], 1), wrap(cell[2], 2));
+  }
+
+  /// Calls visit(cell, index) for the cell and all around it, by rows along x; images of one cell
+  /// are visited apart where there are fewer than three.
+  template <class Visit>
+  void for_each_around(const Cell& centre, Visit&& visit) const {
+    for (std::int32_t z = centre[2] - 1; z <= centre[2] + 1; ++z) {
+      const std::int32_t wz = wrap(z, 2);
+      for (std::int32_t y = centre[1] - 1; y <= centre[1] + 1; ++y) {
+        const std::int32_t wy = wrap(y, 1);
+        for (std::int32_t x = centre[0] - 1; x <= centre[0] + 1; ++x) {
+          visit(Cell{x, y, z}, index(wrap(x, 0), wy, wz));
+        }
+      }
+    }
+  }
+
+  /// Boxes to add to a centre in cell `from` so that it comes to lie in `to`, an image of that cell.
+  std::array<std::int32_t, 3> boxes_between(const Cell& to, const Cell& from) const {
+    return {(to[0] - from[0]) / count_[0], (to[1] - from[1]) / count_[1],
+            (to[2] - from[2]) / count_[2]};
+  }
+
+  /// Time until a centre at r with velocity v is out of the cell by `margin` [L]. Then it is in
+  /// another cell, whatever rounding does to it.
+  double time_to_leave(const Cell& cell, const Vec3d& r, const Vec3d& v, double margin) const {
+    const double position[3] = {r.x, r.y, r.z}, velocity[3] = {v.x, v.y, v.z};
+    double out = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = cell[axis] * side_[axis];
+      if (velocity[axis] > 0) {
+        out = std::min(out, (low + side_[axis] + margin - position[axis]) / velocity[axis]);
+      } else if (velocity[axis] < 0) {
+        out = std::min(out, (low - margin - position[axis]) / velocity[axis]);
+      }
+    }
+    return std::max(out, 0.0);
+  }
+
+ private:
+  static std::int32_t floor(double x) { return static_cast<std::int32_t>(std::floor(x)); }
+
+  std::array<std::int32_t, 3> count_{};
+  std::array<double, 3> side_{}, reciprocal_{};
+};
+
+}  // namespace needlework

@@ -1,0 +1,54 @@
+#include "src/search/linked_lists.h"
+
+namespace needlework {
+namespace {
+
+// A needle stays in its cell until it is out of it by so much.
+constexpr double margin = 0x1p-30;
+
+}  // namespace
+
+LinkedLists::LinkedLists(const Gas& gas, Counters& counters)
+    : gas_(gas), counters_(counters), place_(gas.size()) {
+  // Cells much emptier than one needle each would only cost memory and crossings.
+  const double needles = std::max<double>(1, static_cast<double>(gas.size()));
+  const double volume = gas.box[0] * gas.box[1] * gas.box[2];
+  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, std::cbrt(volume / (2 * needles))));
+  head_.assign(grid_.size(), no_needle);
+}
+
+Time LinkedLists::place(Needle i, Time now) {
+  const kernels::Flight& flight = gas_.records[i].flight;
+  const Vec3d r = centre_after(flight, gas_.clock.difference(now, gas_.records[i].time));
+  Place& place = place_[i];
+  const Cell cell = grid_.cell_of(r);
+  if (!place.linked || cell != place.cell) {
+    if (place.linked) unlink(i);
+    counters_.crossings += place.linked;
+    place.cell = cell;
+    link(i);
+  }
+  return gas_.clock.add(now, grid_.time_to_leave(cell, r, flight.v, margin));
+}
+
+void LinkedLists::link(Needle i) {
+  Place& place = place_[i];
+  Needle& head = head_[grid_.index_of(place.cell)];
+  place.linked = true;
+  place.previous = no_needle;
+  place.next = head;
+  if (head != no_needle) place_[head].previous = i;
+  head = i;
+}
+
+void LinkedLists::unlink(Needle i) {
+  const Place& place = place_[i];
+  if (place.previous != no_needle) {
+    place_[place.previous].next = place.next;
+  } else {
+    head_[grid_.index_of(place.cell)] = place.next;
+  }
+  if (place.next != no_needle) place_[place.next].previous = place.previous;
+}
+
+}  // namespace needlework

@@ -1,0 +1,53 @@
+// Linked cells as the classical codes have them, and the paper: the box is cut into cells of side
+// about L, each with a linked list of its needles; needles in contact are in the same or in
+// neighbouring cells. Plain, and slow when dense, since a cell cannot be smaller than a needle: the
+// baseline of every benchmark.
+#pragma once
+
+#include <vector>
+
+#include "src/search/bounding_filter.h"
+#include "src/search/cell_grid.h"
+
+namespace needlework {
+
+class LinkedLists {
+ public:
+  static constexpr const char* name = "linked-lists";
+
+  /// `gas` must outlive the search; needles are entered by place().
+  LinkedLists(const Gas& gas, Counters& counters);
+
+  Time place(Needle i, Time now);
+
+  template <class Visit>
+  void find(Needle i, Time now, double ahead, Visit&& visit) const {
+    BoundingFilter filter(gas_, counters_, i, now, ahead);
+    grid_.for_each_around(place_[i].cell, [&](const Cell& cell, std::size_t index) {
+      for (Needle j = head_[index]; j != no_needle; j = place_[j].next) {
+        // An image of i itself is at least two needle lengths away.
+        if (j != i) filter(j, grid_.boxes_between(cell, place_[j].cell), visit);
+      }
+    });
+  }
+
+  const CellGrid& grid() const { return grid_; }
+
+ private:
+  struct Place {
+    Cell cell{};
+    bool linked = false;
+    Needle next = no_needle, previous = no_needle;
+  };
+
+  void link(Needle i);
+  void unlink(Needle i);
+
+  const Gas& gas_;
+  Counters& counters_;
+  CellGrid grid_;
+  std::vector<Needle> head_;
+  std::vector<Place> place_;
+};
+
+}  // namespace needlework
