@@ -16,10 +16,10 @@ namespace {
 using Names = std::vector<std::string>;
 
 // What `auto` stands for comes first.
-const Names searches{"linked-lists", "all-pairs"};
+const Names searches{"capsules", "linked-cells", "linked-lists", "all-pairs"};
 const Names queues{"indexed-heap"};
 const Names accuracies{"standard"};
-const Names instruction_sets{"scalar"};
+const Names instruction_sets{"avx512", "avx2", "sse4", "scalar"};
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -23,6 +23,7 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json stats_of(const Counters& counters) {
   return {{"candidates", counters.candidates},
           {"filtered", counters.filtered},
+          {"isolated", counters.isolated},
           {"predicted", counters.predicted},
           {"evaluated", counters.evaluated},
           {"escalated", counters.escalated},

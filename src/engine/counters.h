@@ -14,6 +14,7 @@ struct Counters {
   std::uint64_t searches = 0;    ///< searches over all candidates of a needle
   std::uint64_t candidates = 0;  ///< pairs proposed by the search
   std::uint64_t filtered = 0;    ///< of these, settled by a filter
+  std::uint64_t isolated = 0;    ///< evaluations by lanes of the contact function in float
   std::uint64_t predicted = 0;   ///< pairs whose first contact was computed
   std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double

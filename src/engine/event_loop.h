@@ -15,6 +15,7 @@
 
 #include "src/engine/run.h"
 #include "src/error.h"
+#include "src/search/setup.h"
 
 namespace needlework {
 
@@ -27,7 +28,7 @@ struct Effects {
 template <class Search, class Calendar, Effects effects>
 class EventLoop final : public Run {
  public:
-  EventLoop(const Scene& scene, const State& initial);
+  EventLoop(const Scene& scene, const State& initial, const SearchSetup& setup);
 
   Stop advance(const Scene::Until& until) override;
   const char* search_name() const override { return Search::name; }
@@ -63,8 +64,9 @@ class EventLoop final : public Run {
 };
 
 template <class Search, class Calendar, Effects effects>
-EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial)
-    : Run(scene, initial), search_(gas, counters), calendar_(gas.size()) {
+EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial,
+                                                const SearchSetup& setup)
+    : Run(scene, initial), search_(gas, counters, setup), calendar_(gas.size()) {
   if constexpr (effects.contact_time) {
     last_collision_.assign(gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }

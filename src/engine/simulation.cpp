@@ -6,16 +6,18 @@
 #include "src/io/h5md.h"
 #include "src/search/all_pairs.h"
 #include "src/search/linked_lists.h"
+#include "src/search/near_search.h"
 
 namespace needlework {
 namespace {
 
 template <class Search, class Calendar>
-std::unique_ptr<Run> with_effects(const Scene& scene, const State& initial) {
+std::unique_ptr<Run> with_effects(const Scene& scene, const State& initial,
+                                  const SearchSetup& setup) {
   const bool rough = scene.collisions.beta != -1;
   const bool contact_time = scene.collisions.tc || scene.collisions.tc_relative;
   const auto make = [&]<Effects effects>() -> std::unique_ptr<Run> {
-    return std::make_unique<EventLoop<Search, Calendar, effects>>(scene, initial);
+    return std::make_unique<EventLoop<Search, Calendar, effects>>(scene, initial, setup);
   };
   if (rough) {
     return contact_time ? make.template operator()<Effects{true, true}>()
@@ -25,6 +27,15 @@ std::unique_ptr<Run> with_effects(const Scene& scene, const State& initial) {
                       : make.template operator()<Effects{false, false}>();
 }
 
+kernels::Isa isa_of(const std::string& name) {
+  const std::vector<kernels::Isa> offered = kernels::available();
+  if (name == "auto") return offered.back();
+  for (const kernels::Isa isa : offered) {
+    if (kernels::name_of(isa) == name) return isa;
+  }
+  throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
+}
+
 }  // namespace
 
 std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
@@ -32,17 +43,27 @@ std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
   if (queue != "auto" && queue != IndexedHeap::name) {
     throw InputError("engine.queue = \"" + queue + "\": expected auto or indexed-heap");
   }
+  const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
+                          scene.engine.capsule_radius};
   const std::string& search = scene.engine.search;
-  if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial);
-  if (search == "auto" || search == LinkedLists::name) {
-    return with_effects<LinkedLists, IndexedHeap>(scene, initial);
+  if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial, setup);
+  if (search == LinkedLists::name) {
+    return with_effects<LinkedLists, IndexedHeap>(scene, initial, setup);
   }
-  throw InputError("engine.search = \"" + search + "\": expected auto, all-pairs or linked-lists");
+  if (search == LinkedCells::name) {
+    return with_effects<LinkedCells, IndexedHeap>(scene, initial, setup);
+  }
+  if (search == "auto" || search == Capsules::name) {
+    return with_effects<Capsules, IndexedHeap>(scene, initial, setup);
+  }
+  throw InputError("engine.search = \"" + search +
+                   "\": expected auto, all-pairs, linked-lists, linked-cells or capsules");
 }
 
 struct Simulation::Implementation {
   std::unique_ptr<Run> run;
   std::string effects;
+  std::string isa;
 };
 
 namespace {
@@ -67,6 +88,7 @@ Simulation::Simulation(const Scene& scene, const State& initial)
     : implementation_(std::make_unique<Implementation>()) {
   implementation_->run = make_run(scene, initial);
   implementation_->effects = name_effects(scene.collisions);
+  implementation_->isa = kernels::name_of(isa_of(scene.engine.isa));
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -91,7 +113,7 @@ std::string Simulation::trajectory_hash() const { return implementation_->run->h
 State Simulation::state() const { return implementation_->run->state(); }
 std::string Simulation::search() const { return implementation_->run->search_name(); }
 std::string Simulation::queue() const { return implementation_->run->queue_name(); }
-std::string Simulation::isa() const { return "scalar"; }
+std::string Simulation::isa() const { return implementation_->isa; }
 std::string Simulation::effects() const { return implementation_->effects; }
 
 }  // namespace needlework

@@ -35,6 +35,8 @@ struct Scene {
     std::string accuracy = "standard";
     std::optional<int> threads;  ///< absent: OMP_NUM_THREADS, else 1
     std::string isa = "auto";
+    std::optional<double> cell_side;       ///< least side of cells; absent: chosen [L]
+    std::optional<double> capsule_radius;  ///< absent: chosen [L]
   };
   /// The first condition met ends the run; all count from the start of the run.
   struct Until {

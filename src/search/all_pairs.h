@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/search/bounding_filter.h"
+#include "src/search/setup.h"
 
 namespace needlework {
 
@@ -23,7 +24,7 @@ class AllPairs {
  public:
   static constexpr const char* name = "all-pairs";
 
-  AllPairs(const Gas& gas, Counters& counters) : gas_(gas), counters_(counters) {}
+  AllPairs(const Gas& gas, Counters& counters, const SearchSetup&) : gas_(gas), counters_(counters) {}
 
   Time place(Needle, Time) { return Time::never(); }
 

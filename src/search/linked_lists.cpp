@@ -8,12 +8,13 @@ constexpr double margin = 0x1p-30;
 
 }  // namespace
 
-LinkedLists::LinkedLists(const Gas& gas, Counters& counters)
+LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup)
     : gas_(gas), counters_(counters), place_(gas.size()) {
   // Cells much emptier than one needle each would only cost memory and crossings.
   const double needles = std::max<double>(1, static_cast<double>(gas.size()));
   const double volume = gas.box[0] * gas.box[1] * gas.box[2];
-  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, std::cbrt(volume / (2 * needles))));
+  const double side = setup.cell_side.value_or(std::cbrt(volume / (2 * needles)));
+  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, side));
   head_.assign(grid_.size(), no_needle);
 }
 

@@ -8,6 +8,7 @@
 
 #include "src/search/bounding_filter.h"
 #include "src/search/cell_grid.h"
+#include "src/search/setup.h"
 
 namespace needlework {
 
@@ -16,7 +17,7 @@ class LinkedLists {
   static constexpr const char* name = "linked-lists";
 
   /// `gas` must outlive the search; needles are entered by place().
-  LinkedLists(const Gas& gas, Counters& counters);
+  LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup);
 
   Time place(Needle i, Time now);
 

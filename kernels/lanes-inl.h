@@ -1,0 +1,87 @@
+// Lanes of float of the instruction set that is being compiled, with the operators of a number, so
+// that one source serves lanes and the scalar twin. Included once for each instruction set.
+#if defined(NEEDLEWORK_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef NEEDLEWORK_LANES_INL
+#undef NEEDLEWORK_LANES_INL
+#else
+#define NEEDLEWORK_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace needlework::kernels::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<float, 16>;
+
+// Functions stand outside of their classes: GCC compiles those defined inside after the end of the
+// region that sets the instruction set.
+struct Mask {
+  hn::Mask<Tag> m;
+};
+
+HWY_INLINE Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
+
+struct Lanes {
+  hn::Vec<Tag> v;
+
+  Lanes() = default;
+  HWY_ATTR HWY_INLINE Lanes(hn::Vec<Tag> raw) : v(raw) {}
+  HWY_ATTR HWY_INLINE Lanes(float a) : v(hn::Set(Tag(), a)) {}
+};
+
+inline constexpr std::size_t lanes_at_once = hn::MaxLanes(Tag());
+HWY_INLINE Lanes load_lanes(const float* p) { return hn::LoadU(Tag(), p); }
+HWY_INLINE void store_lanes(Lanes a, float* p) { hn::StoreU(a.v, Tag(), p); }
+/// 0, 1, 2, ...
+HWY_INLINE Lanes counting() { return hn::Iota(Tag(), 0.0f); }
+
+HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
+HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
+HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
+HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
+HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
+HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+
+// Of a NaN and a number, both give b, as the comparisons of the twin do.
+HWY_INLINE Lanes minimum(Lanes a, Lanes b) { return hn::Min(a.v, b.v); }
+HWY_INLINE Lanes maximum(Lanes a, Lanes b) { return hn::Max(a.v, b.v); }
+HWY_INLINE Lanes absolute(Lanes a) { return hn::Abs(a.v); }
+HWY_INLINE Lanes square_root(Lanes a) { return hn::Sqrt(a.v); }
+HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
+HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
+
+/// One bit for each lane.
+HWY_INLINE std::uint32_t bits_of(Mask m) {
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Tag(), m.m, bytes);
+  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+
+/// Turns (cosine, sine) by k quarters of a circle, k a whole number below 2^30.
+HWY_INLINE void turn(Lanes k, Lanes& cosine, Lanes& sine) {
+  const hn::RebindToSigned<Tag> whole;
+  const auto q = hn::ConvertTo(whole, k.v);
+  const auto odd = hn::MaskFromVec(hn::BitCast(Tag(), hn::VecFromMask(whole, hn::TestBit(q, hn::Set(whole, 1)))));
+  const auto sign_of_sine = hn::BitCast(Tag(), hn::ShiftLeft<30>(hn::And(q, hn::Set(whole, 2))));
+  const auto sign_of_cosine = hn::BitCast(
+      Tag(), hn::ShiftLeft<30>(hn::And(hn::Add(q, hn::Set(whole, 1)), hn::Set(whole, 2))));
+  const auto c = hn::IfThenElse(odd, sine.v, cosine.v);
+  const auto s = hn::IfThenElse(odd, cosine.v, sine.v);
+  cosine = hn::Xor(c, sign_of_cosine);
+  sine = hn::Xor(s, sign_of_sine);
+}
+
+}  // namespace needlework::kernels::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // toggle

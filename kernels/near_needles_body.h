@@ -1,0 +1,227 @@
+// The kernels of near_needles.h for one kind of Lanes. Included in the namespace of each instruction
+// set, which has Lanes and Mask.
+//
+// Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Centres are
+// within a few L (the caller's margin grows with its cells), directors come from sines and cosines
+// good to 2^-20 and phases good to 2^-23 of themselves, times are good to 2^-20 and count through
+// the speeds. Lengths below are off by less than `margin_of`, which has a reserve of more than four.
+
+using V3 = Vec3<Lanes>;
+
+struct Turned {
+  Lanes cosine, sine;
+};
+
+/// Sine and cosine of angles below 2^20 within 2^-20; any number beyond that.
+inline Turned sine_cosine(Lanes angle) {
+  // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
+  const Lanes limit(0x1p29f), to_whole(0x1.8p23f);
+  Lanes k = (angle * Lanes(0.636619772f) + to_whole) - to_whole;
+  k = minimum(maximum(k, -limit), limit);
+  const Lanes x = ((angle - k * Lanes(0x1.92p0f)) - k * Lanes(0x1.fb4p-12f)) - k * Lanes(0x1.4442d2p-24f);
+  const Lanes xx = x * x;
+  Turned out;
+  out.sine = x - x * xx * (Lanes(1.0f / 6) - xx * (Lanes(1.0f / 120) - xx * Lanes(1.0f / 5040)));
+  out.cosine = Lanes(1.0f) - xx * (Lanes(0.5f) - xx * (Lanes(1.0f / 24) - xx * (Lanes(1.0f / 720) -
+                                                                       xx * Lanes(1.0f / 40320))));
+  turn(k, out.cosine, out.sine);
+  return out;
+}
+
+inline V3 broadcast(const float (&a)[3]) { return {Lanes(a[0]), Lanes(a[1]), Lanes(a[2])}; }
+
+inline Lanes norm_1(const V3& a) { return absolute(a.x) + absolute(a.y) + absolute(a.z); }
+
+/// Calls test(block, lane, offset) -> Mask for the lanes of all blocks of these cells and notes the
+/// needles for which it holds.
+template <class Test>
+std::size_t scan(const Surroundings& around, const Seeker& seeker, Found* found, Test&& test) {
+  std::size_t count = 0;
+  for (std::uint32_t n = 0; n < around.cell_count; ++n) {
+    const CellView& cell = around.cells[n];
+    for (std::uint32_t b = cell.block; b != BlockLink::none; b = around.links[b].next) {
+      const Block& block = around.blocks[b];
+      const std::uint32_t size = around.links[b].size;
+      for (std::uint32_t lane = 0; lane < size; lane += lanes_at_once) {
+        std::uint32_t bits = bits_of(test(block, lane, cell.offset));
+        // Places beyond the last needle hold anything.
+        if (lane + lanes_at_once > size) bits &= (1u << (size - lane)) - 1;
+        for (; bits != 0; bits &= bits - 1) {
+          const std::uint32_t needle = block.needle[lane + std::countr_zero(bits)];
+          found[count] = {needle, n};
+          count += needle != seeker.needle;
+        }
+      }
+    }
+  }
+  return count;
+}
+
+inline V3 load(const Block& block, int first_column, std::size_t lane) {
+  return {load_lanes(block.column[first_column] + lane),
+          load_lanes(block.column[first_column + 1] + lane),
+          load_lanes(block.column[first_column + 2] + lane)};
+}
+
+std::size_t overlapping(const Surroundings& around, const Seeker& seeker, float radius,
+                        Found* found) {
+  const V3 r = broadcast(seeker.motion.r), u = broadcast(seeker.motion.u);
+  const Lanes half(0.5f);
+  // Capsules overlap when their axes are nearer than both radii; then the other's centre is nearer
+  // than that and half a length to the seeker's axis.
+  const float near_axes = 2 * radius + seeker.margin, near_centre = near_axes + 0.5f;
+  const Lanes axes_squared(near_axes * near_axes), centre_squared(near_centre * near_centre);
+  return scan(around, seeker, found,
+              [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
+                const V3 from{r.x - Lanes(offset[0]), r.y - Lanes(offset[1]),
+                              r.z - Lanes(offset[2])};
+                const V3 d = from - load(block, Block::x, lane);
+                const V3 gap = d - u * minimum(maximum(dot(d, u), -half), half);
+                const Mask near = dot(gap, gap) <= centre_squared;
+                if (!any(near)) return near;
+                const V3 a = load(block, Block::a_x, lane);
+                const V3 x = cross(u, a);
+                return near & (segment_distance_squared(d, u, a, x, dot(x, x)) <= axes_squared);
+              });
+}
+
+std::size_t approaching(const Surroundings& around, const Seeker& seeker, Found* found) {
+  const V3 r = broadcast(seeker.motion.r), v = broadcast(seeker.motion.v);
+  const Lanes now(seeker.now), ahead(seeker.ahead), zero(0.0f);
+  return scan(
+      around, seeker, found,
+      [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
+        const V3 from{r.x - Lanes(offset[0]), r.y - Lanes(offset[1]), r.z - Lanes(offset[2])};
+        const V3 other_v = load(block, Block::a_x, lane);
+        const Lanes age = now - load_lanes(block.column[Block::time] + lane);
+        const V3 d = (from - load(block, Block::x, lane)) - other_v * age, w = v - other_v;
+        const Lanes dd = dot(d, d), b = dot(d, w), a = dot(w, w);
+        const Lanes reach = Lanes(1 + seeker.margin + 0x1p-10f) +
+                            (norm_1(v) + norm_1(other_v)) * Lanes(0x1p-18f);
+        const Lanes c = dd - (reach * reach + dd * Lanes(0x1p-18f));
+        // Nearest at -b / a, or at the end of the time ahead when that comes first.
+        const Mask later = -b < a * ahead;
+        const Mask apart = select(later, c * a > b * b, c + (b + b + a * ahead) * ahead > zero);
+        return !((c > zero) & ((b >= zero) | apart));
+      });
+}
+
+/// The contact function of pairs, with what bounds it, at one time each.
+struct LaneSample {
+  Lanes f, df, distance_squared;
+};
+
+/// The seeker's and the others' rotation and the relative centres, from now on.
+struct LanePairs {
+  V3 r, v, u[2], p[2];
+  Lanes omega[2], age[2];
+};
+
+inline LaneSample sample(const LanePairs& pair, Lanes s) {
+  V3 n[2], d[2];
+  for (int i = 0; i < 2; ++i) {
+    const Turned t = sine_cosine(pair.omega[i] * (s + pair.age[i]));
+    n[i] = pair.u[i] * t.cosine + pair.p[i] * t.sine;
+    d[i] = (pair.p[i] * t.cosine - pair.u[i] * t.sine) * pair.omega[i];
+  }
+  const V3 c = pair.r + pair.v * s, x = cross(n[0], n[1]);
+  const V3 turn_first = cross(n[1], c), turn_second = cross(c, n[0]);
+  LaneSample out;
+  out.f = dot(c, x);
+  out.df = dot(pair.v, x) + (dot(d[0], turn_first) + dot(d[1], turn_second));
+  out.distance_squared = segment_distance_squared(c, n[0], n[1], x, dot(x, x));
+  return out;
+}
+
+std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  using C = PairColumns;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const Lanes zero(0.0f), one(1.0f), half(0.5f);
+  std::size_t evaluations = 0;
+  for (std::size_t k = 0; k < n; k += lanes_at_once) {
+    const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
+    LanePairs pair;
+    pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
+    pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
+    pair.u[0] = broadcast(seeker.motion.u);
+    pair.p[0] = broadcast(seeker.motion.p);
+    pair.omega[0] = Lanes(seeker.motion.omega);
+    pair.age[0] = zero;
+    pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
+    pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
+    pair.omega[1] = column(C::omega);
+    pair.age[1] = column(C::age);
+    Lanes until = column(C::until);
+
+    const Lanes a = dot(pair.v, pair.v), b = dot(pair.r, pair.v), rr = dot(pair.r, pair.r);
+    const Lanes w = pair.omega[0] + pair.omega[1];
+    const Lanes v = square_root(a), speed = v + half * w;
+    // What times off by 2^-20 and phases off by 2^-23 of themselves do, and the caller's margin.
+    const Lanes swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
+    const Lanes phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
+    const Lanes margin = Lanes(seeker.margin) + swift * Lanes(0x1p-18f) + phase * Lanes(0x1p-20f);
+    const Mask trusted = phase < Lanes(0x1p12f);
+
+    // Time in which the bounding spheres overlap.
+    const Lanes reach = Lanes(1 + 0x1p-10f) + margin;
+    const Lanes reach_squared = reach * reach + rr * Lanes(0x1p-18f);
+    const Lanes c = rr - reach_squared;
+    const Lanes discriminant = b * b - a * c;
+    const Lanes root = square_root(maximum(discriminant, zero));
+    const Mask outside = c > zero;
+    const Mask apart = outside & ((b >= zero) | (discriminant < zero));
+    const Lanes q = select(b > zero, -(b + root), root - b);
+    const Lanes entry = select(outside, c / q, zero);
+    const Lanes exit = select(b > zero, c / q, q / a);
+    until = minimum(exit + Lanes(0x1p-18f), until);
+    Lanes low = maximum(entry - Lanes(0x1p-18f), zero);
+
+    // While they do, |f''| is at most `bend`.
+    const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;
+    // The first step is one over which f'' changes f by no more than this; steps adapt.
+    constexpr float first_bend = 0.1f;
+    Lanes step = minimum(until - low, square_root(Lanes(8 * first_bend) / bend));
+    const Lanes least_step = minimum(until - low, Lanes(0x1p-6f) / speed);
+    Lanes high = minimum(low + step, until), next = high, narrowed = zero;
+    Mask searching = (counting() < Lanes(static_cast<float>(n - k))) & (!apart) & (low <= until);
+    Lanes from(infinity);
+    for (int round = 0; round < 40 && any(searching); ++round) {
+      ++evaluations;
+      const Lanes middle = half * (low + high), h = half * (high - low);
+      const LaneSample e = sample(pair, middle);
+      // Ruled out: the needles cannot come together in time, or f keeps its sign.
+      const Lanes covered = speed * h + margin;
+      const Lanes curved = half * bend * h * h + margin;
+      const Lanes slope = absolute(e.df), size = absolute(e.f), slope_off = margin * (speed + speed);
+      const Mask far = e.distance_squared > covered * covered;
+      const Mask signed_ = size > (slope + slope_off) * h + (curved + margin);
+      const Mask finite = e.distance_squared < Lanes(0x1p20f);
+      Mask excluded = trusted & finite & (far | signed_);
+      // Any root is within `off` of where the tangent has it.
+      const Lanes tangent = middle - e.f / e.df;
+      const Lanes off = (curved + margin + slope_off * h) / maximum(slope - slope_off, zero);
+      const Lanes new_low = maximum(tangent - off, low), new_high = minimum(tangent + off, high);
+      const Mask empty = new_low > new_high;
+      excluded = excluded | (trusted & finite & empty);
+      const Mask shrunk = trusted & (new_high - new_low < h) & (!empty);
+
+      const Mask found = searching & (!excluded) & ((narrowed >= Lanes(2.0f)) | ((!shrunk) & (h + h <= least_step)));
+      from = select(found, low, from);
+      searching = searching & !found;
+
+      const Mask halve = (!excluded) & (!shrunk);
+      step = select(excluded, step + step, select(halve, h, step));
+      const Lanes after_low = select(excluded, next, select(shrunk, new_low, low));
+      const Lanes after_high =
+          select(excluded, minimum(next + step, until), select(shrunk, new_high, middle));
+      next = select(excluded | halve, after_high, next);
+      narrowed = select(excluded | halve, zero, narrowed + one);
+      low = after_low;
+      high = after_high;
+      searching = searching & !(excluded & (low >= until));
+    }
+    from = select(searching, low, from);
+    store_lanes(maximum(from - Lanes(0x1p-18f), zero), pairs.column[C::from] + k);
+  }
+  return evaluations;
+}

@@ -1,0 +1,257 @@
+#include "src/search/near_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace needlework {
+namespace {
+
+using kernels::Block;
+using kernels::BlockLink;
+using kernels::Motion;
+using kernels::PairColumns;
+
+// A needle stays in its cell until it is out of it by so much.
+constexpr double cell_margin = 0x1p-12;
+// What the roundings of times in blocks and motions amount to, twice; see near_needles_body.h.
+constexpr double time_margin = 0x1p-18;
+
+void store(float (&to)[3], const Vec3d& a) {
+  to[0] = static_cast<float>(a.x);
+  to[1] = static_cast<float>(a.y);
+  to[2] = static_cast<float>(a.z);
+}
+
+double density_of(const Gas& gas) {
+  return static_cast<double>(gas.size()) / (gas.box[0] * gas.box[1] * gas.box[2]);
+}
+
+double choose_radius(const Gas& gas) { return std::clamp(0.5 / std::cbrt(density_of(gas)), 0.02, 1.0); }
+
+double choose_side(const Gas& gas) { return std::cbrt(8 / density_of(gas)); }
+
+}  // namespace
+
+NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hull hull)
+    : gas_(gas),
+      counters_(counters),
+      kernels_(kernels::near_kernels(setup.isa)),
+      hull_(hull),
+      radius_(hull == Hull::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
+      grid_(gas.box, std::max(setup.cell_side.value_or(choose_side(gas)),
+                              1 + 2 * radius_ + 4 * cell_margin)),
+      places_(gas.size()),
+      motions_(gas.size()),
+      blocks_(grid_.size()),
+      links_(grid_.size()) {
+  const auto sides = grid_.sides();
+  const double side = std::max({sides[0], sides[1], sides[2]});
+  margin_ = static_cast<float>(0x1p-16 + side * 0x1p-20);
+}
+
+Time NearSearch::place(Needle i, Time now) {
+  if (unit_ == 0 || since_base(now) > kernels::longest_time) rebase(now);
+  const kernels::Flight& flight = gas_.records[i].flight;
+  const Vec3d r = centre_after(flight, gas_.clock.difference(now, gas_.records[i].time));
+  Place& place = places_[i];
+  const Cell cell = grid_.cell_of(r);
+  const bool entered = place.block != BlockLink::none;
+  counters_.rebuilds += place.until <= now;
+  if (entered && grid_.index_of(cell) != grid_.index_of(place.cell)) {
+    ++counters_.crossings;
+    leave(i);
+  }
+  place.cell = cell;
+  if (place.block == BlockLink::none) enter(i);
+  double stay;
+  if (hull_ == Hull::cell) {
+    stay = grid_.time_to_leave(cell, r, flight.v, cell_margin);
+  } else {
+    const double speed = std::sqrt(dot(flight.v, flight.v)) + 0.5 * flight.omega;
+    stay = radius_ / speed;
+  }
+  place.until = gas_.clock.add(now, stay);
+  set_motion(i, now);
+  write_entry(i);
+  return place.until;
+}
+
+// Sets unit and origin of time in blocks and motions anew, before times grow so long that floats
+// lose digits of them.
+void NearSearch::rebase(Time now) {
+  double sum = 0;
+  for (const Record& record : gas_.records) {
+    sum += dot(record.flight.v, record.flight.v) + 0.25 * record.flight.omega * record.flight.omega;
+  }
+  const double speed = std::sqrt(sum / static_cast<double>(gas_.size()));
+  unit_ = speed > 0 && std::isfinite(speed) ? std::ldexp(1.0, std::ilogb(speed)) : 1;
+  base_ = now;
+  for (Needle i = 0; i < gas_.size(); ++i) {
+    if (places_[i].block == BlockLink::none) continue;
+    set_motion(i, now);
+    if (hull_ == Hull::cell) write_entry(i);
+  }
+}
+
+void NearSearch::set_motion(Needle i, Time now) {
+  const Record& record = gas_.records[i];
+  const kernels::Flight& flight = record.flight;
+  const double elapsed = gas_.clock.difference(now, record.time);
+  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
+  const double per_unit = 1 / unit_;
+  Motion& out = motions_[i];
+  store(out.r, centre_after(flight, elapsed) - grid_.corner(places_[i].cell));
+  store(out.v, flight.v * per_unit);
+  store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
+  store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
+  out.omega = static_cast<float>(flight.omega * per_unit);
+  out.time = static_cast<float>(since_base(now));
+  out.until = static_cast<float>(since_base(places_[i].until));
+}
+
+// The needle's entry in the block of its cell, from its motion.
+void NearSearch::write_entry(Needle i) {
+  const Place& place = places_[i];
+  const Motion& motion = motions_[i];
+  const float* a = hull_ == Hull::cell ? motion.v : motion.u;
+  Block& block = blocks_[place.block];
+  const float values[Block::columns] = {motion.r[0], motion.r[1], motion.r[2], a[0], a[1], a[2],
+                                        motion.time};
+  for (int column = 0; column < Block::columns; ++column) {
+    block.column[column][place.lane] = values[column];
+  }
+  block.needle[place.lane] = i;
+}
+
+// Takes the next free place in the cell, chaining a block where all are full.
+void NearSearch::enter(Needle i) {
+  Place& place = places_[i];
+  std::uint32_t b = static_cast<std::uint32_t>(grid_.index_of(place.cell));
+  while (links_[b].size == kernels::block_size) {
+    if (links_[b].next == BlockLink::none) {
+      if (free_blocks_.empty()) {
+        free_blocks_.push_back(static_cast<std::uint32_t>(blocks_.size()));
+        blocks_.emplace_back();
+        links_.emplace_back();
+      }
+      links_[b].next = free_blocks_.back();
+      free_blocks_.pop_back();
+    }
+    b = links_[b].next;
+  }
+  place.block = b;
+  place.lane = links_[b].size++;
+}
+
+// The last needle of the cell takes the place, so that only its last block has free ones.
+void NearSearch::leave(Needle i) {
+  Place& place = places_[i];
+  std::uint32_t last = place.block, previous = BlockLink::none;
+  for (std::uint32_t b = static_cast<std::uint32_t>(grid_.index_of(place.cell));
+       links_[b].next != BlockLink::none; b = links_[b].next) {
+    previous = b;
+    last = links_[b].next;
+  }
+  const std::uint32_t lane = --links_[last].size;
+  const Needle moved = blocks_[last].needle[lane];
+  if (moved != i) {
+    Block& to = blocks_[place.block];
+    for (int column = 0; column < Block::columns; ++column) {
+      to.column[column][place.lane] = blocks_[last].column[column][lane];
+    }
+    to.needle[place.lane] = moved;
+    places_[moved].block = place.block;
+    places_[moved].lane = place.lane;
+  }
+  if (links_[last].size == 0 && previous != BlockLink::none) {
+    links_[previous].next = BlockLink::none;
+    links_[last] = {};
+    free_blocks_.push_back(last);
+  }
+  place.block = BlockLink::none;
+}
+
+PairColumns NearSearch::pair_columns(std::size_t n) {
+  if (n > pair_capacity_) {
+    pair_capacity_ = (2 * n + kernels::block_size - 1) / kernels::block_size * kernels::block_size;
+    pair_storage_.assign(pair_capacity_ * PairColumns::columns, 0.0f);
+  }
+  PairColumns out;
+  for (int c = 0; c < PairColumns::columns; ++c) {
+    out.column[c] = pair_storage_.data() + c * pair_capacity_;
+  }
+  return out;
+}
+
+std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, double ahead) {
+  const Place& place = places_[i];
+  views_.clear();
+  view_cells_.clear();
+  std::size_t entries = 0, room = 1;
+  const auto sides = grid_.sides();
+  grid_.for_each_around(place.cell, [&](const Cell& cell, std::size_t index) {
+    const std::uint32_t first = static_cast<std::uint32_t>(index);
+    if (links_[first].size == 0) return;
+    for (std::uint32_t b = first; b != BlockLink::none; b = links_[b].next) {
+      entries += links_[b].size;
+      room += kernels::block_size;
+    }
+    kernels::CellView view{first, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+      view.offset[axis] = static_cast<float>((cell[axis] - place.cell[axis]) * sides[axis]);
+    }
+    views_.push_back(view);
+    view_cells_.push_back(cell);
+  });
+  if (room > found_.size()) found_.resize(2 * room);
+
+  kernels::Seeker seeker;
+  seeker.motion = motions_[i];
+  seeker.now = seeker.motion.time;
+  seeker.ahead = static_cast<float>(ahead * unit_ + time_margin);
+  seeker.margin = margin_;
+  seeker.needle = i;
+  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), views_.size()};
+  const std::size_t count =
+      hull_ == Hull::cell
+          ? kernels_.approaching(around, seeker, found_.data())
+          : kernels_.overlapping(around, seeker, static_cast<float>(radius_),
+                                 found_.data());
+  counters_.candidates += entries - 1;
+
+  const PairColumns pairs = pair_columns(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const Motion& other = motions_[found_[n].needle];
+    const float* offset = views_[found_[n].cell].offset;
+    const float age = seeker.now - other.time;
+    for (int axis = 0; axis < 3; ++axis) {
+      pairs.column[PairColumns::r_x + axis][n] =
+          (seeker.motion.r[axis] - offset[axis] - other.r[axis]) - other.v[axis] * age;
+      pairs.column[PairColumns::v_x + axis][n] = seeker.motion.v[axis] - other.v[axis];
+      pairs.column[PairColumns::u_x + axis][n] = other.u[axis];
+      pairs.column[PairColumns::p_x + axis][n] = other.p[axis];
+    }
+    pairs.column[PairColumns::omega][n] = other.omega;
+    pairs.column[PairColumns::age][n] = age;
+    pairs.column[PairColumns::until][n] = std::min(
+        seeker.ahead, std::max(0.0f, other.until - seeker.now) + static_cast<float>(time_margin));
+  }
+  counters_.isolated += kernels_.isolate(seeker, pairs, count);
+
+  candidates_.clear();
+  const double second = 1 / unit_;
+  for (std::size_t n = 0; n < count; ++n) {
+    const float from = pairs.column[PairColumns::from][n];
+    if (!(from <= seeker.ahead)) continue;
+    const Needle j = found_[n].needle;
+    candidates_.push_back(
+        {from * second, j,
+         grid_.boxes_between(view_cells_[found_[n].cell], places_[j].cell)});
+  }
+  std::sort(candidates_.begin(), candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
+  counters_.filtered += entries - 1 - candidates_.size();
+  return candidates_;
+}
+
+}  // namespace needlework

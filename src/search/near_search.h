@@ -1,0 +1,105 @@
+// Searches by lanes over rows of cells: linked cells and capsules.
+//
+// A needle is placed where it is: it gets a hull, a region fixed in space that it will not leave
+// before a known time, and an entry in a cell. Only needles whose hulls come near can meet before
+// one of them is placed anew, and whoever is placed anew searches. So nothing has to be kept: no
+// lists, and no trace of a needle with its neighbours.
+//
+//   linked-cells  the hull is the cell, of side L or more; filtered by bounding spheres in flight.
+//                 For dilute gases: needles stay long, and neighbours are few.
+//   capsules      the hull is a capsule of radius delta around the needle; filtered by the overlap
+//                 of capsules. For dense gases: the few needles next to this one are nearly all.
+//
+// What a filter passes is looked at once more, by lanes: isolate() of kernels/near_needles.h follows
+// both needles until they cannot meet, or to where they may.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/near_needles.h"
+#include "src/engine/counters.h"
+#include "src/physics/gas.h"
+#include "src/search/cell_grid.h"
+#include "src/search/setup.h"
+
+namespace needlework {
+
+class NearSearch {
+ public:
+  enum class Hull { cell, capsule };
+
+  /// `gas` must outlive the search; needles are entered by place().
+  NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hull hull);
+
+  Time place(Needle i, Time now);
+
+  template <class Visit>
+  void find(Needle i, Time, double ahead, Visit&& visit) {
+    for (const Candidate& candidate : candidates(i, ahead)) {
+      if (candidate.from > ahead) break;  // they are in this order
+      ahead = visit(candidate.needle, candidate.shift, candidate.from);
+    }
+  }
+
+  const CellGrid& grid() const { return grid_; }
+
+ private:
+  struct Candidate {
+    double from;  ///< meets nothing before this time from now [time]
+    Needle needle;
+    Shift shift;
+  };
+  struct Place {
+    Cell cell{};
+    std::uint32_t block = kernels::BlockLink::none;
+    std::uint32_t lane = 0;
+    Time until = Time::never();
+  };
+
+  std::span<const Candidate> candidates(Needle i, double ahead);
+  void rebase(Time now);
+  void set_motion(Needle i, Time now);
+  void write_entry(Needle i);
+  void enter(Needle i);
+  void leave(Needle i);
+  double since_base(Time t) const { return gas_.clock.difference(t, base_) * unit_; }
+  kernels::PairColumns pair_columns(std::size_t n);
+
+  const Gas& gas_;
+  Counters& counters_;
+  const kernels::NearKernels& kernels_;
+  Hull hull_;
+  double radius_;  ///< of capsules; else 0 [L]
+  CellGrid grid_;
+  float margin_ = 0;      ///< of lengths, see kernels::Seeker [L]
+  double unit_ = 0;       ///< 1 / unit of time: a power of two; 0 before the first needle
+  Time base_;             ///< from which times in blocks and motions count
+  std::vector<Place> places_;
+  std::vector<kernels::Motion> motions_;
+  std::vector<kernels::Block> blocks_;  ///< first those of the cells, then those chained to them
+  std::vector<kernels::BlockLink> links_;
+  std::vector<std::uint32_t> free_blocks_;
+  std::vector<kernels::CellView> views_;
+  std::vector<Cell> view_cells_;  ///< of the views, not wrapped into the box
+  std::vector<kernels::Found> found_;
+  std::vector<float> pair_storage_;
+  std::size_t pair_capacity_ = 0;
+  std::vector<Candidate> candidates_;
+};
+
+class LinkedCells : public NearSearch {
+ public:
+  static constexpr const char* name = "linked-cells";
+  LinkedCells(const Gas& gas, Counters& counters, const SearchSetup& setup)
+      : NearSearch(gas, counters, setup, Hull::cell) {}
+};
+
+class Capsules : public NearSearch {
+ public:
+  static constexpr const char* name = "capsules";
+  Capsules(const Gas& gas, Counters& counters, const SearchSetup& setup)
+      : NearSearch(gas, counters, setup, Hull::capsule) {}
+};
+
+}  // namespace needlework
