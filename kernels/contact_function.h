@@ -80,6 +80,7 @@ struct Frame {
   Vec3<T> u[2], p[2];  ///< at the records
   T omega[2], delay[2];
   T offset{}, slope{};  ///< continuation from a touch: f + offset + slope s is what counts
+  double offset_error = 0;  ///< of the offset, in double
   double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
   double v_length = 0;                       ///< 2-norm of v, not below
 };
@@ -150,7 +151,8 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   out.df = to_double(sample.df);
   out.ddf = to_double(sample.ddf);
   out.error_f = r * (eu + rounding) + rounding * (std::abs(to_double(frame.offset)) +
-                                                  std::abs(to_double(frame.slope) * to_double(s)));
+                                                  std::abs(to_double(frame.slope) * to_double(s))) +
+                frame.offset_error;
   out.error_df = 2 * (frame.v_norm + r * w) * (eu + rounding);
   out.error_ddf = 3 * (2 * frame.v_norm + r * w) * w * (eu + rounding);
   out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));

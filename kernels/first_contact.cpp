@@ -102,22 +102,32 @@ class Search {
   SearchCounters& counters_;
 };
 
+// f is continued from the gap it had. In double, so far as that tells whether f leaves the touch on
+// its side.
 void Search::continue_from_touch() {
-  Frame<DoubleDouble>& frame = precise_.emplace(make_frame<DoubleDouble>(pair_, scale_));
-  ++counters_.escalated;
-  const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
-  frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
   just_collided_ = pair_.touch.collided;
-  // A just-collided pair does not approach; what rounding of the velocities says otherwise is
-  // taken off.
-  if (just_collided_ && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
-  frame_.offset = to_double(frame.offset);
-  frame_.slope = to_double(frame.slope);
+  const Estimate start = in_double(0);
+  if (just_collided_ && start.df * pair_.touch.side <= start.error_df) {
+    const Frame<DoubleDouble>& frame = precise_frame();
+    frame_.offset = to_double(frame.offset);
+    frame_.slope = to_double(frame.slope);
+  } else {
+    frame_.offset = pair_.touch.gap - start.f;
+    frame_.offset_error = start.error_f;
+  }
 }
 
 const Frame<DoubleDouble>& Search::precise_frame() {
-  if (!precise_) precise_ = make_frame<DoubleDouble>(pair_, scale_);
-  return *precise_;
+  if (precise_) return *precise_;
+  Frame<DoubleDouble>& frame = precise_.emplace(make_frame<DoubleDouble>(pair_, scale_));
+  if (!pair_.touch.touching) return frame;
+  ++counters_.escalated;
+  const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
+  frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
+  // A just-collided pair does not approach; what rounding of the velocities says otherwise is
+  // taken off.
+  if (pair_.touch.collided && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
+  return frame;
 }
 
 template <class T>
@@ -450,7 +460,7 @@ Contact Search::run(double from, double until) {
   const Window window = sphere_window(frame_.r, frame_.v);
   last_ = std::min(end, window.end * roundup);
   first_ = std::max({0.0, from * scale_.per_time, window.begin * (1 - 0x1p-20) - 0x1p-40});
-  if (pair_.touch.touching) first_ = 0;
+  if (pair_.touch.touching && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   if (pair_.touch_within > 0 && from == 0 && !pair_.touch.touching) {
     const Sample<double> start = sample_at(0.0);

@@ -108,7 +108,7 @@ std::size_t approaching(const Surroundings& around, const Seeker& seeker, Found*
 
 /// The contact function of pairs, with what bounds it, at one time each.
 struct LaneSample {
-  Lanes f, df, distance_squared;
+  Lanes f, df, ddf, distance_squared;
 };
 
 /// The seeker's and the others' rotation and the relative centres, from now on.
@@ -125,10 +125,13 @@ inline LaneSample sample(const LanePairs& pair, Lanes s) {
     d[i] = (pair.p[i] * t.cosine - pair.u[i] * t.sine) * pair.omega[i];
   }
   const V3 c = pair.r + pair.v * s, x = cross(n[0], n[1]);
-  const V3 turn_first = cross(n[1], c), turn_second = cross(c, n[0]);
+  const V3 dx = cross(d[0], n[1]) + cross(n[0], d[1]), dd = cross(d[0], d[1]);
+  const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
   LaneSample out;
+  const Lanes vdx = dot(pair.v, dx), cdd = dot(c, dd);
   out.f = dot(c, x);
-  out.df = dot(pair.v, x) + (dot(d[0], turn_first) + dot(d[1], turn_second));
+  out.df = dot(pair.v, x) + dot(c, dx);
+  out.ddf = (vdx + vdx) + ((cdd + cdd) - squares * out.f);
   out.distance_squared = segment_distance_squared(c, n[0], n[1], x, dot(x, x));
   return out;
 }
@@ -178,8 +181,11 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
 
     // While they do, |f''| is at most `bend`.
     const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;
+    // And |f'''| at most 6 times this.
+    const Lanes twist = ((v + v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w * w *
+                        Lanes(1.0f / 6);
     // The first step is one over which f'' changes f by no more than this; steps adapt.
-    constexpr float first_bend = 0.1f;
+    constexpr float first_bend = 0.2f;
     Lanes step = minimum(until - low, square_root(Lanes(8 * first_bend) / bend));
     const Lanes least_step = minimum(until - low, Lanes(0x1p-6f) / speed);
     Lanes high = minimum(low + step, until), next = high, narrowed = zero;
@@ -191,7 +197,8 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
       const LaneSample e = sample(pair, middle);
       // Ruled out: the needles cannot come together in time, or f keeps its sign.
       const Lanes covered = speed * h + margin;
-      const Lanes curved = half * bend * h * h + margin;
+      const Lanes curved =
+          h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend) + margin;
       const Lanes slope = absolute(e.df), size = absolute(e.f), slope_off = margin * (speed + speed);
       const Mask far = e.distance_squared > covered * covered;
       const Mask signed_ = size > (slope + slope_off) * h + (curved + margin);

@@ -166,8 +166,8 @@ constexpr SceneKey keys[] = {
        return store(s.engine.isa, one_of(v, {"auto", "scalar", "sse4", "avx2", "avx512"}));
      }},
 
-    {"engine", "cell_side", "a length >= 1",
-     [](Scene& s, V v) { return store(s.engine.cell_side, number(v, 1)); }},
+    {"engine", "cell_side", "a length from 0.1",
+     [](Scene& s, V v) { return store(s.engine.cell_side, number(v, 0.1)); }},
     {"engine", "capsule_radius", "a length from 1e-3 to 10",
      [](Scene& s, V v) { return store(s.engine.capsule_radius, number(v, 1e-3, 10)); }},
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "kernels/vec3.h"
 
@@ -64,6 +65,26 @@ class CellGrid {
           visit(Cell{x, y, z}, index(wrap(x, 0), wy, wz));
         }
       }
+    }
+  }
+
+  /// Cells of one axis that come near an interval.
+  struct AxisCell {
+    std::int32_t cell;     ///< not wrapped
+    std::int32_t wrapped;
+    double gap_squared;    ///< of its distance from the interval [L^2]
+  };
+
+  /// Appends the cells of an axis that are not farther than `reach` from [low, high].
+  void append_near(int axis, double low, double high, double reach,
+                   std::vector<AxisCell>& out) const {
+    const std::int32_t first = floor((low - reach) * reciprocal_[axis]);
+    const std::int32_t last = floor((high + reach) * reciprocal_[axis]);
+    std::int32_t wrapped = wrap(first, axis);
+    for (std::int32_t c = first; c <= last; ++c) {
+      const double gap = std::max({0.0, c * side_[axis] - high, low - (c + 1) * side_[axis]});
+      out.push_back({c, wrapped, gap * gap});
+      if (++wrapped == count_[axis]) wrapped = 0;
     }
   }
 

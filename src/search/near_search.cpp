@@ -38,8 +38,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kernels_(kernels::near_kernels(setup.isa)),
       hull_(hull),
       radius_(hull == Hull::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
-      grid_(gas.box, std::max(setup.cell_side.value_or(choose_side(gas)),
-                              1 + 2 * radius_ + 4 * cell_margin)),
+      grid_(gas.box, setup.cell_side.value_or(choose_side(gas))),
       places_(gas.size()),
       motions_(gas.size()),
       blocks_(grid_.size()),
@@ -183,28 +182,55 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
   return out;
 }
 
-std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, double ahead) {
-  const Place& place = places_[i];
+// Makes views of the cells in which needles may be found: those that a needle within reach of this
+// one's hull, or of its way in the time ahead, can have been placed in. Returns how many are there.
+std::size_t NearSearch::look_around(const Motion& motion, const Cell& cell, double ahead) {
+  double reach = 1 + 2 * cell_margin;
+  double way = ahead * unit_;
+  if (hull_ == Hull::capsule) {
+    // Another centre is not farther from this axis than half a length and both radii.
+    reach = 0.5 + 2 * radius_ + 2 * cell_margin;
+    way = 0;
+  }
+  const auto sides = grid_.sides();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double r = cell[axis] * sides[axis] + motion.r[axis];
+    const double span = hull_ == Hull::capsule ? 0.5 * std::abs(motion.u[axis]) : 0;
+    const double end = r + motion.v[axis] * way;
+    near_[axis].clear();
+    grid_.append_near(axis, std::min(r, end) - span, std::max(r, end) + span, reach, near_[axis]);
+  }
+  const double reach_squared = reach * reach;
+  const auto offset = [&](const CellGrid::AxisCell& near, int axis) {
+    return static_cast<float>((near.cell - cell[axis]) * sides[axis]);
+  };
   views_.clear();
   view_cells_.clear();
-  std::size_t entries = 0, room = 1;
-  const auto sides = grid_.sides();
-  grid_.for_each_around(place.cell, [&](const Cell& cell, std::size_t index) {
-    const std::uint32_t first = static_cast<std::uint32_t>(index);
-    if (links_[first].size == 0) return;
-    for (std::uint32_t b = first; b != BlockLink::none; b = links_[b].next) {
-      entries += links_[b].size;
-      room += kernels::block_size;
+  std::size_t needles = 0, room = 1;
+  for (const auto& z : near_[2]) {
+    for (const auto& y : near_[1]) {
+      const double gap_squared = z.gap_squared + y.gap_squared;
+      if (gap_squared > reach_squared) continue;
+      const std::size_t row = grid_.index(0, y.wrapped, z.wrapped);
+      for (const auto& x : near_[0]) {
+        if (gap_squared + x.gap_squared > reach_squared) continue;
+        const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
+        if (links_[first].size == 0) continue;
+        for (std::uint32_t b = first; b != BlockLink::none; b = links_[b].next) {
+          needles += links_[b].size;
+          room += kernels::block_size;
+        }
+        views_.push_back({first, {offset(x, 0), offset(y, 1), offset(z, 2)}});
+        view_cells_.push_back({x.cell, y.cell, z.cell});
+      }
     }
-    kernels::CellView view{first, {}};
-    for (int axis = 0; axis < 3; ++axis) {
-      view.offset[axis] = static_cast<float>((cell[axis] - place.cell[axis]) * sides[axis]);
-    }
-    views_.push_back(view);
-    view_cells_.push_back(cell);
-  });
+  }
   if (room > found_.size()) found_.resize(2 * room);
+  return needles;
+}
 
+std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
+  const std::size_t entries = look_around(motions_[i], places_[i].cell, ahead);
   kernels::Seeker seeker;
   seeker.motion = motions_[i];
   seeker.now = seeker.motion.time;
@@ -217,12 +243,27 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, double a
           ? kernels_.approaching(around, seeker, found_.data())
           : kernels_.overlapping(around, seeker, static_cast<float>(radius_),
                                  found_.data());
-  counters_.candidates += entries - 1;
+  counters_.candidates += entries;
 
+  candidates_.clear();
+  const auto propose = [&](const kernels::Found& found, double from) {
+    const Cell& cell = view_cells_[found.cell];
+    candidates_.push_back(
+        {from, found.needle, grid_.boxes_between(cell, places_[found.needle].cell)});
+  };
   const PairColumns pairs = pair_columns(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    const Motion& other = motions_[found_[n].needle];
-    const float* offset = views_[found_[n].cell].offset;
+  const Record& record = gas_.records[i];
+  const Needle just_hit =
+      record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    // The partner just hit is near for sure.
+    if (just_hit != no_needle && found_[k].needle == just_hit) {
+      propose(found_[k], 0);
+      continue;
+    }
+    const Motion& other = motions_[found_[k].needle];
+    const float* offset = views_[found_[k].cell].offset;
     const float age = seeker.now - other.time;
     for (int axis = 0; axis < 3; ++axis) {
       pairs.column[PairColumns::r_x + axis][n] =
@@ -235,22 +276,16 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, double a
     pairs.column[PairColumns::age][n] = age;
     pairs.column[PairColumns::until][n] = std::min(
         seeker.ahead, std::max(0.0f, other.until - seeker.now) + static_cast<float>(time_margin));
+    found_[n++] = found_[k];
   }
-  counters_.isolated += kernels_.isolate(seeker, pairs, count);
-
-  candidates_.clear();
-  const double second = 1 / unit_;
-  for (std::size_t n = 0; n < count; ++n) {
-    const float from = pairs.column[PairColumns::from][n];
-    if (!(from <= seeker.ahead)) continue;
-    const Needle j = found_[n].needle;
-    candidates_.push_back(
-        {from * second, j,
-         grid_.boxes_between(view_cells_[found_[n].cell], places_[j].cell)});
+  counters_.isolated += kernels_.isolate(seeker, pairs, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const float from = pairs.column[PairColumns::from][k];
+    if (from <= seeker.ahead) propose(found_[k], from / unit_);
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
-  counters_.filtered += entries - 1 - candidates_.size();
+  counters_.filtered += entries - candidates_.size();
   return candidates_;
 }
 

@@ -35,8 +35,8 @@ class NearSearch {
   Time place(Needle i, Time now);
 
   template <class Visit>
-  void find(Needle i, Time, double ahead, Visit&& visit) {
-    for (const Candidate& candidate : candidates(i, ahead)) {
+  void find(Needle i, Time now, double ahead, Visit&& visit) {
+    for (const Candidate& candidate : candidates(i, now, ahead)) {
       if (candidate.from > ahead) break;  // they are in this order
       ahead = visit(candidate.needle, candidate.shift, candidate.from);
     }
@@ -57,7 +57,8 @@ class NearSearch {
     Time until = Time::never();
   };
 
-  std::span<const Candidate> candidates(Needle i, double ahead);
+  std::span<const Candidate> candidates(Needle i, Time now, double ahead);
+  std::size_t look_around(const kernels::Motion& motion, const Cell& cell, double ahead);
   void rebase(Time now);
   void set_motion(Needle i, Time now);
   void write_entry(Needle i);
@@ -80,6 +81,7 @@ class NearSearch {
   std::vector<kernels::Block> blocks_;  ///< first those of the cells, then those chained to them
   std::vector<kernels::BlockLink> links_;
   std::vector<std::uint32_t> free_blocks_;
+  std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::vector<Cell> view_cells_;  ///< of the views, not wrapped into the box
   std::vector<kernels::Found> found_;
