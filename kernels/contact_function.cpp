@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/power_of_two.h"
+
 namespace needlework::kernels {
 namespace {
 
@@ -46,11 +48,11 @@ void set_rotation(Flight& flight) {
     return;
   }
   // Scaled by a power of two, so that squares neither overflow nor vanish.
-  const int exponent = std::ilogb(size);
-  const Vec3d w{std::ldexp(flight.w.x, -exponent), std::ldexp(flight.w.y, -exponent),
-                std::ldexp(flight.w.z, -exponent)};
+  const int exponent = exponent_of(size);
+  const Vec3d w{times_power_of_two(flight.w.x, -exponent), times_power_of_two(flight.w.y, -exponent),
+                times_power_of_two(flight.w.z, -exponent)};
   const double length = std::sqrt(dot(w, w));
-  flight.omega = std::ldexp(length, exponent);
+  flight.omega = times_power_of_two(length, exponent);
   const Vec3d p = cross(w, flight.u);
   flight.p = {p.x / length, p.y / length, p.z / length};
 }
@@ -65,8 +67,8 @@ PairScale scale_of(const Pair& pair) {
       largest(pair.first->v - pair.second->v) + (pair.first->omega + pair.second->omega);
   if (!(rate > 0)) return {};
   // Clamped so that both factors are normal numbers.
-  const int exponent = std::clamp(std::ilogb(rate), -1000, 1000);
-  return {true, std::ldexp(1.0, -exponent), std::ldexp(1.0, exponent)};
+  const int exponent = std::clamp(exponent_of(rate), -1000, 1000);
+  return {true, times_power_of_two(1, -exponent), times_power_of_two(1, exponent)};
 }
 
 template <>
@@ -99,14 +101,14 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
     // |w| and w x u / |w| anew, to full precision; w first scaled by a power of two of its own.
     const double size = largest(flight[i]->w);
     if (size > 0) {
-      const int exponent = std::ilogb(size);
-      const Vec3dd w = to_double_double(Vec3d{std::ldexp(flight[i]->w.x, -exponent),
-                                              std::ldexp(flight[i]->w.y, -exponent),
-                                              std::ldexp(flight[i]->w.z, -exponent)});
+      const int exponent = exponent_of(size);
+      const Vec3dd w = to_double_double(Vec3d{times_power_of_two(flight[i]->w.x, -exponent),
+                                              times_power_of_two(flight[i]->w.y, -exponent),
+                                              times_power_of_two(flight[i]->w.z, -exponent)});
       const DoubleDouble length = sqrt(dot(w, w));
       const Vec3dd p = cross(w, out.u[i]);
       out.p[i] = {p.x / length, p.y / length, p.z / length};
-      const auto rescaled = [&](double a) { return std::ldexp(a, exponent) * scale.per_velocity; };
+      const auto rescaled = [&](double a) { return times_power_of_two(a, exponent) * scale.per_velocity; };
       out.omega[i] = {rescaled(length.hi), rescaled(length.lo)};
     }
     out.delay[i] = {elapsed[i].hi * scale.per_time, elapsed[i].lo * scale.per_time};

@@ -373,17 +373,21 @@ std::optional<Root> Search::search_start(const Interval& interval, const Estimat
   // it is surely above.
   const double most_bend =
       std::abs(e.ddf) + e.error_ddf + interval.half() * third_derivative_bound(e, interval);
-  const Sample<DoubleDouble> start = sample_at(DoubleDouble());
-  const double slope = to_double(start.df) * side;
-  // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
-  const double noise =
-      std::sqrt(to_double(dot(start.x, start.x))) * velocity_noise * (frame_.v_norm + frame_.w_sum);
-  if (!(slope > noise)) return Root{0.0, 0.0, side};
+  Estimate start = in_double(0);
+  if (!(start.df * side > 0x1p10 * start.error_df)) {
+    const Sample<DoubleDouble> sample = sample_at(DoubleDouble());
+    start = estimate(precise_frame(), DoubleDouble(), sample);
+    // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
+    const double noise = std::sqrt(to_double(dot(sample.x, sample.x))) * velocity_noise *
+                         (frame_.v_norm + frame_.w_sum);
+    if (!(start.df * side > noise)) return Root{0.0, 0.0, side};
+  }
+  const double slope = (start.df * side) * (1 - 0x1p-9);
   const double lift = slope / most_bend;
   // The parabola's return is a good start for short bounces.
-  const double bend = -to_double(start.ddf) * side;
+  const double bend = -start.ddf * side;
   const double back = bend > 0 ? std::clamp(2 * slope / bend, lift, interval.end) : interval.end;
-  return accept(DoubleDouble(lift), DoubleDouble(interval.end), DoubleDouble(back), side);
+  return accept(lift, interval.end, back, side);
 }
 
 std::optional<Root> Search::search_interval(const Interval& interval) {

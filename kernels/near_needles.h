@@ -84,7 +84,8 @@ struct PairColumns {
     u_x, u_y, u_z, p_x, p_y, p_z, omega,  // the other's rotation
     age,    // time since the other's u and p
     until,  // how far ahead this pair is searched
-    from,   // result: it meets nothing before this time from now; infinite: nor later
+    from,   // looked at from this time from now on; result: it meets nothing between that and
+            // this time; infinite: nor later
     columns
   };
   float* column[columns];

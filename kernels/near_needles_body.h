@@ -177,7 +177,7 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     const Lanes entry = select(outside, c / q, zero);
     const Lanes exit = select(b > zero, c / q, q / a);
     until = minimum(exit + Lanes(0x1p-18f), until);
-    Lanes low = maximum(entry - Lanes(0x1p-18f), zero);
+    Lanes low = maximum(maximum(entry, column(C::from)) - Lanes(0x1p-18f), zero);
 
     // While they do, |f''| is at most `bend`.
     const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;

@@ -42,8 +42,17 @@ class EventLoop final : public Run {
     Shift wraps{};
   };
 
+  // What was predicted of two needles just after their collision.
+  struct Shared {
+    Needle a = no_needle, b = no_needle;
+    std::uint32_t serial_a = 0, serial_b = 0;
+    Shift shift{};
+    Time until;
+    kernels::Contact contact;
+  };
+
   void schedule(Needle i, Time placed_until);
-  void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
+  void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from, Time until);
   void settle_touch(Needle a, Needle b, const Shift& shift);
   Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v, const Vec3d& w);
@@ -58,6 +67,7 @@ class EventLoop final : public Run {
   Time instant_;  ///< of the last collision
   std::uint64_t collisions_at_instant_ = 0;
   std::vector<Time> last_collision_;  ///< for the t_c rule; renewals do not count
+  Shared last_shared_;
   Replaced replaced_[2];
   int replaced_count_ = 0;
   kernels::SearchCounters kernel_counters_;
@@ -233,22 +243,22 @@ void EventLoop<Search, Calendar, effects>::schedule(Needle i, Time placed_until)
   best.time =
       std::min({placed_until, gas.records[i].renewal, gas.clock.add(now, search_span_)});
   search_.find(i, now, gas.clock.difference(best.time, now),
-               [&](Needle j, const Shift& shift, double from) {
-                 consider(i, j, shift, from, best);
+               [&](Needle j, const Shift& shift, double from, double to) {
+                 consider(i, j, shift, from, to, best);
                  return gas.clock.difference(best.time, now);
                });
   calendar_.set(best);
 }
 
-// Looks for a contact of i with this candidate before `best`, and makes it the best. There is none
-// until the time `from` from now.
+// Looks for a contact of i with this candidate before `best`, and makes it the best. It can only be
+// between the times `from` and `to` from now.
 template <class Search, class Calendar, Effects effects>
 void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Shift& shift,
-                                                    double from, Event& best) {
+                                                    double from, double to, Event& best) {
   const Record& mine = gas.records[i];
   const Record& other = gas.records[j];
   // Beyond the renewal of j its own event takes over.
-  const Time until = std::min(best.time, other.renewal);
+  const Time until = std::min({best.time, other.renewal, gas.clock.add(now, to)});
   Event event;
   event.owner = i;
   event.partner = j;
@@ -281,9 +291,17 @@ kernels::Contact EventLoop<Search, Calendar, effects>::predict(Needle a, Needle 
   const Record& second = gas.records[b];
   const Time start = Gas::start_of(first, second);
   // Rounded outwards; the times themselves are compared exactly.
-  const double from = (gas.clock.difference(now, start) + from_now) * (1 - 0x1p-50);
+  double from = (gas.clock.difference(now, start) + from_now) * (1 - 0x1p-50);
   const double to = gas.clock.difference(until, start) * (1 + 0x1p-50);
   kernels::Pair pair = make_pair(gas, a, first, b, second, shift);
+  // Both partners of a collision search the pair, with records made now.
+  const bool shared = pair.touch.collided && first.time == second.time;
+  const Shared& last = last_shared_;
+  if (shared && last.a == a && last.b == b && last.shift == shift &&
+      last.serial_a == first.serial && last.serial_b == second.serial) {
+    if (last.contact.found || until <= last.until) return last.contact;
+    from = gas.clock.difference(last.until, start) * (1 - 0x1p-50);
+  }
   kernels::Contact contact = first_contact(pair, from, to, kernel_counters_);
   if (contact.side_unknown) {
     settle_touch(a, b, shift);
@@ -294,6 +312,7 @@ kernels::Contact EventLoop<Search, Calendar, effects>::predict(Needle a, Needle 
   if (contact.found && pair.touch.collided && contact.elapsed.hi < 64 * gas.clock.resolution()) {
     contact.unresolvable = true;
   }
+  if (shared) last_shared_ = {a, b, first.serial, second.serial, shift, until, contact};
   return contact;
 }
 

@@ -94,7 +94,8 @@ Run::Run(const Scene& scene, const State& initial)
 }
 
 void Run::open_window() {
-  const Totals sums = totals();
+  Totals sums;
+  sum_energies(sums);
   const double count = static_cast<double>(gas.size());
   energy_ = sums.energy * count;
   const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
@@ -114,18 +115,23 @@ bool Run::nothing_can_happen() const {
   });
 }
 
-Totals Run::totals() const {
-  Totals out;
-  out.time = gas.clock.since_start(now);
-  out.collisions = collisions_;
-  out.tc_collisions = tc_collisions_;
-  if (gas.size() == 0) return out;
+void Run::sum_energies(Totals& out) const {
+  if (gas.size() == 0) return;
   const double count = static_cast<double>(gas.size());
   const double v2 = sum_of(gas, [](const Record& a) { return dot(a.flight.v, a.flight.v); });
   const double w2 = sum_of(gas, [](const Record& a) { return dot(a.flight.w, a.flight.w); });
   out.t_tr = v2 / (3 * count);
   out.t_rot = w2 / (4 * gas.k * count);
   out.energy = 1.5 * out.t_tr + out.t_rot;
+}
+
+Totals Run::totals() const {
+  Totals out;
+  out.time = gas.clock.since_start(now);
+  out.collisions = collisions_;
+  out.tc_collisions = tc_collisions_;
+  if (gas.size() == 0) return out;
+  sum_energies(out);
   out.momentum = {sum_of(gas, [](const Record& a) { return a.flight.v.x; }),
                   sum_of(gas, [](const Record& a) { return a.flight.v.y; }),
                   sum_of(gas, [](const Record& a) { return a.flight.v.z; })};

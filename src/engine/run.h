@@ -43,6 +43,8 @@ class Run {
   /// Sets mean free time, contact time and the next window's end from the present state.
   void open_window();
   bool nothing_can_happen() const;
+  /// Fills in temperatures and energy.
+  void sum_energies(Totals& out) const;
 
   std::optional<double> tc_, tc_relative_;
   double contact_time_ = 0;  ///< in force in this window

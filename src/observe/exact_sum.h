@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "kernels/power_of_two.h"
+
 namespace needlework {
 
 __extension__ using Int128 = __int128;
@@ -14,11 +16,11 @@ __extension__ using UnsignedInt128 = unsigned __int128;
 /// below the number of terms times largest 2^-60.
 class ExactSum {
  public:
-  explicit ExactSum(double largest) : exponent_(largest > 0 ? std::ilogb(largest) : 0) {}
+  explicit ExactSum(double largest) : exponent_(largest > 0 ? exponent_of(largest) : 0) {}
 
   void add(double term) {
     // 2^60 grid points per `largest`: what is cut off is the same for any order.
-    total_ += static_cast<std::int64_t>(std::ldexp(term, 60 - exponent_));
+    total_ += static_cast<std::int64_t>(times_power_of_two(term, 60 - exponent_));
   }
   double value() const {
     const bool negative = total_ < 0;
@@ -26,8 +28,8 @@ class ExactSum {
         negative ? -static_cast<UnsignedInt128>(total_) : static_cast<UnsignedInt128>(total_);
     const double high = static_cast<double>(static_cast<std::uint64_t>(magnitude >> 64));
     const double low = static_cast<double>(static_cast<std::uint64_t>(magnitude));
-    const double sum = std::ldexp(high, 64) + low;
-    return std::ldexp(negative ? -sum : sum, exponent_ - 60);
+    const double sum = times_power_of_two(high, 64) + low;
+    return times_power_of_two(negative ? -sum : sum, exponent_ - 60);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/power_of_two.h"
 #include "kernels/vec3.h"
 
 namespace needlework {
@@ -12,8 +13,9 @@ namespace needlework {
 /// a / |a|; a is not 0. Neither overflows nor underflows.
 inline Vec3d normalised(const Vec3d& a) {
   const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
-  const int exponent = -std::ilogb(size);
-  const Vec3d b{std::ldexp(a.x, exponent), std::ldexp(a.y, exponent), std::ldexp(a.z, exponent)};
+  const int exponent = -exponent_of(size);
+  const Vec3d b{times_power_of_two(a.x, exponent), times_power_of_two(a.y, exponent),
+                times_power_of_two(a.z, exponent)};
   const double length = std::sqrt(dot(b, b));
   return {b.x / length, b.y / length, b.z / length};
 }

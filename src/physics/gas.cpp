@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/power_of_two.h"
 #include "src/physics/director.h"
 
 namespace needlework {
@@ -45,7 +46,7 @@ Time renewal_time(const Clock& clock, const Record& record) {
   const double speed = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), record.flight.omega});
   if (speed == 0) return Time::never();
   // A power of two near 2^10 / speed: scaling velocities scales it exactly.
-  return clock.add(record.time, std::ldexp(1.0, 10 - std::ilogb(speed)));
+  return clock.add(record.time, times_power_of_two(1.0, 10 - exponent_of(speed)));
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Vec3d& velocity,

@@ -17,9 +17,9 @@ namespace needlework {
 ///     could meet it, and when the time that this returns has come. Until then i is found where it
 ///     has been placed.
 ///   find(i, now, ahead, visit)
-///     calls visit(j, shift, from) -> ahead for each (j, shift) that i might meet within the time
-///     `ahead` and before j is placed anew: not before the time `from` from now. shift is added to
-///     the centre of j. What visit returns is the time ahead that still matters.
+///     calls visit(j, shift, from, to) -> ahead for each (j, shift) that i might meet within the
+///     time `ahead` and before j is placed anew: in times from now from `from` to `to`, if at all.
+///     shift is added to the centre of j. What visit returns is the time ahead that still matters.
 class AllPairs {
  public:
   static constexpr const char* name = "all-pairs";

@@ -1,6 +1,8 @@
 // The first filter of the plain searches: bounding spheres that stay apart.
 #pragma once
 
+#include <limits>
+
 #include "kernels/bounding_spheres.h"
 #include "src/engine/counters.h"
 #include "src/physics/gas.h"
@@ -26,7 +28,7 @@ class BoundingFilter {
     if (kernels::spheres_stay_apart(r, v_ - other.flight.v, ahead_)) {
       ++counters_.filtered;
     } else {
-      ahead_ = visit(j, shift, 0.0);
+      ahead_ = visit(j, shift, 0.0, std::numeric_limits<double>::infinity());
     }
   }
 

@@ -70,20 +70,22 @@ class CellGrid {
 
   /// Cells of one axis that come near an interval.
   struct AxisCell {
-    std::int32_t cell;     ///< not wrapped
+    std::int32_t cell;  ///< not wrapped
     std::int32_t wrapped;
-    double gap_squared;    ///< of its distance from the interval [L^2]
+    float offset;       ///< of its corner from that of the cell `origin` [L]
+    float gap_squared;  ///< of its distance from the interval, not above [L^2]
   };
 
   /// Appends the cells of an axis that are not farther than `reach` from [low, high].
-  void append_near(int axis, double low, double high, double reach,
+  void append_near(int axis, std::int32_t origin, double low, double high, double reach,
                    std::vector<AxisCell>& out) const {
     const std::int32_t first = floor((low - reach) * reciprocal_[axis]);
     const std::int32_t last = floor((high + reach) * reciprocal_[axis]);
     std::int32_t wrapped = wrap(first, axis);
     for (std::int32_t c = first; c <= last; ++c) {
       const double gap = std::max({0.0, c * side_[axis] - high, low - (c + 1) * side_[axis]});
-      out.push_back({c, wrapped, gap * gap});
+      out.push_back({c, wrapped, static_cast<float>((c - origin) * side_[axis]),
+                     static_cast<float>(gap * gap * (1 - 0x1p-20))});
       if (++wrapped == count_[axis]) wrapped = 0;
     }
   }

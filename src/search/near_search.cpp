@@ -198,30 +198,32 @@ std::size_t NearSearch::look_around(const Motion& motion, const Cell& cell, doub
     const double span = hull_ == Hull::capsule ? 0.5 * std::abs(motion.u[axis]) : 0;
     const double end = r + motion.v[axis] * way;
     near_[axis].clear();
-    grid_.append_near(axis, std::min(r, end) - span, std::max(r, end) + span, reach, near_[axis]);
+    grid_.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span, reach,
+                      near_[axis]);
   }
-  const double reach_squared = reach * reach;
-  const auto offset = [&](const CellGrid::AxisCell& near, int axis) {
-    return static_cast<float>((near.cell - cell[axis]) * sides[axis]);
-  };
-  views_.clear();
-  view_cells_.clear();
+  const float reach_squared = static_cast<float>(reach * reach);
+  const std::size_t most = near_[0].size() * near_[1].size() * near_[2].size();
+  if (most > views_.size()) {
+    views_.resize(most);
+    view_cells_.resize(most);
+  }
   std::size_t needles = 0, room = 1;
+  view_count_ = 0;
   for (const auto& z : near_[2]) {
     for (const auto& y : near_[1]) {
-      const double gap_squared = z.gap_squared + y.gap_squared;
+      const float gap_squared = z.gap_squared + y.gap_squared;
       if (gap_squared > reach_squared) continue;
       const std::size_t row = grid_.index(0, y.wrapped, z.wrapped);
       for (const auto& x : near_[0]) {
-        if (gap_squared + x.gap_squared > reach_squared) continue;
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
-        if (links_[first].size == 0) continue;
+        if (gap_squared + x.gap_squared > reach_squared || links_[first].size == 0) continue;
         for (std::uint32_t b = first; b != BlockLink::none; b = links_[b].next) {
           needles += links_[b].size;
           room += kernels::block_size;
         }
-        views_.push_back({first, {offset(x, 0), offset(y, 1), offset(z, 2)}});
-        view_cells_.push_back({x.cell, y.cell, z.cell});
+        views_[view_count_] = {first, {x.offset, y.offset, z.offset}};
+        view_cells_[view_count_] = {x.cell, y.cell, z.cell};
+        ++view_count_;
       }
     }
   }
@@ -237,7 +239,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   seeker.ahead = static_cast<float>(ahead * unit_ + time_margin);
   seeker.margin = margin_;
   seeker.needle = i;
-  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), views_.size()};
+  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_};
   const std::size_t count =
       hull_ == Hull::cell
           ? kernels_.approaching(around, seeker, found_.data())
@@ -246,42 +248,46 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   counters_.candidates += entries;
 
   candidates_.clear();
-  const auto propose = [&](const kernels::Found& found, double from) {
+  const auto propose = [&](const kernels::Found& found, double from, double to) {
     const Cell& cell = view_cells_[found.cell];
     candidates_.push_back(
-        {from, found.needle, grid_.boxes_between(cell, places_[found.needle].cell)});
+        {from, to, found.needle, grid_.boxes_between(cell, places_[found.needle].cell)});
   };
   const PairColumns pairs = pair_columns(count);
   const Record& record = gas_.records[i];
   const Needle just_hit =
       record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
-  std::size_t n = 0;
+  const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
+                      std::abs(seeker.motion.v[2]) + seeker.motion.omega;
+  const float parting = 0.25f / speed;
+  constexpr double endless = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < count; ++k) {
-    // The partner just hit is near for sure.
-    if (just_hit != no_needle && found_[k].needle == just_hit) {
-      propose(found_[k], 0);
-      continue;
-    }
     const Motion& other = motions_[found_[k].needle];
     const float* offset = views_[found_[k].cell].offset;
     const float age = seeker.now - other.time;
     for (int axis = 0; axis < 3; ++axis) {
-      pairs.column[PairColumns::r_x + axis][n] =
+      pairs.column[PairColumns::r_x + axis][k] =
           (seeker.motion.r[axis] - offset[axis] - other.r[axis]) - other.v[axis] * age;
-      pairs.column[PairColumns::v_x + axis][n] = seeker.motion.v[axis] - other.v[axis];
-      pairs.column[PairColumns::u_x + axis][n] = other.u[axis];
-      pairs.column[PairColumns::p_x + axis][n] = other.p[axis];
+      pairs.column[PairColumns::v_x + axis][k] = seeker.motion.v[axis] - other.v[axis];
+      pairs.column[PairColumns::u_x + axis][k] = other.u[axis];
+      pairs.column[PairColumns::p_x + axis][k] = other.p[axis];
     }
-    pairs.column[PairColumns::omega][n] = other.omega;
-    pairs.column[PairColumns::age][n] = age;
-    pairs.column[PairColumns::until][n] = std::min(
+    pairs.column[PairColumns::omega][k] = other.omega;
+    pairs.column[PairColumns::age][k] = age;
+    pairs.column[PairColumns::until][k] = std::min(
         seeker.ahead, std::max(0.0f, other.until - seeker.now) + static_cast<float>(time_margin));
-    found_[n++] = found_[k];
+    // A needle just hit is near for sure: this one looks from a little later on.
+    pairs.column[PairColumns::from][k] = found_[k].needle == just_hit ? parting : 0.0f;
   }
-  counters_.isolated += kernels_.isolate(seeker, pairs, n);
-  for (std::size_t k = 0; k < n; ++k) {
+  counters_.isolated += kernels_.isolate(seeker, pairs, count);
+  for (std::size_t k = 0; k < count; ++k) {
     const float from = pairs.column[PairColumns::from][k];
-    if (from <= seeker.ahead) propose(found_[k], from / unit_);
+    const bool met = from <= seeker.ahead;
+    if (found_[k].needle == just_hit) {
+      propose(found_[k], 0, met ? endless : parting / unit_);
+    } else if (met) {
+      propose(found_[k], from / unit_, endless);
+    }
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });

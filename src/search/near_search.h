@@ -38,7 +38,7 @@ class NearSearch {
   void find(Needle i, Time now, double ahead, Visit&& visit) {
     for (const Candidate& candidate : candidates(i, now, ahead)) {
       if (candidate.from > ahead) break;  // they are in this order
-      ahead = visit(candidate.needle, candidate.shift, candidate.from);
+      ahead = visit(candidate.needle, candidate.shift, candidate.from, candidate.to);
     }
   }
 
@@ -46,7 +46,7 @@ class NearSearch {
 
  private:
   struct Candidate {
-    double from;  ///< meets nothing before this time from now [time]
+    double from, to;  ///< meets it between these times from now, if at all [time]
     Needle needle;
     Shift shift;
   };
@@ -83,6 +83,7 @@ class NearSearch {
   std::vector<std::uint32_t> free_blocks_;
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
+  std::size_t view_count_ = 0;
   std::vector<Cell> view_cells_;  ///< of the views, not wrapped into the box
   std::vector<kernels::Found> found_;
   std::vector<float> pair_storage_;
