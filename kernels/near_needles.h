@@ -69,6 +69,7 @@ struct Found {
 /// The needle that searches.
 struct Seeker {
   Motion motion;         ///< at `now`
+  float r[3], u[3];      ///< centre and director of its hull, as in its block
   float now;             ///< present time
   float ahead;           ///< how far it searches
   float margin;          ///< of lengths; covers what rounding did to the columns [L]

@@ -65,7 +65,7 @@ inline V3 load(const Block& block, int first_column, std::size_t lane) {
 
 std::size_t overlapping(const Surroundings& around, const Seeker& seeker, float radius,
                         Found* found) {
-  const V3 r = broadcast(seeker.motion.r), u = broadcast(seeker.motion.u);
+  const V3 r = broadcast(seeker.r), u = broadcast(seeker.u);
   const Lanes half(0.5f);
   // Capsules overlap when their axes are nearer than both radii; then the other's centre is nearer
   // than that and half a length to the seeker's axis.

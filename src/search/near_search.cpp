@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/power_of_two.h"
+
 namespace needlework {
 namespace {
 
@@ -50,28 +52,29 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
 
 Time NearSearch::place(Needle i, Time now) {
   if (unit_ == 0 || since_base(now) > kernels::longest_time) rebase(now);
-  const kernels::Flight& flight = gas_.records[i].flight;
-  const Vec3d r = centre_after(flight, gas_.clock.difference(now, gas_.records[i].time));
+  const Record& record = gas_.records[i];
+  const kernels::Flight& flight = record.flight;
+  const double elapsed = gas_.clock.difference(now, record.time);
   Place& place = places_[i];
-  const Cell cell = grid_.cell_of(r);
-  const bool entered = place.block != BlockLink::none;
   counters_.rebuilds += place.until <= now;
-  if (entered && grid_.index_of(cell) != grid_.index_of(place.cell)) {
-    ++counters_.crossings;
-    leave(i);
-  }
-  place.cell = cell;
-  if (place.block == BlockLink::none) enter(i);
+  Vec3d r = centre_after(flight, elapsed), a;
   double stay;
   if (hull_ == Hull::cell) {
-    stay = grid_.time_to_leave(cell, r, flight.v, cell_margin);
+    stay = grid_.time_to_leave(grid_.cell_of(r), r, flight.v, cell_margin);
+    a = flight.v * (1 / unit_);
   } else {
-    const double speed = std::sqrt(dot(flight.v, flight.v)) + 0.5 * flight.omega;
-    stay = radius_ / speed;
+    // The capsule is around where the needle will be in half of its time there, so that it may
+    // move by the radius before that and after.
+    const double half = radius_ / (std::sqrt(dot(flight.v, flight.v)) + 0.5 * flight.omega);
+    stay = 2 * half;
+    const double middle = std::isfinite(half) ? elapsed + half : elapsed;
+    r = centre_after(flight, middle);
+    a = director_after(flight, middle);
   }
+  enter(i, grid_.cell_of(r));
   place.until = gas_.clock.add(now, stay);
+  write_entry(i, r, a, now);
   set_motion(i, now);
-  write_entry(i);
   return place.until;
 }
 
@@ -83,12 +86,15 @@ void NearSearch::rebase(Time now) {
     sum += dot(record.flight.v, record.flight.v) + 0.25 * record.flight.omega * record.flight.omega;
   }
   const double speed = std::sqrt(sum / static_cast<double>(gas_.size()));
-  unit_ = speed > 0 && std::isfinite(speed) ? std::ldexp(1.0, std::ilogb(speed)) : 1;
+  unit_ = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
   base_ = now;
   for (Needle i = 0; i < gas_.size(); ++i) {
     if (places_[i].block == BlockLink::none) continue;
     set_motion(i, now);
-    if (hull_ == Hull::cell) write_entry(i);
+    if (hull_ == Hull::capsule) continue;
+    const Record& record = gas_.records[i];
+    const double elapsed = gas_.clock.difference(now, record.time);
+    write_entry(i, centre_after(record.flight, elapsed), record.flight.v * (1 / unit_), now);
   }
 }
 
@@ -108,24 +114,32 @@ void NearSearch::set_motion(Needle i, Time now) {
   out.until = static_cast<float>(since_base(places_[i].until));
 }
 
-// The needle's entry in the block of its cell, from its motion.
-void NearSearch::write_entry(Needle i) {
+// Writes the needle's entry into the block of its cell.
+void NearSearch::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
   const Place& place = places_[i];
-  const Motion& motion = motions_[i];
-  const float* a = hull_ == Hull::cell ? motion.v : motion.u;
   Block& block = blocks_[place.block];
-  const float values[Block::columns] = {motion.r[0], motion.r[1], motion.r[2], a[0], a[1], a[2],
-                                        motion.time};
+  const Vec3d r = centre - grid_.corner(place.cell);
+  const double values[Block::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
   for (int column = 0; column < Block::columns; ++column) {
-    block.column[column][place.lane] = values[column];
+    block.column[column][place.lane] = static_cast<float>(values[column]);
   }
   block.needle[place.lane] = i;
 }
 
-// Takes the next free place in the cell, chaining a block where all are full.
-void NearSearch::enter(Needle i) {
+// Moves needle i to this cell. It takes the next free place there; a block is chained where all are
+// full.
+void NearSearch::enter(Needle i, const Cell& cell) {
   Place& place = places_[i];
-  std::uint32_t b = static_cast<std::uint32_t>(grid_.index_of(place.cell));
+  const bool entered = place.block != BlockLink::none;
+  const std::size_t index = grid_.index_of(cell);
+  const bool stays = entered && index == grid_.index_of(place.cell);
+  if (entered && !stays) {
+    ++counters_.crossings;
+    leave(i);
+  }
+  place.cell = cell;
+  if (stays) return;
+  std::uint32_t b = static_cast<std::uint32_t>(index);
   while (links_[b].size == kernels::block_size) {
     if (links_[b].next == BlockLink::none) {
       if (free_blocks_.empty()) {
@@ -142,9 +156,10 @@ void NearSearch::enter(Needle i) {
   place.lane = links_[b].size++;
 }
 
-// The last needle of the cell takes the place, so that only its last block has free ones.
+// Takes needle i from its cell. The last needle of the cell moves to its place, so that only the
+// last block has free ones.
 void NearSearch::leave(Needle i) {
-  Place& place = places_[i];
+  const Place& place = places_[i];
   std::uint32_t last = place.block, previous = BlockLink::none;
   for (std::uint32_t b = static_cast<std::uint32_t>(grid_.index_of(place.cell));
        links_[b].next != BlockLink::none; b = links_[b].next) {
@@ -167,7 +182,6 @@ void NearSearch::leave(Needle i) {
     links_[last] = {};
     free_blocks_.push_back(last);
   }
-  place.block = BlockLink::none;
 }
 
 PairColumns NearSearch::pair_columns(std::size_t n) {
@@ -184,7 +198,7 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 
 // Makes views of the cells in which needles may be found: those that a needle within reach of this
 // one's hull, or of its way in the time ahead, can have been placed in. Returns how many are there.
-std::size_t NearSearch::look_around(const Motion& motion, const Cell& cell, double ahead) {
+std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
   double reach = 1 + 2 * cell_margin;
   double way = ahead * unit_;
   if (hull_ == Hull::capsule) {
@@ -194,9 +208,9 @@ std::size_t NearSearch::look_around(const Motion& motion, const Cell& cell, doub
   }
   const auto sides = grid_.sides();
   for (int axis = 0; axis < 3; ++axis) {
-    const double r = cell[axis] * sides[axis] + motion.r[axis];
-    const double span = hull_ == Hull::capsule ? 0.5 * std::abs(motion.u[axis]) : 0;
-    const double end = r + motion.v[axis] * way;
+    const double r = cell[axis] * sides[axis] + seeker.r[axis];
+    const double span = hull_ == Hull::capsule ? 0.5 * std::abs(seeker.u[axis]) : 0;
+    const double end = r + seeker.motion.v[axis] * way;
     near_[axis].clear();
     grid_.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span, reach,
                       near_[axis]);
@@ -232,13 +246,18 @@ std::size_t NearSearch::look_around(const Motion& motion, const Cell& cell, doub
 }
 
 std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
-  const std::size_t entries = look_around(motions_[i], places_[i].cell, ahead);
   kernels::Seeker seeker;
   seeker.motion = motions_[i];
   seeker.now = seeker.motion.time;
   seeker.ahead = static_cast<float>(ahead * unit_ + time_margin);
   seeker.margin = margin_;
   seeker.needle = i;
+  const Place& place = places_[i];
+  for (int axis = 0; axis < 3; ++axis) {
+    seeker.r[axis] = blocks_[place.block].column[Block::x + axis][place.lane];
+    seeker.u[axis] = blocks_[place.block].column[Block::a_x + axis][place.lane];
+  }
+  const std::size_t entries = look_around(seeker, place.cell, ahead);
   const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_};
   const std::size_t count =
       hull_ == Hull::cell

@@ -58,11 +58,11 @@ class NearSearch {
   };
 
   std::span<const Candidate> candidates(Needle i, Time now, double ahead);
-  std::size_t look_around(const kernels::Motion& motion, const Cell& cell, double ahead);
+  std::size_t look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
   void rebase(Time now);
   void set_motion(Needle i, Time now);
-  void write_entry(Needle i);
-  void enter(Needle i);
+  void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
+  void enter(Needle i, const Cell& cell);
   void leave(Needle i);
   double since_base(Time t) const { return gas_.clock.difference(t, base_) * unit_; }
   kernels::PairColumns pair_columns(std::size_t n);
