@@ -150,12 +150,13 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   out.f = to_double(sample.f);
   out.df = to_double(sample.df);
   out.ddf = to_double(sample.ddf);
-  out.error_f = r * (eu + rounding) + rounding * (std::abs(to_double(frame.offset)) +
-                                                  std::abs(to_double(frame.slope) * to_double(s))) +
-                frame.offset_error;
+  out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));
+  // |x| <= 1, so that f is off by what r is, and by |r| times what x and their product are.
+  out.error_f = rounding * (r + std::abs(to_double(frame.offset)) +
+                            std::abs(to_double(frame.slope) * to_double(s))) +
+                (out.distance + rounding * r) * (eu + rounding) + frame.offset_error;
   out.error_df = 2 * (frame.v_norm + r * w) * (eu + rounding);
   out.error_ddf = 3 * (2 * frame.v_norm + r * w) * w * (eu + rounding);
-  out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));
   return out;
 }
 

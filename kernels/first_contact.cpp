@@ -18,7 +18,7 @@ constexpr int sharpen_depth = 3;
 constexpr int last_depth = 44;
 // Roots whose double value may be off by more than this share of the time since s = 0 are refined
 // in double-double.
-constexpr double polish_above = 0x1p-41;
+constexpr double polish_above = 0x1p-40;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
 // Segments farther apart do not touch, however small f is; far above what rounding does to them, and
