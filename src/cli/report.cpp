@@ -29,6 +29,7 @@ Json stats_of(const Counters& counters) {
           {"escalated", counters.escalated},
           {"rebuilds", counters.rebuilds},
           {"crossings", counters.crossings},
+          {"sorts", counters.sorts},
           {"stale", counters.stale},
           {"renewals", counters.renewals},
           {"searches", counters.searches},

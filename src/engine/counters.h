@@ -10,6 +10,7 @@ struct Counters {
   std::uint64_t stale = 0;       ///< popped contacts whose partner had changed
   std::uint64_t crossings = 0;   ///< changes of cell
   std::uint64_t rebuilds = 0;    ///< hulls set anew because their needle left them
+  std::uint64_t sorts = 0;       ///< of the storage, by place
   std::uint64_t renewals = 0;    ///< records renewed by their own clock
   std::uint64_t searches = 0;    ///< searches over all candidates of a needle
   std::uint64_t candidates = 0;  ///< pairs proposed by the search

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "src/engine/run.h"
+#include "src/engine/space_order.h"
 #include "src/error.h"
 #include "src/search/setup.h"
 
@@ -51,6 +52,7 @@ class EventLoop final : public Run {
     kernels::Contact contact;
   };
 
+  void sort_storage();
   void schedule(Needle i, Time placed_until);
   void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from, Time until);
@@ -67,6 +69,7 @@ class EventLoop final : public Run {
   Time instant_;  ///< of the last collision
   std::uint64_t collisions_at_instant_ = 0;
   std::vector<Time> last_collision_;  ///< for the t_c rule; renewals do not count
+  std::uint64_t sorted_at_ = 0;  ///< crossings when the needles were last sorted
   Shared last_shared_;
   Replaced replaced_[2];
   int replaced_count_ = 0;
@@ -77,6 +80,7 @@ template <class Search, class Calendar, Effects effects>
 EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial,
                                                 const SearchSetup& setup)
     : Run(scene, initial), search_(gas, counters, setup), calendar_(gas.size()) {
+  reorder(gas, order_in_space(gas, now));
   if constexpr (effects.contact_time) {
     last_collision_.assign(gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }
@@ -123,6 +127,7 @@ Stop EventLoop<Search, Calendar, effects>::advance(const Scene::Until& until) {
     if (window_end_ <= std::min(event.time, target)) {
       now = window_end_;
       open_window();
+      if (counters.crossings - sorted_at_ > 2 * gas.size()) sort_storage();
       continue;
     }
     if (event.time > target) {
@@ -139,6 +144,26 @@ Stop EventLoop<Search, Calendar, effects>::advance(const Scene::Until& until) {
     counters.evaluated = kernel_counters_.evaluated;
     counters.escalated = kernel_counters_.escalated;
   }
+}
+
+// Stores neighbours in space next to each other again, once many have moved on.
+template <class Search, class Calendar, Effects effects>
+void EventLoop<Search, Calendar, effects>::sort_storage() {
+  ++counters.sorts;
+  sorted_at_ = counters.crossings;
+  const std::vector<Needle> order = order_in_space(gas, now), ranks = ranks_of(order);
+  reorder(gas, order);
+  search_.renumber(ranks);
+  if constexpr (effects.contact_time) last_collision_ = permuted(last_collision_, order);
+  last_shared_ = {};
+  Calendar sorted(gas.size());
+  for (const Needle i : order) {
+    Event event = calendar_.of(i);
+    event.owner = ranks[event.owner];
+    if (event.is_contact()) event.partner = ranks[event.partner];
+    sorted.set(event);
+  }
+  calendar_ = std::move(sorted);
 }
 
 template <class Search, class Calendar, Effects effects>

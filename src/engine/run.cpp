@@ -141,8 +141,12 @@ Totals Run::totals() const {
 State Run::state() const {
   State out;
   out.box = gas.box;
-  out.id = gas.ids;
-  for (std::size_t i = 0; i < gas.size(); ++i) {
+  std::vector<Needle> by_id(gas.size());
+  std::iota(by_id.begin(), by_id.end(), Needle{0});
+  std::sort(by_id.begin(), by_id.end(),
+            [&](Needle a, Needle b) { return gas.ids[a] < gas.ids[b]; });
+  for (const Needle i : by_id) {
+    out.id.push_back(gas.ids[i]);
     const kernels::Flight& flight = gas.records[i].flight;
     const double elapsed = gas.clock.difference(now, gas.records[i].time);
     std::array<double, 3> r = array(centre_after(flight, elapsed));

@@ -10,7 +10,7 @@
 
 namespace needlework {
 
-/// Index of a needle; needles are kept by ascending id, so indices compare as ids do.
+/// Place of a needle in storage; changes when the storage is sorted.
 using Needle = std::uint32_t;
 inline constexpr Needle no_needle = 0xffffffff;
 
@@ -45,7 +45,7 @@ static_assert(sizeof(Record) == 192);
 /// All needles. Contacts are pure functions of two records and a shift, made here.
 struct Gas {
   std::vector<Record> records;
-  std::vector<std::uint32_t> ids;  ///< ascending
+  std::vector<std::uint32_t> ids;
   std::vector<Shift> images;       ///< boxes that the recorded centre has been wrapped by
   Clock clock;
   std::array<double, 3> box{};

@@ -16,6 +16,8 @@ namespace needlework {
 ///     enters i where it is now; called whenever its record has changed, before any search that
 ///     could meet it, and when the time that this returns has come. Until then i is found where it
 ///     has been placed.
+///   renumber(ranks)
+///     needle i has become needle ranks[i]; where they have been placed stays.
 ///   find(i, now, ahead, visit)
 ///     calls visit(j, shift, from, to) -> ahead for each (j, shift) that i might meet within the
 ///     time `ahead` and before j is placed anew: in times from now from `from` to `to`, if at all.
@@ -27,6 +29,7 @@ class AllPairs {
   AllPairs(const Gas& gas, Counters& counters, const SearchSetup&) : gas_(gas), counters_(counters) {}
 
   Time place(Needle, Time) { return Time::never(); }
+  void renumber(const std::vector<Needle>&) {}
 
   template <class Visit>
   void find(Needle i, Time now, double ahead, Visit&& visit) const {

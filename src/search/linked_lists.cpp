@@ -32,6 +32,18 @@ Time LinkedLists::place(Needle i, Time now) {
   return gas_.clock.add(now, grid_.time_to_leave(cell, r, flight.v, margin));
 }
 
+void LinkedLists::renumber(const std::vector<Needle>& ranks) {
+  const auto renamed = [&](Needle i) { return i == no_needle ? i : ranks[i]; };
+  for (Needle& head : head_) head = renamed(head);
+  std::vector<Place> places(place_.size());
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    Place& place = places[ranks[i]] = place_[i];
+    place.next = renamed(place.next);
+    place.previous = renamed(place.previous);
+  }
+  place_ = std::move(places);
+}
+
 void LinkedLists::link(Needle i) {
   Place& place = place_[i];
   Needle& head = head_[grid_.index_of(place.cell)];

@@ -20,6 +20,7 @@ class LinkedLists {
   LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup);
 
   Time place(Needle i, Time now);
+  void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>
   void find(Needle i, Time now, double ahead, Visit&& visit) const {

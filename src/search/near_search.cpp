@@ -184,6 +184,22 @@ void NearSearch::leave(Needle i) {
   }
 }
 
+void NearSearch::renumber(const std::vector<Needle>& ranks) {
+  std::vector<Place> places(places_.size());
+  std::vector<Motion> motions(motions_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    places[ranks[i]] = places_[i];
+    motions[ranks[i]] = motions_[i];
+  }
+  places_ = std::move(places);
+  motions_ = std::move(motions);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    for (std::uint32_t lane = 0; lane < links_[b].size; ++lane) {
+      blocks_[b].needle[lane] = ranks[blocks_[b].needle[lane]];
+    }
+  }
+}
+
 PairColumns NearSearch::pair_columns(std::size_t n) {
   if (n > pair_capacity_) {
     pair_capacity_ = (2 * n + kernels::block_size - 1) / kernels::block_size * kernels::block_size;

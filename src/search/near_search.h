@@ -33,6 +33,7 @@ class NearSearch {
   NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hull hull);
 
   Time place(Needle i, Time now);
+  void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>
   void find(Needle i, Time now, double ahead, Visit&& visit) {

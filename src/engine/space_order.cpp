@@ -1,0 +1,64 @@
+#include "src/engine/space_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace needlework {
+namespace {
+
+// Spreads the lowest 21 bits so that two empty ones follow each.
+std::uint64_t spread(std::uint64_t a) {
+  a &= 0x1fffff;
+  a = (a | a << 32) & 0x001f00000000ffff;
+  a = (a | a << 16) & 0x001f0000ff0000ff;
+  a = (a | a << 8) & 0x100f00f00f00f00f;
+  a = (a | a << 4) & 0x10c30c30c30c30c3;
+  return (a | a << 2) & 0x1249249249249249;
+}
+
+}  // namespace
+
+std::vector<Needle> order_in_space(const Gas& gas, Time now) {
+  // One scale for all axes, in steps of half a length or so.
+  const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
+  const double steps = std::min(2 * longest, 0x1p21 - 1);
+  std::vector<std::uint64_t> keys;
+  keys.reserve(gas.size());
+  for (const Record& record : gas.records) {
+    const Vec3d r = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const double position[3] = {r.x, r.y, r.z};
+    std::uint64_t key = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double wrapped = position[axis] - std::floor(position[axis] / gas.box[axis]) * gas.box[axis];
+      const double step = std::clamp(wrapped / longest * steps, 0.0, 0x1p21 - 1);
+      key |= spread(static_cast<std::uint64_t>(step)) << axis;
+    }
+    keys.push_back(key);
+  }
+  std::vector<Needle> order(gas.size());
+  std::iota(order.begin(), order.end(), Needle{0});
+  std::stable_sort(order.begin(), order.end(), [&](Needle a, Needle b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
+  std::vector<Needle> ranks(order.size());
+  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = static_cast<Needle>(n);
+  return ranks;
+}
+
+void reorder(Gas& gas, const std::vector<Needle>& order) {
+  const std::vector<Needle> ranks = ranks_of(order);
+  std::vector<Record> records;
+  records.reserve(gas.size());
+  for (const Needle i : order) {
+    Record& record = records.emplace_back(std::move(gas.records[i]));
+    for (TouchEntry& touch : record.touches) touch.partner = ranks[touch.partner];
+  }
+  gas.records = std::move(records);
+  gas.ids = permuted(gas.ids, order);
+  gas.images = permuted(gas.images, order);
+}
+
+}  // namespace needlework

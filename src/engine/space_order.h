@@ -1,0 +1,30 @@
+// The order in which needles are stored: along a space-filling curve, so that neighbours in space
+// are neighbours in memory.
+#pragma once
+
+#include <vector>
+
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// The needles in the order of a Morton curve (bits of the coordinates interleaved) through their
+/// centres at `now`; equal ones keep their order.
+std::vector<Needle> order_in_space(const Gas& gas, Time now);
+
+/// Stores the needles of the gas in this order, touches included.
+void reorder(Gas& gas, const std::vector<Needle>& order);
+
+/// rank[order[n]] = n
+std::vector<Needle> ranks_of(const std::vector<Needle>& order);
+
+/// The values in the new order.
+template <class T>
+std::vector<T> permuted(const std::vector<T>& values, const std::vector<Needle>& order) {
+  std::vector<T> out;
+  out.reserve(values.size());
+  for (const Needle i : order) out.push_back(values[i]);
+  return out;
+}
+
+}  // namespace needlework
