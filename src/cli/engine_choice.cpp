@@ -7,19 +7,19 @@
 #include <cstdlib>
 #include <vector>
 
-#include "src/cli/resources.h"
+#include "kernels/isa.h"
 #include "src/error.h"
+#include "src/search/choice.h"
 
 namespace needlework::cli {
 namespace {
 
 using Names = std::vector<std::string>;
 
+const Names searches{"linked-cells", "capsules", "linked-lists", "all-pairs"};
 // What `auto` stands for comes first.
-const Names searches{"capsules", "linked-cells", "linked-lists", "all-pairs"};
 const Names queues{"indexed-heap"};
 const Names accuracies{"standard"};
-const Names instruction_sets{"avx512", "avx2", "sse4", "scalar"};
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -34,12 +34,11 @@ void require_offered(const std::string& value, const std::string& place, const N
 }
 
 void require_instruction_set(const std::string& isa, const std::string& place) {
-  const Names of_cpu = instruction_sets_of_this_cpu();
-  if (isa != "auto" && !contains(of_cpu, isa)) {
+  const Names names = instruction_sets();
+  if (isa != "auto" && !contains(names, isa)) {
     throw InputError(
-        fmt::format("{}: expected auto or one that this CPU has ({})", place, list(of_cpu)));
+        fmt::format("{}: expected auto or one that this CPU has ({})", place, list(names)));
   }
-  require_offered(isa, place, instruction_sets);
 }
 
 std::string resolved(const std::string& name, const Names& offered) {
@@ -47,6 +46,12 @@ std::string resolved(const std::string& name, const Names& offered) {
 }
 
 }  // namespace
+
+std::vector<std::string> instruction_sets() {
+  Names names;
+  for (const kernels::Isa isa : kernels::available()) names.emplace_back(kernels::name_of(isa));
+  return names;
+}
 
 void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlags& flags) {
   Scene::Engine& engine = scene.engine;
@@ -81,12 +86,12 @@ void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlag
   engine.threads = 1;
 }
 
-std::string resolved_search(const Scene::Engine& engine) {
-  return resolved(engine.search, searches);
+std::string resolved_search(const Scene::Engine& engine, double density) {
+  return engine.search == "auto" ? auto_search(density) : engine.search;
 }
 std::string resolved_queue(const Scene::Engine& engine) { return resolved(engine.queue, queues); }
 std::string resolved_isa(const Scene::Engine& engine) {
-  return resolved(engine.isa, instruction_sets);
+  return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
 }
 
 }  // namespace needlework::cli

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "src/scene/scene.h"
 
@@ -14,6 +15,9 @@ struct EngineFlags {
   std::optional<std::string> isa;
 };
 
+/// Instruction sets on offer on this CPU, by the names of `--isa`, the narrowest first.
+std::vector<std::string> instruction_sets();
+
 /// Puts flags, then the environment (NEEDLEWORK_ISA where the scene says auto), into the scene and
 /// checks that search, queue, accuracy, threads and ISA are on offer. OMP_NUM_THREADS is a wish for
 /// at most so many threads; as the engine has one thread, every value of it is met by 1.
@@ -21,7 +25,7 @@ struct EngineFlags {
 void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlags& flags);
 
 /// The names that `auto` stands for.
-std::string resolved_search(const Scene::Engine& engine);
+std::string resolved_search(const Scene::Engine& engine, double density);
 std::string resolved_queue(const Scene::Engine& engine);
 std::string resolved_isa(const Scene::Engine& engine);
 

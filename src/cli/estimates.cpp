@@ -27,7 +27,7 @@ double estimated_memory(const Scene& scene) {
 
 double estimated_seconds_per_collision(const Scene& scene, double density) {
   // The number of candidates grows with the density, or with the number of needles.
-  if (resolved_search(scene.engine) == "all-pairs") {
+  if (resolved_search(scene.engine, density) == "all-pairs") {
     return 40e-6 + 0.042e-6 * static_cast<double>(scene.needles.count);
   }
   return 70e-6 + 11e-6 * density;

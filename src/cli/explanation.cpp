@@ -95,8 +95,8 @@ std::string expected_text(const Explanation& e) {
       e.expected->collisions_per_needle);
 }
 
-std::string engine_text(const Scene::Engine& engine) {
-  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", resolved_search(engine),
+std::string engine_text(const Scene::Engine& engine, double density) {
+  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", resolved_search(engine, density),
                      resolved_queue(engine), engine.accuracy, engine.threads.value_or(1),
                      engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
 }
@@ -165,7 +165,7 @@ Json json_of(const Explanation& e) {
                         {"energy_ratio", number(e.expected->energy_ratio)},
                         {"wall_s", number(e.seconds)}};
   }
-  json["search"] = resolved_search(scene.engine);
+  json["search"] = resolved_search(scene.engine, e.density);
   json["queue"] = resolved_queue(scene.engine);
   json["accuracy"] = scene.engine.accuracy;
   json["threads"] = scene.engine.threads.value_or(1);
@@ -189,7 +189,7 @@ std::string text_of(const Explanation& e) {
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));
-  text += line("engine", engine_text(scene.engine));
+  text += line("engine", engine_text(scene.engine, e.density));
   text += line("output", output_text(scene.output));
   text += line("memory",
                fmt::format("about {} of {}", bytes_text(e.memory), bytes_text(available_memory())));

@@ -60,20 +60,6 @@ double memory_limit_of_control_group() {
 
 }  // namespace
 
-std::vector<std::string> instruction_sets_of_this_cpu() {
-  std::vector<std::string> names{"scalar"};
-#if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("sse4.2")) names.push_back("sse4");
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) names.push_back("avx2");
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    names.push_back("avx512");
-  }
-#endif
-  return names;
-}
-
 double available_memory() {
   return std::min(memory_available_in_machine(), memory_limit_of_control_group());
 }

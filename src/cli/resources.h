@@ -8,9 +8,6 @@
 
 namespace needlework::cli {
 
-/// Instruction sets that this CPU has, by the names of `--isa`, the narrowest first.
-std::vector<std::string> instruction_sets_of_this_cpu();
-
 /// Memory that the process can expect to get [bytes]: what the machine has available, or the limit
 /// of its control group if that is less. Infinity where neither is known.
 double available_memory();

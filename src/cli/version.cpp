@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "src/cli/resources.h"
+#include "src/cli/engine_choice.h"
 
 namespace needlework::cli {
 
@@ -14,7 +14,7 @@ std::string version_text() {
   const std::string compiler = "GCC " __VERSION__;
 #endif
   return fmt::format("needlework {}\ncompiler  {}\nISA       {}\nHDF5      {}", NEEDLEWORK_VERSION,
-                     compiler, fmt::join(instruction_sets_of_this_cpu(), " "),
+                     compiler, fmt::join(instruction_sets(), " "),
                      NEEDLEWORK_HDF5_VERSION);
 }
 

@@ -5,6 +5,7 @@
 #include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/search/all_pairs.h"
+#include "src/search/choice.h"
 #include "src/search/linked_lists.h"
 #include "src/search/near_search.h"
 
@@ -45,7 +46,10 @@ std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
   }
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius};
-  const std::string& search = scene.engine.search;
+  const double volume = initial.box[0] * initial.box[1] * initial.box[2];
+  const std::string search = scene.engine.search == "auto"
+                                 ? auto_search(static_cast<double>(initial.size()) / volume)
+                                 : scene.engine.search;
   if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial, setup);
   if (search == LinkedLists::name) {
     return with_effects<LinkedLists, IndexedHeap>(scene, initial, setup);
@@ -53,7 +57,7 @@ std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
   if (search == LinkedCells::name) {
     return with_effects<LinkedCells, IndexedHeap>(scene, initial, setup);
   }
-  if (search == "auto" || search == Capsules::name) {
+  if (search == Capsules::name) {
     return with_effects<Capsules, IndexedHeap>(scene, initial, setup);
   }
   throw InputError("engine.search = \"" + search +

@@ -1,0 +1,9 @@
+// What `auto` stands for.
+#pragma once
+
+namespace needlework {
+
+/// The cheaper search at this number of needles per L^3.
+inline const char* auto_search(double density) { return density < 3 ? "linked-cells" : "capsules"; }
+
+}  // namespace needlework
