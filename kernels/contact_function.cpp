@@ -49,7 +49,8 @@ void set_rotation(Flight& flight) {
   }
   // Scaled by a power of two, so that squares neither overflow nor vanish.
   const int exponent = exponent_of(size);
-  const Vec3d w{times_power_of_two(flight.w.x, -exponent), times_power_of_two(flight.w.y, -exponent),
+  const Vec3d w{times_power_of_two(flight.w.x, -exponent),
+                times_power_of_two(flight.w.y, -exponent),
                 times_power_of_two(flight.w.z, -exponent)};
   const double length = std::sqrt(dot(w, w));
   flight.omega = times_power_of_two(length, exponent);
@@ -108,7 +109,9 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
       const DoubleDouble length = sqrt(dot(w, w));
       const Vec3dd p = cross(w, out.u[i]);
       out.p[i] = {p.x / length, p.y / length, p.z / length};
-      const auto rescaled = [&](double a) { return times_power_of_two(a, exponent) * scale.per_velocity; };
+      const auto rescaled = [&](double a) {
+        return times_power_of_two(a, exponent) * scale.per_velocity;
+      };
       out.omega[i] = {rescaled(length.hi), rescaled(length.lo)};
     }
     out.delay[i] = {elapsed[i].hi * scale.per_time, elapsed[i].lo * scale.per_time};

@@ -79,7 +79,7 @@ struct Frame {
   Vec3<T> r, v;        ///< r1 - r2 - shift and v1 - v2
   Vec3<T> u[2], p[2];  ///< at the records
   T omega[2], delay[2];
-  T offset{}, slope{};  ///< continuation from a touch: f + offset + slope s is what counts
+  T offset{}, slope{};      ///< continuation from a touch: f + offset + slope s is what counts
   double offset_error = 0;  ///< of the offset, in double
   double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
   double v_length = 0;                       ///< 2-norm of v, not below

@@ -21,8 +21,8 @@ constexpr int last_depth = 44;
 constexpr double polish_above = 0x1p-40;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
-// Segments farther apart do not touch, however small f is; far above what rounding does to them, and
-// below the margins of every filter.
+// Segments farther apart do not touch, however small f is; far above what rounding does to them,
+// and below the margins of every filter.
 constexpr double touching = 0x1p-18;
 // Bounds computed with a few roundings are enlarged by this.
 constexpr double roundup = 1 + 0x1p-40;
@@ -469,8 +469,8 @@ Contact Search::run(double from, double until) {
   if (pair_.touch_within > 0 && from == 0 && !pair_.touch.touching) {
     const Sample<double> start = sample_at(0.0);
     if (std::abs(start.f) <= pair_.touch_within &&
-        segment_distance_squared(start.r, start.u[0], start.u[1], start.x,
-                                 dot(start.x, start.x)) < touching * touching) {
+        segment_distance_squared(start.r, start.u[0], start.u[1], start.x, dot(start.x, start.x)) <
+            touching * touching) {
       Contact unknown;
       unknown.side_unknown = true;
       return unknown;

@@ -24,7 +24,8 @@ struct SearchCounters {
 
 struct Contact {
   bool found = false;
-  /// The needles touch to within rounding at s = 0, and Pair::touch does not say on which side: nothing was decided. The caller settles it from the records before s = 0.
+  /// The needles touch to within rounding at s = 0, and Pair::touch does not say on which side:
+  /// nothing was decided. The caller settles it from the records before s = 0.
   bool side_unknown = false;
   /// The pair has just collided and returns at once, below what velocities in double resolve.
   bool unresolvable = false;

@@ -71,7 +71,8 @@ HWY_INLINE std::uint32_t bits_of(Mask m) {
 HWY_INLINE void turn(Lanes k, Lanes& cosine, Lanes& sine) {
   const hn::RebindToSigned<Tag> whole;
   const auto q = hn::ConvertTo(whole, k.v);
-  const auto odd = hn::MaskFromVec(hn::BitCast(Tag(), hn::VecFromMask(whole, hn::TestBit(q, hn::Set(whole, 1)))));
+  const auto odd = hn::MaskFromVec(
+      hn::BitCast(Tag(), hn::VecFromMask(whole, hn::TestBit(q, hn::Set(whole, 1)))));
   const auto sign_of_sine = hn::BitCast(Tag(), hn::ShiftLeft<30>(hn::And(q, hn::Set(whole, 2))));
   const auto sign_of_cosine = hn::BitCast(
       Tag(), hn::ShiftLeft<30>(hn::And(hn::Add(q, hn::Set(whole, 1)), hn::Set(whole, 2))));

@@ -18,9 +18,9 @@
 #define NEEDLEWORK_TARGET HWY_ATTR
 HWY_BEFORE_NAMESPACE();
 namespace needlework::kernels::HWY_NAMESPACE {
-#include "kernels/vec3_body.h"
 #include "kernels/closest_approach_body.h"
 #include "kernels/near_needles_body.h"
+#include "kernels/vec3_body.h"
 }  // namespace needlework::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #undef NEEDLEWORK_TARGET
@@ -34,14 +34,14 @@ namespace needlework::kernels {
 
 #define NEEDLEWORK_TARGET
 namespace scalar {
-#include "kernels/vec3_body.h"
 #include "kernels/closest_approach_body.h"
 #include "kernels/near_needles_body.h"
+#include "kernels/vec3_body.h"
 }  // namespace scalar
 
 namespace {
 
-#define NEEDLEWORK_NEAR_KERNELS(isa, name)                                              \
+#define NEEDLEWORK_NEAR_KERNELS(isa, name)                                                 \
   constexpr NearKernels isa##_kernels = {Isa::isa, name::lanes_at_once, name::overlapping, \
                                          name::approaching, name::isolate}
 

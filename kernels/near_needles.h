@@ -80,9 +80,19 @@ struct Seeker {
 /// Columns have room for a multiple of the block size.
 struct PairColumns {
   enum Column {
-    r_x, r_y, r_z,  // seeker's centre less the other's, now
-    v_x, v_y, v_z,  // seeker's velocity less the other's
-    u_x, u_y, u_z, p_x, p_y, p_z, omega,  // the other's rotation
+    r_x,
+    r_y,
+    r_z,  // seeker's centre less the other's, now
+    v_x,
+    v_y,
+    v_z,  // seeker's velocity less the other's
+    u_x,
+    u_y,
+    u_z,
+    p_x,
+    p_y,
+    p_z,
+    omega,  // the other's rotation
     age,    // time since the other's u and p
     until,  // how far ahead this pair is searched
     from,   // looked at from this time from now on; result: it meets nothing between that and

@@ -1,10 +1,11 @@
-// The kernels of near_needles.h for one kind of Lanes. Included in the namespace of each instruction
-// set, which has Lanes and Mask.
+// The kernels of near_needles.h for one kind of Lanes. Included in the namespace of each
+// instruction set, which has Lanes and Mask.
 //
 // Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Centres are
 // within a few L (the caller's margin grows with its cells), directors come from sines and cosines
 // good to 2^-20 and phases good to 2^-23 of themselves, times are good to 2^-20 and count through
-// the speeds. Lengths below are off by less than `margin_of`, which has a reserve of more than four.
+// the speeds. Lengths below are off by less than `margin_of`, which has a reserve of more than
+// four.
 
 using V3 = Vec3<Lanes>;
 
@@ -18,12 +19,14 @@ inline Turned sine_cosine(Lanes angle) {
   const Lanes limit(0x1p29f), to_whole(0x1.8p23f);
   Lanes k = (angle * Lanes(0.636619772f) + to_whole) - to_whole;
   k = minimum(maximum(k, -limit), limit);
-  const Lanes x = ((angle - k * Lanes(0x1.92p0f)) - k * Lanes(0x1.fb4p-12f)) - k * Lanes(0x1.4442d2p-24f);
+  const Lanes x =
+      ((angle - k * Lanes(0x1.92p0f)) - k * Lanes(0x1.fb4p-12f)) - k * Lanes(0x1.4442d2p-24f);
   const Lanes xx = x * x;
   Turned out;
   out.sine = x - x * xx * (Lanes(1.0f / 6) - xx * (Lanes(1.0f / 120) - xx * Lanes(1.0f / 5040)));
-  out.cosine = Lanes(1.0f) - xx * (Lanes(0.5f) - xx * (Lanes(1.0f / 24) - xx * (Lanes(1.0f / 720) -
-                                                                       xx * Lanes(1.0f / 40320))));
+  out.cosine = Lanes(1.0f) -
+               xx * (Lanes(0.5f) -
+                     xx * (Lanes(1.0f / 24) - xx * (Lanes(1.0f / 720) - xx * Lanes(1.0f / 40320))));
   turn(k, out.cosine, out.sine);
   return out;
 }
@@ -71,18 +74,18 @@ std::size_t overlapping(const Surroundings& around, const Seeker& seeker, float 
   // than that and half a length to the seeker's axis.
   const float near_axes = 2 * radius + seeker.margin, near_centre = near_axes + 0.5f;
   const Lanes axes_squared(near_axes * near_axes), centre_squared(near_centre * near_centre);
-  return scan(around, seeker, found,
-              [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
-                const V3 from{r.x - Lanes(offset[0]), r.y - Lanes(offset[1]),
-                              r.z - Lanes(offset[2])};
-                const V3 d = from - load(block, Block::x, lane);
-                const V3 gap = d - u * minimum(maximum(dot(d, u), -half), half);
-                const Mask near = dot(gap, gap) <= centre_squared;
-                if (!any(near)) return near;
-                const V3 a = load(block, Block::a_x, lane);
-                const V3 x = cross(u, a);
-                return near & (segment_distance_squared(d, u, a, x, dot(x, x)) <= axes_squared);
-              });
+  return scan(
+      around, seeker, found,
+      [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
+        const V3 from{r.x - Lanes(offset[0]), r.y - Lanes(offset[1]), r.z - Lanes(offset[2])};
+        const V3 d = from - load(block, Block::x, lane);
+        const V3 gap = d - u * minimum(maximum(dot(d, u), -half), half);
+        const Mask near = dot(gap, gap) <= centre_squared;
+        if (!any(near)) return near;
+        const V3 a = load(block, Block::a_x, lane);
+        const V3 x = cross(u, a);
+        return near & (segment_distance_squared(d, u, a, x, dot(x, x)) <= axes_squared);
+      });
 }
 
 std::size_t approaching(const Surroundings& around, const Seeker& seeker, Found* found) {
@@ -96,8 +99,8 @@ std::size_t approaching(const Surroundings& around, const Seeker& seeker, Found*
         const Lanes age = now - load_lanes(block.column[Block::time] + lane);
         const V3 d = (from - load(block, Block::x, lane)) - other_v * age, w = v - other_v;
         const Lanes dd = dot(d, d), b = dot(d, w), a = dot(w, w);
-        const Lanes reach = Lanes(1 + seeker.margin + 0x1p-10f) +
-                            (norm_1(v) + norm_1(other_v)) * Lanes(0x1p-18f);
+        const Lanes reach =
+            Lanes(1 + seeker.margin + 0x1p-10f) + (norm_1(v) + norm_1(other_v)) * Lanes(0x1p-18f);
         const Lanes c = dd - (reach * reach + dd * Lanes(0x1p-18f));
         // Nearest at -b / a, or at the end of the time ahead when that comes first.
         const Mask later = -b < a * ahead;
@@ -182,8 +185,8 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     // While they do, |f''| is at most `bend`.
     const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;
     // And |f'''| at most 6 times this.
-    const Lanes twist = ((v + v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w * w *
-                        Lanes(1.0f / 6);
+    const Lanes twist = ((v + v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w *
+                        w * Lanes(1.0f / 6);
     // The first step is one over which f'' changes f by no more than this; steps adapt.
     constexpr float first_bend = 0.2f;
     Lanes step = minimum(until - low, square_root(Lanes(8 * first_bend) / bend));
@@ -199,7 +202,8 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
       const Lanes covered = speed * h + margin;
       const Lanes curved =
           h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend) + margin;
-      const Lanes slope = absolute(e.df), size = absolute(e.f), slope_off = margin * (speed + speed);
+      const Lanes slope = absolute(e.df), size = absolute(e.f),
+                  slope_off = margin * (speed + speed);
       const Mask far = e.distance_squared > covered * covered;
       const Mask signed_ = size > (slope + slope_off) * h + (curved + margin);
       const Mask finite = e.distance_squared < Lanes(0x1p20f);
@@ -212,7 +216,8 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
       excluded = excluded | (trusted & finite & empty);
       const Mask shrunk = trusted & (new_high - new_low < h) & (!empty);
 
-      const Mask found = searching & (!excluded) & ((narrowed >= Lanes(2.0f)) | ((!shrunk) & (h + h <= least_step)));
+      const Mask found = searching & (!excluded) &
+                         ((narrowed >= Lanes(2.0f)) | ((!shrunk) & (h + h <= least_step)));
       from = select(found, low, from);
       searching = searching & !found;
 

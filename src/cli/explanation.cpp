@@ -96,9 +96,10 @@ std::string expected_text(const Explanation& e) {
 }
 
 std::string engine_text(const Scene::Engine& engine, double density) {
-  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", resolved_search(engine, density),
-                     resolved_queue(engine), engine.accuracy, engine.threads.value_or(1),
-                     engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
+  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}",
+                     resolved_search(engine, density), resolved_queue(engine), engine.accuracy,
+                     engine.threads.value_or(1), engine.threads.value_or(1) == 1 ? "" : "s",
+                     resolved_isa(engine));
 }
 
 std::string output_text(const Scene::Output& output) {

@@ -21,18 +21,12 @@ double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json stats_of(const Counters& counters) {
-  return {{"candidates", counters.candidates},
-          {"filtered", counters.filtered},
-          {"isolated", counters.isolated},
-          {"predicted", counters.predicted},
-          {"evaluated", counters.evaluated},
-          {"escalated", counters.escalated},
-          {"rebuilds", counters.rebuilds},
-          {"crossings", counters.crossings},
-          {"sorts", counters.sorts},
-          {"stale", counters.stale},
-          {"renewals", counters.renewals},
-          {"searches", counters.searches},
+  return {{"candidates", counters.candidates}, {"filtered", counters.filtered},
+          {"isolated", counters.isolated},     {"predicted", counters.predicted},
+          {"evaluated", counters.evaluated},   {"escalated", counters.escalated},
+          {"rebuilds", counters.rebuilds},     {"crossings", counters.crossings},
+          {"sorts", counters.sorts},           {"stale", counters.stale},
+          {"renewals", counters.renewals},     {"searches", counters.searches},
           {"touches", counters.touches}};
 }
 

@@ -14,8 +14,7 @@ std::string version_text() {
   const std::string compiler = "GCC " __VERSION__;
 #endif
   return fmt::format("needlework {}\ncompiler  {}\nISA       {}\nHDF5      {}", NEEDLEWORK_VERSION,
-                     compiler, fmt::join(instruction_sets(), " "),
-                     NEEDLEWORK_HDF5_VERSION);
+                     compiler, fmt::join(instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
 }
 
 }  // namespace needlework::cli

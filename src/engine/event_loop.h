@@ -69,7 +69,7 @@ class EventLoop final : public Run {
   Time instant_;  ///< of the last collision
   std::uint64_t collisions_at_instant_ = 0;
   std::vector<Time> last_collision_;  ///< for the t_c rule; renewals do not count
-  std::uint64_t sorted_at_ = 0;  ///< crossings when the needles were last sorted
+  std::uint64_t sorted_at_ = 0;       ///< crossings when the needles were last sorted
   Shared last_shared_;
   Replaced replaced_[2];
   int replaced_count_ = 0;
@@ -265,8 +265,7 @@ void EventLoop<Search, Calendar, effects>::schedule(Needle i, Time placed_until)
   Event best;
   best.owner = i;
   best.lower_id = best.higher_id = gas.ids[i];
-  best.time =
-      std::min({placed_until, gas.records[i].renewal, gas.clock.add(now, search_span_)});
+  best.time = std::min({placed_until, gas.records[i].renewal, gas.clock.add(now, search_span_)});
   search_.find(i, now, gas.clock.difference(best.time, now),
                [&](Needle j, const Shift& shift, double from, double to) {
                  consider(i, j, shift, from, to, best);
@@ -309,8 +308,8 @@ void EventLoop<Search, Calendar, effects>::consider(Needle i, Needle j, const Sh
 
 template <class Search, class Calendar, Effects effects>
 kernels::Contact EventLoop<Search, Calendar, effects>::predict(Needle a, Needle b,
-                                                               const Shift& shift,
-                                                               double from_now, Time until) {
+                                                               const Shift& shift, double from_now,
+                                                               Time until) {
   ++counters.predicted;
   const Record& first = gas.records[a];
   const Record& second = gas.records[b];

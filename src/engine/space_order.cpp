@@ -30,7 +30,8 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
     const double position[3] = {r.x, r.y, r.z};
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double wrapped = position[axis] - std::floor(position[axis] / gas.box[axis]) * gas.box[axis];
+      const double wrapped =
+          position[axis] - std::floor(position[axis] / gas.box[axis]) * gas.box[axis];
       const double step = std::clamp(wrapped / longest * steps, 0.0, 0x1p21 - 1);
       key |= spread(static_cast<std::uint64_t>(step)) << axis;
     }
@@ -38,7 +39,8 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   }
   std::vector<Needle> order(gas.size());
   std::iota(order.begin(), order.end(), Needle{0});
-  std::stable_sort(order.begin(), order.end(), [&](Needle a, Needle b) { return keys[a] < keys[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Needle a, Needle b) { return keys[a] < keys[b]; });
   return order;
 }
 

@@ -46,7 +46,7 @@ static_assert(sizeof(Record) == 192);
 struct Gas {
   std::vector<Record> records;
   std::vector<std::uint32_t> ids;
-  std::vector<Shift> images;       ///< boxes that the recorded centre has been wrapped by
+  std::vector<Shift> images;  ///< boxes that the recorded centre has been wrapped by
   Clock clock;
   std::array<double, 3> box{};
   double k = 6;

@@ -147,7 +147,8 @@ constexpr SceneKey keys[] = {
 
     {"engine", "search", R"("auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")",
      [](Scene& s, V v) {
-       return store(s.engine.search, one_of(v, {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"}));
+       return store(s.engine.search,
+                    one_of(v, {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"}));
      }},
     {"engine", "queue",
      R"("auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")",

@@ -26,7 +26,8 @@ class AllPairs {
  public:
   static constexpr const char* name = "all-pairs";
 
-  AllPairs(const Gas& gas, Counters& counters, const SearchSetup&) : gas_(gas), counters_(counters) {}
+  AllPairs(const Gas& gas, Counters& counters, const SearchSetup&)
+      : gas_(gas), counters_(counters) {}
 
   Time place(Needle, Time) { return Time::never(); }
   void renumber(const std::vector<Needle>&) {}

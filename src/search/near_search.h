@@ -10,8 +10,8 @@
 //   capsules      the hull is a capsule of radius delta around the needle; filtered by the overlap
 //                 of capsules. For dense gases: the few needles next to this one are nearly all.
 //
-// What a filter passes is looked at once more, by lanes: isolate() of kernels/near_needles.h follows
-// both needles until they cannot meet, or to where they may.
+// What a filter passes is looked at once more, by lanes: isolate() of kernels/near_needles.h
+// follows both needles until they cannot meet, or to where they may.
 #pragma once
 
 #include <span>
@@ -74,9 +74,9 @@ class NearSearch {
   Hull hull_;
   double radius_;  ///< of capsules; else 0 [L]
   CellGrid grid_;
-  float margin_ = 0;      ///< of lengths, see kernels::Seeker [L]
-  double unit_ = 0;       ///< 1 / unit of time: a power of two; 0 before the first needle
-  Time base_;             ///< from which times in blocks and motions count
+  float margin_ = 0;  ///< of lengths, see kernels::Seeker [L]
+  double unit_ = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
+  Time base_;         ///< from which times in blocks and motions count
   std::vector<Place> places_;
   std::vector<kernels::Motion> motions_;
   std::vector<kernels::Block> blocks_;  ///< first those of the cells, then those chained to them

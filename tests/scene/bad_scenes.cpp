@@ -32,7 +32,8 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
   const std::string epsilon = "expected a number from 0 to 1";
   const std::string beta = "expected a number from -1 (smooth) to 1 (perfectly rough)";
-  const std::string search = R"(expected "auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")";
+  const std::string search =
+      R"(expected "auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")";
   const std::string queue =
       R"(expected "auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")";
   const std::string accuracy = R"(expected "fast", "standard" or "rigorous")";
