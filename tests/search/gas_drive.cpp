@@ -1,0 +1,304 @@
+#include "tests/search/gas_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "kernels/first_contact.h"
+#include "tests/support/kernel_pair.h"
+
+namespace needlework::test {
+
+using needlework::operator-;  // of shifts
+
+namespace {
+
+std::array<double, 3> components(const Vec3d& a) { return {a.x, a.y, a.z}; }
+
+Vec3d centre(const Gas& gas, Needle i, Time now) {
+  const Record& record = gas.records[i];
+  return centre_after(record.flight, gas.clock.difference(now, record.time));
+}
+
+// Whole numbers of boxes m for which a centre at r, drifting by `drift`, comes within `reach` of m
+// boxes.
+struct Images {
+  std::int32_t first, last;
+};
+Images images(double r, double drift, double box, double reach) {
+  const double low = std::min(r, r + drift) - reach, high = std::max(r, r + drift) + reach;
+  return {static_cast<std::int32_t>(std::ceil(low / box)),
+          static_cast<std::int32_t>(std::floor(high / box))};
+}
+
+template <class Visit>
+void for_each_image(const Gas& gas, Needle i, Needle j, Time now, double span, Visit&& visit) {
+  const auto r = components(centre(gas, i, now) - centre(gas, j, now));
+  const auto v = components(gas.records[i].flight.v - gas.records[j].flight.v);
+  Images range[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    range[axis] = images(r[axis], v[axis] * span, gas.box[axis], 1 + 1e-9);
+  }
+  for (std::int32_t x = range[0].first; x <= range[0].last; ++x) {
+    for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
+      for (std::int32_t z = range[2].first; z <= range[2].last; ++z) visit(Shift{x, y, z});
+    }
+  }
+}
+
+std::string describe(Needle i, Needle j, const Shift& shift) {
+  return "needle " + std::to_string(i) + " and " + std::to_string(j) + " shifted by " +
+         std::to_string(shift[0]) + " " + std::to_string(shift[1]) + " " + std::to_string(shift[2]);
+}
+
+}  // namespace
+
+Gas gas_of(Needle count, std::array<double, 3> box) {
+  Gas gas;
+  gas.records.resize(count);
+  gas.ids.resize(count);
+  for (Needle i = 0; i < count; ++i) gas.ids[i] = i;
+  gas.images.resize(count);
+  gas.box = box;
+  return gas;
+}
+
+void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
+  gas.records[i].flight.r = r;
+  gas.records[i].flight.v = {};
+  renew_record(gas, i, gas.records[i].time, u, v, w);
+}
+
+Velocities draw_velocities(Random& random, const Speeds& speeds) {
+  const int kind = random.below(16);
+  double sigma = speeds.sigma;
+  if (kind % 4 == 0) sigma *= speeds.fast;
+  if (kind % 4 == 1) sigma *= speeds.slow;
+  Velocities out{vec3(random.normal_vector(sigma)), vec3(random.normal_vector(3 * sigma))};
+  if (speeds.resting && kind == 2) out = {};
+  if (speeds.resting && kind == 3) out.w = {};
+  return out;
+}
+
+Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Speeds& speeds) {
+  Gas gas = gas_of(count, box);
+  gas.clock = Clock(1 / std::max(speeds.sigma, speeds.sigma * speeds.fast));
+  for (Needle i = 0; i < count; ++i) {
+    const Velocities velocities = draw_velocities(random, speeds);
+    put(gas, i,
+        {random.uniform(-0.2, 1.2) * box[0], random.uniform() * box[1], random.uniform() * box[2]},
+        vec3(random.direction()), velocities.v, velocities.w);
+  }
+  return gas;
+}
+
+std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
+  std::vector<Candidate> out;
+  const Vec3d mine = centre(gas, i, now);
+  for (Needle j = 0; j < gas.size(); ++j) {
+    if (j == i) continue;
+    const Vec3d r = mine - centre(gas, j, now);
+    for_each_image(gas, i, j, now, 0, [&](const Shift& shift) {
+      const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
+      if (dot(r - image, r - image) < 1 - 1e-12) out.push_back({j, shift});
+    });
+  }
+  return out;
+}
+
+std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span) {
+  std::vector<Ahead> out;
+  kernels::SearchCounters work;
+  const Record& mine = gas.records[i];
+  for (Needle j = 0; j < gas.size(); ++j) {
+    if (j == i) continue;
+    const Record& other = gas.records[j];
+    const double since = gas.clock.difference(now, Gas::start_of(mine, other));
+    for_each_image(gas, i, j, now, span, [&](const Shift& shift) {
+      const bool first = i < j;
+      const kernels::Pair pair =
+          make_pair(gas, std::min(i, j), first ? mine : other, std::max(i, j), first ? other : mine,
+                    first ? shift : -shift);
+      const kernels::Contact contact = first_contact(pair, since, since + span, work);
+      const double after = contact.elapsed.hi - since;
+      if (contact.found && after > 0) out.push_back({j, shift, after});
+      // The engine settles these by the records before, as soon as it sees them.
+      if (contact.side_unknown) out.push_back({j, shift, 0});
+    });
+  }
+  return out;
+}
+
+GasDrive::GasDrive(Gas& gas, Random& random, std::span<const SearchChoice> choices, double span)
+    : gas_(gas),
+      random_(random),
+      choices_(choices.begin(), choices.end()),
+      span_(span),
+      next_(gas.size()) {
+  for (const SearchChoice& choice : choices) {
+    Followed& followed = followed_.emplace_back();
+    followed.counters = std::make_unique<Counters>();
+    followed.search = make_search(choice, gas, *followed.counters);
+    followed.placed_until.resize(gas.size());
+    for (Needle i = 0; i < gas.size(); ++i) place(followed, i);
+  }
+  for (Needle i = 0; i < gas.size(); ++i) settle_next(i);
+}
+
+void GasDrive::place(Followed& followed, Needle i) {
+  followed.placed_until[i] = followed.search->place(i, now_);
+}
+
+void GasDrive::place_everywhere(Needle i) {
+  for (Followed& followed : followed_) place(followed, i);
+  settle_next(i);
+}
+
+void GasDrive::settle_next(Needle i) {
+  next_[i] = gas_.records[i].renewal;
+  for (const Followed& followed : followed_) {
+    next_[i] = std::min(next_[i], followed.placed_until[i]);
+  }
+}
+
+void GasDrive::advance(double dt) {
+  const Time end = gas_.clock.add(now_, dt);
+  Time instant;
+  std::size_t at_instant = 0;
+  for (;;) {
+    const auto it = std::min_element(next_.begin(), next_.end());
+    if (it == next_.end() || *it > end) break;
+    const auto i = static_cast<Needle>(it - next_.begin());
+    ASSERT_GE(*it, now_);
+    now_ = *it;
+    at_instant = now_ == instant ? at_instant + 1 : 0;
+    instant = now_;
+    ASSERT_LT(at_instant, 4 * gas_.size() * followed_.size()) << "time stands still";
+    const Record& record = gas_.records[i];
+    if (record.renewal <= now_) {
+      strike(i, {record.flight.v, record.flight.w});
+      continue;
+    }
+    for (Followed& followed : followed_) {
+      if (followed.placed_until[i] <= now_) place(followed, i);
+    }
+    settle_next(i);
+  }
+  now_ = end;
+}
+
+void GasDrive::strike(Needle i, const Velocities& velocities) {
+  const Record& record = gas_.records[i];
+  const Vec3d u = director_after(record.flight, gas_.clock.difference(now_, record.time));
+  renew_record(gas_, i, now_, u, velocities.v, velocities.w);
+  place_everywhere(i);
+}
+
+void GasDrive::set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& velocities) {
+  gas_.records[i].time = now_;
+  put(gas_, i, r, u, velocities.v, velocities.w);
+  place_everywhere(i);
+}
+
+std::vector<GasDrive::Proposal> GasDrive::proposals(Followed& followed, Needle i, double ahead) {
+  std::vector<Proposal> out;
+  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from) {
+    out.push_back({j, shift, from});
+    return ahead;
+  });
+  return out;
+}
+
+void GasDrive::expect_proposed(std::size_t n, Needle i, double ahead,
+                               std::span<const Ahead> contacts) {
+  Followed& followed = followed_[n];
+  std::map<Candidate, double> proposed;
+  for (const Proposal& proposal : proposals(followed, i, ahead)) {
+    ASSERT_NE(proposal.partner, i);
+    ASSERT_TRUE(proposed.try_emplace({proposal.partner, proposal.shift}, proposal.from).second)
+        << describe(i, proposal.partner, proposal.shift) << " proposed twice";
+  }
+  double earliest = ahead;
+  std::map<Candidate, double> known;
+  for (const Ahead& contact : contacts) {
+    const Needle j = contact.partner;
+    known[{j, contact.shift}] = contact.after;
+    const Time placed = std::min(followed.placed_until[j], gas_.records[j].renewal);
+    if (!(contact.after < std::min(ahead, gas_.clock.difference(placed, now_)))) continue;
+    ++contacts_;
+    touches_ += contact.after == 0;
+    earliest = std::min(earliest, contact.after);
+    const auto it = proposed.find({j, contact.shift});
+    ASSERT_NE(it, proposed.end()) << describe(i, j, contact.shift) << " not proposed; meet after "
+                                  << contact.after << " of " << ahead;
+    ASSERT_LE(it->second, contact.after)
+        << describe(i, j, contact.shift) << " proposed from after their contact, of " << ahead;
+  }
+  // An event loop wants the earliest and shortens the time ahead by what it finds.
+  double shortened = ahead;
+  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from) {
+    EXPECT_LE(from, shortened);
+    const auto it = known.find({j, shift});
+    if (it != known.end()) shortened = std::min(shortened, it->second);
+    return shortened;
+  });
+  ASSERT_LE(shortened, earliest) << "needle " << i << " lacks its earliest contact";
+}
+
+void GasDrive::check(Needle i) {
+  place_everywhere(i);
+  const Time end = std::min(gas_.records[i].renewal, gas_.clock.add(now_, span_));
+  std::vector<double> ahead;
+  for (const Followed& followed : followed_) {
+    ahead.push_back(gas_.clock.difference(std::min(end, followed.placed_until[i]), now_));
+    // Searches may also be cut short.
+    if (random_.below(4) == 0) ahead.back() *= random_.uniform();
+  }
+  const double longest = ahead.empty() ? 0 : *std::max_element(ahead.begin(), ahead.end());
+  const std::vector<Ahead> contacts = contacts_ahead(gas_, i, now_, longest);
+  for (std::size_t n = 0; n < followed_.size(); ++n) {
+    ASSERT_NO_FATAL_FAILURE(expect_proposed(n, i, ahead[n], contacts))
+        << choices_[n].name() << " at time " << gas_.clock.since_start(now_);
+  }
+}
+
+void GasDrive::check_all() {
+  for (Needle i = 0; i < gas_.size(); ++i) ASSERT_NO_FATAL_FAILURE(check(i));
+}
+
+void GasDrive::check_before_contact(Needle i) {
+  const auto contacts = contacts_ahead(gas_, i, now_, span_);
+  const auto next = std::min_element(contacts.begin(), contacts.end(),
+                                     [](auto& a, auto& b) { return a.after < b.after; });
+  if (next == contacts.end()) return;
+  ASSERT_NO_FATAL_FAILURE(advance(next->after * (1 - random_.log_uniform(1e-9, 1))));
+  ASSERT_NO_FATAL_FAILURE(check(i));
+  ASSERT_NO_FATAL_FAILURE(check(next->partner));
+}
+
+void GasDrive::check_near(Needle i) {
+  place_everywhere(i);
+  for (std::size_t n = 0; n < followed_.size(); ++n) {
+    if (choices_[n].by_lanes()) continue;
+    Followed& followed = followed_[n];
+    Time until = gas_.clock.add(now_, span_);
+    for (const Time placed : followed.placed_until) until = std::min(until, placed);
+    const double ahead = gas_.clock.difference(until, now_);
+    std::map<Candidate, double> proposed;
+    for (const Proposal& p : proposals(followed, i, ahead)) {
+      proposed[{p.partner, p.shift}] = p.from;
+    }
+    const Time between = std::min(until, gas_.clock.add(now_, random_.uniform() * ahead));
+    for (const Time t : {now_, between, until}) {
+      for (const Candidate& candidate : within_reach(gas_, i, t)) {
+        ++near_;
+        ASSERT_TRUE(proposed.contains(candidate))
+            << choices_[n].name() << ": " << describe(i, candidate.first, candidate.second)
+            << " not proposed, near after " << gas_.clock.difference(t, now_) << " of " << ahead;
+      }
+    }
+  }
+}
+
+}  // namespace needlework::test

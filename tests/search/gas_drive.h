@@ -1,0 +1,119 @@
+// A gas that moves, collides and is renewed under the eyes of many searches at once, all of which
+// must propose the contacts that first_contact finds among all images of all needles.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random.h"
+#include "tests/support/searches.h"
+
+namespace needlework::test {
+
+/// `count` needles, all of them still to be set by put().
+Gas gas_of(Needle count, std::array<double, 3> box);
+/// Gives needle i its first record, at time 0, the centre wrapped into the box.
+void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w);
+
+/// Speeds of needles, drawn anew for each: Gaussian velocities, angular ones of the same size.
+struct Speeds {
+  double sigma = 1;
+  double fast = 1;      ///< every fourth needle is so much faster,
+  double slow = 1;      ///< the next so much slower,
+  bool resting = true;  ///< and every sixteenth at rest, or does not rotate
+};
+
+/// Of a needle: linear and angular.
+struct Velocities {
+  Vec3d v, w;
+};
+Velocities draw_velocities(Random& random, const Speeds& speeds);
+
+/// `count` needles anywhere in the box.
+Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Speeds& speeds);
+
+using Candidate = std::pair<Needle, Shift>;
+
+/// All images of all other needles with centres nearer than L at this time, beyond rounding.
+std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now);
+
+/// A contact that lies ahead of a needle.
+struct Ahead {
+  Needle partner;
+  Shift shift;
+  double after;  ///< time from now; 0 for a pair that touches to within rounding
+};
+
+/// The first contacts of i with all images of all other needles, up to `span` from now. Those that
+/// begin in the past, since nobody has let them happen, are left out.
+std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span);
+
+/// Takes searches through the events that event loops would, one gas for all.
+class GasDrive {
+ public:
+  /// `span`: how far ahead contacts are looked for. [time]
+  GasDrive(Gas& gas, Random& random, std::span<const SearchChoice> choices, double span);
+
+  /// Lets time pass: needles are placed when their times come, records renewed.
+  void advance(double dt);
+  /// Gives a needle new velocities, as a collision would.
+  void strike(Needle i, const Velocities& velocities);
+  /// Gives a needle a new record altogether.
+  void set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& velocities);
+  void look_ahead(double span) { span_ = span; }
+
+  /// Needle i is placed and searches: each search proposes all contacts that come in time, none
+  /// later than it is, and nothing twice.
+  void check(Needle i);
+  void check_any() { check(static_cast<Needle>(random_.below(static_cast<int>(gas_.size())))); }
+  void check_all();
+  /// Lets time pass until shortly before the next contact of i, if there is one, and checks both
+  /// needles: then even the hulls that last least last to the contact.
+  void check_before_contact(Needle i);
+  /// The plain searches propose all that comes near while nobody is placed anew.
+  void check_near(Needle i);
+
+  Time now() const { return now_; }
+  AnySearch& search(std::size_t n) { return *followed_[n].search; }
+  const Counters& counters(std::size_t n) const { return *followed_[n].counters; }
+  std::span<const SearchChoice> choices() const { return choices_; }
+  /// Contacts that have had to be proposed, over all searches.
+  long contacts() const { return contacts_; }
+  /// Of these, pairs that touch to within rounding.
+  long touches() const { return touches_; }
+  long near() const { return near_; }
+
+ private:
+  struct Followed {
+    std::unique_ptr<Counters> counters;
+    std::unique_ptr<AnySearch> search;
+    std::vector<Time> placed_until;
+  };
+  struct Proposal {
+    Needle partner;
+    Shift shift;
+    double from;
+  };
+
+  void place(Followed& followed, Needle i);
+  void place_everywhere(Needle i);
+  void settle_next(Needle i);
+  std::vector<Proposal> proposals(Followed& followed, Needle i, double ahead);
+  void expect_proposed(std::size_t n, Needle i, double ahead, std::span<const Ahead> contacts);
+
+  Gas& gas_;
+  Random& random_;
+  std::vector<SearchChoice> choices_;
+  double span_;
+  std::vector<Followed> followed_;
+  std::vector<Time> next_;  ///< of each needle: placed anew in some search, or renewed
+  Time now_;
+  long contacts_ = 0, touches_ = 0, near_ = 0;
+};
+
+}  // namespace needlework::test

@@ -1,0 +1,52 @@
+// Every search there is, with every instruction set of this machine and some sizes set by hand:
+// behind one interface for tests of the searches alone, and as keys of a scene.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "src/engine/counters.h"
+#include "src/physics/gas.h"
+#include "src/scene/scene.h"
+#include "src/search/cell_grid.h"
+#include "src/search/setup.h"
+
+namespace needlework::test {
+
+/// A search by its name, and what it is asked for.
+struct SearchChoice {
+  std::string search;
+  SearchSetup setup;
+
+  /// As a test may be named: "capsules_avx2_radius_0p3".
+  std::string name() const;
+  /// True for those that compute with this setup's instruction set.
+  bool by_lanes() const;
+  void apply(Scene& scene) const;
+};
+
+inline void PrintTo(const SearchChoice& choice, std::ostream* out) { *out << choice.name(); }
+
+/// All-pairs first.
+std::vector<SearchChoice> search_choices();
+
+/// A search as src/search/all_pairs.h describes it, its type forgotten.
+class AnySearch {
+ public:
+  using Visit = std::function<double(Needle, const Shift&, double)>;
+
+  virtual ~AnySearch() = default;
+  virtual Time place(Needle i, Time now) = 0;
+  virtual void find(Needle i, Time now, double ahead, const Visit& visit) = 0;
+  /// Null for a search without cells.
+  virtual const CellGrid* grid() const = 0;
+};
+
+/// `gas` and `counters` must outlive the search.
+std::unique_ptr<AnySearch> make_search(const SearchChoice& choice, const Gas& gas,
+                                       Counters& counters);
+
+}  // namespace needlework::test
