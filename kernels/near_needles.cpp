@@ -18,9 +18,7 @@
 #define NEEDLEWORK_TARGET HWY_ATTR
 HWY_BEFORE_NAMESPACE();
 namespace needlework::kernels::HWY_NAMESPACE {
-#include "kernels/closest_approach_body.h"
 #include "kernels/near_needles_body.h"
-#include "kernels/vec3_body.h"
 }  // namespace needlework::kernels::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #undef NEEDLEWORK_TARGET
@@ -34,9 +32,7 @@ namespace needlework::kernels {
 
 #define NEEDLEWORK_TARGET
 namespace scalar {
-#include "kernels/closest_approach_body.h"
 #include "kernels/near_needles_body.h"
-#include "kernels/vec3_body.h"
 }  // namespace scalar
 
 namespace {

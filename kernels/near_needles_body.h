@@ -7,7 +7,11 @@
 // the speeds. Lengths below are off by less than `margin_of`, which has a reserve of more than
 // four.
 
+#include "kernels/vec3_body.h"
+
 using V3 = Vec3<Lanes>;
+
+#include "kernels/closest_approach_body.h"
 
 struct Turned {
   Lanes cosine, sine;
