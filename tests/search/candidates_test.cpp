@@ -64,9 +64,16 @@ TEST_P(Contacts, AreProposedInTimeByEverySearch) {
     ASSERT_NO_FATAL_FAILURE(drive.check(i));
     ASSERT_NO_FATAL_FAILURE(drive.check_near(any_needle(random, gas)));
     ASSERT_NO_FATAL_FAILURE(drive.check_before_contact(any_needle(random, gas)));
+    if (s.collisions > 0) {
+      ASSERT_NO_FATAL_FAILURE(drive.bounce(any_needle(random, gas), random.uniform()));
+    }
+    if (n % 10 == 9) drive.shuffle();
     ASSERT_NO_FATAL_FAILURE(drive.advance(2 * random.uniform() * s.step * unit));
   }
   EXPECT_GE(drive.contacts(), s.least_contacts * checks / s.checks);
+  if (s.collisions > 0 && s.count > 1) {
+    EXPECT_GT(drive.bounces(), checks / 20);
+  }
 }
 
 constexpr Speeds thermal;
@@ -78,15 +85,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Setting{"one_needle", 1, {3, 3, 3}, thermal, 2, 0.1, 50, 0.3, 0},
         Setting{"two_needles", 2, {2.01, 2.01, 2.01}, thermal, 2, 0.1, 1000, 0.3, 1000},
-        Setting{"least_box", 40, {2.01, 2.01, 2.01}, thermal, 0.5, 0.05, 300, 0.3, 1000},
-        Setting{"flat_box", 60, {2.01, 3.5, 7.2}, thermal, 1, 0.05, 300, 0.3, 1000},
+        Setting{"least_box", 40, {2.01, 2.01, 2.01}, thermal, 0.5, 0.05, 300, 0.3, 10000},
+        Setting{"flat_box", 60, {2.01, 3.5, 7.2}, thermal, 1, 0.05, 300, 0.3, 5000},
         Setting{"long_box", 40, {100, 2.5, 2.01}, thermal, 3, 0.1, 300, 0.3, 1000},
-        Setting{"side_next_to_whole", 150, {5.999, 6.001, 4}, thermal, 1, 0.02, 100, 0.3, 1000},
+        Setting{"side_next_to_whole", 150, {5.999, 6.001, 4}, thermal, 1, 0.02, 100, 0.3, 1500},
         Setting{"dilute", 60, {12, 12, 12}, thermal, 8, 0.2, 300, 0.3, 1000},
-        Setting{"chained_blocks", 400, {4.1, 4.2, 4.3}, thermal, 0.3, 0.01, 60, 0.5, 1000},
-        Setting{"racing", 80, {3, 3.1, 3.2}, from_rest_to_racing, 2, 0.1, 300, 0.3, 1000},
-        Setting{"some_fast", 80, {3, 3.1, 3.2}, with_some_fast, 2, 0.1, 300, 0.3, 1000},
-        Setting{"far_from_records", 20, {2.2, 3.3, 4.4}, thermal, 1, 2, 150, 0, 1000}),
+        Setting{"chained_blocks", 400, {4.1, 4.2, 4.3}, thermal, 0.3, 0.01, 60, 0.5, 2000},
+        Setting{"racing", 80, {3, 3.1, 3.2}, from_rest_to_racing, 2, 0.1, 300, 0.3, 5000},
+        Setting{"some_fast", 80, {3, 3.1, 3.2}, with_some_fast, 2, 0.1, 300, 0.3, 5000},
+        Setting{"far_from_records", 20, {2.2, 3.3, 4.4}, thermal, 1, 2, 150, 0, 1500}),
     [](const auto& info) { return std::string(info.param.name); });
 
 // Searches count time from a moment that they set anew when it lies 8 flights back, with a unit
@@ -239,7 +246,7 @@ TEST(Searches, KnowNoUnitOfTime) {
         const Time end = search->place(i, now);
         out.push_back({i, {}, std::ldexp(gas.clock.since_start(end), power)});
         const double ahead = std::min(gas.clock.difference(end, now), std::ldexp(0.5, -power));
-        search->find(i, now, ahead, [&](Needle j, const Shift& shift, double from) {
+        search->find(i, now, ahead, [&](Needle j, const Shift& shift, double from, double) {
           out.push_back({j, shift, std::ldexp(from, power)});
           return ahead;
         });

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <set>
 #include <string>
 
-#include "kernels/first_contact.h"
+#include "src/engine/space_order.h"
+#include "src/physics/collision.h"
 #include "tests/support/kernel_pair.h"
 
 namespace needlework::test {
 
-using needlework::operator-;  // of shifts
+// Of shifts.
+using needlework::operator-;
+using needlework::operator+;
 
 namespace {
 
@@ -50,6 +55,12 @@ void for_each_image(const Gas& gas, Needle i, Needle j, Time now, double span, V
 std::string describe(Needle i, Needle j, const Shift& shift) {
   return "needle " + std::to_string(i) + " and " + std::to_string(j) + " shifted by " +
          std::to_string(shift[0]) + " " + std::to_string(shift[1]) + " " + std::to_string(shift[2]);
+}
+
+// The needle with the lower id comes first; `shift` is added to the centre of j.
+kernels::Pair pair_of(const Gas& gas, Needle i, Needle j, const Shift& shift) {
+  if (gas.ids[i] < gas.ids[j]) return make_pair(gas, i, gas.records[i], j, gas.records[j], shift);
+  return make_pair(gas, j, gas.records[j], i, gas.records[i], -shift);
 }
 
 }  // namespace
@@ -110,21 +121,17 @@ std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
 std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span) {
   std::vector<Ahead> out;
   kernels::SearchCounters work;
-  const Record& mine = gas.records[i];
   for (Needle j = 0; j < gas.size(); ++j) {
     if (j == i) continue;
-    const Record& other = gas.records[j];
-    const double since = gas.clock.difference(now, Gas::start_of(mine, other));
+    const Time start = Gas::start_of(gas.records[i], gas.records[j]);
+    const double since = gas.clock.difference(now, start);
     for_each_image(gas, i, j, now, span, [&](const Shift& shift) {
-      const bool first = i < j;
-      const kernels::Pair pair =
-          make_pair(gas, std::min(i, j), first ? mine : other, std::max(i, j), first ? other : mine,
-                    first ? shift : -shift);
-      const kernels::Contact contact = first_contact(pair, since, since + span, work);
+      const kernels::Contact contact =
+          first_contact(pair_of(gas, i, j, shift), since, since + span, work);
       const double after = contact.elapsed.hi - since;
-      if (contact.found && after > 0) out.push_back({j, shift, after});
+      if (contact.found && after > 0) out.push_back({j, shift, after, contact});
       // The engine settles these by the records before, as soon as it sees them.
-      if (contact.side_unknown) out.push_back({j, shift, 0});
+      if (contact.side_unknown) out.push_back({j, shift, 0, contact});
     });
   }
   return out;
@@ -203,8 +210,8 @@ void GasDrive::set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& v
 
 std::vector<GasDrive::Proposal> GasDrive::proposals(Followed& followed, Needle i, double ahead) {
   std::vector<Proposal> out;
-  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from) {
-    out.push_back({j, shift, from});
+  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from, double to) {
+    out.push_back({j, shift, from, to});
     return ahead;
   });
   return out;
@@ -213,10 +220,10 @@ std::vector<GasDrive::Proposal> GasDrive::proposals(Followed& followed, Needle i
 void GasDrive::expect_proposed(std::size_t n, Needle i, double ahead,
                                std::span<const Ahead> contacts) {
   Followed& followed = followed_[n];
-  std::map<Candidate, double> proposed;
+  std::map<Candidate, Proposal> proposed;
   for (const Proposal& proposal : proposals(followed, i, ahead)) {
     ASSERT_NE(proposal.partner, i);
-    ASSERT_TRUE(proposed.try_emplace({proposal.partner, proposal.shift}, proposal.from).second)
+    ASSERT_TRUE(proposed.try_emplace({proposal.partner, proposal.shift}, proposal).second)
         << describe(i, proposal.partner, proposal.shift) << " proposed twice";
   }
   double earliest = ahead;
@@ -232,12 +239,12 @@ void GasDrive::expect_proposed(std::size_t n, Needle i, double ahead,
     const auto it = proposed.find({j, contact.shift});
     ASSERT_NE(it, proposed.end()) << describe(i, j, contact.shift) << " not proposed; meet after "
                                   << contact.after << " of " << ahead;
-    ASSERT_LE(it->second, contact.after)
-        << describe(i, j, contact.shift) << " proposed from after their contact, of " << ahead;
+    ASSERT_LE(it->second.from, contact.after) << describe(i, j, contact.shift) << " of " << ahead;
+    ASSERT_GE(it->second.to, contact.after) << describe(i, j, contact.shift) << " of " << ahead;
   }
   // An event loop wants the earliest and shortens the time ahead by what it finds.
   double shortened = ahead;
-  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from) {
+  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from, double) {
     EXPECT_LE(from, shortened);
     const auto it = known.find({j, shift});
     if (it != known.end()) shortened = std::min(shortened, it->second);
@@ -267,14 +274,68 @@ void GasDrive::check_all() {
   for (Needle i = 0; i < gas_.size(); ++i) ASSERT_NO_FATAL_FAILURE(check(i));
 }
 
-void GasDrive::check_before_contact(Needle i) {
+std::optional<Ahead> GasDrive::next_contact(Needle i) const {
   const auto contacts = contacts_ahead(gas_, i, now_, span_);
   const auto next = std::min_element(contacts.begin(), contacts.end(),
                                      [](auto& a, auto& b) { return a.after < b.after; });
-  if (next == contacts.end()) return;
+  return next == contacts.end() ? std::nullopt : std::optional(*next);
+}
+
+void GasDrive::check_before_contact(Needle i) {
+  const auto next = next_contact(i);
+  if (!next) return;
   ASSERT_NO_FATAL_FAILURE(advance(next->after * (1 - random_.log_uniform(1e-9, 1))));
   ASSERT_NO_FATAL_FAILURE(check(i));
   ASSERT_NO_FATAL_FAILURE(check(next->partner));
+}
+
+void GasDrive::bounce(Needle i, double epsilon) {
+  auto next = next_contact(i);
+  if (!next || next->after == 0) return;
+  // A little before, so that renewals on the way are past.
+  ASSERT_NO_FATAL_FAILURE(advance(next->after * 0.999));
+  next = next_contact(i);
+  if (!next || next->after == 0) return;
+  const bool is_first = gas_.ids[i] < gas_.ids[next->partner];
+  const Needle a = is_first ? i : next->partner, b = is_first ? next->partner : i;
+  const Shift shift = is_first ? next->shift : -next->shift;
+  const Record &first = gas_.records[a], &second = gas_.records[b];
+  const Time start = Gas::start_of(first, second);
+  const Time then = gas_.clock.add(start, next->contact.elapsed.hi);
+  ASSERT_NO_FATAL_FAILURE(advance(gas_.clock.difference(then, now_)));
+  if (Gas::start_of(first, second) != start) return;  // renewed on the way
+  now_ = then;
+  const kernels::ContactGeometry at = contact_geometry(make_pair(gas_, a, first, b, second, shift),
+                                                       gas_.clock.exact_difference(now_, start));
+  const Impact impact = collide<true>(first.flight, second.flight, at, next->contact.side, gas_.k,
+                                      {.epsilon = epsilon, .beta = -1});
+  const Shift wraps_a = renew_record(gas_, a, now_, at.u_first, impact.v_first, impact.w_first);
+  const Shift wraps_b = renew_record(gas_, b, now_, at.u_second, impact.v_second, impact.w_second);
+  const Shift wrapped = shift + wraps_b - wraps_a;
+  const kernels::Touch touch{
+      .touching = true, .collided = true, .side = next->contact.side, .gap = 0};
+  gas_.records[a].touches.push_back({b, wrapped, touch});
+  gas_.records[b].touches.push_back({a, -wrapped, touch});
+  ++bounces_;
+  place_everywhere(a);
+  place_everywhere(b);
+  ASSERT_NO_FATAL_FAILURE(check(a));
+  ASSERT_NO_FATAL_FAILURE(check(b));
+}
+
+void GasDrive::shuffle() {
+  std::vector<Needle> order(gas_.size());
+  std::iota(order.begin(), order.end(), Needle{0});
+  for (std::size_t n = order.size(); n > 1; --n) {
+    std::swap(order[n - 1], order[random_.below(static_cast<int>(n))]);
+  }
+  const std::vector<Needle> ranks = ranks_of(order);
+  reorder(gas_, order);
+  for (Followed& followed : followed_) {
+    followed.search->renumber(ranks);
+    followed.placed_until = permuted(followed.placed_until, order);
+  }
+  next_ = permuted(next_, order);
 }
 
 void GasDrive::check_near(Needle i) {
@@ -285,10 +346,8 @@ void GasDrive::check_near(Needle i) {
     Time until = gas_.clock.add(now_, span_);
     for (const Time placed : followed.placed_until) until = std::min(until, placed);
     const double ahead = gas_.clock.difference(until, now_);
-    std::map<Candidate, double> proposed;
-    for (const Proposal& p : proposals(followed, i, ahead)) {
-      proposed[{p.partner, p.shift}] = p.from;
-    }
+    std::set<Candidate> proposed;
+    for (const Proposal& p : proposals(followed, i, ahead)) proposed.insert({p.partner, p.shift});
     const Time between = std::min(until, gas_.clock.add(now_, random_.uniform() * ahead));
     for (const Time t : {now_, between, until}) {
       for (const Candidate& candidate : within_reach(gas_, i, t)) {

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "kernels/first_contact.h"
 #include "tests/support/random.h"
 #include "tests/support/searches.h"
 
@@ -47,6 +49,7 @@ struct Ahead {
   Needle partner;
   Shift shift;
   double after;  ///< time from now; 0 for a pair that touches to within rounding
+  kernels::Contact contact;
 };
 
 /// The first contacts of i with all images of all other needles, up to `span` from now. Those that
@@ -65,6 +68,11 @@ class GasDrive {
   void strike(Needle i, const Velocities& velocities);
   /// Gives a needle a new record altogether.
   void set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& velocities);
+  /// Lets time pass until the next contact of i, if there is one, and lets both needles rebound
+  /// with this coefficient of normal restitution, as the event loop does. They are checked then.
+  void bounce(Needle i, double epsilon);
+  /// Stores the needles in another order.
+  void shuffle();
   void look_ahead(double span) { span_ = span; }
 
   /// Needle i is placed and searches: each search proposes all contacts that come in time, none
@@ -86,6 +94,7 @@ class GasDrive {
   long contacts() const { return contacts_; }
   /// Of these, pairs that touch to within rounding.
   long touches() const { return touches_; }
+  long bounces() const { return bounces_; }
   long near() const { return near_; }
 
  private:
@@ -97,12 +106,13 @@ class GasDrive {
   struct Proposal {
     Needle partner;
     Shift shift;
-    double from;
+    double from, to;
   };
 
   void place(Followed& followed, Needle i);
   void place_everywhere(Needle i);
   void settle_next(Needle i);
+  std::optional<Ahead> next_contact(Needle i) const;
   std::vector<Proposal> proposals(Followed& followed, Needle i, double ahead);
   void expect_proposed(std::size_t n, Needle i, double ahead, std::span<const Ahead> contacts);
 
@@ -113,7 +123,7 @@ class GasDrive {
   std::vector<Followed> followed_;
   std::vector<Time> next_;  ///< of each needle: placed anew in some search, or renewed
   Time now_;
-  long contacts_ = 0, touches_ = 0, near_ = 0;
+  long contacts_ = 0, touches_ = 0, bounces_ = 0, near_ = 0;
 };
 
 }  // namespace needlework::test

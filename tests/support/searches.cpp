@@ -19,6 +19,7 @@ class Wrapped final : public AnySearch {
       : search_(gas, counters, setup) {}
 
   Time place(Needle i, Time now) override { return search_.place(i, now); }
+  void renumber(const std::vector<Needle>& ranks) override { search_.renumber(ranks); }
   void find(Needle i, Time now, double ahead, const Visit& visit) override {
     search_.find(i, now, ahead, visit);
   }

@@ -36,10 +36,11 @@ std::vector<SearchChoice> search_choices();
 /// A search as src/search/all_pairs.h describes it, its type forgotten.
 class AnySearch {
  public:
-  using Visit = std::function<double(Needle, const Shift&, double)>;
+  using Visit = std::function<double(Needle, const Shift&, double from, double to)>;
 
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
+  virtual void renumber(const std::vector<Needle>& ranks) = 0;
   virtual void find(Needle i, Time now, double ahead, const Visit& visit) = 0;
   /// Null for a search without cells.
   virtual const CellGrid* grid() const = 0;
