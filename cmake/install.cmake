@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 # In the tree headers include each other as "src/..."; installed, as "needlework/...".
-set(needlework_public_headers error.h engine/simulation.h io/h5md.h physics/predict.h
+set(needlework_public_headers error.h engine/counters.h engine/simulation.h io/h5md.h physics/predict.h
                               scene/parse.h scene/scene.h theory/theory.h)
 foreach(header IN LISTS needlework_public_headers)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${header})
