@@ -154,6 +154,9 @@ Event contact(Needle owner, Needle partner, double time, Shift shift = {}) {
   Event event;
   event.owner = owner;
   event.partner = partner;
+  event.owner_is_lower = owner < partner;
+  event.lower_id = std::min(owner, partner);
+  event.higher_id = std::max(owner, partner);
   event.time = {0, time};
   event.shift = shift;
   return event;
@@ -161,7 +164,7 @@ Event contact(Needle owner, Needle partner, double time, Shift shift = {}) {
 
 Event horizon(Needle owner, double time) {
   Event event;
-  event.owner = owner;
+  event.owner = event.lower_id = event.higher_id = owner;
   event.time = {0, time};
   return event;
 }

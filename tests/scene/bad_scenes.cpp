@@ -155,7 +155,8 @@ void expect_messages(const std::vector<BadScene>& table) {
 
 TEST(BadScene, UnknownKeyComesWithSuggestion) {
   const std::string of_needles = "expected one of count, box, k, seed";
-  const std::string of_engine = "expected one of search, queue, accuracy, threads, isa";
+  const std::string of_engine =
+      "expected one of search, queue, accuracy, threads, isa, cell_side, capsule_radius";
   expect_messages({
       {"[needles]\ncuont = 100\n",
        "s.toml: line 2: needles.cuont = 100: " + of_needles + ", did you mean count?"},
