@@ -14,7 +14,7 @@ LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& 
   const double needles = std::max<double>(1, static_cast<double>(gas.size()));
   const double volume = gas.box[0] * gas.box[1] * gas.box[2];
   const double side = setup.cell_side.value_or(std::cbrt(volume / (2 * needles)));
-  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, side));
+  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, side), gas.size());
   head_.assign(grid_.size(), no_needle);
 }
 

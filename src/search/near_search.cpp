@@ -47,7 +47,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kernels_(kernels::near_kernels(setup.isa)),
       hull_(hull),
       radius_(hull == Hull::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
-      grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull))),
+      grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull)), gas.size()),
       places_(gas.size()),
       motions_(gas.size()),
       blocks_(grid_.size()),

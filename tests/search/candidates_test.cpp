@@ -278,5 +278,22 @@ TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   for (const std::int32_t n : dilute) EXPECT_LE(n, 13);
 }
 
+// Whatever side is asked for, and however thin the box.
+TEST(Cells, AreNotManyMoreThanNeedles) {
+  const auto cells = [](std::array<double, 3> box, double side, std::size_t needles) {
+    return static_cast<double>(CellGrid(box, side, needles).size());
+  };
+  EXPECT_EQ(cells({40, 40, 40}, 2, 1000), 8000);
+  EXPECT_EQ(cells({3, 4, 5}, 1e9, 1000), 1);
+  for (const double box : {1e2, 1e5, 1e9}) {
+    for (const std::size_t needles : {0, 20, 100000}) {
+      const double n = static_cast<double>(needles);
+      EXPECT_LT(cells({box, box, box}, 0.1, needles), 5e3 + 20 * n) << box;
+      EXPECT_LT(cells({2.01, box, 2.01}, 0.1, needles), 5e3 + 20 * n) << box;
+      EXPECT_GT(cells({box, box, box}, 0.1, needles), 1e3 + 5 * n) << box;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace needlework
