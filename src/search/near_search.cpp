@@ -222,11 +222,12 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 // Makes views of the cells in which needles may be found: those that a needle within reach of this
 // one's hull, or of its way in the time ahead, can have been placed in. Returns how many are there.
 std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
-  double reach = 1 + 2 * cell_margin;
+  // The margin covers the rounding of the seeker's place in its cell.
+  double reach = 1 + 2 * cell_margin + margin_;
   double way = ahead * unit_;
   if (hull_ == Hull::capsule) {
     // Another centre is not farther from this axis than half a length and both radii.
-    reach = 0.5 + 2 * radius_ + 2 * cell_margin;
+    reach = 0.5 + 2 * radius_ + 2 * cell_margin + margin_;
     way = 0;
   }
   const auto sides = grid_.sides();
