@@ -18,10 +18,19 @@ using Cell = std::array<std::int32_t, 3>;
 class CellGrid {
  public:
   CellGrid() = default;
-  /// As many cells as fit with sides of at least `least_side`, one at least.
-  CellGrid(const std::array<double, 3>& box, double least_side) {
+  /// As many cells as fit with sides of at least `least_side`, one at least, but not many more than
+  /// there are needles: empty ones would cost memory and crossings, up to all the memory there is.
+  CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles) {
+    const double most = std::min(0x1p12 + 16 * static_cast<double>(needles), 0x1p31 - 1);
+    const auto fitting = [](double edge, double side) {
+      return std::max(1.0, std::floor(edge / side));
+    };
+    double side = least_side;
+    while (fitting(box[0], side) * fitting(box[1], side) * fitting(box[2], side) > most) {
+      side *= 1.25;
+    }
     for (int axis = 0; axis < 3; ++axis) {
-      count_[axis] = std::max(1, static_cast<std::int32_t>(std::floor(box[axis] / least_side)));
+      count_[axis] = static_cast<std::int32_t>(fitting(box[axis], side));
       side_[axis] = box[axis] / count_[axis];
       reciprocal_[axis] = 1 / side_[axis];
     }

@@ -1,20 +1,26 @@
 #include "src/search/linked_lists.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace needlework {
 namespace {
 
-// A needle stays in its cell until it is out of it by so much.
-constexpr double margin = 0x1p-30;
+// A needle stays in its cell until it is out of it by so much, which rounding of its centre in a
+// wide box must not undo.
+double margin_of(const std::array<double, 3>& box) {
+  return 0x1p-30 + 0x1p-48 * std::max({box[0], box[1], box[2]});
+}
 
 }  // namespace
 
 LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup)
-    : gas_(gas), counters_(counters), place_(gas.size()) {
+    : gas_(gas), counters_(counters), margin_(margin_of(gas.box)), place_(gas.size()) {
   // Cells much emptier than one needle each would only cost memory and crossings.
   const double needles = std::max<double>(1, static_cast<double>(gas.size()));
   const double volume = gas.box[0] * gas.box[1] * gas.box[2];
   const double side = setup.cell_side.value_or(std::cbrt(volume / (2 * needles)));
-  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin, side));
+  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin_, side), gas.size());
   head_.assign(grid_.size(), no_needle);
 }
 
@@ -29,7 +35,7 @@ Time LinkedLists::place(Needle i, Time now) {
     place.cell = cell;
     link(i);
   }
-  return gas_.clock.add(now, grid_.time_to_leave(cell, r, flight.v, margin));
+  return gas_.clock.add(now, grid_.time_to_leave(cell, r, flight.v, margin_));
 }
 
 void LinkedLists::renumber(const std::vector<Needle>& ranks) {

@@ -47,6 +47,7 @@ class LinkedLists {
 
   const Gas& gas_;
   Counters& counters_;
+  double margin_;  ///< of cells [L]
   CellGrid grid_;
   std::vector<Needle> head_;
   std::vector<Place> place_;

@@ -47,7 +47,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kernels_(kernels::near_kernels(setup.isa)),
       hull_(hull),
       radius_(hull == Hull::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
-      grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull))),
+      grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull)), gas.size()),
       places_(gas.size()),
       motions_(gas.size()),
       blocks_(grid_.size()),
@@ -222,11 +222,12 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 // Makes views of the cells in which needles may be found: those that a needle within reach of this
 // one's hull, or of its way in the time ahead, can have been placed in. Returns how many are there.
 std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
-  double reach = 1 + 2 * cell_margin;
+  // The margin covers the rounding of the seeker's place in its cell.
+  double reach = 1 + 2 * cell_margin + margin_;
   double way = ahead * unit_;
   if (hull_ == Hull::capsule) {
     // Another centre is not farther from this axis than half a length and both radii.
-    reach = 0.5 + 2 * radius_ + 2 * cell_margin;
+    reach = 0.5 + 2 * radius_ + 2 * cell_margin + margin_;
     way = 0;
   }
   const auto sides = grid_.sides();

@@ -60,8 +60,8 @@ TEST_F(RunCommand, PrintsAllKeysAndNothingElse) {
     EXPECT_TRUE(object[key].is_string()) << key;
   }
   EXPECT_EQ(object["momentum"].size(), 3u);
-  for (const char* key :
-       {"candidates", "filtered", "evaluated", "escalated", "rebuilds", "crossings"}) {
+  for (const char* key : {"candidates", "filtered", "isolated", "predicted", "evaluated",
+                          "escalated", "rebuilds", "crossings", "sorts"}) {
     EXPECT_TRUE(object["stats"][key].is_number_integer()) << key;
   }
   EXPECT_EQ(object["trajectory_hash"].get<std::string>().size(), 32u);
@@ -111,6 +111,35 @@ TEST_F(RunCommand, SamplingDoesNotChangeTheTrajectory) {
     hashes.insert(object["trajectory_hash"].get<std::string>() + object["time"].dump() +
                   object["energy"].dump());
   }
+  EXPECT_EQ(hashes.size(), 1u);
+}
+
+TEST_F(RunCommand, TakesEverySearchAndItsSizesOnEveryInstructionSet) {
+  std::set<std::string> hashes;
+  const auto take = [&](const std::string& arguments, const std::string& search,
+                        const std::string& isa) {
+    const json object = result("small.toml " + arguments);
+    EXPECT_EQ(object["search"], search) << arguments;
+    EXPECT_EQ(object["isa"], isa) << arguments;
+    hashes.insert(object["trajectory_hash"].get<std::string>());
+    return object["stats"];
+  };
+  for (const std::string search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+    take("--isa scalar --set engine.search=" + search, search, "scalar");
+  }
+  for (const kernels::Isa available : kernels::available()) {
+    const std::string isa(kernels::name_of(available));
+    take("--isa " + isa + " --set engine.search=linked-cells", "linked-cells", isa);
+    take("--set engine.search=capsules --set engine.isa=" + isa, "capsules", isa);
+  }
+  const std::string capsules = "--isa scalar --set engine.search=capsules ";
+  const json thin = take(capsules + "--set engine.capsule_radius=0.05", "capsules", "scalar");
+  const json thick = take(capsules + "--set engine.capsule_radius=1", "capsules", "scalar");
+  EXPECT_GT(thin["rebuilds"].get<int>(), 2 * thick["rebuilds"].get<int>());
+  const std::string cells = "--isa scalar --set engine.search=linked-cells ";
+  const json narrow = take(cells + "--set engine.cell_side=0.5", "linked-cells", "scalar");
+  const json wide = take(cells + "--set engine.cell_side=2.5", "linked-cells", "scalar");
+  EXPECT_GT(narrow["crossings"].get<int>(), 2 * wide["crossings"].get<int>());
   EXPECT_EQ(hashes.size(), 1u);
 }
 

@@ -1,6 +1,8 @@
 // Exit codes and messages: what scripts rely on when something is wrong.
+#include <algorithm>
 #include <fstream>
 
+#include "kernels/isa.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -48,12 +50,21 @@ TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
       {"--set engine.accuracy=fast", "engine.accuracy = \"fast\": expected one of auto, standard"},
       {"--threads 2", "--threads 2: expected 1"},
       {"--set engine.threads=2", "engine.threads = 2: expected 1"},
-      {"--isa bogus", "--isa bogus: expected auto or one that this CPU has (scalar"}};
-  for (const auto& [arguments, message] : cases) {
-    const Outcome outcome = run(std::string("run small.toml ") + arguments);
+      {"--isa bogus", "--isa bogus: expected auto or one that this CPU has (scalar"},
+      {"--isa AVX2", "--isa AVX2: expected "}};
+  const auto expect_refusal = [&](const std::string& arguments, const std::string& message) {
+    const Outcome outcome = run("run small.toml " + arguments);
     EXPECT_EQ(outcome.exit_code, 3) << arguments;
     EXPECT_TRUE(outcome.complains(message));
     EXPECT_EQ(outcome.out, "");
+  };
+  for (const auto& [arguments, message] : cases) expect_refusal(arguments, message);
+  const std::vector<kernels::Isa> available = kernels::available();
+  for (const kernels::Isa isa : {kernels::Isa::sse4, kernels::Isa::avx2, kernels::Isa::avx512}) {
+    if (std::find(available.begin(), available.end(), isa) != available.end()) continue;
+    const std::string name(kernels::name_of(isa));
+    expect_refusal("--isa " + name, "--isa " + name + ": expected ");
+    expect_refusal("--set engine.isa=" + name, "engine.isa = \"" + name + "\": expected ");
   }
 }
 

@@ -39,6 +39,8 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string accuracy = R"(expected "fast", "standard" or "rigorous")";
   const std::string isa = R"(expected "auto", "scalar", "sse4", "avx2" or "avx512")";
   const std::string threads = "expected a whole number in digits, from 1 to 1024";
+  const std::string side = "expected a length from 0.1";
+  const std::string radius = "expected a length from 1e-3 to 10";
   const std::string series = "expected a number > 0 (at most 1e6)";
   const std::string frames =
       "expected a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, "
@@ -111,6 +113,18 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       {"engine", "threads = 1025", threads},
       {"engine", "threads = 2.0", threads},
       {"engine", "threads = \"all\"", threads},
+      {"engine", "search = \"linked-list\"", search},
+      {"engine", "cell_side = 0.0999", side},
+      {"engine", "cell_side = -1", side},
+      {"engine", "cell_side = nan", side},
+      {"engine", "cell_side = inf", side},
+      {"engine", "cell_side = \"1\"", side},
+      {"engine", "cell_side = [1, 1, 1]", side},
+      {"engine", "capsule_radius = 0", radius},
+      {"engine", "capsule_radius = 9e-4", radius},
+      {"engine", "capsule_radius = 10.1", radius},
+      {"engine", "capsule_radius = nan", radius},
+      {"engine", "capsule_radius = true", radius},
       {"until", "time = -1", "expected a time >= 0"},
       {"until", "time = nan", "expected a time >= 0"},
       {"until", "time = true", "expected a time >= 0"},
@@ -172,6 +186,10 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
       {"[engine]\n\"\" = 2\n", "s.toml: line 2: engine. = 2: " + of_engine},
       {"[engine]\ntread = { a = 1 }\n",
        "s.toml: line 2: engine.tread = { a = 1 }: " + of_engine + ", did you mean threads?"},
+      {"[engine]\ncellside = 2\n",
+       "s.toml: line 2: engine.cellside = 2: " + of_engine + ", did you mean cell_side?"},
+      {"[engine]\ncapsule_radii = 2\n",
+       "s.toml: line 2: engine.capsule_radii = 2: " + of_engine + ", did you mean capsule_radius?"},
       {"tilte = 'x'\n",
        "s.toml: line 1: tilte = 'x': expected a section or title, did you mean title?"},
       {"count = 5\n",

@@ -34,6 +34,7 @@ TEST(GoodScene, HasTheDocumentedDefaults) {
   EXPECT_EQ(scene.engine.accuracy, "standard");
   EXPECT_FALSE(scene.engine.threads.has_value());
   EXPECT_EQ(scene.engine.isa, "auto");
+  EXPECT_FALSE(scene.engine.cell_side || scene.engine.capsule_radius);
   EXPECT_EQ(scene.until.time, 5);
   EXPECT_FALSE(scene.until.collisions_per_needle || scene.until.energy_ratio || scene.until.wall_s);
   EXPECT_EQ(scene.output.file, "");
@@ -64,6 +65,8 @@ queue = "bucket"
 accuracy = "rigorous"
 threads = 2
 isa = "avx2"
+cell_side = 2
+capsule_radius = 0.25
 [until]
 time = 1e6
 collisions_per_needle = 600
@@ -92,6 +95,8 @@ events = true
   EXPECT_EQ(scene.engine.accuracy, "rigorous");
   EXPECT_EQ(scene.engine.threads, 2);
   EXPECT_EQ(scene.engine.isa, "avx2");
+  EXPECT_EQ(scene.engine.cell_side, 2);
+  EXPECT_EQ(scene.engine.capsule_radius, 0.25);
   EXPECT_EQ(scene.until.time, 1e6);
   EXPECT_EQ(scene.until.collisions_per_needle, 600);
   EXPECT_EQ(scene.until.energy_ratio, 1e-11);
@@ -114,7 +119,9 @@ TEST(GoodScene, TakesTheEndsOfRanges) {
        {"[collisions]\nepsilon = 0\nbeta = 1", "[collisions]\nepsilon = 1\nbeta = -1",
         "[collisions]\ntc_relative = 0", "[initial]\nt_tr = 0.0\nt_rot = -0.0",
         "[initial]\nt_tr = 1e200\nt_rot = 1e-200", "[engine]\nthreads = 1024",
-        "[output]\nframes = []", "[output]\nframes = [0]", "[output]\nfile = ''"})
+        "[engine]\ncell_side = 0.1\ncapsule_radius = 1e-3",
+        "[engine]\ncell_side = 1e9\ncapsule_radius = 10", "[output]\nframes = []",
+        "[output]\nframes = [0]", "[output]\nfile = ''"})
     EXPECT_NO_THROW(parse_scene(std::string(least) + line, "s.toml")) << line;
 }
 

@@ -124,6 +124,18 @@ TEST(ContactsInALongRun, AreProposedWhileTheGasCoolsAndHeats) {
   EXPECT_GT(drive.contacts(), 4000 / thin);
 }
 
+/// Of the cells of all searches that have some.
+std::vector<std::array<double, 3>> cell_sides(const std::vector<SearchChoice>& choices,
+                                              const Gas& gas) {
+  std::vector<std::array<double, 3>> sides;
+  Counters counters;
+  for (const SearchChoice& choice : choices) {
+    const auto search = make_search(choice, gas, counters);
+    if (search->grid()) sides.push_back(search->grid()->sides());
+  }
+  return sides;
+}
+
 // On borders of cells and of the box to the last bit, moving along axes and diagonals or not at
 // all, and turning.
 TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
@@ -133,14 +145,9 @@ TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
     Random random(seed);
     constexpr Needle count = 60;
     Gas gas = test::gas_of(count, {box, box, box});
-    std::vector<double> sides{box};
-    Counters counters;
-    for (const SearchChoice& choice : choices) {
-      const auto search = make_search(choice, gas, counters);
-      if (search->grid()) sides.push_back(search->grid()->sides()[0]);
-    }
+    const std::vector<std::array<double, 3>> sides = cell_sides(choices, gas);
     const auto on_border = [&] {
-      const double side = sides[random.below(static_cast<int>(sides.size()))];
+      const double side = sides[random.below(static_cast<int>(sides.size()))][0];
       const double x = side * random.below(static_cast<int>(std::lround(box / side)) + 1);
       const int pick = random.below(4);
       return pick == 0 ? std::nextafter(x, -1) : pick == 1 ? std::nextafter(x, 9) : x;
@@ -164,19 +171,22 @@ TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
   }
 }
 
-// Few needles in a box so wide that a cell holds no digit of a needle length in float. Cells of
-// sides set by hand would be too many.
+// Few needles in a box so wide that floats hold no digit of a needle length across a cell.
 TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
-  std::vector<SearchChoice> choices = test::search_choices();
-  std::erase_if(choices, [](const SearchChoice& choice) { return choice.setup.cell_side; });
+  const std::vector<SearchChoice> choices = test::search_choices();
   for (const double box : {1e4, 1e6, 1e9}) {
     SCOPED_TRACE("box " + std::to_string(box) + ", seed " + std::to_string(seed));
     Random random(seed);
-    Gas gas = test::gas_of(100, {box, box, box});
-    // Pairs near each other, anywhere; some across the border of the box.
+    Gas gas = test::gas_of(100, {1.1 * box, 0.7 * box, box / 3});
+    const std::vector<std::array<double, 3>> sides = cell_sides(choices, gas);
+    // Pairs near each other, anywhere; many across borders of cells.
     for (Needle i = 0; i < gas.size(); i += 2) {
-      const auto anywhere = [&] { return box * (random.below(4) == 0 ? 0 : random.uniform()); };
-      const Vec3d r{anywhere(), anywhere(), anywhere()};
+      const auto anywhere = [&](int axis) {
+        if (random.coin()) return gas.box[axis] * random.uniform();
+        const double side = sides[random.below(static_cast<int>(sides.size()))][axis];
+        return side * random.below(static_cast<int>(std::lround(gas.box[axis] / side)));
+      };
+      const Vec3d r{anywhere(0), anywhere(1), anywhere(2)};
       const test::Velocities a = draw_velocities(random, {}), b = draw_velocities(random, {});
       put(gas, i, r, vec3(random.direction()), a.v, a.w);
       put(gas, i + 1, r + vec3(random.normal_vector(0.3)), vec3(random.direction()), b.v, b.w);
@@ -186,7 +196,7 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
       ASSERT_NO_FATAL_FAILURE(drive.check_all());
       ASSERT_NO_FATAL_FAILURE(drive.advance(0.05));
     }
-    EXPECT_GT(drive.contacts(), 100);
+    EXPECT_GT(drive.contacts(), 400);
   }
 }
 
@@ -276,6 +286,23 @@ TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   EXPECT_EQ(counts(4, {20, 20, 20}), (Counts{2, 2, 2}));
   const Counts dilute = counts(1000, {100, 100, 100});
   for (const std::int32_t n : dilute) EXPECT_LE(n, 13);
+}
+
+// Whatever side is asked for, and however thin the box.
+TEST(Cells, AreNotManyMoreThanNeedles) {
+  const auto cells = [](std::array<double, 3> box, double side, std::size_t needles) {
+    return static_cast<double>(CellGrid(box, side, needles).size());
+  };
+  EXPECT_EQ(cells({40, 40, 40}, 2, 1000), 8000);
+  EXPECT_EQ(cells({3, 4, 5}, 1e9, 1000), 1);
+  for (const double box : {1e2, 1e5, 1e9}) {
+    for (const std::size_t needles : {0, 20, 100000}) {
+      const double n = static_cast<double>(needles);
+      EXPECT_LT(cells({box, box, box}, 0.1, needles), 5e3 + 20 * n) << box;
+      EXPECT_LT(cells({2.01, box, 2.01}, 0.1, needles), 5e3 + 20 * n) << box;
+      EXPECT_GT(cells({box, box, box}, 0.1, needles), 1e3 + 5 * n) << box;
+    }
+  }
 }
 
 }  // namespace
