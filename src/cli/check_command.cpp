@@ -7,6 +7,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/explanation.h"
 #include "src/cli/messages.h"
+#include "src/cli/output_path.h"
 #include "src/cli/scene_source.h"
 
 namespace needlework::cli {
@@ -22,6 +23,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->callback([arguments, &exit_code] {
     const LoadedScene loaded = load_scene(arguments->scene);
+    const std::string& file = loaded.scene.output.file;
+    if (!file.empty()) require_writable(file, true);
     const Explanation explanation(loaded);
     for (const std::string& warning : explanation.warnings) print_warning(warning);
     if (arguments->json) {

@@ -9,6 +9,7 @@
 
 #include "src/cli/check_command.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/export_command.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
@@ -30,6 +31,7 @@ int parse_and_run(int argc, char** argv) {
   add_theory_command(app, exit_code);
   add_predict_command(app, exit_code);
   add_info_command(app, exit_code);
+  add_export_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,11 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "src/cli/exit_codes.h"
 #include "src/cli/pairs_file.h"
 #include "src/error.h"
 #include "src/physics/predict.h"
 
-namespace needlework {
+namespace needlework::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;  // keys in the order of the columns
@@ -86,46 +87,32 @@ std::string as_json(const std::vector<Answer>& answers) {
 
 void run(const Options& options) {
   if (options.accuracy != "standard") {
-    throw InputError(fmt::format("--accuracy = {}: expected standard, the only level there is yet",
+    throw InputError(fmt::format("--accuracy {}: expected standard, the only level there is yet",
                                  options.accuracy));
   }
   const std::vector<Answer> answers = solve(read_pairs(options.path), options.path);
   const std::string out = options.json ? as_json(answers) : as_lines(answers);
-  if (std::fwrite(out.data(), 1, out.size(), stdout) != out.size() || std::fflush(stdout) != 0) {
-    throw IoError("stdout: writing failed");
-  }
-}
-
-int run_and_report(const Options& options) {
-  const auto report = [](const std::exception& error, int code) {
-    fmt::print(stderr, "{}\n", error.what());
-    return code;
-  };
-  try {
-    run(options);
-  } catch (const InputError& error) {
-    return report(error, 3);
-  } catch (const InvalidStateError& error) {
-    return report(error, 4);
-  } catch (const IoError& error) {
-    return report(error, 5);
-  }
-  return 0;
+  std::fwrite(out.data(), 1, out.size(), stdout);  // main sees to failures
 }
 
 }  // namespace
 
 void add_predict_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("predict", "First contact of each pair of needles");
+  CLI::App* command =
+      app.add_subcommand("predict", "find the first contact of each pair of needles");
   const auto options = std::make_shared<Options>();
-  command->add_option("pairs", options->path, "Pairs, one a line; - reads stdin")
-      ->type_name("PAIRS.csv")
+  command
+      ->add_option("PAIRS", options->path, "pairs of needles, one a line; - reads standard input")
+      ->option_text("PAIRS.csv")
       ->required();
-  command->add_option("--accuracy", options->accuracy, "Accuracy level")
+  command->add_option("--accuracy", options->accuracy, "level of accuracy")
       ->check(CLI::IsMember({"fast", "standard", "rigorous"}))
       ->capture_default_str();
-  command->add_flag("--json", options->json, "Print one JSON object");
-  command->callback([options, &exit_code] { exit_code = run_and_report(*options); });
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->callback([options, &exit_code] {
+    run(*options);
+    exit_code = ok;
+  });
 }
 
-}  // namespace needlework
+}  // namespace needlework::cli

@@ -5,12 +5,12 @@ namespace CLI {
 class App;
 }
 
-namespace needlework {
+namespace needlework::cli {
 
 /// Adds the subcommand `predict PAIRS.csv [--accuracy LEVEL] [--json]` to `app`. When it is chosen,
-/// parsing runs it: answers go to stdout, errors to stderr, and `exit_code` becomes 0, 3 for a
-/// line, level or pair that cannot be used, or 5 for a file that cannot be read or written. `app`
-/// keeps a reference to `exit_code`. Nothing is printed to stdout when any line is bad.
+/// parsing runs it: answers go to stdout, and `exit_code`, to which `app` keeps a reference,
+/// becomes 0. Throws InputError for a line, level or pair that cannot be used, IoError for a file
+/// that cannot be read; then nothing is printed.
 void add_predict_command(CLI::App& app, int& exit_code);
 
-}  // namespace needlework
+}  // namespace needlework::cli

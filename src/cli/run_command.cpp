@@ -1,15 +1,14 @@
 #include "src/cli/run_command.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "src/cli/drive.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/messages.h"
+#include "src/cli/output_path.h"
 #include "src/cli/report.h"
 #include "src/cli/scene_source.h"
 #include "src/cli/signals.h"
@@ -25,30 +24,6 @@ struct RunArguments {
   std::optional<std::string> out;
   bool json = false, quiet = false, force = false;
 };
-
-// So that no computing is wasted on a result that cannot be kept.
-void require_writable(const std::string& file, bool force) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path path(file);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ignored)) {
-    throw IoError(
-        fmt::format("{}: cannot be written: there is no folder {}", file, folder.string()));
-  }
-  if (fs::exists(path, ignored)) {
-    if (!fs::is_regular_file(path, ignored)) {
-      throw IoError(file + ": cannot be written: it is not an ordinary file");
-    }
-    if (!force) {
-      throw IoError(file + ": exists already: expected a new file, or --force to replace it");
-    }
-  }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw IoError(
-        fmt::format("{}: cannot be written: no permission to write in {}", file, folder.string()));
-  }
-}
 
 Simulation make_simulation(const LoadedScene& loaded) {
   return loaded.initial ? Simulation(loaded.scene, *loaded.initial) : Simulation(loaded.scene);

@@ -1,13 +1,13 @@
 #include "src/cli/scene_source.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "src/cli/estimates.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
+#include "src/scene/check.h"
 #include "src/scene/parse.h"
 
 namespace needlework::cli {
@@ -15,25 +15,12 @@ namespace {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-// Count and box of the scene, if given, must agree with the file's; else they are taken from it.
-void complete(Scene& scene, const State& state, const std::string& path) {
-  Scene::Needles& needles = scene.needles;
-  if (needles.count != 0 && needles.count != state.size()) {
-    throw InputError(fmt::format("{}: needles.count = {}: expected {}, as in {}", path,
-                                 needles.count, state.size(), scene.initial.file));
+void adopt(Scene& scene, const State& state, const std::string& path) {
+  try {
+    adopt_count_and_box(scene, state);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path, error.what()));
   }
-  bool agrees = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double edge = state.box[axis];
-    agrees = agrees && std::abs(needles.box[axis] - edge) <= 1e-12 * edge;
-  }
-  if (needles.box[0] != 0 && !agrees) {
-    throw InputError(fmt::format("{}: needles.box = [{}]: expected [{}], as in {}", path,
-                                 fmt::join(needles.box, ", "), fmt::join(state.box, ", "),
-                                 scene.initial.file));
-  }
-  needles.count = state.size();
-  needles.box = state.box;
 }
 
 }  // namespace
@@ -62,7 +49,7 @@ LoadedScene load_scene(const SceneArguments& arguments) {
   require_memory(scene, arguments.path);
   if (!scene.initial.file.empty()) {
     loaded.initial = io::read_last_frame(scene.initial.file);
-    complete(scene, *loaded.initial, arguments.path);
+    adopt(scene, *loaded.initial, arguments.path);
     require_memory(scene, arguments.path);
   }
   return loaded;

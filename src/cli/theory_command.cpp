@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/cli/exit_codes.h"
+#include "src/cli/messages.h"
 #include "src/theory/theory.h"
 
 namespace needlework::cli {
@@ -126,10 +128,10 @@ int run(const Arguments& arguments) {
     const Predictions predictions = predictions_of(arguments);
     const std::string text = arguments.json ? json_text(predictions) : table_text(predictions);
     std::fputs(text.c_str(), stdout);
-    return 0;
+    return ok;
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "needlework: {}\n", error.what());
-    return 2;
+    print_error(error.what());
+    return bad_usage;
   }
 }
 
@@ -137,8 +139,8 @@ int run(const Arguments& arguments) {
 
 void add_theory_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "theory", "Predict ratio and decay of the temperatures of a homogeneous gas");
+  CLI::App* command =
+      app.add_subcommand("theory", "tell what kinetic theory predicts for a homogeneous gas");
   command->add_option(epsilon_flag.name, arguments->epsilon, "normal restitution, in [0, 1]")
       ->required()
       ->type_name("E");

@@ -4,6 +4,7 @@
 #include "src/engine/event_loop.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
+#include "src/scene/check.h"
 #include "src/search/all_pairs.h"
 #include "src/search/choice.h"
 #include "src/search/linked_lists.h"
@@ -74,7 +75,10 @@ namespace {
 
 State initial_state(const Scene& scene) {
   if (scene.initial.file.empty()) return draw_initial_state(scene);
-  return io::read_last_frame(scene.initial.file);
+  State state = io::read_last_frame(scene.initial.file);
+  Scene completed = scene;
+  adopt_count_and_box(completed, state);
+  return state;
 }
 
 std::string name_effects(const Scene::Collisions& collisions) {

@@ -46,7 +46,8 @@ enum class Stop { time, collisions, energy, wall_time, interrupted, nothing_can_
 /// may live side by side.
 class Simulation {
  public:
-  /// Draws the initial state, or reads it from scene.initial.file.
+  /// Draws the initial state, or reads it from scene.initial.file; then count and box of the scene
+  /// must be 0 or as there.
   /// Throws InputError for a bad scene and IoError for an unreadable file.
   explicit Simulation(const Scene& scene);
   /// Starts from arrays; box, count and temperatures of the scene are ignored.

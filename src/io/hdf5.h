@@ -118,6 +118,11 @@ void write_scalar(hid_t group, const std::string& name, T value, const std::stri
 void write_scalar(hid_t group, const std::string& name, const std::string& value,
                   const std::string& place);
 
+/// A dataset of this shape, values in C order.
+template <class T>
+void write_array(hid_t group, const std::string& name, const Shape& shape,
+                 std::span<const T> values, const std::string& place);
+
 Shape shape_of(hid_t dataset, const std::string& place);
 
 /// Whether `path`, relative to `object`, leads to something, each link on the way included.
@@ -139,6 +144,18 @@ void write_scalar(hid_t group, const std::string& name, T value, const std::stri
                                   H5P_DEFAULT, H5P_DEFAULT),
                        H5Dclose, place);
   check(H5Dwrite(dataset.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value), place);
+}
+
+template <class T>
+void write_array(hid_t group, const std::string& name, const Shape& shape,
+                 std::span<const T> values, const std::string& place) {
+  const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                     H5Sclose, place);
+  const Handle dataset(H5Dcreate2(group, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose, place);
+  if (values.empty()) return;
+  check(H5Dwrite(dataset.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
 }
 
 }  // namespace needlework::io::hdf5

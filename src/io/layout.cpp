@@ -58,21 +58,6 @@ void make_totals(hid_t group, const Grid& grid, const std::string& place) {
   make("tc_collisions", type_of<std::int64_t>(), {});
 }
 
-// A dataset that does not depend on time, one number a needle.
-template <class Number>
-void make_constant(hid_t group, const char* name, const std::vector<Number>& values,
-                   const std::string& place) {
-  const hsize_t rows = values.size();
-  const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose, place);
-  const hid_t type = type_of<Number>();
-  const Handle dataset(
-      H5Dcreate2(group, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-      place);
-  if (rows > 0) {
-    check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
-  }
-}
-
 Handle make_box(hid_t needles, const std::string& place) {
   Handle box = create_group(needles, "box", place);
   const std::int32_t dimension = 3;
@@ -99,8 +84,8 @@ Grid make_needles(hid_t group, std::uint64_t count, const std::string& place) {
 
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
-  make_constant(group, "id", ids, place);
-  make_constant(group, "mass", std::vector<double>(count, 1.0), place);
+  hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
+  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, 1.0), place);
   return grid;
 }
 

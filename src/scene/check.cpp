@@ -1,8 +1,12 @@
 #include "src/scene/check.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "src/error.h"
 
 namespace needlework {
 namespace {
@@ -77,6 +81,25 @@ std::vector<std::string> warnings(const Scene& scene) {
   add(until_warnings(scene));
   add(output_warnings(scene));
   return list;
+}
+
+void adopt_count_and_box(Scene& scene, const State& state) {
+  Scene::Needles& needles = scene.needles;
+  if (needles.count != 0 && needles.count != state.size()) {
+    throw InputError(fmt::format("needles.count = {}: expected {}, as in {}", needles.count,
+                                 state.size(), scene.initial.file));
+  }
+  const bool given = needles.box != std::array<double, 3>{};
+  const auto agrees = [](double edge, double expected) {
+    return std::abs(edge - expected) <= 1e-12 * expected;
+  };
+  if (given && !std::equal(needles.box.begin(), needles.box.end(), state.box.begin(), agrees)) {
+    throw InputError(fmt::format("needles.box = [{}]: expected [{}], as in {}",
+                                 fmt::join(needles.box, ", "), fmt::join(state.box, ", "),
+                                 scene.initial.file));
+  }
+  needles.count = state.size();
+  needles.box = state.box;
 }
 
 }  // namespace needlework

@@ -50,7 +50,7 @@ struct Scene {
     double series_per_decade = 10.0;          ///< samples of the series per decade of time
     std::vector<double> frame_times;          ///< `frames = [t, ...]`: times of frames
     std::optional<double> frames_per_decade;  ///< `frames = n`: frames per decade of time
-    std::vector<std::string> observables;     ///< extra observables by name
+    std::vector<std::string> observables;     ///< by name; those there are always written
     bool events = false;                      ///< record every collision
   };
 

@@ -109,8 +109,15 @@ bool read_frames(Scene& scene, const Value& value) {
 
 std::optional<std::vector<std::string>> observables(const Value& value) {
   const auto* array = value.as<Value::Array>();
-  if (!array || !array->empty()) return std::nullopt;
-  return std::vector<std::string>{};
+  if (!array) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Value& element : *array) {
+    const auto name =
+        one_of(element, {"t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions"});
+    if (!name) return std::nullopt;
+    names.push_back(*name);
+  }
+  return names;
 }
 
 using V = const Value&;
@@ -188,7 +195,8 @@ constexpr SceneKey keys[] = {
     {"output", "frames",
      "a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, increasing",
      read_frames},
-    {"output", "observables", "an empty array: there are no extra observables yet",
+    {"output", "observables",
+     R"(an array of "t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")",
      [](Scene& s, V v) { return store(s.output.observables, observables(v)); }},
     {"output", "events", "true or false",
      [](Scene& s, V v) {

@@ -1,58 +1,25 @@
 // `needlework predict` as a user meets it: lines in, lines or JSON out, exit codes.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
 #include "src/physics/predict.h"
+#include "tests/cli/program.h"
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::test {
 namespace {
 
-struct Outcome {
-  int exit_code;
-  std::string out, error;
-};
-
-class PredictCommand : public testing::Test {
+class PredictCommand : public ProgramTest {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "needlework-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::string read(const std::string& name) const {
-    std::ifstream file(path(name));
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  Outcome run(const std::string& arguments) const {
-    const std::string command = std::string(NEEDLEWORK_PROGRAM) + " predict " + arguments + " > " +
-                                path("out") + " 2> " + path("error");
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out"), read("error")};
-  }
-
   Outcome run_on(const std::string& text, const std::string& flags = "") const {
-    std::ofstream(path("pairs.csv")) << text;
-    return run(path("pairs.csv") + " " + flags);
+    write("pairs.csv", text);
+    return run("predict pairs.csv " + flags);
   }
-
-  std::filesystem::path folder_;
 };
 
 const std::string meets = "7,hand,2,.25,-.125,-.5,1,0,0,0,0,.75,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0";
@@ -71,15 +38,15 @@ std::string answer_to_meets() {
 
 TEST_F(PredictCommand, AnswersOneLineAPair) {
   const Outcome outcome = run_on("# a comment\nid,family,horizon\n\n" + meets + "\r\n  " + misses);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, answer_to_meets() + "b,inf,nan,nan\n");
-  EXPECT_EQ(outcome.error, "");
+  EXPECT_EQ(outcome.err, "");
 }
 
 TEST_F(PredictCommand, PrintsJsonWithNullsForWhatIsUndefined) {
   const Outcome outcome = run_on(meets + '\n' + misses + '\n', "--json");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const auto pairs = nlohmann::json::parse(outcome.out).at("pairs");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto pairs = outcome.json().at("pairs");
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].at("id"), 7);
   EXPECT_NEAR(pairs[0].at("time").get<double>(), 2.0 / 3, 1e-15);
@@ -92,10 +59,10 @@ TEST_F(PredictCommand, PrintsJsonWithNullsForWhatIsUndefined) {
 }
 
 TEST_F(PredictCommand, ReadsStandardInput) {
-  std::ofstream(path("pairs.csv")) << meets << '\n';
-  EXPECT_EQ(run("- < " + path("pairs.csv")).out, answer_to_meets());
-  EXPECT_EQ(run("- < /dev/null").exit_code, 0);
-  EXPECT_EQ(run("--json - < /dev/null").out, "{\"pairs\":[]}\n");
+  write("pairs.csv", meets + '\n');
+  EXPECT_EQ(shell("{ '" NEEDLEWORK_PROGRAM "' predict - <pairs.csv; }").out, answer_to_meets());
+  EXPECT_EQ(run("predict -").exit_code, 0);
+  EXPECT_EQ(run("predict --json -").out, "{\"pairs\":[]}\n");
 }
 
 TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
@@ -109,7 +76,7 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
     const Outcome outcome = run_on(meets + '\n' + line + '\n');
     EXPECT_EQ(outcome.exit_code, 3) << line;
     EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(outcome.error, path("pairs.csv") + ": line 2: column " + message + '\n');
+    EXPECT_EQ(outcome.err, "needlework: pairs.csv: line 2: column " + message + '\n');
   };
   expect(2, "-1", "horizon = -1: expected a time, 0 or later");
   expect(2, "inf", "horizon = inf: expected a finite number");
@@ -124,20 +91,24 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
   expect(0, "", "id = (empty): expected a name or number");
   const Outcome cut = run_on(std::string("\n").append(meets, 0, meets.size() - 2));
   EXPECT_EQ(cut.exit_code, 3);
-  EXPECT_EQ(cut.error, path("pairs.csv") +
-                           ": line 2: column skip = (missing): expected 28 columns, found 27\n");
+  EXPECT_TRUE(
+      cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, found 27"));
 }
 
 TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
-  EXPECT_EQ(run(path("absent.csv")).exit_code, 5);
-  EXPECT_EQ(run(path("absent.csv")).out, "");
+  const Outcome absent = run("predict absent.csv");
+  EXPECT_EQ(absent.exit_code, 5);
+  EXPECT_EQ(absent.out, "");
+  EXPECT_TRUE(absent.complains("absent.csv: cannot be read: "));
+  EXPECT_EQ(run("predict .").exit_code, 5);
   EXPECT_EQ(run_on(meets, "--accuracy standard").exit_code, 0);
+  const Outcome fast = run_on(meets, "--accuracy fast");
+  EXPECT_EQ(fast.exit_code, 3);
+  EXPECT_TRUE(fast.complains("--accuracy fast: expected standard, the only level there is yet"));
   EXPECT_EQ(run_on(meets, "--accuracy rigorous").exit_code, 3);
-  EXPECT_EQ(run_on(meets, "--accuracy fast").error,
-            "--accuracy = fast: expected standard, the only level there is yet\n");
   EXPECT_EQ(run_on(meets, "--accuracy best").exit_code, 2);
-  EXPECT_EQ(run("").exit_code, 2);
-  EXPECT_EQ(run(folder_.string()).exit_code, 5);
+  EXPECT_EQ(run("predict").exit_code, 2);
+  EXPECT_EQ(run("predict pairs.csv", "", "/dev/full").exit_code, 5);
 }
 
 TEST_F(PredictCommand, GivesWhatTheLibraryGives) {
@@ -148,7 +119,7 @@ TEST_F(PredictCommand, GivesWhatTheLibraryGives) {
   std::stringstream file;
   write_pairs(file, pairs);
   const Outcome outcome = run_on(file.str());
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::stringstream lines(outcome.out);
   const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -104,6 +104,10 @@ TEST_F(Usage, FilesThatCannotBeWrittenExitWith5BeforeAnyComputing) {
   const Outcome outcome = run("run endless.toml");
   EXPECT_EQ(outcome.exit_code, 5);
   EXPECT_TRUE(outcome.complains("x/y.h5: cannot be written: there is no folder x"));
+  const Outcome checked = run("check endless.toml");
+  EXPECT_EQ(checked.exit_code, 5);
+  EXPECT_EQ(checked.err, outcome.err);
+  EXPECT_EQ(checked.out, "");
   EXPECT_EQ(run("run endless.toml --out .").exit_code, 5);
   EXPECT_EQ(run("run endless.toml --out /dev/full --force").exit_code, 5);
 }

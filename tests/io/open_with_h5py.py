@@ -123,7 +123,7 @@ def check_all(file):
     check_events(file)
 
 
-def main(writer):
+def main(writer, _program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=120)
         assert result.returncode == -signal.SIGKILL, result.returncode
@@ -141,4 +141,4 @@ def main(writer):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -46,7 +46,7 @@ def check_file(path):
     universe.trajectory.close()
 
 
-def main(writer):
+def main(writer, _program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=120)
         assert result.returncode == -signal.SIGKILL, result.returncode
@@ -55,4 +55,4 @@ def main(writer):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

@@ -45,7 +45,9 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string frames =
       "expected a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, "
       "increasing";
-  const std::string observables = "expected an empty array: there are no extra observables yet";
+  const std::string observables =
+      "expected an array of \"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", "
+      "\"tc_collisions\"";
   const BadLine table[] = {
       {"needles", "count = -1", count},
       {"needles", "count = 1.5", count},
@@ -149,6 +151,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       {"output", "frames = [0, nan]", frames},
       {"output", "frames = [0, true]", frames},
       {"output", "observables = [\"fields\"]", observables},
+      {"output", "observables = [\"energy\", \"entropy\"]", observables},
       {"output", "observables = [5]", observables},
       {"output", "observables = \"fields\"", observables},
       {"output", "events = 1", "expected true or false"},

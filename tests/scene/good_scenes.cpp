@@ -76,7 +76,7 @@ wall_s = 3600
 file = "run.h5"
 series_per_decade = 20
 frames = [0, 1.5, 7]
-observables = []
+observables = ["energy", "t_tr", "t_rot", "momentum", "collisions", "tc_collisions"]
 events = true
 )",
                                   "s.toml");
@@ -104,7 +104,9 @@ events = true
   EXPECT_EQ(scene.output.file, "run.h5");
   EXPECT_EQ(scene.output.series_per_decade, 20);
   EXPECT_EQ(scene.output.frame_times, (std::vector<double>{0, 1.5, 7}));
-  EXPECT_TRUE(scene.output.observables.empty());
+  EXPECT_EQ(scene.output.observables,
+            (std::vector<std::string>{"energy", "t_tr", "t_rot", "momentum", "collisions",
+                                      "tc_collisions"}));
   EXPECT_TRUE(scene.output.events);
 }
 

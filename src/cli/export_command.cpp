@@ -1,0 +1,32 @@
+#include "src/cli/export_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "src/cli/exit_codes.h"
+#include "src/cli/output_path.h"
+#include "src/io/h5md.h"
+#include "src/io/vtkhdf.h"
+
+namespace needlework::cli {
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  struct ExportArguments {
+    std::string from, to;
+    bool force = false;
+  };
+  CLI::App* command =
+      app.add_subcommand("export", "write the last frame of an H5MD file for ParaView and VTK");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("FILE", arguments->from, "H5MD file to read")->required();
+  command->add_option("OUT", arguments->to, "VTKHDF file to write, called .vtkhdf")->required();
+  command->add_flag("--force", arguments->force, "replace an existing file");
+  command->callback([arguments, &exit_code] {
+    require_writable(arguments->to, arguments->force);
+    io::write_vtkhdf(arguments->to, arguments->force, io::read_last_frame(arguments->from));
+    exit_code = ok;
+  });
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,97 @@
+// The format:
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html#vtkhdf-file-format
+#include "src/io/vtkhdf.h"
+
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "src/io/draft.h"
+#include "src/io/hdf5.h"
+#include "src/io/output_file.h"
+
+namespace needlework::io {
+
+using hdf5::create_group;
+using hdf5::Handle;
+using hdf5::write_array;
+
+namespace {
+
+using Vectors = std::vector<std::array<double, 3>>;
+
+constexpr std::uint8_t vtk_line = 3;
+
+void write_vectors(hid_t group, const char* name, const Vectors& vectors,
+                   const std::string& place) {
+  const double* first = vectors.empty() ? nullptr : vectors.front().data();
+  write_array<double>(group, name, {vectors.size(), 3}, {first, 3 * vectors.size()}, place);
+}
+
+void write_counter(hid_t group, const char* name, std::size_t value, const std::string& place) {
+  // One number for each part of the grid, of which there is one.
+  const auto count = static_cast<std::int64_t>(value);
+  write_array<std::int64_t>(group, name, {1}, {&count, 1}, place);
+}
+
+// First the tail, then the tip of each needle.
+Vectors ends_of(const State& state) {
+  Vectors ends;
+  ends.reserve(2 * state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    for (const double s : {-0.5, 0.5}) {
+      auto& end = ends.emplace_back(state.position[i]);
+      for (std::size_t axis = 0; axis < 3; ++axis) end[axis] += s * state.orientation[i][axis];
+    }
+  }
+  return ends;
+}
+
+void write_lines(hid_t group, const State& state, const std::string& place) {
+  const std::size_t count = state.size();
+  write_counter(group, "NumberOfPoints", 2 * count, place);
+  write_counter(group, "NumberOfCells", count, place);
+  write_counter(group, "NumberOfConnectivityIds", 2 * count, place);
+  write_vectors(group, "Points", ends_of(state), place);
+  std::vector<std::int64_t> points(2 * count);
+  std::iota(points.begin(), points.end(), 0);
+  write_array<std::int64_t>(group, "Connectivity", {points.size()}, points, place);
+  std::vector<std::int64_t> offsets;
+  for (std::size_t i = 0; i <= count; ++i) offsets.push_back(static_cast<std::int64_t>(2 * i));
+  write_array<std::int64_t>(group, "Offsets", {offsets.size()}, offsets, place);
+  write_array<std::uint8_t>(group, "Types", {count}, std::vector(count, vtk_line), place);
+}
+
+void write_cell_data(hid_t group, const State& state, const std::string& place) {
+  std::vector<std::uint32_t> ids = state.id;
+  if (ids.empty()) {
+    ids.resize(state.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+  }
+  write_array<std::uint32_t>(group, "id", {ids.size()}, ids, place);
+  write_vectors(group, "velocity", state.velocity, place);
+  write_vectors(group, "orientation", state.orientation, place);
+  write_vectors(group, "angular_velocity", state.angular_velocity, place);
+}
+
+}  // namespace
+
+void write_vtkhdf(const std::string& path, bool force, const State& state) {
+  const hdf5::Session session;
+  Draft draft(path, force);
+  OutputFile file(draft.temporary(), path);
+  {
+    const Handle root = create_group(file.get(), "VTKHDF", path);
+    const std::array<std::int32_t, 2> version{1, 0};
+    hdf5::write_attribute(root.get(), "Version", version, {2}, path);
+    hdf5::write_attribute(root.get(), "Type", std::string("UnstructuredGrid"), path);
+    write_lines(root.get(), state, path);
+    write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
+  }
+  file.close();
+  draft.publish();
+}
+
+}  // namespace needlework::io

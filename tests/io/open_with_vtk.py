@@ -1,0 +1,99 @@
+"""Reads what `needlework export` made of write_h5md_sample's files: with h5py dataset by dataset, and
+with VTK, where there is one, as ParaView does."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+try:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+except ImportError:
+    vtkHDFReader = None
+
+VTK_LINE = 3
+
+
+def expected(needles):
+    """The last frame of the sample."""
+    frame = 6
+    i = np.arange(needles)
+    one = np.ones(needles)
+    u = np.stack([0 * one, i % 2 == 0, i % 2 == 1], axis=-1)
+    r = np.stack([0.5 * i, (frame + 0.25) * one, i / 8], axis=-1)
+    return {
+        "points": np.stack([r - u / 2, r + u / 2], axis=1).reshape(2 * needles, 3),
+        "id": 10 + i,
+        "orientation": u,
+        "velocity": np.stack([-1.0 * i, 0.5 * frame * one, 2.0 * i], axis=-1),
+        "angular_velocity": np.stack([i + frame, 0 * one, 0 * one], axis=-1),
+    }
+
+
+def same(found, wanted, name):
+    assert found.shape == wanted.shape, (name, found.shape, wanted.shape)
+    assert np.array_equal(found, wanted), (name, found, wanted)
+
+
+def check_structure(path, needles, values):
+    with h5py.File(path, "r") as file:
+        root = file["VTKHDF"]
+        assert list(root.attrs["Version"]) == [1, 0]
+        # The format has the type as an ASCII string of fixed length.
+        kind = h5py.check_string_dtype(root.attrs.get_id("Type").dtype)
+        assert kind.encoding == "ascii" and kind.length == len("UnstructuredGrid")
+        assert root.attrs["Type"] == b"UnstructuredGrid"
+        for name, count in [("NumberOfPoints", 2 * needles), ("NumberOfCells", needles),
+                            ("NumberOfConnectivityIds", 2 * needles)]:
+            assert root[name].dtype == np.int64
+            same(root[name][...], np.array([count]), name)
+        same(root["Points"][...], values["points"], "Points")
+        same(root["Connectivity"][...], np.arange(2 * needles), "Connectivity")
+        same(root["Offsets"][...], 2 * np.arange(needles + 1), "Offsets")
+        same(root["Types"][...], np.full(needles, VTK_LINE), "Types")
+        assert root["Types"].dtype == np.uint8
+        assert set(root["CellData"]) == set(values) - {"points"}
+        for name, data in root["CellData"].items():
+            same(data[...], values[name], name)
+
+
+def check_with_vtk(path, needles, values):
+    reader = vtkHDFReader()
+    assert reader.CanReadFile(path)
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutputDataObject(0)
+    assert grid.GetClassName() == "vtkUnstructuredGrid"
+    assert grid.GetNumberOfCells() == needles
+    for i in range(needles):
+        points = grid.GetCell(i).GetPointIds()
+        assert grid.GetCellType(i) == VTK_LINE
+        assert [points.GetId(0), points.GetId(1)] == [2 * i, 2 * i + 1]
+    if needles == 0:
+        return
+    same(vtk_to_numpy(grid.GetPoints().GetData()), values["points"], "points")
+    for name in set(values) - {"points"}:
+        same(vtk_to_numpy(grid.GetCellData().GetArray(name)), values[name], name)
+
+
+def main(writer, program):
+    with tempfile.TemporaryDirectory() as folder:
+        result = subprocess.run([writer, folder], timeout=120)
+        assert result.returncode == -signal.SIGKILL, result.returncode
+        for name, needles in [("sample", 5), ("killed", 5), ("empty", 0)]:
+            path = os.path.join(folder, name + ".vtkhdf")
+            subprocess.run([program, "export", os.path.join(folder, name + ".h5"), path],
+                           check=True, timeout=120)
+            values = expected(needles)
+            check_structure(path, needles, values)
+            if vtkHDFReader:
+                check_with_vtk(path, needles, values)
+    print("read with h5py" + (" and VTK" if vtkHDFReader else "; there is no VTK here"))
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
