@@ -154,7 +154,7 @@ void EventLoop<Search, Calendar, effects>::sort_storage() {
   const std::vector<Needle> order = order_in_space(gas, now), ranks = ranks_of(order);
   reorder(gas, order);
   search_.renumber(ranks);
-  if constexpr (effects.contact_time) last_collision_ = permuted(last_collision_, order);
+  if constexpr (effects.contact_time) permute(last_collision_, order);
   last_shared_ = {};
   Calendar sorted(gas.size());
   for (const Needle i : order) {

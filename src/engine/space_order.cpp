@@ -52,15 +52,12 @@ std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
 
 void reorder(Gas& gas, const std::vector<Needle>& order) {
   const std::vector<Needle> ranks = ranks_of(order);
-  std::vector<Record> records;
-  records.reserve(gas.size());
-  for (const Needle i : order) {
-    Record& record = records.emplace_back(std::move(gas.records[i]));
+  for (Record& record : gas.records) {
     for (TouchEntry& touch : record.touches) touch.partner = ranks[touch.partner];
   }
-  gas.records = std::move(records);
-  gas.ids = permuted(gas.ids, order);
-  gas.images = permuted(gas.images, order);
+  permute(gas.records, order);
+  permute(gas.ids, order);
+  permute(gas.images, order);
 }
 
 }  // namespace needlework

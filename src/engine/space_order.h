@@ -2,6 +2,7 @@
 // are neighbours in memory.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "src/physics/gas.h"
@@ -18,13 +19,22 @@ void reorder(Gas& gas, const std::vector<Needle>& order);
 /// rank[order[n]] = n
 std::vector<Needle> ranks_of(const std::vector<Needle>& order);
 
-/// The values in the new order.
+/// Puts values into the new order, in place: a second copy of all records would be the most memory
+/// that a run ever needs.
 template <class T>
-std::vector<T> permuted(const std::vector<T>& values, const std::vector<Needle>& order) {
-  std::vector<T> out;
-  out.reserve(values.size());
-  for (const Needle i : order) out.push_back(values[i]);
-  return out;
+void permute(std::vector<T>& values, const std::vector<Needle>& order) {
+  std::vector<bool> placed(values.size());
+  for (std::size_t start = 0; start < values.size(); ++start) {
+    if (placed[start]) continue;
+    T first = std::move(values[start]);
+    std::size_t n = start;
+    for (; order[n] != start; n = order[n]) {
+      values[n] = std::move(values[order[n]]);
+      placed[n] = true;
+    }
+    values[n] = std::move(first);
+    placed[n] = true;
+  }
 }
 
 }  // namespace needlework

@@ -333,9 +333,9 @@ void GasDrive::shuffle() {
   reorder(gas_, order);
   for (Followed& followed : followed_) {
     followed.search->renumber(ranks);
-    followed.placed_until = permuted(followed.placed_until, order);
+    permute(followed.placed_until, order);
   }
-  next_ = permuted(next_, order);
+  permute(next_, order);
 }
 
 void GasDrive::check_near(Needle i) {
