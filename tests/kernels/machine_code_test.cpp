@@ -1,0 +1,104 @@
+// What the compiler made of the library: no fused multiply-add, which would round differently from
+// machine to machine, and registers as wide as each instruction set has them.
+#include <gtest/gtest.h>
+#include <stdio.h>
+
+#include <map>
+#include <memory>
+#include <regex>
+#include <string>
+#include <string_view>
+
+namespace needlework {
+namespace {
+
+/// Calls visit(symbol, instruction) for all of the library.
+template <class Visit>
+void disassemble(Visit&& visit) {
+  const std::string command =
+      std::string(NEEDLEWORK_OBJDUMP) + " -d --no-show-raw-insn " + NEEDLEWORK_LIBRARY;
+  const auto close = [](FILE* file) { EXPECT_EQ(pclose(file), 0); };
+  const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
+  ASSERT_TRUE(pipe) << command;
+  std::string symbol;
+  char buffer[4096];
+  while (fgets(buffer, sizeof buffer, pipe.get())) {
+    const std::string_view line(buffer);
+    if (line.front() != ' ') {
+      // 0000000000000000 <symbol>:
+      const auto begin = line.find('<'), end = line.rfind(">:");
+      if (begin != line.npos && end != line.npos) symbol = line.substr(begin + 1, end - begin - 1);
+    } else if (const auto tab = line.find('\t'); tab != line.npos) {
+      visit(symbol, line.substr(tab + 1));
+    }
+  }
+}
+
+bool is_fused(std::string_view instruction) {
+  // vfmadd132sd, vfnmsub231ps, vfmaddsub213pd, and vfmaddss of four operands.
+  static const std::regex pattern("vfn?m(add|sub).*");
+  const auto mnemonic = instruction.substr(0, instruction.find_first_of(" \t\n"));
+  return std::regex_match(mnemonic.begin(), mnemonic.end(), pattern);
+}
+
+TEST(MachineCode, IsRecognised) {
+  for (const char* fused : {"vfmadd132sd %xmm0,%xmm1,%xmm2", "vfnmadd231ps (%rax),%zmm1,%zmm2",
+                            "vfmsub213pd %ymm0,%ymm1,%ymm2", "vfmaddsub132ps %xmm0,%xmm1,%xmm2",
+                            "vfnmsub132ss %xmm0,%xmm1,%xmm2\n"}) {
+    EXPECT_TRUE(is_fused(fused)) << fused;
+  }
+  for (const char* plain : {"vmulps %zmm0,%zmm1,%zmm2", "vaddsd %xmm0,%xmm1,%xmm2", "ret"}) {
+    EXPECT_FALSE(is_fused(plain)) << plain;
+  }
+}
+
+TEST(MachineCode, HasNoFusedMultiplyAdd) {
+  std::size_t multiplications = 0, fused = 0;
+  std::string first;
+  disassemble([&](const std::string& symbol, std::string_view instruction) {
+    multiplications += instruction.find("mul") < 2;
+    if (!is_fused(instruction)) return;
+    if (++fused == 1) first = symbol + ": " + std::string(instruction);
+  });
+#if defined(__x86_64__)
+  EXPECT_GT(multiplications, 1000u) << "nothing was read";
+#else
+  GTEST_SKIP() << "the names of instructions are those of x86";
+#endif
+  EXPECT_EQ(fused, 0u) << first;
+}
+
+// The namespaces of Highway's targets are part of the symbols.
+TEST(MachineCode, OfLanesUsesTheRegistersOfItsInstructionSet) {
+#if !defined(__x86_64__)
+  GTEST_SKIP() << "the names of registers are those of x86";
+#endif
+  struct Widths {
+    std::size_t xmm = 0, ymm = 0, zmm = 0;
+  };
+  std::map<std::string, Widths> arithmetic;  // by target, of packed floats
+  const std::regex packed("v?(add|sub|mul|div|sqrt|min|max)ps");
+  disassemble([&](const std::string& symbol, std::string_view instruction) {
+    const auto end = instruction.find_first_of(" \t\n");
+    if (!std::regex_match(instruction.begin(), instruction.begin() + end, packed)) return;
+    for (const char* target : {"N_SSE4", "N_AVX2", "N_AVX3"}) {
+      if (symbol.find(target) == symbol.npos) continue;
+      Widths& widths = arithmetic[target];
+      widths.xmm += instruction.find("%xmm") != instruction.npos;
+      widths.ymm += instruction.find("%ymm") != instruction.npos;
+      widths.zmm += instruction.find("%zmm") != instruction.npos;
+    }
+  });
+  const auto& sse4 = arithmetic["N_SSE4"];
+  EXPECT_GT(sse4.xmm, 100u);
+  EXPECT_EQ(sse4.ymm + sse4.zmm, 0u);
+  const auto& avx2 = arithmetic["N_AVX2"];
+  EXPECT_GT(avx2.ymm, 100u);
+  EXPECT_EQ(avx2.xmm + avx2.zmm, 0u);
+  const auto& avx512 = arithmetic["N_AVX3"];
+  EXPECT_GT(avx512.zmm, 100u);
+  EXPECT_EQ(avx512.xmm + avx512.ymm, 0u);
+}
+
+}  // namespace
+}  // namespace needlework

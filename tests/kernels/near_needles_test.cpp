@@ -1,0 +1,498 @@
+// Kernels by lanes: the same bits on every instruction set, whoever is in the other lanes; never a
+// contact lost; and most of what does not meet ruled out.
+#include "kernels/near_needles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <ostream>
+#include <string>
+
+#include "kernels/first_contact.h"
+#include "tests/kernels/lane_pairs.h"
+#include "tests/support/kernel_pair.h"
+#include "tests/support/oracle.h"
+#include "tests/support/pair_families.h"
+#include "tests/support/pairs_csv.h"
+#include "tests/support/segments.h"
+
+namespace needlework::kernels {
+
+static void PrintTo(Isa isa, std::ostream* out) { *out << name_of(isa); }
+
+namespace {
+
+using test::draw_pairs;
+using test::isolated;
+using test::KernelPair;
+using test::motion_of;
+using test::PairRow;
+using test::Random;
+using test::row_of;
+using test::seeker_of;
+using test::unit_of;
+using test::vec3;
+
+constexpr std::uint64_t seed = 909;
+#ifdef NDEBUG
+constexpr std::size_t thin = 1;
+#else
+constexpr std::size_t thin = 20;
+#endif
+
+/// Blocks of needles in cells around a seeker, whatever they hold.
+struct Neighbourhood {
+  std::vector<Block> blocks;
+  std::vector<BlockLink> links;
+  std::vector<CellView> cells;
+  Seeker seeker{};
+
+  Surroundings around() const { return {blocks.data(), links.data(), cells.data(), cells.size()}; }
+  std::size_t room() const { return blocks.size() * block_size + 1; }
+};
+
+/// Numbers for one needle in a block.
+using BlockRow = std::array<float, Block::columns>;
+
+/// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
+/// stands beyond the last needle of a block is not a number.
+Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<BlockRow>& rows) {
+  Neighbourhood out;
+  out.seeker = seeker;
+  std::size_t next = 0;
+  while (next < rows.size()) {
+    const auto first = static_cast<std::uint32_t>(out.blocks.size());
+    out.cells.push_back({first, {}});
+    for (int chained = random.below(3); chained >= 0; --chained) {
+      Block& block = out.blocks.emplace_back();
+      for (auto& column : block.column) {
+        std::fill(std::begin(column), std::end(column), std::numeric_limits<float>::quiet_NaN());
+      }
+      std::fill(std::begin(block.needle), std::end(block.needle), 12345u);
+      const auto size = chained > 0 ? block_size : random.below(block_size + 1);
+      BlockLink& link = out.links.emplace_back();
+      link.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, rows.size() - next));
+      if (chained > 0) link.next = static_cast<std::uint32_t>(out.blocks.size());
+      for (std::uint32_t lane = 0; lane < link.size; ++lane, ++next) {
+        for (int c = 0; c < Block::columns; ++c) block.column[c][lane] = rows[next][c];
+        block.needle[lane] = static_cast<std::uint32_t>(next + 1);
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(const NearKernels& kernels,
+                                                                 const Neighbourhood& near,
+                                                                 float radius) {
+  std::vector<Found> found(near.room());
+  found.resize(kernels.overlapping(near.around(), near.seeker, radius, found.data()));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (const Found& f : found) out.push_back({f.needle, f.cell});
+  return out;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> approaching(const NearKernels& kernels,
+                                                                 const Neighbourhood& near) {
+  std::vector<Found> found(near.room());
+  found.resize(kernels.approaching(near.around(), near.seeker, found.data()));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (const Found& f : found) out.push_back({f.needle, f.cell});
+  return out;
+}
+
+std::vector<std::uint32_t> bits(const std::vector<float>& values) {
+  std::vector<std::uint32_t> out;
+  for (const float value : values) out.push_back(std::bit_cast<std::uint32_t>(value));
+  return out;
+}
+
+/// One pair of a family, the first needle seeking.
+struct LanePair {
+  KernelPair pair;
+  Contact truth;
+  double unit;
+  Seeker seeker;
+  PairRow row;
+};
+
+LanePair lane_pair(Random& random, const test::NeedlePair& drawn) {
+  LanePair out;
+  out.pair = kernel_pair(drawn);
+  if (drawn.just_collided) {
+    const int side = side_after(out.pair.view());
+    out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
+  }
+  SearchCounters work;
+  const double horizon = drawn.horizon * (random.coin() ? 1 : random.uniform());
+  out.truth = first_contact(out.pair.view(), 0, horizon, work);
+  // The gas may be faster or slower than this pair, and the partner placed some time ago.
+  out.unit = unit_of(out.pair.first, out.pair.second) * std::ldexp(1.0, random.below(5) - 2);
+  const double age = random.coin() ? 0 : random.uniform(0, 4) / out.unit;
+  const auto until = static_cast<float>(horizon * out.unit) + test::lane_time_margin;
+  out.seeker = seeker_of(motion_of(out.pair.first, 0, out.unit), until);
+  const Motion other = motion_of(out.pair.second, -age, out.unit);
+  const double from = out.truth.found && random.below(4) == 0
+                          ? random.uniform() * out.truth.elapsed.hi * out.unit
+                          : 0;
+  out.row = row_of(out.seeker, other, static_cast<float>(from), until);
+  return out;
+}
+
+std::vector<std::string_view> family_names() {
+  std::vector<std::string_view> out;
+  for (const test::PairFamily& family : test::pair_families()) out.push_back(family.name);
+  return out;
+}
+
+// ---- the same bits ----
+
+class OnEveryIsa : public testing::TestWithParam<Isa> {
+ protected:
+  void SetUp() override {
+    const std::vector<Isa> offered = available();
+    if (std::find(offered.begin(), offered.end(), GetParam()) == offered.end()) {
+      GTEST_SKIP() << "this processor lacks " << name_of(GetParam());
+    }
+  }
+  const NearKernels& kernels() const { return near_kernels(GetParam()); }
+  const NearKernels& twin() const { return near_kernels(Isa::scalar); }
+
+  /// The same as the twin, and in any order.
+  void expect_same(Random& random, const Seeker& seeker, const std::vector<PairRow>& rows) {
+    const std::vector<float> truth = isolated(twin(), seeker, rows);
+    EXPECT_EQ(bits(isolated(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
+    std::vector<std::size_t> order(rows.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t n = order.size(); n > 1; --n) {
+      std::swap(order[n - 1], order[random.below(static_cast<int>(n))]);
+    }
+    std::vector<PairRow> shuffled;
+    std::vector<float> expected;
+    for (const std::size_t n : order) {
+      shuffled.push_back(rows[n]);
+      expected.push_back(truth[n]);
+    }
+    EXPECT_EQ(bits(isolated(kernels(), seeker, shuffled)), bits(expected)) << "seed " << seed;
+  }
+};
+
+TEST_P(OnEveryIsa, HasItsOwnKernels) {
+  EXPECT_EQ(kernels().isa, GetParam());
+  const std::size_t lanes[] = {1, 4, 8, 16};
+  EXPECT_EQ(kernels().lanes, lanes[static_cast<int>(GetParam())]);
+}
+
+// Partners from every family for one seeker: what they were built around is lost but for the first,
+// directors and speeds of all kinds stay.
+TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
+  Random random(seed);
+  std::size_t ruled_out = 0, pairs = 0;
+  for (const std::size_t count : {1, 2, 7, 8, 9, 15, 16, 17, 33, 100}) {
+    for (std::size_t n = 0; n < 200 / thin; ++n) {
+      std::vector<PairRow> rows;
+      Seeker seeker{};
+      for (const std::string_view family : family_names()) {
+        for (const test::NeedlePair& drawn : draw_pairs(family, 1 + count / 11, random.bits())) {
+          const LanePair pair = lane_pair(random, drawn);
+          if (rows.empty()) seeker = pair.seeker;
+          rows.push_back(pair.row);
+        }
+      }
+      rows.resize(count, rows.front());
+      expect_same(random, seeker, rows);
+      for (const float from : isolated(twin(), seeker, rows)) ruled_out += std::isinf(from);
+      pairs += count;
+    }
+    ASSERT_FALSE(HasFailure()) << count << " pairs";
+  }
+  EXPECT_GT(ruled_out, pairs / 10);
+  EXPECT_LT(ruled_out, pairs * 9 / 10);
+}
+
+TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
+  Random random(seed);
+  for (std::size_t n = 0; n < 3000 / thin; ++n) {
+    // From all sane but for one column to all wild.
+    const int wild = random.below(4);
+    const auto draw = [&](int column) {
+      const bool any = wild == 3 || (wild > 0 && random.below(8) == 0);
+      if (any) return test::any_float(random);
+      const double a = column >= PairColumns::omega ? std::abs(random.normal()) : random.normal();
+      return static_cast<float>(a);
+    };
+    Seeker seeker = seeker_of({}, 1);
+    for (int axis = 0; axis < 3; ++axis) {
+      seeker.motion.v[axis] = draw(axis);
+      seeker.motion.u[axis] = draw(axis);
+      seeker.motion.p[axis] = draw(axis);
+    }
+    seeker.motion.omega = draw(PairColumns::omega);
+    std::vector<PairRow> rows(1 + random.below(40));
+    for (PairRow& row : rows) {
+      for (int c = 0; c < PairColumns::columns; ++c) row[c] = draw(c);
+    }
+    expect_same(random, seeker, rows);
+    for (const float from : isolated(twin(), seeker, rows)) ASSERT_GE(from, 0);
+    ASSERT_FALSE(HasFailure()) << n;
+  }
+}
+
+TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
+  Random random(seed);
+  std::size_t overlaps = 0, approaches = 0, needles = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const bool wild = random.below(4) == 0;
+    const auto draw = [&] {
+      return wild && random.below(6) == 0 ? test::any_float(random)
+                                          : static_cast<float>(random.normal());
+    };
+    Seeker seeker = seeker_of({}, 1);
+    const Vec3d u = vec3(random.direction());
+    seeker.u[0] = static_cast<float>(u.x);
+    seeker.u[1] = static_cast<float>(u.y);
+    seeker.u[2] = static_cast<float>(u.z);
+    for (int axis = 0; axis < 3; ++axis) {
+      seeker.r[axis] = seeker.motion.r[axis] = draw();
+      seeker.motion.v[axis] = draw();
+    }
+    std::vector<BlockRow> rows(random.below(200));
+    for (BlockRow& row : rows) {
+      for (float& value : row) value = draw();
+    }
+    Neighbourhood near = fill(random, seeker, rows);
+    if (!rows.empty()) {
+      near.seeker.needle =
+          static_cast<std::uint32_t>(1 + random.below(static_cast<int>(rows.size())));
+    }
+    for (CellView& cell : near.cells) {
+      for (float& offset : cell.offset) offset = draw();
+    }
+    const float radius = static_cast<float>(random.uniform());
+    const auto truth = overlapping(twin(), near, radius);
+    EXPECT_EQ(overlapping(kernels(), near, radius), truth) << "seed " << seed;
+    EXPECT_EQ(approaching(kernels(), near), approaching(twin(), near)) << "seed " << seed;
+    for (const auto& [needle, cell] : truth) {
+      ASSERT_TRUE(needle >= 1 && needle <= rows.size() && needle != near.seeker.needle);
+    }
+    overlaps += truth.size();
+    approaches += approaching(twin(), near).size();
+    needles += rows.size();
+    ASSERT_FALSE(HasFailure()) << n;
+  }
+  EXPECT_GT(overlaps, needles / 20);
+  EXPECT_LT(overlaps, needles / 2);
+  EXPECT_GT(approaches, needles / 20);
+  EXPECT_LT(approaches, needles * 9 / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Isas, OnEveryIsa,
+                         testing::Values(Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512),
+                         [](const auto& info) { return std::string(name_of(info.param)); });
+
+// ---- no contact lost ----
+
+class Isolate : public testing::TestWithParam<test::PairFamily> {};
+
+TEST_P(Isolate, IsNeverLaterThanTheFirstContact) {
+  const test::PairFamily& family = GetParam();
+  const NearKernels& kernels = near_kernels(Isa::scalar);
+  Random random(seed);
+  std::size_t contacts = 0, id = 0;
+  const std::size_t count = (family.thermal ? 100000 : 10000) / thin;
+  for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed)) {
+    const LanePair pair = lane_pair(random, drawn);
+    const double from = isolated(kernels, pair.seeker, {pair.row})[0];
+    ++id;
+    if (!pair.truth.found) continue;
+    ++contacts;
+    ASSERT_LE(from / pair.unit, pair.truth.elapsed.hi)
+        << "of " << drawn.horizon << ", seed " << seed << "\n"
+        << test::csv_line(id - 1, drawn);
+    // The oracle knows nothing of the engine, and takes its time.
+    if (id % 50 != 0) continue;
+    const auto oracle =
+        test::first_contact(drawn.first, drawn.second, drawn.horizon, drawn.just_collided);
+    if (!oracle.contact || oracle.time > pair.truth.elapsed.hi) continue;
+    ASSERT_LE(from / pair.unit, oracle.time) << "seed " << seed << "\n"
+                                             << test::csv_line(id - 1, drawn);
+  }
+  EXPECT_GT(contacts, count / 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Isolate, testing::ValuesIn(test::pair_families()),
+                         [](const auto& info) {
+                           std::string name(info.param.name);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+// ---- most of the rest ruled out ----
+
+// 99.9 % of the pairs, and times before 98 % of the contacts by less than a tenth.
+TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
+  Random random(seed);
+  std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
+  for (const test::NeedlePair& drawn : draw_pairs("thermal-k6", 20000 / thin, seed + 1)) {
+    // From where the spheres meet, over a short window.
+    test::NeedlePair pair = advanced(drawn, 0.3 * drawn.horizon);
+    pair.horizon = 0.1;
+    const KernelPair kernel = kernel_pair(pair);
+    SearchCounters work;
+    const Contact truth = first_contact(kernel.view(), 0, pair.horizon, work);
+    const double unit = unit_of(kernel.first, kernel.second);
+    const float until = static_cast<float>(pair.horizon * unit);
+    const Seeker seeker = seeker_of(motion_of(kernel.first, 0, unit), until);
+    const Motion other = motion_of(kernel.second, 0, unit);
+    const double from =
+        isolated(near_kernels(Isa::scalar), seeker, {row_of(seeker, other, 0, until)})[0];
+    if (truth.found) {
+      ++contacts;
+      close += from / unit > 0.9 * truth.elapsed.hi;
+    } else {
+      ++apart;
+      ruled_out += std::isinf(from);
+    }
+  }
+  EXPECT_GT(contacts, 100 / thin);
+  EXPECT_GT(static_cast<double>(ruled_out), 0.99 * static_cast<double>(apart));
+  EXPECT_GT(static_cast<double>(close), 0.9 * static_cast<double>(contacts));
+}
+
+// ---- hulls and spheres ----
+
+// Capsules that just overlap, just do not, and any.
+TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t overlaps = 0, apart = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double radius = random.log_uniform(1e-3, 10);
+    const Vec3d corner{4, 4, 4}, r = vec3(random.direction()) * random.uniform(0, 1.7);
+    const Vec3d u = vec3(random.direction());
+    Motion motion{};
+    Seeker seeker = seeker_of(motion, 1);
+    const auto store = [](auto* to, const Vec3d& a) {
+      to[0] = static_cast<float>(a.x);
+      to[1] = static_cast<float>(a.y);
+      to[2] = static_cast<float>(a.z);
+    };
+    store(seeker.r, corner + r);
+    store(seeker.u, u);
+    std::vector<BlockRow> rows(40);
+    std::vector<double> distance;
+    for (BlockRow& row : rows) {
+      Vec3d a = vec3(random.direction());
+      const int kind = random.below(4);
+      if (kind == 0) a = normalised(u + a * random.log_uniform(1e-9, 1e-2));
+      Vec3d other = r + vec3(random.direction()) * random.uniform(0, 2 * radius + 1);
+      if (kind < 3) {
+        // Moved along their closest approach to overlap by very little, or not quite.
+        const auto nearest = test::nearest_points(r, u, other, a);
+        const double length = std::sqrt(dot(nearest.gap, nearest.gap));
+        if (length > 1e-3) {
+          const double wanted =
+              2 * radius + (random.coin() ? 1 : -1) * random.log_uniform(1e-8, 1e-3);
+          other = other + nearest.gap * ((length - wanted) / length);
+        }
+      }
+      const Vec3d gap = test::nearest_points(r, u, other, a).gap;
+      distance.push_back(std::sqrt(dot(gap, gap)));
+      store(row.data() + Block::x, corner + other);
+      store(row.data() + Block::a_x, a);
+    }
+    const Neighbourhood near = fill(random, seeker, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] :
+         overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius))) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double off = distance[k] - 2 * radius;
+      if (off <= 0) {
+        ++overlaps;
+        ASSERT_TRUE(found[k]) << "overlap by " << -off << ", radius " << radius << ", seed "
+                              << seed;
+      } else if (off > 1e-4 * (1 + radius)) {
+        ++apart;
+        ASSERT_FALSE(found[k]) << "apart by " << off << ", radius " << radius << ", seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(overlaps, 20000 / thin);
+  EXPECT_GT(apart, 5000 / thin);
+}
+
+// Whether |r + v s| <= 1 for some s in [0, until], in many digits.
+bool spheres_meet(const Vec3d& r, const Vec3d& v, double until) {
+  const auto product = [](const Vec3d& a, const Vec3d& b) {
+    return test::Quad(test::Quad(a.x) * b.x + test::Quad(a.y) * b.y + test::Quad(a.z) * b.z);
+  };
+  const test::Quad vv = product(v, v), rv = product(r, v);
+  test::Quad s = vv > 0 ? test::Quad(-rv / vv) : test::Quad(0);
+  s = std::min(std::max(s, test::Quad(0)), test::Quad(until));
+  return product(r, r) + 2 * rv * s + vv * s * s <= 1;
+}
+
+// Centres in a cell of side 8, at times up to the longest, speeds around the unit and far from it.
+TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t meetings = 0, found_apart = 0, apart = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double now = random.uniform(0, longest_time), ahead = random.log_uniform(1e-3, 4);
+    const auto speed = [&] {
+      const int kind = random.below(8);
+      return kind == 0 ? 0.0 : kind == 1 ? random.log_uniform(1e-6, 1e3) : 1.0;
+    };
+    Flight mine;
+    mine.r = vec3(random.direction()) * random.uniform(0, 3);
+    mine.v = vec3(random.normal_vector(speed()));
+    Seeker seeker =
+        seeker_of(motion_of(mine, 0, 1), static_cast<float>(ahead) + test::lane_time_margin);
+    seeker.motion.time = seeker.now = static_cast<float>(now);
+    std::vector<BlockRow> rows(40);
+    std::vector<Flight> others(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Flight& other = others[k];
+      const double age = random.below(3) == 0 ? 0 : random.uniform(0, now);
+      other.v = vec3(random.normal_vector(speed()));
+      other.r = vec3(random.direction()) * random.uniform(0, 4);
+      if (random.coin()) {
+        // Passing at a distance next to 1.
+        const Vec3d w = other.v - mine.v;
+        const Vec3d across = normalised(cross(vec3(random.direction()), w + Vec3d{1e-30, 0, 0}));
+        const double passing = 1 + (random.coin() ? 1 : -1) * random.log_uniform(1e-9, 1e-2);
+        other.r = mine.r + across * passing - w * random.uniform(0, 1.2 * ahead);
+      }
+      const Vec3d then = other.r - other.v * age - Vec3d{-4, -4, -4};
+      const Vec3d v = other.v;
+      const double values[] = {then.x, then.y, then.z, v.x, v.y, v.z, now - age};
+      for (int c = 0; c < Block::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
+    }
+    const Neighbourhood near = fill(random, seeker, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] : approaching(near_kernels(Isa::scalar), near)) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      // Within a cell while it flew there; beyond, its block would have been written anew.
+      const Vec3d then{rows[k][0], rows[k][1], rows[k][2]};
+      if (dot(then, then) > 400) continue;
+      const Vec3d r = mine.r - others[k].r, v = mine.v - others[k].v;
+      if (spheres_meet(r, v, ahead)) {
+        ++meetings;
+        ASSERT_TRUE(found[k]) << "seed " << seed << ", case " << n;
+      } else if (!spheres_meet(r * 0.99, v * 0.99, ahead)) {
+        ++apart;
+        found_apart += found[k];
+      }
+    }
+  }
+  EXPECT_GT(meetings, 10000 / thin);
+  EXPECT_GT(apart, 10000 / thin);
+  EXPECT_LT(found_apart, apart / 50);
+}
+
+}  // namespace
+}  // namespace needlework::kernels
