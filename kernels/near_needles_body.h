@@ -17,7 +17,7 @@ struct Turned {
   Lanes cosine, sine;
 };
 
-/// Sine and cosine of angles below 2^20 within 2^-20; any number beyond that.
+/// Sine and cosine of angles below 2^12 within 2^-20; beyond 2^15 ever worse.
 inline Turned sine_cosine(Lanes angle) {
   // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
   const Lanes limit(0x1p29f), to_whole(0x1.8p23f);
