@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels/isa.h"
+#include "src/calendar/choice.h"
 #include "src/error.h"
 #include "src/search/choice.h"
 
@@ -17,8 +18,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 const Names searches{"linked-cells", "capsules", "linked-lists", "all-pairs"};
-// What `auto` stands for comes first.
-const Names queues{"indexed-heap"};
+const Names queues{"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"};
 const Names accuracies{"standard"};
 
 bool contains(const Names& names, const std::string& name) {
@@ -39,10 +39,6 @@ void require_instruction_set(const std::string& isa, const std::string& place) {
     throw InputError(
         fmt::format("{}: expected auto or one that this CPU has ({})", place, list(names)));
   }
-}
-
-std::string resolved(const std::string& name, const Names& offered) {
-  return name == "auto" ? offered.front() : name;
 }
 
 }  // namespace
@@ -89,7 +85,9 @@ void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlag
 std::string resolved_search(const Scene::Engine& engine, double density) {
   return engine.search == "auto" ? auto_search(density) : engine.search;
 }
-std::string resolved_queue(const Scene::Engine& engine) { return resolved(engine.queue, queues); }
+std::string resolved_queue(const Scene::Engine& engine) {
+  return engine.queue == "auto" ? auto_queue : engine.queue;
+}
 std::string resolved_isa(const Scene::Engine& engine) {
   return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
 }

@@ -79,7 +79,7 @@ class EventLoop final : public Run {
 template <class Search, class Calendar, Effects effects>
 EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial,
                                                 const SearchSetup& setup)
-    : Run(scene, initial), search_(gas, counters, setup), calendar_(gas.size()) {
+    : Run(scene, initial), search_(gas, counters, setup), calendar_(gas.size(), gas.clock) {
   reorder(gas, order_in_space(gas, now));
   if constexpr (effects.contact_time) {
     last_collision_.assign(gas.size(), Time{-(std::int64_t{1} << 62), 0});
@@ -156,7 +156,7 @@ void EventLoop<Search, Calendar, effects>::sort_storage() {
   search_.renumber(ranks);
   if constexpr (effects.contact_time) permute(last_collision_, order);
   last_shared_ = {};
-  Calendar sorted(gas.size());
+  Calendar sorted(gas.size(), gas.clock);
   for (const Needle i : order) {
     Event event = calendar_.of(i);
     event.owner = ranks[event.owner];

@@ -1,33 +1,15 @@
 #include "src/engine/simulation.h"
 
-#include "src/calendar/indexed_heap.h"
-#include "src/engine/event_loop.h"
+#include "src/calendar/all.h"
+#include "src/calendar/choice.h"
+#include "src/engine/make_run_with.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/scene/check.h"
-#include "src/search/all_pairs.h"
 #include "src/search/choice.h"
-#include "src/search/linked_lists.h"
-#include "src/search/near_search.h"
 
 namespace needlework {
 namespace {
-
-template <class Search, class Calendar>
-std::unique_ptr<Run> with_effects(const Scene& scene, const State& initial,
-                                  const SearchSetup& setup) {
-  const bool rough = scene.collisions.beta != -1;
-  const bool contact_time = scene.collisions.tc || scene.collisions.tc_relative;
-  const auto make = [&]<Effects effects>() -> std::unique_ptr<Run> {
-    return std::make_unique<EventLoop<Search, Calendar, effects>>(scene, initial, setup);
-  };
-  if (rough) {
-    return contact_time ? make.template operator()<Effects{true, true}>()
-                        : make.template operator()<Effects{true, false}>();
-  }
-  return contact_time ? make.template operator()<Effects{false, true}>()
-                      : make.template operator()<Effects{false, false}>();
-}
 
 kernels::Isa isa_of(const std::string& name) {
   const std::vector<kernels::Isa> offered = kernels::available();
@@ -38,31 +20,32 @@ kernels::Isa isa_of(const std::string& name) {
   throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
 }
 
+// Makes the run with that of the calendars whose name it is.
+template <class... Queues>
+std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queue,
+                                const Scene& scene, const State& initial, const std::string& search,
+                                const SearchSetup& setup) {
+  std::unique_ptr<Run> run;
+  const bool found = ((queue == Queues::name &&
+                       (run = make_run_with<Queues>(scene, initial, search, setup), true)) ||
+                      ...);
+  if (found) return run;
+  std::string names = "auto";
+  ((names += std::string(", ") + Queues::name), ...);
+  throw InputError("engine.queue = \"" + queue + "\": expected one of " + names);
+}
+
 }  // namespace
 
 std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
-  const std::string& queue = scene.engine.queue;
-  if (queue != "auto" && queue != IndexedHeap::name) {
-    throw InputError("engine.queue = \"" + queue + "\": expected auto or indexed-heap");
-  }
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius};
   const double volume = initial.box[0] * initial.box[1] * initial.box[2];
   const std::string search = scene.engine.search == "auto"
                                  ? auto_search(static_cast<double>(initial.size()) / volume)
                                  : scene.engine.search;
-  if (search == AllPairs::name) return with_effects<AllPairs, IndexedHeap>(scene, initial, setup);
-  if (search == LinkedLists::name) {
-    return with_effects<LinkedLists, IndexedHeap>(scene, initial, setup);
-  }
-  if (search == LinkedCells::name) {
-    return with_effects<LinkedCells, IndexedHeap>(scene, initial, setup);
-  }
-  if (search == Capsules::name) {
-    return with_effects<Capsules, IndexedHeap>(scene, initial, setup);
-  }
-  throw InputError("engine.search = \"" + search +
-                   "\": expected auto, all-pairs, linked-lists, linked-cells or capsules");
+  const std::string queue = scene.engine.queue == "auto" ? auto_queue : scene.engine.queue;
+  return with_queue(AllCalendars<CalendarList>(), queue, scene, initial, search, setup);
 }
 
 struct Simulation::Implementation {

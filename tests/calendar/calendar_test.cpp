@@ -1,12 +1,14 @@
 // Every calendar against a sorted set on the same random operations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "src/calendar/indexed_heap.h"
+#include "src/calendar/all.h"
 #include "tests/support/random.h"
 
 namespace needlework {
@@ -50,11 +52,22 @@ class SortedReference {
 
 bool equal_in_order(const Event& a, const Event& b) { return !(a < b) && !(b < a); }
 
+/// Gives an event ids that are not indices, as after sorting needles in space.
+Event named(Event event) {
+  const auto id_of = [](Needle i) { return i ^ 5u; };
+  const std::uint32_t mine = id_of(event.owner);
+  const std::uint32_t other = event.is_contact() ? id_of(event.partner) : mine;
+  event.owner_is_lower = mine <= other;
+  event.lower_id = std::min(mine, other);
+  event.higher_id = std::max(mine, other);
+  return event;
+}
+
 /// Times are drawn from few values when `ties`, so that equal ones are common.
 Event draw_event(Random& random, Needle n, std::int64_t epoch, bool ties) {
   Event event;
   event.owner = static_cast<Needle>(random.below(static_cast<int>(n)));
-  if (random.below(20) == 0) return event;  // never
+  if (random.below(20) == 0) return named(event);  // never
   event.time = ties ? Time{epoch + random.below(3), 0.25 * random.below(3)}
                     : Time{epoch + random.below(4), random.uniform()};
   if (n > 1 && random.below(3) > 0) {
@@ -63,29 +76,29 @@ Event draw_event(Random& random, Needle n, std::int64_t epoch, bool ties) {
     } while (event.partner == event.owner);
     event.shift = {random.below(3) - 1, random.below(2), 0};
   }
-  return event;
+  return named(event);
 }
 
-template <class Calendar>
+template <Calendar Queue>
 class CalendarTest : public testing::Test {};
 
-using Calendars = testing::Types<IndexedHeap>;
+using Calendars = AllCalendars<testing::Types>;
 
 struct Names {
-  template <class Calendar>
+  template <Calendar Queue>
   static std::string GetName(int) {
-    std::string name = Calendar::name;
+    std::string name = Queue::name;
     for (char& c : name) c = c == '-' ? '_' : c;
     return name;
   }
 };
 TYPED_TEST_SUITE(CalendarTest, Calendars, Names);
 
-template <class Calendar>
+template <Calendar Queue>
 void expect_reference(Needle n, bool ties) {
   SCOPED_TRACE(std::to_string(n) + " needles, seed " + std::to_string(seed));
   Random random(seed + n + ties);
-  Calendar calendar(n);
+  Queue calendar(n, Clock());
   SortedReference reference(n);
   std::vector<Event> last(n);
   for (Needle i = 0; i < n; ++i) last[i].owner = i;
@@ -108,48 +121,163 @@ void expect_reference(Needle n, bool ties) {
 }
 
 TYPED_TEST(CalendarTest, HasTheEarliestEventOnTop) {
-  for (const Needle n : {1, 2, 3, 5, 6, 21, 22, 1000}) expect_reference<TypeParam>(n, false);
+  for (const Needle n : {1, 2, 3, 5, 6, 21, 22, 64, 65, 513, 1000})
+    expect_reference<TypeParam>(n, false);
 }
 
 TYPED_TEST(CalendarTest, SettlesEqualTimesByTheOrderOfEvents) {
   for (const Needle n : {1, 2, 3, 17, 1000}) expect_reference<TypeParam>(n, true);
 }
 
-// The use of the event loop: take the top, replace it and one other by later events.
-TYPED_TEST(CalendarTest, PopsInTimeOrder) {
-  Random random(seed);
-  constexpr Needle n = 1000;
-  TypeParam calendar(n);
-  SortedReference reference(n);
-  Clock clock;
-  const auto schedule = [&](Needle owner, Time now) {
+// The use of the event loop: the top is taken, and it and one other get later events. Calendar and
+// reference are held against each other at each step.
+template <Calendar Queue>
+class Loop {
+ public:
+  explicit Loop(Needle n, Clock clock = Clock())
+      : clock_(clock), n_(n), calendar_(n, clock), reference_(n) {}
+
+  void schedule(Needle owner, double ahead) {
     Event event;
     event.owner = owner;
-    event.time = clock.add(now, random.exponential());
-    calendar.set(event);
-    reference.set(event);
-  };
-  for (Needle i = 0; i < n; ++i) schedule(i, {});
-  Time now;
-  for (int step = 0; step < operations; ++step) {
-    const Event event = calendar.top();
-    ASSERT_EQ(event.owner, reference.top().owner) << "seed " << seed << ", step " << step;
-    ASSERT_GE(event.time, now);
-    now = event.time;
-    schedule(event.owner, now);
-    schedule(static_cast<Needle>(random.below(n)), now);
+    event.time = clock_.add(now_, ahead);
+    calendar_.set(named(event));
+    reference_.set(named(event));
   }
-  EXPECT_GT(now.epoch, operations / 2000);
+
+  /// `ahead(owner)` is how far ahead a needle's next event is.
+  template <class Ahead>
+  void step(const Ahead& ahead) {
+    const Event event = calendar_.top();
+    ASSERT_TRUE(equal_in_order(event, reference_.top()))
+        << "seed " << seed << ": needle " << event.owner << " instead of "
+        << reference_.top().owner;
+    ASSERT_GE(event.time, now_);
+    now_ = event.time;
+    schedule(event.owner, ahead(event.owner));
+    const Needle other = static_cast<Needle>(random.below(static_cast<int>(n_)));
+    schedule(other, ahead(other));
+  }
+
+  Time now() const { return now_; }
+  const Queue& calendar() const { return calendar_; }
+
+  Random random{seed};
+
+ private:
+  Clock clock_;
+  Needle n_;
+  Queue calendar_;
+  SortedReference reference_;
+  Time now_;
+};
+
+TYPED_TEST(CalendarTest, PopsInTimeOrder) {
+  for (const Needle n : {1, 2, 1000, 100000}) {
+    Loop<TypeParam> loop(n);
+    const auto ahead = [&](Needle) { return loop.random.exponential(); };
+    for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+    for (int step = 0; step < operations; ++step) {
+      ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << n << " needles, step " << step;
+    }
+    if (n <= 1000) {
+      EXPECT_GT(loop.now().epoch, operations / 2000);
+    }
+  }
+}
+
+// A gas that cools: the time between its events grows by fifteen orders of magnitude.
+TYPED_TEST(CalendarTest, FollowsAGrowingTimeScale) {
+  constexpr Needle n = 500;
+  Loop<TypeParam> loop(n);
+  double scale = 1e-3;
+  const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
+  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  const double growth = std::pow(1e15, 1.0 / operations);
+  for (int step = 0; step < operations; ++step, scale *= growth) {
+    ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
+  }
+  EXPECT_GT(loop.now().epoch, std::int64_t{100000000});
+}
+
+// Both scales at once, and changes between them within one event.
+TYPED_TEST(CalendarTest, FollowsSuddenChangesOfTheTimeScale) {
+  constexpr Needle n = 500;
+  Loop<TypeParam> loop(n);
+  const double scales[] = {1, 1e-12, 1e9, 1e-3, 1e12};
+  int step = 0;
+  const auto ahead = [&](Needle owner) {
+    const double scale = scales[step / (operations / 10) % 5];
+    return loop.random.uniform() * (owner % 10 == 0 ? 1e-6 * scale : scale);
+  };
+  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  for (; step < operations; ++step) {
+    ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
+  }
+}
+
+// As at the start of a gas on a lattice: all at one instant, and again and again.
+TYPED_TEST(CalendarTest, TakesAllEventsAtOneInstantByTheirIds) {
+  constexpr Needle n = 20000;
+  TypeParam calendar(n, Clock());
+  const auto put = [&](Needle owner, std::int64_t epoch) {
+    Event event;
+    event.owner = owner;
+    event.time = {epoch, 0.5};
+    calendar.set(named(event));
+  };
+  for (Needle i = 0; i < n; ++i) put(i, 0);
+  for (std::int64_t epoch = 0; epoch < 3; ++epoch) {
+    for (Needle i = 0; i < n; ++i) {
+      const Event event = calendar.top();
+      ASSERT_EQ(event.time.epoch, epoch);
+      ASSERT_EQ(event.lower_id, i);
+      put(event.owner, epoch + 1);
+    }
+  }
+}
+
+TYPED_TEST(CalendarTest, LetsEventsThatNeverHappenComeAndGo) {
+  constexpr Needle n = 300;
+  Loop<TypeParam> loop(n);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  for (const double share : {0.1, 0.9, 0.999, 1.0, 0.0, 0.999, 0.5}) {
+    for (Needle i = 0; i < n; ++i) loop.schedule(i, loop.random.uniform());
+    const auto ahead = [&](Needle) {
+      return loop.random.uniform() < share ? never : loop.random.uniform();
+    };
+    for (int step = 0; step < operations / 20; ++step) {
+      if (loop.calendar().top().time == Time::never()) break;
+      ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << share << " never, step " << step;
+    }
+  }
+}
+
+// A needle that is searched for again and again, as one in a crowd: nothing is popped meanwhile.
+TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
+  constexpr Needle n = 200;
+  Loop<TypeParam> loop(n);
+  for (Needle i = 0; i < n; ++i) loop.schedule(i, 10 + loop.random.uniform());
+  for (int step = 0; step < operations; ++step) {
+    const double ahead = loop.random.uniform(5, 10);
+    loop.schedule(7, ahead);
+    loop.schedule(8, 100 * ahead);
+    if constexpr (requires { loop.calendar().entries(); }) {
+      ASSERT_LE(loop.calendar().entries(), 5 * n + 64);
+    }
+  }
+  ASSERT_NO_FATAL_FAILURE(loop.step([](Needle) { return 1.0; }));
 }
 
 TYPED_TEST(CalendarTest, StartsWithoutEvents) {
-  const TypeParam calendar(3);
+  const TypeParam calendar(3, Clock());
   EXPECT_FALSE(calendar.empty());
   EXPECT_EQ(calendar.top().time, Time::never());
   EXPECT_EQ(calendar.of(2).owner, 2u);
-  EXPECT_TRUE(TypeParam(0).empty());
+  EXPECT_TRUE(TypeParam(0, Clock()).empty());
 }
 
+// Ids are as the indices here.
 Event contact(Needle owner, Needle partner, double time, Shift shift = {}) {
   Event event;
   event.owner = owner;
@@ -169,6 +297,42 @@ Event horizon(Needle owner, double time) {
   return event;
 }
 
+TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
+  constexpr Needle n = 2000;
+  Loop<BucketCalendar> loop(n);
+  double scale = 1;
+  const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
+  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  const double growth = std::pow(1e15, 1.0 / operations);
+  for (int step = 0; step < operations; ++step, scale *= growth) loop.step(ahead);
+  EXPECT_GT(loop.calendar().restarts(), 0u);
+  EXPECT_LT(loop.calendar().restarts() * n, 2u * (n + 2 * operations));
+}
+
+TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
+  constexpr Needle n = 3 * CellCalendar::block_size - 1;
+  CellCalendar calendar(n, Clock());
+  ASSERT_EQ(calendar.blocks(), 3u);
+  Random random(seed);
+  std::vector<Time> time(n, Time::never());
+  for (int step = 0; step < operations; ++step) {
+    Event event;
+    event.owner = static_cast<Needle>(random.below(n));
+    event.time = time[event.owner] = {random.below(9), random.uniform()};
+    calendar.set(event);
+    for (std::uint32_t block = 0; block < 3; ++block) {
+      const Event& next = calendar.top_of(block);
+      ASSERT_EQ(calendar.block_of(next.owner), block);
+      const auto first = time.begin() + block * CellCalendar::block_size;
+      const auto last = block == 2 ? time.end() : first + CellCalendar::block_size;
+      ASSERT_EQ(next.time, *std::min_element(first, last)) << "step " << step;
+      ASSERT_EQ(
+          next.time <= calendar.top().time,
+          calendar.clock_of(block) <= calendar.clock_of(calendar.block_of(calendar.top().owner)));
+    }
+  }
+}
+
 TEST(EventOrder, IsTimeThenHorizonsThenIdsThenShift) {
   EXPECT_LT(contact(5, 6, 0.25), horizon(0, 0.5));
   EXPECT_LT(horizon(9, 0.5), contact(0, 1, 0.5));
@@ -177,6 +341,7 @@ TEST(EventOrder, IsTimeThenHorizonsThenIdsThenShift) {
   EXPECT_LT(contact(3, 2, 0.5), contact(2, 4, 0.5));
   EXPECT_LT(contact(2, 3, 0.5, {-1, 0, 0}), contact(3, 2, 0.5, {0, -1, 0}));
   EXPECT_LT(horizon(4, 0.5), Event());
+  EXPECT_LT(named(contact(4, 1, 0.5)), named(contact(0, 2, 0.5)));  // ids 1, 4 and 5, 7
 }
 
 TEST(EventOrder, TreatsTheCopiesOfOneContactAlike) {

@@ -46,7 +46,6 @@ TEST_F(Usage, BadScenesExitWith3) {
 
 TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
   const std::pair<const char*, const char*> cases[] = {
-      {"--set engine.queue=bucket", "engine.queue = \"bucket\": expected one of auto, "},
       {"--set engine.accuracy=fast", "engine.accuracy = \"fast\": expected one of auto, standard"},
       {"--threads 2", "--threads 2: expected 1"},
       {"--set engine.threads=2", "engine.threads = 2: expected 1"},

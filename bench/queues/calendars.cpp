@@ -1,0 +1,155 @@
+// The calendars by themselves: time per event that is popped and replaced.
+//
+// hold: the least event is replaced and that of one other needle, anywhere.
+// mix: what the engine does. A needle's next event is a horizon, at most a cell's flight ahead,
+// seven times in ten, else a contact with a needle near it in storage, which replaces both.
+//
+// Names are MODEL/CALENDAR/NEEDLES; an iteration is an event.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "src/calendar/all.h"
+
+namespace needlework {
+namespace {
+
+// splitmix64 (Steele, Lea, Flood 2014).
+class Random {
+ public:
+  std::uint64_t bits() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+  }
+  std::uint32_t below(std::uint32_t n) {
+    return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
+  }
+  double uniform() { return (static_cast<double>(bits() >> 12) + 0.5) * 0x1p-52; }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+// All times are in the first epoch, so that the clock's arithmetic is not what is measured.
+const Clock clock_of_play(0x1p40);
+Time later(Time now, double ahead) { return {now.epoch, now.offset + ahead}; }
+
+// Drawn beforehand, for the same reason.
+const std::vector<double>& exponentials() {
+  static const std::vector<double> drawn = [] {
+    std::vector<double> x(1 << 16);
+    Random random;
+    for (double& value : x) value = -std::log(random.uniform());
+    return x;
+  }();
+  return drawn;
+}
+
+struct Hold {
+  static constexpr const char* name = "hold";
+
+  Event draw(Needle owner, Needle, Time now) {
+    Event event;
+    event.owner = owner;
+    event.lower_id = event.higher_id = owner;
+    event.time = later(now, times[random.bits() & 0xffff]);
+    return event;
+  }
+  Needle other(const Event&, Needle n) { return random.below(n); }
+
+  Random random;
+  const std::vector<double>& times = exponentials();
+};
+
+struct Mix {
+  static constexpr const char* name = "mix";
+
+  Event draw(Needle owner, Needle n, Time now) {
+    Event event;
+    event.owner = owner;
+    const std::uint64_t bits = random.bits();
+    double ahead = 0.2 * times[bits & 0xffff];
+    event.lower_id = event.higher_id = owner;
+    if ((bits >> 16 & 0xff) < 77) {
+      const std::uint32_t near = static_cast<std::uint32_t>(bits >> 24 & 0x3f) + 1;
+      event.partner = owner + near < n ? owner + near : owner - std::min(owner, near);
+      event.lower_id = std::min(owner, event.partner);
+      event.higher_id = std::max(owner, event.partner);
+      event.owner_is_lower = event.lower_id == owner;
+    } else {
+      ahead = 0.4 * static_cast<double>(bits >> 32) * 0x1p-32;
+    }
+    event.time = later(now, ahead);
+    return event;
+  }
+  Needle other(const Event& event, Needle) { return event.partner; }
+
+  Random random;
+  const std::vector<double>& times = exponentials();
+};
+
+template <class Model, Calendar Queue>
+class Play {
+ public:
+  explicit Play(Needle n) : calendar_(n, clock_of_play), n_(n) {
+    for (Needle i = 0; i < n; ++i) calendar_.set(model_.draw(i, n, {}));
+  }
+  Event step() {
+    const Event event = calendar_.top();
+    const Needle other = model_.other(event, n_);
+    calendar_.set(model_.draw(event.owner, n_, event.time));
+    if (other != no_needle) calendar_.set(model_.draw(other, n_, event.time));
+    return event;
+  }
+
+ private:
+  Model model_;
+  Queue calendar_;
+  Needle n_;
+};
+
+template <class Model, Calendar Queue>
+void check_against_plain() {
+  Play<Model, Queue> play(1000);
+  Play<Model, LazyHeap> plain(1000);
+  for (int n = 0; n < 20000; ++n) {
+    const Event event = play.step(), expected = plain.step();
+    if (event < expected || expected < event) {
+      throw std::logic_error(std::string(Queue::name) + ": wrong event");
+    }
+  }
+}
+
+template <class Model, Calendar Queue>
+void measure(benchmark::State& state) {
+  check_against_plain<Model, Queue>();
+  const Needle n = static_cast<Needle>(state.range(0));
+  Play<Model, Queue> play(n);
+  for (Needle step = 0; step < 2 * n; ++step) play.step();  // to the stationary state
+  for (auto _ : state) benchmark::DoNotOptimize(play.step());
+  state.SetItemsProcessed(state.iterations());
+}
+
+template <class Model, class... Queues>
+void add(CalendarList<Queues...>) {
+  for (const std::int64_t n : {1000, 10000, 100000, 1000000}) {
+    (benchmark::RegisterBenchmark((std::string(Model::name) + "/" + Queues::name).c_str(),
+                                  measure<Model, Queues>)
+         ->Arg(n),
+     ...);
+  }
+}
+
+const bool added =
+    (add<Hold>(AllCalendars<CalendarList>()), add<Mix>(AllCalendars<CalendarList>()), true);
+
+}  // namespace
+}  // namespace needlework

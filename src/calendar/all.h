@@ -1,0 +1,24 @@
+// All calendars there are.
+#pragma once
+
+#include "src/calendar/bucket_calendar.h"
+#include "src/calendar/calendar.h"
+#include "src/calendar/cell_calendar.h"
+#include "src/calendar/indexed_heap.h"
+#include "src/calendar/lazy_heap.h"
+#include "src/calendar/tournament.h"
+
+namespace needlework {
+
+/// Types to be deduced from an argument.
+template <class... Queues>
+struct CalendarList {};
+
+static_assert(Calendar<LazyHeap> && Calendar<IndexedHeap> && Calendar<Tournament> &&
+              Calendar<BucketCalendar> && Calendar<CellCalendar>);
+
+/// Their types in a list, such as CalendarList or testing::Types.
+template <template <class...> class List>
+using AllCalendars = List<LazyHeap, IndexedHeap, Tournament, BucketCalendar, CellCalendar>;
+
+}  // namespace needlework

@@ -1,0 +1,60 @@
+// The events of all needles, and short keys by which calendars compare them.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/calendar/event.h"
+
+namespace needlework {
+
+/// Orders events by time as far as a double can tell; `never` has the greatest. Events with equal
+/// keys are compared in full.
+using TimeKey = std::uint64_t;
+
+/// One event for each needle: 64 bytes a needle, so that an event is one cache line.
+class EventTable {
+ public:
+  EventTable(std::size_t n, const Clock& clock) : slots_(n), clock_(clock) {
+    for (std::size_t i = 0; i < n; ++i) slots_[i].event.owner = static_cast<Needle>(i);
+  }
+
+  std::size_t size() const { return slots_.size(); }
+  const Event& operator[](Needle i) const { return slots_[i].event; }
+  const Clock& clock() const { return clock_; }
+
+  /// Replaces the event of its owner and gives its key.
+  TimeKey put(const Event& event) {
+    slots_[event.owner].event = event;
+    return key_of(event.time);
+  }
+  TimeKey key(Needle i) const { return key_of(slots_[i].event.time); }
+  TimeKey key_of(const Time& time) const {
+    // Numbers that are not negative are ordered as their bits are; + 0.0 makes -0 one of them.
+    return std::bit_cast<std::uint64_t>(clock_.since_start(time) + 0.0);
+  }
+
+  static double time_of(TimeKey key) { return std::bit_cast<double>(key); }
+
+  /// The order of events in full, for those whose keys are equal.
+  bool before(Needle a, Needle b) const { return slots_[a].event < slots_[b].event; }
+
+  /// Brings an event that will soon be on top near.
+  void prefetch([[maybe_unused]] Needle i) const {
+#ifdef __GNUC__
+    __builtin_prefetch(&slots_[i]);
+#endif
+  }
+
+ private:
+  struct alignas(64) Slot {
+    Event event;
+  };
+
+  std::vector<Slot> slots_;
+  Clock clock_;
+};
+
+}  // namespace needlework

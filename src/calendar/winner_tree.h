@@ -1,0 +1,123 @@
+// A tournament: matches of eight, whose winners meet in the next round.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/calendar/event_table.h"
+
+namespace needlework {
+
+/// Eight keys, a cache line. Places that nobody has are filled with keys greater than all others
+/// and different from each other.
+struct alignas(64) KeyLine {
+  static constexpr std::uint32_t width = 8;
+
+  std::array<TimeKey, width> key = {~TimeKey{0}, ~TimeKey{1}, ~TimeKey{2}, ~TimeKey{3},
+                                    ~TimeKey{4}, ~TimeKey{5}, ~TimeKey{6}, ~TimeKey{7}};
+};
+
+/// The least of the keys, and in bit n whether the one at place n is equal to it. Without branches:
+/// which key is the least cannot be foretold.
+struct LeastKeys {
+  explicit LeastKeys(const KeyLine& line)
+      : key(std::min(
+            std::min(std::min(line.key[0], line.key[1]), std::min(line.key[2], line.key[3])),
+            std::min(std::min(line.key[4], line.key[5]), std::min(line.key[6], line.key[7])))) {
+    for (std::uint32_t n = 0; n < KeyLine::width; ++n) {
+      places |= static_cast<std::uint32_t>(line.key[n] == key) << n;
+    }
+  }
+
+  TimeKey key;
+  std::uint32_t places = 0;
+};
+
+/// Players 0 to n - 1 with a key each, at first equal ones; the least wins. A complete tree, but of
+/// eight to a match in place of two: a match is a cache line, and a tree of 1e6 has 7 rounds in
+/// place of 20.
+///
+/// 9.7 bytes a player.
+class WinnerTree {
+ public:
+  explicit WinnerTree(std::size_t n, TimeKey key) {
+    std::size_t players = n;
+    do {
+      const std::size_t lines = (players + KeyLine::width - 1) / KeyLine::width;
+      first_.push_back(lines_.size());
+      lines_.resize(lines_.size() + lines);
+      for (std::size_t i = 0; i < players; ++i) {
+        lines_[first_.back() + i / KeyLine::width].key[i % KeyLine::width] = key;
+      }
+      players = lines;
+    } while (players > 1);
+    for (std::size_t round = 0, span = KeyLine::width; round < first_.size(); ++round) {
+      const std::size_t end = round + 1 < first_.size() ? first_[round + 1] : lines_.size();
+      for (std::size_t i = 0; first_[round] + i < end; ++i) {
+        winner_.push_back(static_cast<std::uint32_t>(i * span));
+      }
+      span *= KeyLine::width;
+    }
+  }
+
+  /// The player with the least key. There is one.
+  std::uint32_t winner() const { return winner_.back(); }
+  TimeKey key(std::uint32_t player) const {
+    return lines_[player / KeyLine::width].key[player % KeyLine::width];
+  }
+
+  /// Gives a player a new key and plays its matches again, up to the first whose outcome stays.
+  /// Where keys are equal, before(a, b) tells whether player a is before b. `near(player)` is
+  /// called for a player who has come within one round of winning. O(log n).
+  template <class Before, class Near>
+  void update(std::uint32_t player, TimeKey key, const Before& before, const Near& near) {
+    std::size_t contestant = player;  // a player, then the number of the match that it won
+    for (std::size_t round = 0;; ++round) {
+      const std::size_t match = first_[round] + contestant / KeyLine::width;
+      KeyLine& line = lines_[match];
+      line.key[contestant % KeyLine::width] = key;
+      std::uint32_t& winner = winner_[match];
+      if (winner != player) {
+        const TimeKey best = line.key[(winner >> (round * log2_width)) % KeyLine::width];
+        if (best < key || (best == key && !before(player, winner))) return;
+        winner = player;
+      } else {
+        const LeastKeys least(line);
+        key = least.key;
+        winner = winner_among(round, contestant, least.places, before);
+      }
+      if (round + 1 == first_.size()) return;
+      if (round + 2 == first_.size()) near(winner);
+      contestant /= KeyLine::width;
+    }
+  }
+
+ private:
+  static constexpr std::size_t log2_width = 3;
+
+  // The winner of a contestant's match, one of those whose keys are equal.
+  template <class Before>
+  std::uint32_t winner_among(std::size_t round, std::size_t contestant, std::uint32_t places,
+                             const Before& before) const {
+    const auto player_at = [&](std::uint32_t bits) {
+      const std::size_t at = contestant / KeyLine::width * KeyLine::width +
+                             static_cast<std::size_t>(std::countr_zero(bits));
+      return round == 0 ? static_cast<std::uint32_t>(at) : winner_[first_[round - 1] + at];
+    };
+    std::uint32_t best = player_at(places);
+    while ((places &= places - 1) != 0) {
+      if (const std::uint32_t other = player_at(places); before(other, best)) best = other;
+    }
+    return best;
+  }
+
+  std::vector<std::size_t> first_;     ///< line of each round
+  std::vector<KeyLine> lines_;         ///< the matches, round by round
+  std::vector<std::uint32_t> winner_;  ///< of each match
+};
+
+}  // namespace needlework

@@ -1,0 +1,10 @@
+#include "src/calendar/tournament.h"
+
+#include "src/engine/make_run_with_body.h"
+
+namespace needlework {
+
+template std::unique_ptr<Run> make_run_with<Tournament>(const Scene&, const State&,
+                                                        const std::string&, const SearchSetup&);
+
+}  // namespace needlework

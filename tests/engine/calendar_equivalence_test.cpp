@@ -1,0 +1,29 @@
+// Every calendar gives the same events, bit for bit, through sorting of the storage and a mean free
+// time that grows.
+#include <gtest/gtest.h>
+
+#include "src/calendar/all.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+template <Calendar Queue>
+class CalendarEquivalence : public testing::Test {};
+TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>);
+
+TYPED_TEST(CalendarEquivalence, GivesTheEventsOfTheLazyHeap) {
+  for (const double epsilon : {1.0, 0.5}) {
+    Scene scene = test::scene_of(300, 6, 4);
+    scene.collisions.epsilon = epsilon;
+    if (epsilon < 1) scene.collisions.tc_relative = 1e-2;
+    scene.engine.queue = LazyHeap::name;
+    const test::Recorded plain = test::record(scene, 1500);
+    scene.engine.queue = TypeParam::name;
+    EXPECT_STREQ(Simulation(scene).queue().c_str(), TypeParam::name);
+    EXPECT_EQ(test::record(scene, 1500).hash, plain.hash) << "epsilon " << epsilon;
+  }
+}
+
+}  // namespace
+}  // namespace needlework
