@@ -9,6 +9,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/output_path.h"
 #include "src/cli/scene_source.h"
+#include "src/scene/check.h"
 
 namespace needlework::cli {
 
@@ -24,7 +25,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] {
     const LoadedScene loaded = load_scene(arguments->scene);
     const std::string& file = loaded.scene.output.file;
-    if (!file.empty()) require_writable(file, true);
+    if (!file.empty()) require_writable(file, true, place_of(loaded.scene, "output.file", file));
     const Explanation explanation(loaded);
     for (const std::string& warning : explanation.warnings) print_warning(warning);
     if (arguments->json) {

@@ -10,6 +10,7 @@
 #include "kernels/isa.h"
 #include "src/calendar/choice.h"
 #include "src/error.h"
+#include "src/scene/check.h"
 #include "src/search/choice.h"
 
 namespace needlework::cli {
@@ -49,16 +50,17 @@ std::vector<std::string> instruction_sets() {
   return names;
 }
 
-void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlags& flags) {
+void choose_engine(Scene& scene, const EngineFlags& flags) {
   Scene::Engine& engine = scene.engine;
-  const auto place = [&](const char* key, const std::string& value) {
-    return fmt::format("{}: engine.{} = \"{}\"", scene_path, key, value);
+  const auto require_value_offered = [&](const char* key, const std::string& value,
+                                         const Names& offered) {
+    require_offered(value, place_of(scene, key, value), offered);
   };
-  require_offered(engine.search, place("search", engine.search), searches);
-  require_offered(engine.queue, place("queue", engine.queue), queues);
-  require_offered(engine.accuracy, place("accuracy", engine.accuracy), accuracies);
+  require_value_offered("engine.search", engine.search, searches);
+  require_value_offered("engine.queue", engine.queue, queues);
+  require_value_offered("engine.accuracy", engine.accuracy, accuracies);
 
-  std::string isa_place = place("isa", engine.isa);
+  std::string isa_place = place_of(scene, "engine.isa", engine.isa);
   const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
   if (flags.isa) {
     engine.isa = *flags.isa;
@@ -71,7 +73,7 @@ void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlag
 
   // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
   std::string threads_place =
-      fmt::format("{}: engine.threads = {}", scene_path, engine.threads.value_or(1));
+      place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
   if (flags.threads) {
     engine.threads = *flags.threads;
     threads_place = fmt::format("--threads {}", *flags.threads);

@@ -22,7 +22,7 @@ std::vector<std::string> instruction_sets();
 /// checks that search, queue, accuracy, threads and ISA are on offer. OMP_NUM_THREADS is a wish for
 /// at most so many threads; as the engine has one thread, every value of it is met by 1.
 /// Throws InputError naming the value, where it was set, and what is available.
-void choose_engine(Scene& scene, const std::string& scene_path, const EngineFlags& flags);
+void choose_engine(Scene& scene, const EngineFlags& flags);
 
 /// The names that `auto` stands for.
 std::string resolved_search(const Scene::Engine& engine, double density);

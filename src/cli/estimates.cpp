@@ -9,6 +9,7 @@
 #include "src/cli/resources.h"
 #include "src/error.h"
 
+#include "src/scene/check.h"
 namespace needlework::cli {
 namespace {
 
@@ -33,14 +34,14 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
   return 70e-6 + 11e-6 * density;
 }
 
-void require_memory(const Scene& scene, const std::string& scene_path) {
+void require_memory(const Scene& scene) {
   const double needed = estimated_memory(scene);
   const double available = available_memory();
   if (needed <= available) return;
-  throw InputError(fmt::format(
-      "{}: needles.count = {}: expected fewer: the run needs about {} of memory, and {} are "
-      "available here",
-      scene_path, scene.needles.count, bytes_text(needed), bytes_text(available)));
+  throw InputError(
+      fmt::format("{}: expected fewer: the run needs about {} of memory, and {} are available here",
+                  place_of(scene, "needles.count", fmt::to_string(scene.needles.count)),
+                  bytes_text(needed), bytes_text(available)));
 }
 
 }  // namespace needlework::cli

@@ -12,6 +12,6 @@ double estimated_memory(const Scene& scene);
 double estimated_seconds_per_collision(const Scene& scene, double density);
 
 /// Throws InputError naming needles.count if the run needs more memory than there is.
-void require_memory(const Scene& scene, const std::string& scene_path);
+void require_memory(const Scene& scene);
 
 }  // namespace needlework::cli

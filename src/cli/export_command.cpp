@@ -23,7 +23,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
   command->add_option("OUT", arguments->to, "VTKHDF file to write, called .vtkhdf")->required();
   command->add_flag("--force", arguments->force, "replace an existing file");
   command->callback([arguments, &exit_code] {
-    require_writable(arguments->to, arguments->force);
+    require_writable(arguments->to, arguments->force, arguments->to);
     io::write_vtkhdf(arguments->to, arguments->force, io::read_last_frame(arguments->from));
     exit_code = ok;
   });

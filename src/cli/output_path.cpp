@@ -9,26 +9,26 @@
 
 namespace needlework::cli {
 
-void require_writable(const std::string& file, bool force) {
+void require_writable(const std::string& file, bool force, const std::string& place) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path path(file);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {
-    throw IoError(
-        fmt::format("{}: cannot be written: there is no folder {}", file, folder.string()));
+    throw IoError(fmt::format("{}: cannot be written: expected a folder that exists, not {}", place,
+                              folder.string()));
   }
   if (fs::exists(path, ignored)) {
     if (!fs::is_regular_file(path, ignored)) {
-      throw IoError(file + ": cannot be written: it is not an ordinary file");
+      throw IoError(place + ": cannot be written: expected an ordinary file");
     }
     if (!force) {
-      throw IoError(file + ": exists already: expected a new file, or --force to replace it");
+      throw IoError(place + ": exists already: expected a new file, or --force to replace it");
     }
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw IoError(
-        fmt::format("{}: cannot be written: no permission to write in {}", file, folder.string()));
+    throw IoError(fmt::format("{}: cannot be written: expected permission to write in {}", place,
+                              folder.string()));
   }
 }
 

@@ -5,9 +5,9 @@
 
 namespace needlework::cli {
 
-/// Throws IoError, with the reason, if `file` could not be made there, or exists already and
+/// Throws IoError, "PLACE: REASON", if `file` could not be made there, or exists already and
 /// `force` is false. Makes nothing. Asked before a run, so that no computing is wasted on a result
-/// that cannot be kept.
-void require_writable(const std::string& file, bool force);
+/// that cannot be kept. The place is where the file was named.
+void require_writable(const std::string& file, bool force, const std::string& place);
 
 }  // namespace needlework::cli

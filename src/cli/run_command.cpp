@@ -60,9 +60,12 @@ int exit_code_of(const Course& course, const Scene& scene) {
 int run(const RunArguments& arguments) {
   LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
-  if (arguments.out) scene.output.file = *arguments.out;
+  if (arguments.out) {
+    scene.output.file = *arguments.out;
+    scene.places["output.file"] = "--out " + *arguments.out;
+  }
   const std::string& file = scene.output.file;
-  if (!file.empty()) require_writable(file, arguments.force);
+  if (!file.empty()) require_writable(file, arguments.force, place_of(scene, "output.file", file));
   for (const std::string& warning : warnings(scene)) print_warning(warning);
 
   Stopwatch setup;

@@ -1,11 +1,8 @@
 #include "src/cli/scene_source.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "src/cli/estimates.h"
-#include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/scene/check.h"
 #include "src/scene/parse.h"
@@ -14,14 +11,6 @@ namespace needlework::cli {
 namespace {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
-
-void adopt(Scene& scene, const State& state, const std::string& path) {
-  try {
-    adopt_count_and_box(scene, state);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", path, error.what()));
-  }
-}
 
 }  // namespace
 
@@ -45,12 +34,12 @@ LoadedScene load_scene(const SceneArguments& arguments) {
   LoadedScene loaded;
   Scene& scene = loaded.scene;
   scene = read_scene(arguments.path, arguments.overrides);
-  choose_engine(scene, arguments.path, arguments.engine);
-  require_memory(scene, arguments.path);
+  choose_engine(scene, arguments.engine);
+  require_memory(scene);
   if (!scene.initial.file.empty()) {
     loaded.initial = io::read_last_frame(scene.initial.file);
-    adopt(scene, *loaded.initial, arguments.path);
-    require_memory(scene, arguments.path);
+    adopt_count_and_box(scene, *loaded.initial);
+    require_memory(scene);
   }
   return loaded;
 }

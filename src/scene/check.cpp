@@ -83,23 +83,34 @@ std::vector<std::string> warnings(const Scene& scene) {
   return list;
 }
 
+std::string place_of(const Scene& scene, std::string_view key, std::string_view value) {
+  const auto found = scene.places.find(key);
+  return found == scene.places.end() ? fmt::format("{} = {}", key, value) : found->second;
+}
+
 void adopt_count_and_box(Scene& scene, const State& state) {
   Scene::Needles& needles = scene.needles;
+  const std::string& file = scene.initial.file;
   if (needles.count != 0 && needles.count != state.size()) {
-    throw InputError(fmt::format("needles.count = {}: expected {}, as in {}", needles.count,
-                                 state.size(), scene.initial.file));
+    throw InputError(fmt::format("{}: expected {}, as in {}",
+                                 place_of(scene, "needles.count", fmt::to_string(needles.count)),
+                                 state.size(), file));
   }
   const bool given = needles.box != std::array<double, 3>{};
   const auto agrees = [](double edge, double expected) {
     return std::abs(edge - expected) <= 1e-12 * expected;
   };
+  const auto text = [](const std::array<double, 3>& box) {
+    return fmt::format("[{}]", fmt::join(box, ", "));
+  };
   if (given && !std::equal(needles.box.begin(), needles.box.end(), state.box.begin(), agrees)) {
-    throw InputError(fmt::format("needles.box = [{}]: expected [{}], as in {}",
-                                 fmt::join(needles.box, ", "), fmt::join(state.box, ", "),
-                                 scene.initial.file));
+    throw InputError(fmt::format("{}: expected {}, as in {}",
+                                 place_of(scene, "needles.box", text(needles.box)), text(state.box),
+                                 file));
   }
   needles.count = state.size();
   needles.box = state.box;
+  scene.places.emplace("needles.count", fmt::format("{}: {} needles", file, needles.count));
 }
 
 }  // namespace needlework

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/scene/scene.h"
@@ -14,9 +15,14 @@ namespace needlework {
 /// Overrides and flags must have been applied.
 std::vector<std::string> warnings(const Scene& scene);
 
+/// How messages name a key of the scene: the place where it was given, or "KEY = VALUE" where that
+/// is unknown.
+std::string place_of(const Scene& scene, std::string_view key, std::string_view value);
+
 /// Completes a scene that starts from scene.initial.file by the count and the box of the state read
 /// there. Where the scene gives them itself (not 0), they must agree, edges to a
-/// relative 1e-12, else InputError: "needles.KEY = VALUE: expected ..., as in FILE".
+/// relative 1e-12, else InputError: "PLACE: expected ..., as in FILE". A count that the scene does
+/// not give is named after the file from then on.
 void adopt_count_and_box(Scene& scene, const State& state);
 
 }  // namespace needlework

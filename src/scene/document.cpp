@@ -116,17 +116,17 @@ Entry parse_override(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view path = trimmed(text.substr(0, equals));
   const std::size_t dot = path.find('.');
-  const bool complete = equals != std::string_view::npos && dot != std::string_view::npos;
+  const bool has_section = dot != std::string_view::npos;
   Entry entry;
   entry.is_override = true;
-  if (complete) {
-    entry.section = trimmed(path.substr(0, dot));
-    entry.key = trimmed(path.substr(dot + 1));
-    entry.override_text = trimmed(text.substr(equals + 1));
-  }
-  if (!is_bare_key(entry.section) || !is_bare_key(entry.key))
+  if (has_section) entry.section = trimmed(path.substr(0, dot));
+  entry.key = has_section ? trimmed(path.substr(dot + 1)) : path;
+  const bool complete = equals != std::string_view::npos && is_bare_key(entry.key) &&
+                        (!has_section || is_bare_key(entry.section));
+  if (!complete)
     throw InputError(
         fmt::format("--set {}: expected section.key=value", printable(text, value_limit)));
+  entry.override_text = trimmed(text.substr(equals + 1));
   return entry;
 }
 
@@ -151,18 +151,21 @@ Document::Document(std::string_view text, std::string_view name,
   }
 }
 
-InputError Document::error(const Entry& entry, std::string_view expected) const {
+std::string Document::place(const Entry& entry) const {
   std::string key = printable(entry.section, key_limit);
   if (!entry.is_head) key += (key.empty() ? "" : ".") + printable(entry.key, key_limit);
   if (entry.is_override)
-    return InputError(
-        fmt::format("--set {}={}: {}", key, printable(entry.override_text, value_limit), expected));
-  const std::string place =
+    return fmt::format("--set {}={}", key, printable(entry.override_text, value_limit));
+  const std::string line =
       fmt::format("{}: line {}: ", printable(name_, name_limit), entry.region.line);
-  if (entry.is_head) return InputError(fmt::format("{}[{}]: {}", place, key, expected));
+  if (entry.is_head) return fmt::format("{}[{}]", line, key);
   const std::string source = source_of(entry.region);
   const std::string value = source.empty() ? "{...}" : printable(source, value_limit);
-  return InputError(fmt::format("{}{} = {}: {}", place, key, value, expected));
+  return fmt::format("{}{} = {}", line, key, value);
+}
+
+InputError Document::error(const Entry& entry, std::string_view expected) const {
+  return InputError(fmt::format("{}: {}", place(entry), expected));
 }
 
 InputError Document::missing(std::string_view what, std::string_view expected) const {

@@ -50,13 +50,16 @@ struct Entry {
 class Document {
  public:
   /// Throws InputError for what is no TOML, is nested deeper than any scene needs, or is an
-  /// override without "section.key=".
+  /// override without "section.key=" or "key=".
   Document(std::string_view text, std::string_view name, std::span<const std::string> overrides);
 
   const std::vector<Entry>& entries() const { return entries_; }
 
-  /// The error to throw for an entry: "NAME: line N: section.key = VALUE: expected ...", or
-  /// "--set section.key=VALUE: expected ..." for an override.
+  /// How messages name an entry: "NAME: line N: section.key = VALUE", or "--set section.key=VALUE"
+  /// for an override.
+  std::string place(const Entry& entry) const;
+
+  /// The error to throw for an entry: "PLACE: expected ...".
   InputError error(const Entry& entry, std::string_view expected) const;
 
   /// The error to throw for what is not there: "NAME: WHAT is missing: expected ...".

@@ -115,6 +115,7 @@ Scene parse_scene(std::string_view text, std::string_view name,
     if (const std::string_view reason = conflict(full_name(entry), given); !reason.empty())
       throw document.error(entry, reason);
     given.insert(full_name(entry));
+    scene.places[full_name(entry)] = document.place(entry);
   }
   require_what_is_needed(scene, document, given);
   scene.text = annotated(text, overrides);

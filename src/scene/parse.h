@@ -15,12 +15,13 @@ inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 
 /// Parses the text of a scene. `name` is used in messages.
 ///
-/// Each override reads "section.key=value" with the value in TOML; what is no TOML value is taken
-/// as a string, so that engine.search=all-pairs needs no quotes. An override replaces or adds its
-/// key before anything is checked, and the last one for a key counts. It never removes a key, but
-/// two replace alternatives that the file has chosen: collisions.tc and collisions.tc_relative each
-/// replace the other, and initial.file replaces initial.t_tr and initial.t_rot. A temperature given
-/// over a file's initial.file stays an error, as it could mean either to redraw or to rescale.
+/// Each override reads "section.key=value" ("title=value") with the value in TOML; what is no TOML
+/// value is taken as a string, so that engine.search=all-pairs needs no quotes. An override
+/// replaces or adds its key before anything is checked, and the last one for a key counts. It never
+/// removes a key, but two replace alternatives that the file has chosen: collisions.tc and
+/// collisions.tc_relative each replace the other, and initial.file replaces initial.t_tr and
+/// initial.t_rot. A temperature given over a file's initial.file stays an error, as it could mean
+/// either to redraw or to rescale.
 ///
 /// Without overrides the scene's text is the text as read; each override is added to it as a
 /// comment "# --set section.key=value". needles.count and needles.box may be missing only when

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +65,9 @@ struct Scene {
   Output output;
 
   std::string text;  ///< the scene file as read, overrides appended; kept in the output
+  /// Where each key "section.key" was given, with its value, as messages name it; none for what
+  /// was not read from a file: "FILE: line N: section.key = VALUE" or "--set section.key=VALUE".
+  std::map<std::string, std::string, std::less<>> places;
 };
 
 /// Phase-space state of N needles as arrays of N x 3 numbers, row by row.

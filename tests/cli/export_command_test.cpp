@@ -26,7 +26,7 @@ TEST_F(ExportCommand, WritesNothingAfterAnError) {
   for (const auto& [arguments, message] :
        {std::pair{"absent.h5 a.vtkhdf", "absent.h5: No such file"},
         {"text.h5 a.vtkhdf", "text.h5: not an HDF5 file"},
-        {"text.h5 x/a.vtkhdf", "x/a.vtkhdf: cannot be written: there is no folder x"}}) {
+        {"text.h5 x/a.vtkhdf", "x/a.vtkhdf: cannot be written: expected a folder that exists"}}) {
     const Outcome outcome = run(std::string("export ") + arguments);
     EXPECT_EQ(outcome.exit_code, 5) << arguments;
     EXPECT_TRUE(outcome.complains(message));

@@ -196,10 +196,13 @@ TEST_F(RunCommand, GoesOnFromItsOwnFile) {
 
   const Outcome other = run("run next.toml --set needles.count=49");
   EXPECT_EQ(other.exit_code, 3);
-  EXPECT_TRUE(other.complains("needles.count = 49: expected 50, as in first.h5"));
+  EXPECT_TRUE(other.complains("--set needles.count=49: expected 50, as in first.h5"));
   const Outcome wider = run("run next.toml --set needles.box=6");
   EXPECT_EQ(wider.exit_code, 3);
-  EXPECT_TRUE(wider.complains("needles.box = [6, 6, 6]: expected [5, 5, 5], as in first.h5"));
+  EXPECT_TRUE(wider.complains("--set needles.box=6: expected [5, 5, 5], as in first.h5"));
+  write("fewer.toml", "[initial]\nfile = \"first.h5\"\n[needles]\ncount = 7\n[until]\ntime = 1\n");
+  EXPECT_TRUE(run("run fewer.toml")
+                  .complains("fewer.toml: line 4: needles.count = 7: expected 50, as in first.h5"));
 }
 
 TEST_F(RunCommand, SavesAndExitsWith75AfterASignal) {

@@ -46,9 +46,10 @@ TEST_F(Usage, BadScenesExitWith3) {
 
 TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
   const std::pair<const char*, const char*> cases[] = {
-      {"--set engine.accuracy=fast", "engine.accuracy = \"fast\": expected one of auto, standard"},
+      {"--set engine.accuracy=fast",
+       "--set engine.accuracy=fast: expected one of auto, standard (all that this version offers)"},
       {"--threads 2", "--threads 2: expected 1"},
-      {"--set engine.threads=2", "engine.threads = 2: expected 1"},
+      {"--set engine.threads=2", "--set engine.threads=2: expected 1"},
       {"--isa bogus", "--isa bogus: expected auto or one that this CPU has (scalar"},
       {"--isa AVX2", "--isa AVX2: expected "}};
   const auto expect_refusal = [&](const std::string& arguments, const std::string& message) {
@@ -63,14 +64,30 @@ TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
     if (std::find(available.begin(), available.end(), isa) != available.end()) continue;
     const std::string name(kernels::name_of(isa));
     expect_refusal("--isa " + name, "--isa " + name + ": expected ");
-    expect_refusal("--set engine.isa=" + name, "engine.isa = \"" + name + "\": expected ");
+    expect_refusal("--set engine.isa=" + name, "--set engine.isa=" + name + ": expected ");
   }
 }
 
 TEST_F(Usage, MoreNeedlesThanMemoryExitWith3) {
   const Outcome outcome = run("run small.toml --set needles.count=4000000000");
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_TRUE(outcome.complains("needles.count = 4000000000: expected fewer: "));
+  EXPECT_TRUE(outcome.complains("--set needles.count=4000000000: expected fewer: the run needs"));
+}
+
+TEST_F(Usage, WhatThisMachineLacksIsNamedWithItsLine) {
+  const auto expect_refusal = [&](const std::string& scene, const std::string& message) {
+    write("much.toml", scene);
+    for (const char* command : {"run", "check"}) {
+      const Outcome outcome = run(std::string(command) + " much.toml");
+      EXPECT_EQ(outcome.exit_code, 3) << scene;
+      EXPECT_TRUE(outcome.complains("needlework: much.toml: line " + message));
+    }
+  };
+  expect_refusal("[needles]\nbox = 1e4\ncount = 4_000_000_000\n[until]\ntime = 1\n",
+                 "3: needles.count = 4_000_000_000: expected fewer: ");
+  const std::string rest = "needles = {count = 5, box = 5}\nuntil.time = 1\n[engine]\n";
+  expect_refusal(rest + "accuracy = 'fast'\n", "4: engine.accuracy = 'fast': expected one of");
+  expect_refusal(rest + "threads = 2\n", "4: engine.threads = 2: expected 1");
 }
 
 TEST_F(Usage, RunsInWhichNothingHappensNeedAnEndTime) {
@@ -102,13 +119,18 @@ TEST_F(Usage, FilesThatCannotBeWrittenExitWith5BeforeAnyComputing) {
         "[needles]\ncount = 5000\nbox = 20\n[until]\ntime = 1e9\n[output]\nfile = \"x/y.h5\"\n");
   const Outcome outcome = run("run endless.toml");
   EXPECT_EQ(outcome.exit_code, 5);
-  EXPECT_TRUE(outcome.complains("x/y.h5: cannot be written: there is no folder x"));
+  EXPECT_TRUE(
+      outcome.complains("needlework: endless.toml: line 7: output.file = \"x/y.h5\": cannot be "
+                        "written: expected a folder that exists, not x"));
   const Outcome checked = run("check endless.toml");
   EXPECT_EQ(checked.exit_code, 5);
   EXPECT_EQ(checked.err, outcome.err);
   EXPECT_EQ(checked.out, "");
-  EXPECT_EQ(run("run endless.toml --out .").exit_code, 5);
-  EXPECT_EQ(run("run endless.toml --out /dev/full --force").exit_code, 5);
+  for (const std::string file : {".", "/dev/full", "/proc/a.h5"}) {
+    const Outcome flag = run("run endless.toml --force --out " + file);
+    EXPECT_EQ(flag.exit_code, 5) << file;
+    EXPECT_TRUE(flag.complains(file + ": "));
+  }
 }
 
 TEST_F(Usage, AnExistingFileIsKeptUnlessForced) {

@@ -101,9 +101,29 @@ TEST(Override, ErrorsOfTheFileComeFirst) {
 
 TEST(Override, WithoutSectionKeyAndValueIsRefused) {
   for (const std::string bad :
-       {"", "needles", "needles.count", "count=5", "=5", ".=5", "needles.=5", ".count=5", "a.b.c=5",
-        "need les.count=5", "needles.\"count\"=5"})
+       {"", "needles", "needles.count", "=5", ".=5", "needles.=5", ".count=5", "a.b.c=5",
+        "need les.count=5", "needles.\"count\"=5", "my title=5"})
     EXPECT_EQ(message({bad}), "--set " + bad + ": expected section.key=value");
+}
+
+TEST(Override, OfTheTitleNeedsNoSection) {
+  EXPECT_EQ(parse({"title=x"}).title, "x");
+  EXPECT_EQ(parse({"title = Ten needles, \"hard\""}).title, "Ten needles, \"hard\"");
+  EXPECT_EQ(parse({"title='quoted'"}).title, "quoted");
+  const Scene replaced = parse_scene("title = 'a'\n" + least, "s.toml", Overrides{"title=b"});
+  EXPECT_EQ(replaced.title, "b");
+  EXPECT_EQ(message({"title=5"}), "--set title=5: expected a string without control characters");
+  EXPECT_EQ(message({"count=5"}),
+            "--set count=5: expected a section or title, did you mean needles.count?");
+  EXPECT_EQ(message({"needles=5"}), "--set needles=5: expected a section [needles]");
+}
+
+TEST(Override, ChangesWhereAKeyIsSaidToBeGiven) {
+  const Scene scene = parse({"needles.box=5", "title=x"});
+  EXPECT_EQ(scene.places.at("needles.count"), "s.toml: line 1: needles.count = 10");
+  EXPECT_EQ(scene.places.at("needles.box"), "--set needles.box=5");
+  EXPECT_EQ(scene.places.at("title"), "--set title=x");
+  EXPECT_EQ(scene.places.count("needles.k"), 0u);
 }
 
 TEST(Override, CannotSmuggleInMoreThanOneValue) {
