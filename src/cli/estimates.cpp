@@ -2,21 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/cli/engine_choice.h"
 #include "src/cli/messages.h"
 #include "src/cli/resources.h"
 #include "src/error.h"
-
 #include "src/scene/check.h"
+
 namespace needlework::cli {
 namespace {
 
-// Measured from N = 1e4 to 1e6, rounded up: peak resident memory, and what each frame adds.
-constexpr double base_bytes = 16e6;
-constexpr double bytes_per_needle = 700;
-constexpr double bytes_per_needle_of_a_frame = 300;
+// Peak resident memory, measured from N = 1e3 to 1e6 with the searches by lanes, and what frames
+// add. The scalar search takes a quarter less.
+constexpr double base_bytes = 12e6;
+constexpr double bytes_per_needle = 650;
+constexpr double bytes_per_needle_of_a_frame = 100;
 
 }  // namespace
 
@@ -27,11 +29,17 @@ double estimated_memory(const Scene& scene) {
 }
 
 double estimated_seconds_per_collision(const Scene& scene, double density) {
-  // The number of candidates grows with the density, or with the number of needles.
-  if (resolved_search(scene.engine, density) == "all-pairs") {
-    return 40e-6 + 0.042e-6 * static_cast<double>(scene.needles.count);
-  }
-  return 70e-6 + 11e-6 * density;
+  // Fits to n L^3 = 0.01 to 50 at N = 1e4. The number of candidates grows with the density, or with
+  // the number of needles, unless filtered by lanes. On the long way to the next collision of a
+  // dilute gas a needle leaves cells, whose side is about L or takes in some needles.
+  const std::string search = resolved_search(scene.engine, density);
+  const double count = static_cast<double>(scene.needles.count);
+  if (density == 0) return 0;  // nothing to collide with
+  if (search == "all-pairs") return 40e-6 + 0.042e-6 * count;
+  if (search == "linked-lists") return 40e-6 + 7e-6 * density + 0.9e-6 / density;
+  const double out_of_cache = 3e-6 * std::log10(std::max(1.0, count / 1e4));
+  const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
+  return (11e-6 + 1.3e-6 / std::cbrt(density * density) + out_of_cache) * slowness;
 }
 
 void require_memory(const Scene& scene) {

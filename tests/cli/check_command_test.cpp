@@ -46,6 +46,11 @@ TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {
   EXPECT_TRUE(json["mean_free_time"].is_null());
 }
 
+TEST_F(CheckCommand, ExplainsAnEmptyBox) {
+  const std::string empty = "check small.toml --set needles.count=0 --set until.time=1";
+  EXPECT_EQ(run(empty + " --json").json()["expected"]["wall_s"], 0);
+}
+
 TEST_F(CheckCommand, WritesNothing) {
   EXPECT_EQ(run("check small.toml --set output.file=a.h5").exit_code, 0);
   EXPECT_EQ(files(), std::vector<std::string>{small});
@@ -56,6 +61,43 @@ TEST_F(CheckCommand, AcceptsAllProfiles) {
     const Outcome outcome = run("check '" + entry.path().string() + "'");
     EXPECT_EQ(outcome.exit_code, 0) << entry.path() << "\n" << outcome.err;
     EXPECT_EQ(outcome.err, "") << entry.path();
+  }
+}
+
+// Peaks at the end of setting up, so the run itself can be short.
+TEST_F(CheckCommand, EstimatesTheMemoryOfALargeRun) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take several times the memory";
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  GTEST_SKIP() << "sanitizers take several times the memory";
+#endif
+#endif
+  const std::string large =
+      " small.toml --json --set needles.count=100000 --set until.collisions_per_needle=0.1"
+      " --set needles.box=";
+  for (const std::string more : {"51.8", "22.3", "51.8 --set output.file=a.h5"}) {
+    const auto estimate = run("check" + large + more).json();
+    const auto taken = run("run" + large + more).json();
+    const double ratio =
+        estimate["memory_bytes"].get<double>() / taken["peak_rss_bytes"].get<double>();
+    EXPECT_GT(ratio, 1 / 1.5) << more;
+    EXPECT_LT(ratio, 1.5) << more;
+  }
+}
+
+// Fast enough for a million collisions to take seconds, slow enough to be true.
+TEST_F(CheckCommand, EstimatesTheTimeOfARun) {
+  const std::string scene =
+      "check small.toml --json --set needles.count=20000 --set until.collisions_per_needle=100";
+  const auto seconds = [&](const std::string& more) {
+    return run(scene + more).json()["expected"]["wall_s"].get<double>();
+  };
+  for (const std::string box : {" --set needles.box=12", " --set needles.box=30"}) {
+    EXPECT_GT(seconds(box), 3) << box;
+    EXPECT_LT(seconds(box), 30) << box;
+    EXPECT_GT(seconds(box + " --isa scalar"), seconds(box));
+    EXPECT_GT(seconds(box + " --set engine.search=linked-lists"), 2 * seconds(box)) << box;
   }
 }
 
