@@ -109,6 +109,12 @@ void add_predict_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"fast", "standard", "rigorous"}))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print one JSON object");
+  command->footer(
+      "A line of PAIRS.csv is id,family,horizon, then x,y,z of r1,u1,v1,w1,r2,u2,v2,w2, then "
+      "skip:\n"
+      "1 if the pair has just collided at time 0, else 0. For each the output has "
+      "id,time,s12,s21,\n"
+      "with time inf if there is no contact in (0, horizon].");
   command->callback([options, &exit_code] {
     run(*options);
     exit_code = ok;
