@@ -57,6 +57,19 @@ int exit_code_of(const Course& course, const Scene& scene) {
   return ok;
 }
 
+io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
+  const std::string& file = scene.output.file;
+  try {
+    return io::Writer(file, force, scene,
+                      io::RunInfo{.isa = simulation.isa(),
+                                  .threads = scene.engine.threads.value_or(1),
+                                  .epoch_length = simulation.epoch_length()});
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
+                              error.what()));
+  }
+}
+
 int run(const RunArguments& arguments) {
   LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
@@ -76,12 +89,7 @@ int run(const RunArguments& arguments) {
   require_events(simulation, scene, arguments.scene.path);
 
   std::optional<io::Writer> writer;
-  if (!file.empty()) {
-    writer.emplace(file, arguments.force, scene,
-                   io::RunInfo{.isa = simulation.isa(),
-                               .threads = scene.engine.threads.value_or(1),
-                               .epoch_length = simulation.epoch_length()});
-  }
+  if (!file.empty()) writer.emplace(open_output(simulation, scene, arguments.force));
   const SignalGuard guard(simulation);
   Progress progress(arguments.quiet);
   const Course course = Drive(simulation, scene, writer ? &*writer : nullptr, progress).run();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/cli/estimates.h"
+#include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/scene/check.h"
 #include "src/scene/parse.h"
@@ -11,6 +12,19 @@ namespace needlework::cli {
 namespace {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+
+// The last frame of initial.file; errors name the key, then the file and the place in it.
+State read_initial_state(const Scene& scene) {
+  const std::string& file = scene.initial.file;
+  const std::string place = place_of(scene, "initial.file", file);
+  try {
+    return io::read_last_frame(file);
+  } catch (const InputError& error) {
+    throw InputError(place + ": " + error.what());
+  } catch (const IoError& error) {
+    throw IoError(place + ": cannot be read: " + error.what());
+  }
+}
 
 }  // namespace
 
@@ -37,7 +51,7 @@ LoadedScene load_scene(const SceneArguments& arguments) {
   choose_engine(scene, arguments.engine);
   require_memory(scene);
   if (!scene.initial.file.empty()) {
-    loaded.initial = io::read_last_frame(scene.initial.file);
+    loaded.initial = read_initial_state(scene);
     adopt_count_and_box(scene, *loaded.initial);
     require_memory(scene);
   }
