@@ -1,6 +1,7 @@
 // The lines that a run ends with.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/cli/messages.h"
@@ -87,6 +88,42 @@ std::string energy_lines(const Report& report) {
   return text;
 }
 
+// The sample next to a time, if there is one within a twentieth of it.
+const Totals* sample_at(const Course& course, double time) {
+  const Totals* found = nullptr;
+  for (const Totals& sample : course.samples) {
+    const double off = std::abs(sample.time - time);
+    if (off < 0.05 * time && !(found && std::abs(found->time - time) < off)) found = &sample;
+  }
+  return found;
+}
+
+// The course next to that of theory, by decades of time from about the mean free time on; every
+// second or third decade of a long run.
+std::string curve_lines(const Report& report) {
+  constexpr int most_rows = 8;
+  const Totals& first = report.course.initial;
+  const double mean_free_time =
+      1 / theory::collision_rate(density_of(report.scene), {first.t_tr, first.t_rot},
+                                 report.scene.needles.k);
+  const double begin = std::ceil(std::log10(0.5 * mean_free_time));
+  const double end = std::floor(std::log10(report.course.last.time));
+  const double stride = std::max(1.0, std::ceil((end - begin + 1) / most_rows));
+  std::string rows;
+  for (double decade = begin; decade <= end; decade += stride) {
+    const Totals* sample = sample_at(report.course, std::pow(10, decade));
+    const auto theory = sample ? report.theory_at(*sample) : std::nullopt;
+    if (!theory) continue;
+    rows += fmt::format("{:16}{:<10.4g}{:<12.4g}{:<12.4g}{:<12.4g}{:.4g}\n", "", sample->time,
+                        sample->energy / first.energy, theory->energy() / first.energy,
+                        sample->t_tr / sample->t_rot, theory->t_tr / theory->t_rot);
+  }
+  if (rows.empty()) return rows;
+  return line("course", "{:<10}{:<12}{:<12}{:<12}{}", "time", "E/E(0)", "theory", "T_tr/T_rot",
+              "theory") +
+         rows;
+}
+
 std::string rate_line(const Report& report) {
   const double rate = report.collision_rate();
   const double exact = report.collision_rate_exact();
@@ -111,6 +148,7 @@ std::string summary_of(const Report& report) {
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
   if (starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
+  if (!starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,
                last.collisions ? report.collisions_per_needle() : 0.0);
   if (scene.collisions.tc || scene.collisions.tc_relative) {

@@ -250,8 +250,11 @@ TEST_F(RunCommand, IsSilentWhenQuietButForErrorsAndWarnings) {
 
 TEST_F(RunCommand, SumsUpInPlainWords) {
   const Outcome cooling = run("run cooling.toml --out c.h5");
-  for (const char* part : {"Cooling gas\n", "200 needles", "ran to its energy", "E/E(0) = 0.0",
-                           "measured/theory", "T_tr/T_rot", "t_c rule", "us per collision", "c.h5"})
+  for (const char* part :
+       {"Cooling gas\n", "200 needles", "ran to its energy", "E/E(0) = 0.0", "measured/theory",
+        "course        time      E/E(0)      theory      T_tr/T_rot  theory\n",
+        "\n                1         0.", "\n                10        0.", "T_tr/T_rot",
+        "t_c rule", "us per collision", "c.h5"})
     EXPECT_NE(cooling.out.find(part), std::string::npos) << part << " in\n" << cooling.out;
   const Outcome elastic = run("run small.toml");
   for (const char* part : {"Small gas\n", "250, 10 per needle", "exact 0.4886", " +- "})
