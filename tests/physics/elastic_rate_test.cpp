@@ -7,7 +7,7 @@
 // by way of the microcanonical ensemble (theory::equilibrium_rate).
 // Tolerance: 3 standard errors, from the scatter of runs with different seeds; blocks of one run
 // would be correlated in a dense gas, where density waves decay slowly. The error itself is at most
-// 0.5 % of the rate.
+// 0.3 % of the rate, in builds without optimisation 0.5 %.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,11 +24,16 @@ namespace {
 using test::Mean;
 using test::Measured;
 
+#ifdef NDEBUG
+constexpr double collisions = 5e5, largest_error = 0.003;
+#else
+constexpr double collisions = 1.5e5, largest_error = 0.005;
+#endif
 constexpr int runs = 40;
 
 // Collisions per needle and unit time over the exact rate, from `runs` runs of about `collisions`
 // collisions in all. A drawn state is one of the equilibrium, so none has to settle.
-Measured rate_over_exact(Scene scene, double collisions) {
+Measured rate_over_exact(Scene scene) {
   const double count = static_cast<double>(scene.needles.count);
   const auto& box = scene.needles.box;
   Mean ratio;
@@ -66,10 +71,10 @@ TEST_P(ElasticRate, IsExactInEquilibrium) {
   Scene scene = test::scene_of(gas.count, std::cbrt(gas.count / gas.density), gas.seed);
   scene.needles.k = gas.k;
   scene.collisions.beta = gas.beta;
-  const Measured ratio = rate_over_exact(scene, 1.5e5);
+  const Measured ratio = rate_over_exact(scene);
   std::cout << "rate / exact: " << ratio << '\n';
   EXPECT_TRUE(test::agrees(ratio, 1, 3));
-  EXPECT_LT(ratio.error, 0.005);
+  EXPECT_LT(ratio.error, largest_error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Smooth, ElasticRate,
