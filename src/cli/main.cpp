@@ -7,6 +7,7 @@
 #include <new>
 #include <system_error>
 
+#include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/export_command.h"
@@ -32,6 +33,7 @@ int parse_and_run(int argc, char** argv) {
   add_predict_command(app, exit_code);
   add_info_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_bench_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

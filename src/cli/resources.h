@@ -15,6 +15,9 @@ double available_memory();
 /// Most memory that the process has held so far [bytes].
 std::uint64_t peak_memory();
 
+/// What the processor calls itself, or "unknown".
+std::string processor_name();
+
 /// Wall and CPU time (of all threads) of the stretches between start() and stop() [s].
 class Stopwatch {
  public:

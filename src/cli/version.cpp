@@ -7,14 +7,17 @@
 
 namespace needlework::cli {
 
-std::string version_text() {
+std::string compiler_name() {
 #if defined(__clang__)
-  const std::string compiler = "Clang " __clang_version__;
+  return "Clang " __clang_version__;
 #else
-  const std::string compiler = "GCC " __VERSION__;
+  return "GCC " __VERSION__;
 #endif
+}
+
+std::string version_text() {
   return fmt::format("needlework {}\ncompiler  {}\nISA       {}\nHDF5      {}", NEEDLEWORK_VERSION,
-                     compiler, fmt::join(instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
+                     compiler_name(), fmt::join(instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
 }
 
 }  // namespace needlework::cli

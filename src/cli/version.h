@@ -5,6 +5,9 @@
 
 namespace needlework::cli {
 
+/// Such as "GCC 12.2.0".
+std::string compiler_name();
+
 /// Version of the project, compiler, instruction sets and HDF5, a line each.
 std::string version_text();
 

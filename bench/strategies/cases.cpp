@@ -1,0 +1,182 @@
+#include "bench/strategies/cases.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/cli/engine_choice.h"
+#include "src/error.h"
+
+namespace needlework::bench {
+namespace {
+
+struct GasScene {
+  std::string name;
+  std::uint64_t needles;
+  double box;
+  Scene::Collisions collisions = {};
+};
+
+struct Parts {
+  std::string search, queue, isa;
+  bool operator==(const Parts&) const = default;
+};
+
+// The paper's own method: cells of side about L with linked lists, no lanes, a heap.
+const Parts baseline{"linked-lists", "indexed-heap", "scalar"};
+
+std::string widest() { return cli::instruction_sets().back(); }
+Parts searched_by(const std::string& search) { return {search, "auto", widest()}; }
+
+const GasScene dilute{"dilute", 10000, 24};
+const GasScene dense{"dense", 20000, 12};
+
+GasScene gas_of(std::uint64_t needles, double density) {
+  return {fmt::format("n={},N={}", density, needles), needles,
+          std::cbrt(static_cast<double>(needles) / density)};
+}
+
+Case make_case(const GasScene& gas, const Parts& parts) {
+  Case out;
+  out.scene_name = gas.name;
+  out.scene.needles.count = gas.needles;
+  out.scene.needles.box = {gas.box, gas.box, gas.box};
+  out.scene.collisions = gas.collisions;
+  out.scene.engine.search = parts.search;
+  out.scene.engine.queue = parts.queue;
+  out.scene.engine.isa = parts.isa;
+  out.scene.engine.threads = 1;
+  out.is_baseline = parts == baseline;
+  return out;
+}
+
+// Each gas by the baseline and by all others.
+std::vector<Case> product(const std::vector<GasScene>& gases, const std::vector<Parts>& others) {
+  std::vector<Case> out;
+  for (const GasScene& gas : gases) {
+    out.push_back(make_case(gas, baseline));
+    for (const Parts& parts : others) out.push_back(make_case(gas, parts));
+  }
+  return out;
+}
+
+const std::vector<std::string> fast_searches{"linked-cells", "capsules"};
+
+std::vector<Parts> all_searches() {
+  std::vector<Parts> out{searched_by("linked-lists")};
+  for (const std::string& search : fast_searches) out.push_back(searched_by(search));
+  return out;
+}
+
+std::vector<Parts> all_queues() {
+  std::vector<Parts> out;
+  for (const char* queue : {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
+    out.push_back({"auto", queue, widest()});
+  }
+  return out;
+}
+
+std::vector<Parts> all_instruction_sets() {
+  std::vector<Parts> out;
+  for (const std::string& isa : cli::instruction_sets()) out.push_back({"auto", "auto", isa});
+  return out;
+}
+
+// From the baseline to the default, one part after the other.
+std::vector<Parts> all_steps() {
+  return {{"auto", baseline.queue, baseline.isa},
+          {"auto", baseline.queue, widest()},
+          {"auto", "auto", widest()}};
+}
+
+std::vector<Parts> each_search_and_auto() {
+  std::vector<Parts> out;
+  for (const std::string& search : fast_searches) out.push_back(searched_by(search));
+  out.push_back(searched_by("auto"));
+  return out;
+}
+
+std::vector<Case> by_density() {
+  std::vector<GasScene> gases;
+  for (const double density : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    gases.push_back(gas_of(10000, density));
+  }
+  return product(gases, each_search_and_auto());
+}
+
+std::vector<Case> by_size() {
+  std::vector<GasScene> gases;
+  for (const std::uint64_t needles : {1000, 10000, 100000, 1000000}) {
+    gases.push_back(gas_of(needles, 0.72));
+  }
+  for (const std::uint64_t needles : {1000, 10000, 100000}) gases.push_back(gas_of(needles, 11.6));
+  return product(gases, {searched_by("auto")});
+}
+
+std::vector<Case> by_effects() {
+  const Scene::Collisions elastic, inelastic{.epsilon = 0.9, .tc = {}, .tc_relative = {}},
+      rough{.epsilon = 1, .beta = 0, .tc = {}, .tc_relative = {}},
+      contact_time{.epsilon = 0.9, .tc = {}, .tc_relative = 1e-3},
+      all{.epsilon = 0.9, .beta = 0, .tc = {}, .tc_relative = 1e-3};
+  return product({{"elastic", 10000, 24, elastic},
+                  {"inelastic", 10000, 24, inelastic},
+                  {"rough", 10000, 24, rough},
+                  {"inelastic-tc", 10000, 24, contact_time},
+                  {"inelastic-rough-tc", 10000, 24, all}},
+                 {searched_by("auto")});
+}
+
+// Is over at once; for trying things out.
+std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("auto")}); }
+
+}  // namespace
+
+std::string Case::name() const {
+  const Scene::Engine& engine = scene.engine;
+  return fmt::format("{}/{}/{}/{}/{}/threads:{}", scene_name, engine.search, engine.queue,
+                     engine.accuracy, engine.isa, engine.threads.value_or(1));
+}
+
+const std::vector<Subset>& subsets() {
+  static const std::vector<Subset> all{
+      {"quick", "both scenes of the paper by each search by lanes; under a minute",
+       [] {
+         return product({dilute, dense}, each_search_and_auto());
+       }},
+      {"dilute", "10000 needles in a box of 24: each search",
+       [] { return product({dilute}, all_searches()); }},
+      {"dense", "20000 needles in a box of 12: each search",
+       [] { return product({dense}, all_searches()); }},
+      {"searches", "both scenes: each search",
+       [] {
+         return product({dilute, dense}, all_searches());
+       }},
+      {"queues", "both scenes: each queue",
+       [] {
+         return product({dilute, dense}, all_queues());
+       }},
+      {"isa", "both scenes: each instruction set of this CPU",
+       [] {
+         return product({dilute, dense}, all_instruction_sets());
+       }},
+      {"steps", "both scenes: from the baseline on, first the search, then lanes, then the queue",
+       [] {
+         return product({dilute, dense}, all_steps());
+       }},
+      {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
+      {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
+      {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
+      {"smoke", "200 needles, over at once", by_smoke}};
+  return all;
+}
+
+const Subset& subset_of(const std::string& name) {
+  std::string names;
+  for (const Subset& subset : subsets()) {
+    if (subset.name == name) return subset;
+    names += (names.empty() ? "" : ", ") + subset.name;
+  }
+  throw InputError(fmt::format("SUBSET {}: expected one of {}", name, names));
+}
+
+}  // namespace needlework::bench

@@ -1,0 +1,112 @@
+#include "bench/strategies/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/error.h"
+
+namespace needlework::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const CaseResult* find_case(const Results& results, const std::string& name) {
+  for (const CaseResult& result : results.cases) {
+    if (result.name == name) return &result;
+  }
+  return nullptr;
+}
+
+std::string percent(double quotient) { return fmt::format("{:+.1f} %", 100 * (quotient - 1)); }
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+}  // namespace
+
+const char* const rule_of_verdicts =
+    "A case is judged by its cost over that of the baseline in the same repetition, so that a "
+    "machine that has become slower as a whole changes nothing. The change is the quotient of new "
+    "and old relative costs, the median over all pairs of repetitions; its interval of 95 % is "
+    "that "
+    "of the rank test of Mann and Whitney. same: the interval lies within 3 % of no change. "
+    "faster, "
+    "slower: else, it lies on one side of no change. unclear: else, or with less than four "
+    "repetitions in either. The baseline itself is not judged; a change of code that it shares, "
+    "the prediction of contacts say, shows in its own time only.";
+
+Change change_between(const std::vector<double>& before, const std::vector<double>& after) {
+  std::vector<double> differences;
+  for (const double x : before) {
+    for (const double y : after) differences.push_back(std::log(y / x));
+  }
+  std::sort(differences.begin(), differences.end());
+  const double n = static_cast<double>(before.size()), m = static_cast<double>(after.size());
+  // The rank of the bounds, by the normal approximation with correction for continuity.
+  const double deviation = std::sqrt(n * m * (n + m + 1) / 12);
+  const double rank = std::floor(n * m / 2 - 1.96 * deviation - 0.5);
+  Change out{std::exp(median(differences)), 0, std::numeric_limits<double>::infinity()};
+  if (rank >= 0) {
+    const auto place = static_cast<std::size_t>(rank);
+    out.low = std::exp(differences[place]);
+    out.high = std::exp(differences[differences.size() - 1 - place]);
+  }
+  return out;
+}
+
+std::string verdict_of(const Change& change) {
+  if (change.low >= 1 / (1 + same_within) && change.high <= 1 + same_within) return "same";
+  if (change.high < 1) return "faster";
+  if (change.low > 1) return "slower";
+  return "unclear";
+}
+
+Comparison compare(const Results& before, const Results& after) {
+  Comparison out;
+  out.json = Json::array();
+  std::size_t width = 0, compared = 0;
+  for (const CaseResult& result : after.cases) width = std::max(width, result.name.size());
+  out.text = fmt::format("{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>21}  {}\n", "case", width,
+                         "old us", "new us", "old/base", "new/base", "change", "95 %", "verdict");
+  for (const CaseResult& now : after.cases) {
+    const CaseResult* old = find_case(before, now.name);
+    if (!old) {
+      out.text += fmt::format("{:{}} {:>9} {:9.2f}  only in the new results\n", now.name, width,
+                              "-", now.median());
+      continue;
+    }
+    ++compared;
+    if (now.is_baseline) {
+      out.text += fmt::format("{:{}} {:9.2f} {:9.2f}  baseline, {} by itself\n", now.name, width,
+                              old->median(), now.median(), percent(now.median() / old->median()));
+      continue;
+    }
+    const std::vector<double> old_costs = relative_costs(before, *old);
+    const std::vector<double> costs = relative_costs(after, now);
+    const Change change = change_between(old_costs, costs);
+    const std::string verdict = verdict_of(change);
+    out.differs |= verdict == "faster" || verdict == "slower";
+    const std::string interval =
+        change.low > 0 ? fmt::format("{} .. {}", percent(change.low), percent(change.high)) : "-";
+    out.text += fmt::format("{:{}} {:9.2f} {:9.2f} {:10.4f} {:10.4f} {:>9} {:>21}  {}\n", now.name,
+                            width, old->median(), now.median(), median(old_costs), median(costs),
+                            percent(change.estimate), interval, verdict);
+    out.json.push_back({{"name", now.name},
+                        {"old_us_per_collision", old->median()},
+                        {"new_us_per_collision", now.median()},
+                        {"old_relative_cost", median(old_costs)},
+                        {"new_relative_cost", median(costs)},
+                        {"change", change.estimate},
+                        {"low", change.low},
+                        {"high", number(change.high)},
+                        {"verdict", verdict}});
+  }
+  if (compared == 0) {
+    throw InputError("--compare: no case in common: expected results of the same subset");
+  }
+  return out;
+}
+
+}  // namespace needlework::bench

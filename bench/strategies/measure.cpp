@@ -1,0 +1,132 @@
+#include "bench/strategies/measure.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <system_error>
+#include <type_traits>
+
+#include "src/cli/resources.h"
+#include "src/engine/simulation.h"
+#include "src/error.h"
+
+namespace needlework::bench {
+namespace {
+
+using Text = std::array<char, 256>;
+
+// A sample as it goes through a pipe, with what went wrong if anything did.
+struct Message {
+  double setup_s, cpu_s;
+  std::uint64_t collisions, bytes;
+  Counters counters;
+  Text search, queue, effects, warm_up_hash, error;
+};
+static_assert(std::is_trivially_copyable_v<Message>);
+
+Text text_of(const std::string& words) {
+  Text out{};
+  words.copy(out.data(), out.size() - 1);
+  return out;
+}
+
+Counters difference(Counters now, const Counters& before) {
+  for (const CounterName& counter : counter_names) now.*counter.member -= before.*counter.member;
+  return now;
+}
+
+Message measure_here(const Case& what, double min_time) {
+  Message out{};
+  const std::uint64_t before = cli::peak_memory();
+  cli::Stopwatch setup, loop;
+  setup.start();
+  Simulation simulation(what.scene);
+  setup.stop();
+
+  Scene::Until until;
+  until.collisions_per_needle = warm_up;
+  simulation.advance(until);
+  out.warm_up_hash = text_of(simulation.trajectory_hash());
+  const Counters counters = simulation.counters();
+  const std::uint64_t collisions = simulation.totals().collisions;
+  loop.start();
+  do {
+    *until.collisions_per_needle += stretch;
+    if (simulation.advance(until) != Stop::collisions) {
+      throw InvalidStateError("nothing can happen: expected needles that collide");
+    }
+    loop.stop();
+    loop.start();
+  } while (loop.cpu() < min_time);
+
+  out.setup_s = setup.cpu();
+  out.cpu_s = loop.cpu();
+  out.collisions = simulation.totals().collisions - collisions;
+  out.bytes = cli::peak_memory() - before;
+  out.counters = difference(simulation.counters(), counters);
+  out.search = text_of(simulation.search());
+  out.queue = text_of(simulation.queue());
+  out.effects = text_of(simulation.effects());
+  return out;
+}
+
+[[noreturn]] void be_child(int pipe, const Case& what, double min_time) {
+  Message message{};
+  try {
+    message = measure_here(what, min_time);
+  } catch (const std::exception& error) {
+    message.error = text_of(error.what());
+  }
+  const ssize_t written = write(pipe, &message, sizeof message);  // less than a pipe holds
+  _exit(written == sizeof message ? 0 : 1);
+}
+
+bool receive(int pipe, Message& message) {
+  std::size_t size = 0;
+  char* bytes = reinterpret_cast<char*>(&message);
+  while (size < sizeof message) {
+    const ssize_t got = read(pipe, bytes + size, sizeof message - size);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    size += static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+}  // namespace
+
+Sample measure(const Case& what, double min_time) {
+  int ends[2];
+  if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+  const pid_t child = fork();
+  if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (child == 0) {
+    close(ends[0]);
+    be_child(ends[1], what, min_time);
+  }
+  close(ends[1]);
+  Message message{};
+  const bool complete = receive(ends[0], message);
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  if (!complete) throw InvalidStateError(what.name() + ": its process was killed");
+  if (message.error[0]) throw InvalidStateError(what.name() + ": " + message.error.data());
+
+  Sample out;
+  out.setup_s = message.setup_s;
+  out.cpu_s = message.cpu_s;
+  out.collisions = message.collisions;
+  out.counters = message.counters;
+  out.bytes = message.bytes;
+  out.search = message.search.data();
+  out.queue = message.queue.data();
+  out.effects = message.effects.data();
+  out.warm_up_hash = message.warm_up_hash.data();
+  return out;
+}
+
+}  // namespace needlework::bench

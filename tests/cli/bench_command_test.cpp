@@ -1,0 +1,208 @@
+// What `needlework bench` measures and prints, and how it judges two results.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "kernels/isa.h"
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* baseline_name = "s/linked-lists/indexed-heap/standard/scalar/threads:1";
+constexpr const char* case_name = "s/auto/auto/standard/avx512/threads:1";
+
+class BenchCommand : public ProgramTest {
+ protected:
+  static json case_of(const std::string& name, bool baseline, const std::vector<double>& us) {
+    const std::vector<double> ones(us.size(), 1.0);
+    return {{"name", name},
+            {"scene", "s"},
+            {"baseline", baseline},
+            {"needles", 100},
+            {"density", 1.0},
+            {"search", "linked-lists"},
+            {"queue", "indexed-heap"},
+            {"isa", "scalar"},
+            {"effects", "elastic"},
+            {"us_per_collision", us},
+            {"setup_s", ones},
+            {"collisions", std::vector<int>(us.size(), 10)},
+            {"bytes_per_needle", ones},
+            {"per_collision", {{"events", 5.0}}},
+            {"warm_up_hash", "0"}};
+  }
+
+  static json results_of(const std::vector<double>& baseline, const std::vector<double>& other) {
+    return {{"format", 1},
+            {"subset", "made up"},
+            {"cases", {case_of(baseline_name, true, baseline), case_of(case_name, false, other)}}};
+  }
+
+  void write_results(const std::string& file, const std::vector<double>& baseline,
+                     const std::vector<double>& other) const {
+    write(file, results_of(baseline, other).dump());
+  }
+
+  // The verdict on the one case of new.json that is not the baseline, against old.json.
+  std::string verdict(int expected_exit_code) const {
+    const Outcome outcome = run("bench --results new.json --compare old.json --json");
+    EXPECT_EQ(outcome.exit_code, expected_exit_code) << outcome.err;
+    const json comparison = outcome.json()["comparison"];
+    EXPECT_EQ(comparison.size(), 1u);
+    EXPECT_EQ(comparison[0]["name"], case_name);
+    return comparison[0]["verdict"];
+  }
+};
+
+TEST_F(BenchCommand, MeasuresTheBaselineAndTheEngine) {
+  const Outcome outcome = run("bench smoke --repetitions 2 --min-time 0 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const json object = outcome.json();
+  for (const char* key : {"subset", "machine", "compiler", "flags", "version", "date"}) {
+    EXPECT_TRUE(object[key].is_string()) << key;
+  }
+  ASSERT_EQ(object["cases"].size(), 2u);
+  const json &baseline = object["cases"][0], &engine = object["cases"][1];
+  EXPECT_TRUE(baseline["baseline"]);
+  EXPECT_EQ(baseline["search"], "linked-lists");
+  EXPECT_EQ(baseline["queue"], "indexed-heap");
+  EXPECT_EQ(baseline["isa"], "scalar");
+  EXPECT_EQ(baseline["times_baseline"], 1.0);
+  EXPECT_FALSE(engine["baseline"]);
+  EXPECT_NE(engine["search"], "auto");
+  EXPECT_EQ(engine["isa"], kernels::name_of(kernels::available().back()));
+  EXPECT_EQ(engine["warm_up_hash"], baseline["warm_up_hash"]);
+  for (const json& one : object["cases"]) {
+    EXPECT_EQ(one["us_per_collision"].size(), 2u);
+    EXPECT_EQ(one["collisions"], json({10, 10}));
+    EXPECT_GT(one["best_us_per_collision"], 0.0);
+    EXPECT_GT(one["bytes_per_needle"][0], 192.0) << "a record alone has so many";
+    for (const char* counter : {"events", "searches", "candidates", "evaluated"}) {
+      EXPECT_GE(one["per_collision"][counter], 1.0) << counter;
+    }
+  }
+}
+
+TEST_F(BenchCommand, MeasuresAtLeastTheTimeAskedFor) {
+  const json object = run("bench smoke --repetitions 1 --min-time 0.02 --json").json();
+  for (const json& one : object["cases"]) {
+    const double us = one["us_per_collision"][0];
+    EXPECT_GE(us * one["collisions"][0].get<double>(), 0.02e6);
+  }
+}
+
+TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
+  const Outcome first = run("bench smoke --repetitions 4 --min-time 0 --json kept.json");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_NE(first.out.find("n=1,N=200/auto/auto/standard/"), std::string::npos) << first.out;
+  EXPECT_EQ(run("bench --results kept.json").out, first.out);
+  const Outcome itself = run("bench --results kept.json --compare kept.json");
+  EXPECT_NE(itself.out.find("baseline, +0.0 % by itself"), std::string::npos) << itself.out;
+  EXPECT_EQ(itself.exit_code, 0);
+  const Outcome again = run("bench smoke --json kept.json");
+  EXPECT_EQ(again.exit_code, 5);
+  EXPECT_TRUE(again.complains("--json kept.json: exists already: expected a new file, or --force"));
+}
+
+TEST_F(BenchCommand, ListsWhatItCanMeasure) {
+  const Outcome outcome = run("bench --list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* subset : {"quick", "dilute", "dense", "searches", "queues", "isa", "steps",
+                             "density", "size", "effects"}) {
+    EXPECT_NE(outcome.out.find(std::string(subset) + " "), std::string::npos) << subset << " in\n"
+                                                                              << outcome.out;
+  }
+  EXPECT_NE(run("bench --help").out.find("Mann and Whitney"), std::string::npos);
+}
+
+const std::vector<double> steady{40, 41, 40.5, 40.2, 40.8};
+
+TEST_F(BenchCommand, FindsFasterAndSlower) {
+  write_results("old.json", steady, {10, 10.3, 10.1, 10.2, 10.1});
+  write_results("new.json", steady, {8, 8.2, 8.1, 8.3, 8.1});
+  EXPECT_EQ(verdict(1), "faster");
+  write_results("new.json", steady, {12, 12.2, 12.1, 12.3, 12.1});
+  EXPECT_EQ(verdict(1), "slower");
+}
+
+TEST_F(BenchCommand, FindsTheSame) {
+  write_results("old.json", steady, {10, 10.3, 10.1, 10.2, 10.1});
+  write_results("new.json", steady, {10.1, 10.2, 10.1, 10.1, 10.2});
+  EXPECT_EQ(verdict(0), "same");
+}
+
+TEST_F(BenchCommand, JudgesByTheBaselineOfTheSameRepetition) {
+  write_results("old.json", steady, {10, 10.25, 10.125, 10.05, 10.2});
+  // A machine at half and at a third of its speed.
+  write_results("new.json", {80, 123, 81, 120.6, 81.6}, {20, 30.75, 20.25, 30.15, 20.4});
+  EXPECT_EQ(verdict(0), "same");
+}
+
+TEST_F(BenchCommand, DoesNotJudgeNoise) {
+  write_results("old.json", steady, {10, 14, 9, 12, 10});
+  write_results("new.json", steady, {9, 13, 8, 11, 10});
+  EXPECT_EQ(verdict(0), "unclear");
+  // However clear they look, three repetitions do not tell.
+  write_results("old.json", {40, 40, 40}, {10, 10, 10});
+  write_results("new.json", {40, 40, 40}, {5, 5, 5});
+  EXPECT_EQ(verdict(0), "unclear");
+}
+
+TEST_F(BenchCommand, TellsCasesThatOnlyOneHas) {
+  write_results("new.json", steady, steady);
+  json old = results_of(steady, steady);
+  old["cases"][1]["name"] = "s/other";
+  write("old.json", old.dump());
+  const Outcome outcome = run("bench --results new.json --compare old.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("only in the new results"), std::string::npos) << outcome.out;
+  old["cases"][0]["name"] = "s/another";
+  write("old.json", old.dump());
+  const Outcome none = run("bench --results new.json --compare old.json");
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_TRUE(none.complains("no case in common"));
+}
+
+TEST_F(BenchCommand, RefusesWhatItCannotUse) {
+  json bare = results_of(steady, steady), uneven = bare, negative = bare, newer = bare;
+  bare["cases"].erase(0);
+  uneven["cases"][1] = case_of(case_name, false, {1, 2});
+  negative["cases"][1]["us_per_collision"][2] = -1;
+  newer["format"] = 2;
+  write("bare.json", bare.dump());
+  write("uneven.json", uneven.dump());
+  write("negative.json", negative.dump());
+  write("newer.json", newer.dump());
+  write("broken.json", "{\"format\": 1, \"cases\": [");
+  write("other.json", "{\"needles\": 5}");
+  const struct {
+    const char *arguments, *message;
+    int exit_code;
+  } cases[] = {
+      {"bench fast", "SUBSET fast: expected one of quick, dilute", 3},
+      {"bench smoke --json out.txt", "--json out.txt: expected a name that ends in .json", 3},
+      {"bench smoke --json no/out.json", "expected a folder that exists", 5},
+      {"bench smoke --compare absent.json", "absent.json: cannot be read", 5},
+      {"bench smoke --compare broken.json", "broken.json: ", 3},
+      {"bench --results other.json", "expected a file that needlework bench --json has", 3},
+      {"bench --results newer.json", "newer.json: format: expected 1", 3},
+      {"bench --results bare.json", "scene s: expected a baseline", 3},
+      {"bench --results uneven.json", "as many repetitions of all cases of a scene", 3},
+      {"bench --results negative.json", "us_per_collision: expected numbers above 0", 3},
+      {"bench smoke --repetitions 0", "--help", 2},
+      {"bench smoke --min-time -1", "--help", 2},
+      {"bench smoke quick", "--help", 2}};
+  for (const auto& [arguments, message, exit_code] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    EXPECT_TRUE(outcome.complains(message)) << arguments;
+    EXPECT_EQ(outcome.out, "") << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace needlework
