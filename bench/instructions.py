@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""Instructions per collision, counted by callgrind: repeatable where times are not.
+
+guard    compares the engine with the committed figures of instructions.json and fails when one has
+         grown by more than 3 %; --update writes them anew.
+effects  counts what each effect costs when it is on, and writes results/effects.md.
+
+A figure is the difference between a long and a short run of one trajectory, over the collisions
+between their ends, so that set-up drops out. Valgrind 3.19 does not know AVX-512, hence avx2.
+"""
+
+import argparse
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+BENCH = Path(__file__).resolve().parent
+COMMITTED = BENCH / "instructions.json"
+TOLERANCE = 0.03
+NEEDLES = 2000
+SHORT, LONG = 0.5, 2.5  # collisions per needle
+DENSITIES = {"dilute": 10000 / 24**3, "dense": 20000 / 12**3}  # of the paper's scenes
+SKIPPED = 77  # exit code that ctest takes for a skipped test
+
+# Not in equilibrium, or the program would compare each collision's time with theory.
+PLAIN = ["initial.t_rot=0.999"]
+
+
+@dataclass
+class Effect:
+    name: str
+    neutral: list  # settings that have its code run but leave the trajectory as it is, or nearly so
+    acting: list  # settings with which it acts
+    flags: tuple = ()
+    per_needle: bool = True  # whether it holds something for each needle
+
+
+EFFECTS = [
+    # By itself it ends in the collapse of a pair.
+    Effect("normal restitution", ["collisions.epsilon=0.9999999999999999"], []),
+    Effect("tangential restitution", ["collisions.beta=-0.9999999999999999"],
+           ["collisions.beta=0"]),
+    Effect("t_c rule", ["collisions.tc=1e-300"],
+           ["collisions.epsilon=0.9", "collisions.tc_relative=1e-3"]),
+    Effect("all of these",
+           ["collisions.epsilon=0.9999999999999999", "collisions.beta=-0.9999999999999999",
+            "collisions.tc=1e-300"],
+           ["collisions.epsilon=0.9", "collisions.beta=0", "collisions.tc_relative=1e-3"]),
+    Effect("10 frames per decade in a file", ["output.frames=10"], [], ("--out", "out.h5")),
+    Effect("every collision in a file", ["output.events=true"], [], ("--out", "out.h5")),
+]
+
+
+class Failure(Exception):
+    """Something could not be measured."""
+
+
+def in_folder(command):
+    """Runs a command in an empty folder; returns its result and the files it left, as text."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise Failure(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr}")
+        massif = Path(folder) / "massif"
+        return done, massif.read_text() if massif.exists() else ""
+
+
+@dataclass
+class Measured:
+    """A scene of the program, to be run under valgrind."""
+
+    program: str
+    density: float
+    isa: str
+    settings: list
+    flags: tuple = ()
+
+    def command(self, tool, needles, collisions_per_needle):
+        settings = [f"needles.count={needles}",
+                    f"needles.box={math.cbrt(needles / self.density)!r}",
+                    f"until.collisions_per_needle={collisions_per_needle}", *self.settings]
+        command = ["valgrind", *tool, self.program, "run", "/dev/null", "--isa", self.isa, "--json",
+                   *self.flags]
+        for setting in settings:
+            command += ["--set", setting]
+        return command
+
+    def run(self, collisions_per_needle):
+        tool = ["--tool=callgrind", "--callgrind-out-file=/dev/null"]
+        done, _ = in_folder(self.command(tool, NEEDLES, collisions_per_needle))
+        collected = re.search(r"Collected : (\d+)", done.stderr)
+        if not collected:
+            raise Failure(f"callgrind: expected a line 'Collected : N', got: {done.stderr}")
+        result = json.loads(done.stdout)
+        return int(collected[1]), result["collisions"], result["trajectory_hash"]
+
+    def instructions_per_collision(self):
+        start, first, _ = self.run(SHORT)
+        end, last, trajectory = self.run(LONG)
+        return (end - start) / (last - first), trajectory
+
+    def peak_heap(self, needles):
+        tool = ["--tool=massif", "--peak-inaccuracy=0.0", "--massif-out-file=massif"]
+        _, massif = in_folder(self.command(tool, needles, 0.01))
+        return max(map(int, re.findall(r"mem_heap_B=(\d+)", massif)))
+
+
+def measure_all(jobs):
+    """The results of functions without arguments, by their names; as many at once as cores."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        futures = {name: pool.submit(job) for name, job in jobs.items()}
+        return {name: future.result() for name, future in futures.items()}
+
+
+def build_of(program):
+    """What the compiler was told, as far as instructions depend on it."""
+    version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+    lines = dict(line.split(None, 1) for line in version.stdout.splitlines())
+    return {"compiler": lines["compiler"].strip(), "flags": lines["flags"].strip()}, lines["ISA"]
+
+
+def guard(program, update):
+    build, offered = build_of(program)
+    for isa in "scalar", "avx2":
+        if isa not in offered.split():
+            print(f"skipped: this CPU does not have {isa}")
+            return SKIPPED
+    jobs = {f"{scene}/{isa}": Measured(program, density, isa, []).instructions_per_collision
+            for scene, density in DENSITIES.items() for isa in ("scalar", "avx2")}
+    committed = json.loads(COMMITTED.read_text()) if COMMITTED.exists() else None
+    if not update and committed is None:
+        raise Failure(f"{COMMITTED}: expected it to exist (--update makes it)")
+    if not update and committed["build"] != build:
+        print(f"skipped: the figures are those of {committed['build']}, this program is {build}")
+        return SKIPPED
+
+    counted = measure_all(jobs)
+    for scene in DENSITIES:
+        if counted[f"{scene}/scalar"][1] != counted[f"{scene}/avx2"][1]:
+            raise Failure(f"{scene}: the trajectories by scalar and avx2 differ")
+    figures = {name: round(count) for name, (count, _) in counted.items()}
+    if update:
+        content = {"what": "instructions per collision, by callgrind", "needles": NEEDLES,
+                   "build": build, "figures": figures}
+        COMMITTED.write_text(json.dumps(content, indent=1) + "\n")
+    return judge(figures, figures if update else committed["figures"])
+
+
+def judge(figures, expected):
+    """Prints how figures compare with those expected; 1 if one has grown too much, else 0."""
+    if expected.keys() != figures.keys():
+        raise Failure(f"{COMMITTED}: figures: expected {', '.join(figures)}")
+    grown = []
+    for name, count in figures.items():
+        change = count / expected[name] - 1
+        verdict = "ok"
+        if change > TOLERANCE:
+            verdict = "GROWN"
+            grown.append(name)
+        elif change < -TOLERANCE:
+            verdict = "less: commit it with --update, or it may be lost again unnoticed"
+        print(f"{name:14} {count:8} per collision, committed {expected[name]:8}, "
+              f"{100 * change:+6.2f} %  {verdict}")
+    if grown:
+        print(f"{', '.join(grown)}: more than {100 * TOLERANCE:g} % above bench/{COMMITTED.name}.\n"
+              f"If that is worth it, commit the new figures with the change that causes them, and "
+              f"say why:\n    bench/instructions.py guard --update")
+    return 1 if grown else 0
+
+
+def effects(program, out):
+    build, offered = build_of(program)
+    isa = "avx2" if "avx2" in offered.split() else "scalar"
+
+    def measured(settings, flags=()):
+        return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags)
+
+    def bytes_per_needle(effect):
+        # Twice the needles less once: what does not depend on their number drops out.
+        heap = {(on, n): (measured(effect.neutral, effect.flags) if on else measured([])).peak_heap(n)
+                for on in (True, False) for n in (NEEDLES, 2 * NEEDLES)}
+        grown = {on: heap[on, 2 * NEEDLES] - heap[on, NEEDLES] for on in (True, False)}
+        return (grown[True] - grown[False]) / NEEDLES
+
+    jobs = {"off": measured([]).instructions_per_collision}
+    for effect in EFFECTS:
+        on = measured(effect.neutral, effect.flags)
+        jobs[effect.name, "on"] = on.instructions_per_collision
+        jobs[effect.name, "bytes"] = lambda effect=effect: bytes_per_needle(effect)
+        if effect.acting:
+            jobs[effect.name, "acting"] = measured(effect.acting).instructions_per_collision
+    counted = measure_all(jobs)
+
+    off, trajectory = counted["off"]
+    lines = ["| effect | instructions per collision, off | on | costs | in action | "
+             "bytes per needle |", "|---|---|---|---|---|---|"]
+    for effect in EFFECTS:
+        on, its_trajectory = counted[effect.name, "on"]
+        same = "" if its_trajectory == trajectory else " (trajectory differs by rounding)"
+        acting = f"{counted[effect.name, 'acting'][0]:.0f}" if effect.acting else ""
+        lines.append(f"| {effect.name} | {off:.0f} | {on:.0f} | {100 * (on / off - 1):+.2f} %{same} "
+                     f"| {acting} | {counted[effect.name, 'bytes']:+.1f} |")
+    text = (f"{NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; {build['compiler']}, "
+            f"{build['flags']}. Made by `bench/instructions.py effects`.\n\n"
+            + "\n".join(lines) + "\n")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    out.write_text(text)
+    print(text, end="")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["guard", "effects"])
+    parser.add_argument("--program", default=str(BENCH.parent / "build/release/needlework"))
+    parser.add_argument("--update", action="store_true",
+                        help="guard: write the figures instead of comparing with them")
+    parser.add_argument("--out", type=Path, default=BENCH / "results/effects.md",
+                        help="effects: the file to write")
+    arguments = parser.parse_args()
+    try:
+        if arguments.what == "guard":
+            return guard(arguments.program, arguments.update)
+        return effects(arguments.program, arguments.out)
+    except (Failure, OSError, subprocess.CalledProcessError) as error:
+        print(f"instructions.py: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
