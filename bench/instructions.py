@@ -3,7 +3,8 @@
 
 guard    compares the engine with the committed figures of instructions.json and fails when one has
          grown by more than 3 %; --update writes them anew.
-effects  counts what each effect costs when it is on, and writes results/effects.md.
+effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
+         README.md.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
 between their ends, so that set-up drops out. Valgrind 3.19 does not know AVX-512, hence avx2.
@@ -21,8 +22,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from readme import put_table
+
 BENCH = Path(__file__).resolve().parent
 COMMITTED = BENCH / "instructions.json"
+EFFECTS_TABLE = BENCH / "results/effects.md"
 TOLERANCE = 0.03
 NEEDLES = 2000
 SHORT, LONG = 0.5, 2.5  # collisions per needle
@@ -39,7 +43,6 @@ class Effect:
     neutral: list  # settings that have its code run but leave the trajectory as it is, or nearly so
     acting: list  # settings with which it acts
     flags: tuple = ()
-    per_needle: bool = True  # whether it holds something for each needle
 
 
 EFFECTS = [
@@ -53,6 +56,7 @@ EFFECTS = [
            ["collisions.epsilon=0.9999999999999999", "collisions.beta=-0.9999999999999999",
             "collisions.tc=1e-300"],
            ["collisions.epsilon=0.9", "collisions.beta=0", "collisions.tc_relative=1e-3"]),
+    Effect("a file with the first and the last frame", [], [], ("--out", "out.h5")),
     Effect("10 frames per decade in a file", ["output.frames=10"], [], ("--out", "out.h5")),
     Effect("every collision in a file", ["output.events=true"], [], ("--out", "out.h5")),
 ]
@@ -183,35 +187,36 @@ def effects(program, out):
         return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags)
 
     def bytes_per_needle(effect):
-        # Twice the needles less once: what does not depend on their number drops out.
-        heap = {(on, n): (measured(effect.neutral, effect.flags) if on else measured([])).peak_heap(n)
-                for on in (True, False) for n in (NEEDLES, 2 * NEEDLES)}
-        grown = {on: heap[on, 2 * NEEDLES] - heap[on, NEEDLES] for on in (True, False)}
-        return (grown[True] - grown[False]) / NEEDLES
+        extra = measured(effect.neutral).peak_heap(NEEDLES) - measured([]).peak_heap(NEEDLES)
+        return extra / NEEDLES
 
     jobs = {"off": measured([]).instructions_per_collision}
     for effect in EFFECTS:
         on = measured(effect.neutral, effect.flags)
         jobs[effect.name, "on"] = on.instructions_per_collision
-        jobs[effect.name, "bytes"] = lambda effect=effect: bytes_per_needle(effect)
+        if not effect.flags:  # of what writes files, HDF5 holds much more than the engine
+            jobs[effect.name, "bytes"] = lambda effect=effect: bytes_per_needle(effect)
         if effect.acting:
             jobs[effect.name, "acting"] = measured(effect.acting).instructions_per_collision
     counted = measure_all(jobs)
 
     off, trajectory = counted["off"]
-    lines = ["| effect | instructions per collision, off | on | costs | in action | "
-             "bytes per needle |", "|---|---|---|---|---|---|"]
+    lines = ["| effect | off | on | costs | in action | bytes per needle |",
+             "|---|---|---|---|---|---|"]
     for effect in EFFECTS:
         on, its_trajectory = counted[effect.name, "on"]
-        same = "" if its_trajectory == trajectory else " (trajectory differs by rounding)"
+        same = "" if its_trajectory == trajectory else " *"
         acting = f"{counted[effect.name, 'acting'][0]:.0f}" if effect.acting else ""
-        lines.append(f"| {effect.name} | {off:.0f} | {on:.0f} | {100 * (on / off - 1):+.2f} %{same} "
-                     f"| {acting} | {counted[effect.name, 'bytes']:+.1f} |")
-    text = (f"{NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; {build['compiler']}, "
-            f"{build['flags']}. Made by `bench/instructions.py effects`.\n\n"
-            + "\n".join(lines) + "\n")
+        held = "" if effect.flags else f"{counted[effect.name, 'bytes']:+.1f}"
+        lines.append(f"| {effect.name} | {off:.0f} | {on:.0f}{same} | {100 * (on / off - 1):+.1f} % "
+                     f"| {acting} | {held} |")
+    text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle of "
+            f"{NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; {build['compiler']}, "
+            f"{build['flags']}.\n\n" + "\n".join(lines) + "\n")
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text)
+    if out == EFFECTS_TABLE:
+        put_table("effects", text)
     print(text, end="")
     return 0
 
@@ -223,7 +228,7 @@ def main():
     parser.add_argument("--program", default=str(BENCH.parent / "build/release/needlework"))
     parser.add_argument("--update", action="store_true",
                         help="guard: write the figures instead of comparing with them")
-    parser.add_argument("--out", type=Path, default=BENCH / "results/effects.md",
+    parser.add_argument("--out", type=Path, default=EFFECTS_TABLE,
                         help="effects: the file to write")
     arguments = parser.parse_args()
     try:
