@@ -34,7 +34,7 @@ install_packages() {
   fi
 }
 
-# configure_release ON|OFF: with or without tests. `cmake --build --preset release` builds.
+# configure_release ON|OFF: with or without tests and benchmarks. `cmake --build --preset release` builds.
 configure_release() {
-  cmake --preset release -DNEEDLEWORK_TESTS="$1"
+  cmake --preset release -DNEEDLEWORK_TESTS="$1" -DNEEDLEWORK_BENCH="$1"
 }

@@ -1,0 +1,132 @@
+// Kernels by lanes, each on all instruction sets of this CPU; scalar is the twin. Names are
+// KERNEL/GAS/ISA, items are pairs of needles. The answer is compared with the twin's before the
+// clock starts.
+#include <benchmark/benchmark.h>
+
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+#include "bench/kernels/neighbourhood.h"
+
+namespace needlework::bench {
+namespace {
+
+using kernels::Found;
+using kernels::Isa;
+using kernels::NearKernels;
+
+constexpr std::size_t searches = 256;
+
+void require(bool same, const std::string& kernel, Isa isa) {
+  if (same) return;
+  throw std::logic_error(kernel + " by " + std::string(kernels::name_of(isa)) +
+                         ": expected the result of the scalar twin");
+}
+
+void count_pairs(benchmark::State& state, double pairs) {
+  using benchmark::Counter;
+  state.SetItemsProcessed(static_cast<std::int64_t>(pairs));
+  state.counters["ns_per_pair"] = Counter(1e-9 * pairs, Counter::kIsRate | Counter::kInvert);
+  state.counters["pairs_per_cycle"] =
+      Counter(pairs / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
+}
+
+/// A filter over the cells around a needle; `apply` calls it.
+template <class Apply>
+void filter(benchmark::State& state, const std::string& name, Isa isa, const Neighbourhoods& gas,
+            Apply&& apply) {
+  std::vector<Found> found(gas.most_needles + 2 * kernels::block_size), expected(found.size());
+  for (const Neighbourhood& one : gas.all) {
+    const auto reset = [](std::vector<Found>& list) { list.assign(list.size(), Found{}); };
+    reset(found);
+    reset(expected);
+    apply(kernels::near_kernels(isa), one, found.data());
+    apply(kernels::near_kernels(Isa::scalar), one, expected.data());
+    for (std::size_t n = 0; n < gas.most_needles; ++n) {
+      require(found[n].needle == expected[n].needle && found[n].cell == expected[n].cell, name,
+              isa);
+      // Beyond the last one kernels may leave anything.
+      if (expected[n].needle == 0 && expected[n].cell == 0) break;
+    }
+  }
+  const NearKernels& chosen = kernels::near_kernels(isa);
+  std::size_t n = 0;
+  double pairs = 0;
+  for (auto _ : state) {
+    const Neighbourhood& one = gas.all[n];
+    apply(chosen, one, found.data());
+    benchmark::ClobberMemory();
+    pairs += static_cast<double>(one.needles);
+    n = n + 1 < gas.all.size() ? n + 1 : 0;
+  }
+  count_pairs(state, pairs);
+}
+
+void overlapping(benchmark::State& state, Isa isa, double density) {
+  const Neighbourhoods gas(density, Neighbourhoods::Columns::directors, searches);
+  const auto radius = static_cast<float>(capsule_radius(density));
+  filter(state, "overlapping", isa, gas,
+         [&](const NearKernels& kernels, const Neighbourhood& one, Found* found) {
+           kernels.overlapping(gas.around(one), one.seeker, radius, found);
+         });
+}
+
+void approaching(benchmark::State& state, Isa isa, double density) {
+  const Neighbourhoods gas(density, Neighbourhoods::Columns::velocities, searches);
+  filter(state, "approaching", isa, gas,
+         [&](const NearKernels& kernels, const Neighbourhood& one, Found* found) {
+           kernels.approaching(gas.around(one), one.seeker, found);
+         });
+}
+
+void isolate(benchmark::State& state, Isa isa, double density) {
+  std::vector<PairBatch> batches = pair_batches(density, searches);
+  const auto result = [](PairBatch& pairs, Isa by) {
+    pairs.restart();
+    kernels::near_kernels(by).isolate(pairs.seeker, pairs.columns(), pairs.size);
+    const float* from = pairs.columns().column[kernels::PairColumns::from];
+    std::vector<std::uint32_t> bits;
+    for (std::size_t n = 0; n < pairs.size; ++n) {
+      bits.push_back(std::bit_cast<std::uint32_t>(from[n]));
+    }
+    return bits;
+  };
+  for (PairBatch& pairs : batches) {
+    require(result(pairs, isa) == result(pairs, Isa::scalar), "isolate", isa);
+  }
+  const NearKernels& chosen = kernels::near_kernels(isa);
+  std::size_t n = 0;
+  double pairs = 0, evaluations = 0;
+  for (auto _ : state) {
+    PairBatch& one = batches[n];
+    one.restart();
+    evaluations +=
+        static_cast<double>(chosen.isolate(one.seeker, one.columns(), one.size) * chosen.lanes);
+    benchmark::ClobberMemory();
+    pairs += static_cast<double>(one.size);
+    n = n + 1 < batches.size() ? n + 1 : 0;
+  }
+  count_pairs(state, pairs);
+  state.counters["evaluations_per_pair"] = evaluations / pairs;
+}
+
+const bool added = [] {
+  const struct {
+    const char* name;
+    void (*measure)(benchmark::State&, Isa, double);
+  } all[] = {{"overlapping", overlapping}, {"approaching", approaching}, {"isolate", isolate}};
+  for (const auto& kernel : all) {
+    for (const GasName& gas : gases) {
+      for (const Isa isa : kernels::available()) {
+        const std::string name =
+            std::string(kernel.name) + "/" + gas.name + "/" + std::string(kernels::name_of(isa));
+        benchmark::RegisterBenchmark(name.c_str(), kernel.measure, isa, gas.density);
+      }
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace needlework::bench
