@@ -68,7 +68,8 @@ TEST(MachineCode, HasNoFusedMultiplyAdd) {
   EXPECT_EQ(fused, 0u) << first;
 }
 
-// The namespaces of Highway's targets are part of the symbols.
+// The namespaces of Highway's targets are part of the symbols. Compilers may pair two scalars, such
+// as squares of the needle's own that the lanes share, in one packed operation of the least width.
 TEST(MachineCode, OfLanesUsesTheRegistersOfItsInstructionSet) {
 #if !defined(__x86_64__)
   GTEST_SKIP() << "the names of registers are those of x86";
@@ -94,10 +95,12 @@ TEST(MachineCode, OfLanesUsesTheRegistersOfItsInstructionSet) {
   EXPECT_EQ(sse4.ymm + sse4.zmm, 0u);
   const auto& avx2 = arithmetic["N_AVX2"];
   EXPECT_GT(avx2.ymm, 100u);
-  EXPECT_EQ(avx2.xmm + avx2.zmm, 0u);
+  EXPECT_EQ(avx2.zmm, 0u);
+  EXPECT_LT(avx2.xmm, avx2.ymm / 50);
   const auto& avx512 = arithmetic["N_AVX3"];
   EXPECT_GT(avx512.zmm, 100u);
-  EXPECT_EQ(avx512.xmm + avx512.ymm, 0u);
+  EXPECT_EQ(avx512.ymm, 0u);
+  EXPECT_LT(avx512.xmm, avx512.zmm / 50);
 }
 
 }  // namespace
