@@ -74,6 +74,7 @@ class Search {
   Shape classify(const Interval& interval, Estimate& e);
 
   int sign_at(double s);
+  int side_before_root(const Interval& interval, const Estimate& e, double least_slope);
   int slope_sign_at(double s);
 
   std::optional<Root> search_interval(const Interval& interval);
@@ -85,7 +86,14 @@ class Search {
                              const DoubleDouble& start, int side);
 
   template <class T>
-  std::optional<T> refine(T begin, T end, T start, int side, double least_slope);
+  struct Refined {
+    T root;
+    T near;            // where it was last evaluated
+    Sample<T> sample;  // there
+    Estimate estimate;
+  };
+  template <class T>
+  std::optional<Refined<T>> refine(T begin, T end, T start, int side, double least_slope);
   template <class T>
   int arms_inside(const T& s, const Sample<T>& sample,
                   double uncertainty) const;  // 1 inside, -1 outside, 0 undecided
@@ -96,6 +104,9 @@ class Search {
   Frame<double> frame_;
   std::optional<Frame<DoubleDouble>> precise_;
   std::optional<Amplitude> amplitude_;
+  // The sample in the middle of the interval at hand, where the root is looked for first.
+  double middle_ = std::numeric_limits<double>::quiet_NaN();
+  Sample<double> at_middle_;
   double first_ = 0, last_ = 0;  // only roots between these can be contacts
   bool just_collided_ = false;
   bool vanishes_ = false;  // f is identically 0
@@ -140,6 +151,7 @@ const Frame<T>& Search::frame() {
 }
 
 Sample<double> Search::sample_at(double s) {
+  if (s == middle_) return at_middle_;
   ++counters_.evaluated;
   return evaluate(frame_, s);
 }
@@ -192,7 +204,10 @@ Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
 // Classifies in double, then, when the error bounds rather than the bounds on derivatives prevent a
 // decision, in double-double. e is the estimate on which the decision rests.
 Shape Search::classify(const Interval& interval, Estimate& e) {
-  e = in_double(interval.middle());
+  const double middle = interval.middle();
+  at_middle_ = sample_at(middle);
+  middle_ = middle;
+  e = estimate(frame_, middle, at_middle_);
   Shape shape = shape_of(e, interval);
   if (shape != Shape::unknown && shape != Shape::flat) return shape;
   const double half = interval.half();
@@ -202,7 +217,7 @@ Shape Search::classify(const Interval& interval, Estimate& e) {
       e.error_ddf * half * half < 0x1p-6 * curved) {
     return Shape::unknown;
   }
-  e = in_double_double(interval.middle());
+  e = in_double_double(middle);
   return shape_of(e, interval);
 }
 
@@ -218,6 +233,22 @@ int Search::sign_at(double s) {
   return 0;
 }
 
+// The sign of f at the beginning of an interval on which |f'| is at least `least_slope`, when f has
+// a root there; else 0. The middle often tells both.
+int Search::side_before_root(const Interval& interval, const Estimate& e, double least_slope) {
+  const int slope = sign_of(e.df);
+  const bool carried = interval.begin == 0 && pair_.touch.touching;
+  if (carried || !(std::abs(e.f) > e.error_f)) {
+    const int before = sign_at(interval.begin), after = sign_at(interval.end);
+    return before == -after ? before : 0;
+  }
+  const bool rooted = least_slope * interval.half() > (std::abs(e.f) + e.error_f) * roundup;
+  if (rooted) return -slope;
+  const bool in_first_half = sign_of(e.f) == slope;
+  const int outer = sign_at(in_first_half ? interval.begin : interval.end);
+  return outer == (in_first_half ? -slope : slope) ? -slope : 0;
+}
+
 int Search::slope_sign_at(double s) {
   Estimate e = in_double(s);
   if (std::abs(e.df) <= e.error_df) e = in_double_double(s);
@@ -229,20 +260,27 @@ int Search::slope_sign_at(double s) {
 // error of T takes over, or, with nothing, as soon as the root is known to have an arm beyond a
 // tip.
 template <class T>
-std::optional<T> Search::refine(T begin, T end, T start, int side, double least_slope) {
+std::optional<Search::Refined<T>> Search::refine(T begin, T end, T start, int side,
+                                                 double least_slope) {
   constexpr double resolution = std::is_same_v<T, double> ? 0x1p-52 : 0x1p-98;
-  T s = start;
+  std::optional<Refined<T>> out(std::in_place);
+  T& s = out->root;
+  s = start;
   for (int i = 0; i < 200; ++i) {
-    const Sample<T> sample = sample_at(s);
-    const Estimate e = estimate(frame<T>(), s, sample);
-    if (e.f == 0) return s;
+    out->near = s;
+    const Sample<T>& sample = out->sample = sample_at(s);
+    const Estimate& e = out->estimate = estimate(frame<T>(), s, sample);
+    if (e.f == 0) break;
     if (i == 1 && least_slope > 0) {
       if (arms_inside(s, sample, (std::abs(e.f) + e.error_f) / least_slope) < 0)
         return std::nullopt;
     }
     const T next = s - sample.f / sample.df;
     const bool last = std::abs(e.f) <= e.error_f;
-    if (last) return to_double(next - begin) >= 0 && to_double(end - next) >= 0 ? next : s;
+    if (last) {
+      if (to_double(next - begin) >= 0 && to_double(end - next) >= 0) s = next;
+      break;
+    }
     (sign_of(e.f) == side ? begin : end) = s;
     const bool within = to_double(next - begin) > 0 && to_double(end - next) > 0;
     const T target = within ? next : begin + (end - begin) * T(0.5);
@@ -251,7 +289,7 @@ std::optional<T> Search::refine(T begin, T end, T start, int side, double least_
     const double size = resolution * std::abs(to_double(s));
     if (step <= size || to_double(end - begin) <= size) break;
   }
-  return s;
+  return out;
 }
 
 double Search::root_uncertainty(const Estimate& e, double s, double roundoff) const {
@@ -292,23 +330,22 @@ int Search::arms_inside(const T& s, const Sample<T>& sample, double uncertainty)
 // The root between begin and end, when it is a contact.
 std::optional<Root> Search::accept(double begin, double end, double start, int side,
                                    double least_slope) {
-  const std::optional<double> s = refine(begin, end, start, side, least_slope);
-  if (!s) return std::nullopt;
-  const Sample<double> sample = sample_at(*s);
-  const double off = root_uncertainty(estimate(frame_, *s, sample), *s, 0x1p-53);
-  const int inside = std::isfinite(off) ? arms_inside(*s, sample, off) : 0;
+  const auto refined = refine(begin, end, start, side, least_slope);
+  if (!refined) return std::nullopt;
+  const auto& [s, near, sample, e] = *refined;
+  const double off = root_uncertainty(e, near, 0x1p-53);
+  const int inside = std::isfinite(off) ? arms_inside(near, sample, off) : 0;
   if (inside < 0) return std::nullopt;
-  if (inside > 0 && off <= polish_above * *s) return Root{*s, off, side};
-  return accept(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(*s), side);
+  if (inside > 0 && off <= polish_above * s) return Root{s, off, side};
+  return accept(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(s), side);
 }
 
 std::optional<Root> Search::accept(const DoubleDouble& begin, const DoubleDouble& end,
                                    const DoubleDouble& start, int side) {
-  const DoubleDouble s = *refine(begin, end, start, side, 0);
-  const Sample<DoubleDouble> sample = sample_at(s);
-  const double off = root_uncertainty(estimate(precise_frame(), s, sample), to_double(s), 0x1p-102);
+  const auto [s, near, sample, e] = *refine(begin, end, start, side, 0);
+  const double off = root_uncertainty(e, to_double(near), 0x1p-102);
   // What double-double cannot tell from a tip or from parallel directors is no contact.
-  if (!std::isfinite(off) || arms_inside(s, sample, off) <= 0) return std::nullopt;
+  if (!std::isfinite(off) || arms_inside(near, sample, off) <= 0) return std::nullopt;
   return Root{s, off, side};
 }
 
@@ -412,9 +449,9 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
         // f leaves 0 and does not return, unless it approaches, which only rounding can claim.
         return sign_of(e.df) == pair_.touch.side ? std::nullopt : search_start(interval, e);
       } else {
-        const int before = sign_at(interval.begin), after = sign_at(interval.end);
-        if (before == after || before == 0 || after == 0) return std::nullopt;
         const double least_slope = std::abs(e.df) - e.error_df - bent_by(e, interval);
+        const int before = side_before_root(interval, e, least_slope);
+        if (before == 0) return std::nullopt;
         return accept(interval.begin, interval.end, interval.middle(), before, least_slope);
       }
     case Shape::folded:

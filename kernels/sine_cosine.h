@@ -34,6 +34,15 @@ SineCosine<T> rotate_by_quadrant(std::uint64_t quadrant, T s, T c) {
   return {s, c};
 }
 
+// Without branches: no processor can foretell the quadrant.
+inline SineCosine<double> rotate_by_quadrant(std::uint64_t quadrant, double s, double c) {
+  const std::uint64_t s_bits = std::bit_cast<std::uint64_t>(s);
+  const std::uint64_t c_bits = std::bit_cast<std::uint64_t>(c);
+  const std::uint64_t exchange = (s_bits ^ c_bits) & (0 - (quadrant & 1));
+  return {std::bit_cast<double>(s_bits ^ exchange ^ (quadrant & 2) << 62),
+          std::bit_cast<double>(c_bits ^ exchange ^ ((quadrant + 1) & 2) << 62)};
+}
+
 }  // namespace sine_cosine_detail
 
 /// Sine and cosine of x. For |x| <= 2^12 within 0.8 ulp (tested against quad precision); beyond, up
