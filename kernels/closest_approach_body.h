@@ -6,8 +6,8 @@
 /// parallel directors do to the first guess matters in second order: an error d of it adds d^2 xx.
 /// Directors parallel within 2^-20 start from the middle, which adds up to 2^-21 to the distance.
 template <class T>
-T segment_distance_squared(const Vec3<T>& r, const Vec3<T>& u1, const Vec3<T>& u2, const Vec3<T>& x,
-                           const T& xx) {
+NEEDLEWORK_INLINE T segment_distance_squared(const Vec3<T>& r, const Vec3<T>& u1, const Vec3<T>& u2,
+                                             const Vec3<T>& x, const T& xx) {
   const T half(0.5), zero(0.0), least(0x1p-40);
   const auto clamped = [&](const T& a) { return minimum(maximum(a, zero - half), half); };
   const T b = dot(u1, u2), r1 = dot(r, u1), r2 = dot(r, u2);

@@ -102,18 +102,23 @@ struct PairColumns {
   float* column[columns];
 };
 
+/// What a scan of cells came to.
+struct Scan {
+  std::size_t seen;   ///< needles in the cells
+  std::size_t found;  ///< of these, how many were found
+};
+
 /// The table of one instruction set.
 struct NearKernels {
   Isa isa;
   std::size_t lanes;
 
   /// Needles whose hulls, capsules of radius `radius` around where they have been placed, overlap
-  /// the seeker's. Returns how many have been written to `found`, which has room for all.
-  std::size_t (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius,
-                             Found* found);
+  /// the seeker's, written to `found`, which has room for all.
+  Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius, Found* found);
   /// Needles whose bounding spheres come to overlap the seeker's in the time ahead; their columns
   /// a are velocities.
-  std::size_t (*approaching)(const Surroundings& around, const Seeker& seeker, Found* found);
+  Scan (*approaching)(const Surroundings& around, const Seeker& seeker, Found* found);
   /// Sets `from` of the first n pairs. Returns the evaluations of the contact function, by lanes.
   std::size_t (*isolate)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };

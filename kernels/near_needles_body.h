@@ -18,7 +18,7 @@ struct Turned {
 };
 
 /// Sine and cosine of angles below 2^12 within 2^-20; beyond 2^15 ever worse.
-inline Turned sine_cosine(Lanes angle) {
+NEEDLEWORK_INLINE Turned sine_cosine(Lanes angle) {
   // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
   const Lanes limit(0x1p29f), to_whole(0x1.8p23f);
   Lanes k = (angle * Lanes(0.636619772f) + to_whole) - to_whole;
@@ -42,13 +42,15 @@ inline Lanes norm_1(const V3& a) { return absolute(a.x) + absolute(a.y) + absolu
 /// Calls test(block, lane, offset) -> Mask for the lanes of all blocks of these cells and notes the
 /// needles for which it holds.
 template <class Test>
-std::size_t scan(const Surroundings& around, const Seeker& seeker, Found* found, Test&& test) {
-  std::size_t count = 0;
+NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, Found* found,
+                            Test&& test) {
+  std::size_t count = 0, seen = 0;
   for (std::uint32_t n = 0; n < around.cell_count; ++n) {
     const CellView& cell = around.cells[n];
     for (std::uint32_t b = cell.block; b != BlockLink::none; b = around.links[b].next) {
       const Block& block = around.blocks[b];
       const std::uint32_t size = around.links[b].size;
+      seen += size;
       for (std::uint32_t lane = 0; lane < size; lane += lanes_at_once) {
         std::uint32_t bits = bits_of(test(block, lane, cell.offset));
         // Places beyond the last needle hold anything.
@@ -61,7 +63,7 @@ std::size_t scan(const Surroundings& around, const Seeker& seeker, Found* found,
       }
     }
   }
-  return count;
+  return {seen, count};
 }
 
 inline V3 load(const Block& block, int first_column, std::size_t lane) {
@@ -70,8 +72,7 @@ inline V3 load(const Block& block, int first_column, std::size_t lane) {
           load_lanes(block.column[first_column + 2] + lane)};
 }
 
-std::size_t overlapping(const Surroundings& around, const Seeker& seeker, float radius,
-                        Found* found) {
+Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius, Found* found) {
   const V3 r = broadcast(seeker.r), u = broadcast(seeker.u);
   const Lanes half(0.5f);
   // Capsules overlap when their axes are nearer than both radii; then the other's centre is nearer
@@ -85,14 +86,13 @@ std::size_t overlapping(const Surroundings& around, const Seeker& seeker, float 
         const V3 d = from - load(block, Block::x, lane);
         const V3 gap = d - u * minimum(maximum(dot(d, u), -half), half);
         const Mask near = dot(gap, gap) <= centre_squared;
-        if (!any(near)) return near;
         const V3 a = load(block, Block::a_x, lane);
         const V3 x = cross(u, a);
         return near & (segment_distance_squared(d, u, a, x, dot(x, x)) <= axes_squared);
       });
 }
 
-std::size_t approaching(const Surroundings& around, const Seeker& seeker, Found* found) {
+Scan approaching(const Surroundings& around, const Seeker& seeker, Found* found) {
   const V3 r = broadcast(seeker.motion.r), v = broadcast(seeker.motion.v);
   const Lanes now(seeker.now), ahead(seeker.ahead), zero(0.0f);
   return scan(
@@ -124,7 +124,7 @@ struct LanePairs {
   Lanes omega[2], age[2];
 };
 
-inline LaneSample sample(const LanePairs& pair, Lanes s) {
+NEEDLEWORK_INLINE LaneSample sample(const LanePairs& pair, Lanes s) {
   V3 n[2], d[2];
   for (int i = 0; i < 2; ++i) {
     const Turned t = sine_cosine(pair.omega[i] * (s + pair.age[i]));

@@ -4,6 +4,8 @@
 
 #include <type_traits>
 
+#include "kernels/inline.h"
+
 namespace needlework {
 
 #include "kernels/vec3_body.h"

@@ -7,31 +7,31 @@ struct Vec3 {
 };
 
 template <class T>
-Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE Vec3<T> operator-(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-Vec3<T> operator-(const Vec3<T>& a) {
+NEEDLEWORK_INLINE Vec3<T> operator-(const Vec3<T>& a) {
   return {-a.x, -a.y, -a.z};
 }
 template <class T>
-Vec3<T> operator*(const Vec3<T>& a, const std::type_identity_t<T>& s) {
+NEEDLEWORK_INLINE Vec3<T> operator*(const Vec3<T>& a, const std::type_identity_t<T>& s) {
   return {a.x * s, a.y * s, a.z * s};
 }
 template <class T>
-Vec3<T> operator*(const std::type_identity_t<T>& s, const Vec3<T>& a) {
+NEEDLEWORK_INLINE Vec3<T> operator*(const std::type_identity_t<T>& s, const Vec3<T>& a) {
   return {a.x * s, a.y * s, a.z * s};
 }
 template <class T>
-Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE Vec3<T>& operator+=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a + b;
 }
 template <class T>
-Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE Vec3<T>& operator-=(Vec3<T>& a, const Vec3<T>& b) {
   return a = a - b;
 }
 template <class T>
@@ -40,11 +40,11 @@ bool operator==(const Vec3<T>& a, const Vec3<T>& b) {
 }
 
 template <class T>
-T dot(const Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE T dot(const Vec3<T>& a, const Vec3<T>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
 template <class T>
-Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+NEEDLEWORK_INLINE Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

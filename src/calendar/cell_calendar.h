@@ -37,6 +37,11 @@ class CellCalendar {
   bool empty() const { return events_.size() == 0; }
   const Event& top() const { return top_of(order_.winner()); }
   const Event& of(Needle i) const { return events_[i]; }
+  Needle soon() const {
+    const Needle i = blocks_[order_.second()].next;
+    events_.prefetch(i);
+    return i;
+  }
 
   std::uint32_t blocks() const { return static_cast<std::uint32_t>(blocks_.size()); }
   static std::uint32_t block_of(Needle i) { return i / block_size; }

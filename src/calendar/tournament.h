@@ -18,6 +18,11 @@ class Tournament {
   bool empty() const { return events_.size() == 0; }
   const Event& top() const { return events_[tree_.winner()]; }
   const Event& of(Needle i) const { return events_[i]; }
+  Needle soon() const {
+    const Needle i = tree_.second();
+    events_.prefetch(i);
+    return i;
+  }
 
   void set(const Event& event) {
     tree_.update(

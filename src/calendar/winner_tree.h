@@ -66,6 +66,19 @@ class WinnerTree {
 
   /// The player with the least key. There is one.
   std::uint32_t winner() const { return winner_.back(); }
+  /// The player who would win without the winner, if the tree has more than one round and no keys
+  /// are equal; else any.
+  std::uint32_t second() const {
+    if (first_.size() == 1) return winner();
+    const KeyLine& final = lines_.back();
+    const std::size_t place = winner() >> ((first_.size() - 1) * log2_width);
+    std::size_t best = place == 0 ? 1 : 0;
+    for (std::size_t n = best + 1; n < KeyLine::width; ++n) {
+      if (n != place && final.key[n] < final.key[best]) best = n;
+    }
+    const std::size_t finalists = lines_.size() - 1 - first_[first_.size() - 2];
+    return best < finalists ? winner_[first_[first_.size() - 2] + best] : winner();
+  }
   TimeKey key(std::uint32_t player) const {
     return lines_[player / KeyLine::width].key[player % KeyLine::width];
   }

@@ -16,6 +16,7 @@
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
 #include "src/error.h"
+#include "src/prefetch.h"
 #include "src/search/setup.h"
 
 namespace needlework {
@@ -52,6 +53,7 @@ class EventLoop final : public Run {
     kernels::Contact contact;
   };
 
+  void bring_near(Needle i) const;
   void sort_storage();
   void schedule(Needle i, Time placed_until);
   void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
@@ -124,6 +126,8 @@ Stop EventLoop<Search, Calendar, effects>::advance(const Scene::Until& until) {
       }
     }
     const Event event = calendar_.top();
+    bring_near(event.owner);
+    if constexpr (requires { calendar_.soon(); }) bring_near(calendar_.soon());
     if (window_end_ <= std::min(event.time, target)) {
       now = window_end_;
       open_window();
@@ -144,6 +148,13 @@ Stop EventLoop<Search, Calendar, effects>::advance(const Scene::Until& until) {
     counters.evaluated = kernel_counters_.evaluated;
     counters.escalated = kernel_counters_.escalated;
   }
+}
+
+// What an event of this needle will read.
+template <class Search, class Calendar, Effects effects>
+void EventLoop<Search, Calendar, effects>::bring_near(Needle i) const {
+  prefetch(&gas.records[i]);
+  if constexpr (requires { search_.bring_near(i); }) search_.bring_near(i);
 }
 
 // Stores neighbours in space next to each other again, once many have moved on.

@@ -147,7 +147,8 @@ void NearSearch::enter(Needle i, const Cell& cell) {
   place.cell = cell;
   if (stays) return;
   std::uint32_t b = static_cast<std::uint32_t>(index);
-  while (links_[b].size == kernels::block_size) {
+  std::size_t chain = 1;
+  for (; links_[b].size == kernels::block_size; ++chain) {
     if (links_[b].next == BlockLink::none) {
       if (free_blocks_.empty()) {
         free_blocks_.push_back(static_cast<std::uint32_t>(blocks_.size()));
@@ -159,6 +160,7 @@ void NearSearch::enter(Needle i, const Cell& cell) {
     }
     b = links_[b].next;
   }
+  longest_chain_ = std::max(longest_chain_, chain);
   place.block = b;
   place.lane = links_[b].size++;
 }
@@ -220,8 +222,8 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 }
 
 // Makes views of the cells in which needles may be found: those that a needle within reach of this
-// one's hull, or of its way in the time ahead, can have been placed in. Returns how many are there.
-std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
+// one's hull, or of its way in the time ahead, can have been placed in.
+void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
   // The margin covers the rounding of the seeker's place in its cell.
   double reach = 1 + 2 * cell_margin + margin_;
   double way = ahead * unit_;
@@ -245,7 +247,6 @@ std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
     views_.resize(most);
     view_cells_.resize(most);
   }
-  std::size_t needles = 0, room = 1;
   view_count_ = 0;
   for (const auto& z : near_[2]) {
     for (const auto& y : near_[1]) {
@@ -254,19 +255,15 @@ std::size_t NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
       const std::size_t row = grid_.index(0, y.wrapped, z.wrapped);
       for (const auto& x : near_[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
-        if (gap_squared + x.gap_squared > reach_squared || links_[first].size == 0) continue;
-        for (std::uint32_t b = first; b != BlockLink::none; b = links_[b].next) {
-          needles += links_[b].size;
-          room += kernels::block_size;
-        }
+        if (gap_squared + x.gap_squared > reach_squared) continue;
         views_[view_count_] = {first, {x.offset, y.offset, z.offset}};
         view_cells_[view_count_] = {x.cell, y.cell, z.cell};
         ++view_count_;
       }
     }
   }
+  const std::size_t room = view_count_ * longest_chain_ * kernels::block_size + 1;
   if (room > found_.size()) found_.resize(2 * room);
-  return needles;
 }
 
 std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
@@ -281,19 +278,21 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     seeker.r[axis] = blocks_[place.block].column[Block::x + axis][place.lane];
     seeker.u[axis] = blocks_[place.block].column[Block::a_x + axis][place.lane];
   }
-  const std::size_t entries = look_around(seeker, place.cell, ahead);
+  look_around(seeker, place.cell, ahead);
   const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_};
-  const std::size_t count =
+  const auto [entries, count] =
       hull_ == Hull::cell
           ? kernels_.approaching(around, seeker, found_.data())
           : kernels_.overlapping(around, seeker, static_cast<float>(radius_), found_.data());
   counters_.candidates += entries;
 
+  for (std::size_t k = 0; k < count; ++k) prefetch(&motions_[found_[k].needle]);
+
   candidates_.clear();
   const auto propose = [&](const kernels::Found& found, double from, double to) {
-    const Cell& cell = view_cells_[found.cell];
-    candidates_.push_back(
-        {from, to, found.needle, grid_.boxes_between(cell, places_[found.needle].cell)});
+    prefetch(&places_[found.needle]);
+    prefetch(&gas_.records[found.needle]);
+    candidates_.push_back({from, to, found.needle, found.cell, {}});
   };
   const PairColumns pairs = pair_columns(count);
   const Record& record = gas_.records[i];
@@ -333,6 +332,10 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
+  for (Candidate& candidate : candidates_) {
+    candidate.shift =
+        grid_.boxes_between(view_cells_[candidate.view], places_[candidate.needle].cell);
+  }
   counters_.filtered += entries - candidates_.size();
   return candidates_;
 }

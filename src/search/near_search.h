@@ -20,6 +20,7 @@
 #include "kernels/near_needles.h"
 #include "src/engine/counters.h"
 #include "src/physics/gas.h"
+#include "src/prefetch.h"
 #include "src/search/cell_grid.h"
 #include "src/search/setup.h"
 
@@ -34,6 +35,11 @@ class NearSearch {
 
   Time place(Needle i, Time now);
   void renumber(const std::vector<Needle>& ranks);
+  /// Brings what place() reads near.
+  void bring_near(Needle i) const {
+    prefetch(&places_[i]);
+    prefetch(&motions_[i]);
+  }
 
   template <class Visit>
   void find(Needle i, Time now, double ahead, Visit&& visit) {
@@ -49,6 +55,7 @@ class NearSearch {
   struct Candidate {
     double from, to;  ///< meets it between these times from now, if at all [time]
     Needle needle;
+    std::uint32_t view;  ///< of the cell in which it was found
     Shift shift;
   };
   struct Place {
@@ -59,7 +66,7 @@ class NearSearch {
   };
 
   std::span<const Candidate> candidates(Needle i, Time now, double ahead);
-  std::size_t look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
+  void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
   void rebase(Time now);
   void set_motion(Needle i, Time now);
   void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
@@ -82,6 +89,7 @@ class NearSearch {
   std::vector<kernels::Block> blocks_;  ///< first those of the cells, then those chained to them
   std::vector<kernels::BlockLink> links_;
   std::vector<std::uint32_t> free_blocks_;
+  std::size_t longest_chain_ = 1;  ///< blocks of one cell that there have ever been
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;

@@ -88,7 +88,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(const NearKerne
                                                                  const Neighbourhood& near,
                                                                  float radius) {
   std::vector<Found> found(near.room());
-  found.resize(kernels.overlapping(near.around(), near.seeker, radius, found.data()));
+  found.resize(kernels.overlapping(near.around(), near.seeker, radius, found.data()).found);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
   for (const Found& f : found) out.push_back({f.needle, f.cell});
   return out;
@@ -97,7 +97,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(const NearKerne
 std::vector<std::pair<std::uint32_t, std::uint32_t>> approaching(const NearKernels& kernels,
                                                                  const Neighbourhood& near) {
   std::vector<Found> found(near.room());
-  found.resize(kernels.approaching(near.around(), near.seeker, found.data()));
+  found.resize(kernels.approaching(near.around(), near.seeker, found.data()).found);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
   for (const Found& f : found) out.push_back({f.needle, f.cell});
   return out;
