@@ -256,6 +256,7 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
       for (const auto& x : near_[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
+        prefetch(&blocks_[first]);
         views_[view_count_] = {first, {x.offset, y.offset, z.offset}};
         view_cells_[view_count_] = {x.cell, y.cell, z.cell};
         ++view_count_;
