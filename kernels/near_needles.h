@@ -77,7 +77,7 @@ struct Seeker {
 };
 
 /// Pairs to be looked at more closely, in columns: the second needle as seen from the seeker.
-/// Columns have room for a multiple of the block size.
+/// Columns have room for two blocks more, which isolate() overwrites.
 struct PairColumns {
   enum Column {
     r_x,

@@ -138,12 +138,15 @@ NEEDLEWORK_INLINE LaneSample sample(const LanePairs& pair, Lanes s) {
   return out;
 }
 
-std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+/// isolate() for the lanes from k to end - 1. Lane k is part (k - first) / pair_count of `parts` of
+/// its pair's time.
+inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs, std::size_t k,
+                                 std::size_t end, const float* part, std::size_t parts) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Lanes zero(0.0f), one(1.0f), half(0.5f);
   std::size_t evaluations = 0;
-  for (std::size_t k = 0; k < n; k += lanes_at_once) {
+  {
     const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
     LanePairs pair;
     pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
@@ -180,6 +183,13 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     const Lanes exit = select(b > zero, c / q, q / a);
     until = minimum(exit + Lanes(0x1p-18f), until);
     Lanes low = maximum(maximum(entry, column(C::from)) - Lanes(0x1p-18f), zero);
+    if (parts > 1) {
+      const Lanes span = (until - low) * Lanes(1.0f / static_cast<float>(parts)),
+                  begin = load_lanes(part);
+      const Mask last = begin >= Lanes(static_cast<float>(parts - 1));
+      until = select(last, until, low + span * (begin + one));
+      low = low + span * begin;
+    }
 
     // While they do, |f''| is at most `bend`.
     const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;
@@ -191,7 +201,7 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     Lanes step = minimum(until - low, square_root(Lanes(8 * first_bend) / bend));
     const Lanes least_step = minimum(until - low, Lanes(0x1p-6f) / speed);
     Lanes high = minimum(low + step, until), next = high, narrowed = zero;
-    Mask searching = (counting() < Lanes(static_cast<float>(n - k))) & (!apart) & (low <= until);
+    Mask searching = (counting() < Lanes(static_cast<float>(end - k))) & (!apart) & (low <= until);
     Lanes from(infinity);
     for (int round = 0; round < 40 && any(searching); ++round) {
       ++evaluations;
@@ -233,6 +243,34 @@ std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     }
     from = select(searching, low, from);
     store_lanes(maximum(from - Lanes(0x1p-18f), zero), pairs.column[C::from] + k);
+  }
+  return evaluations;
+}
+
+std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  using C = PairColumns;
+  std::size_t evaluations = 0;
+  for (std::size_t k = 0; k < n; k += block_size) {
+    // Few pairs leave lanes idle: each is searched in several parts of its time at once.
+    const std::size_t count = std::min(n - k, block_size);
+    const std::size_t parts = std::min<std::size_t>(block_size / count, 4);
+    float part[2 * block_size] = {};
+    for (std::size_t p = 1; p < parts; ++p) {
+      for (std::size_t lane = 0; lane < count; lane += lanes_at_once) {
+        for (float* column : pairs.column) {
+          store_lanes(load_lanes(column + k + lane), column + k + p * count + lane);
+        }
+        store_lanes(Lanes(static_cast<float>(p)), part + p * count + lane);
+      }
+    }
+    const std::size_t end = k + parts * count;
+    for (std::size_t at = k; at < end; at += lanes_at_once) {
+      evaluations += isolate_lanes(seeker, pairs, at, end, part + (at - k), parts);
+    }
+    float* from = pairs.column[C::from] + k;
+    for (std::size_t i = count; i < parts * count; ++i) {
+      if (from[i] < from[i % count]) from[i % count] = from[i];
+    }
   }
   return evaluations;
 }

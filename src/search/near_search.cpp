@@ -210,8 +210,8 @@ void NearSearch::renumber(const std::vector<Needle>& ranks) {
 }
 
 PairColumns NearSearch::pair_columns(std::size_t n) {
-  if (n > pair_capacity_) {
-    pair_capacity_ = (2 * n + kernels::block_size - 1) / kernels::block_size * kernels::block_size;
+  if (n + 2 * kernels::block_size > pair_capacity_) {
+    pair_capacity_ = 2 * n + 2 * kernels::block_size;
     pair_storage_.assign(pair_capacity_ * PairColumns::columns, 0.0f);
   }
   PairColumns out;

@@ -89,8 +89,7 @@ inline std::vector<float> isolated(const kernels::NearKernels& kernels,
                                    const kernels::Seeker& seeker,
                                    const std::vector<PairRow>& rows) {
   using C = kernels::PairColumns;
-  const std::size_t room =
-      (rows.size() + kernels::block_size - 1) / kernels::block_size * kernels::block_size;
+  const std::size_t room = rows.size() + 2 * kernels::block_size;
   std::vector<float> storage(room * C::columns, std::numeric_limits<float>::quiet_NaN());
   C columns;
   for (int c = 0; c < C::columns; ++c) {
