@@ -226,7 +226,7 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
       const Mask shrunk = trusted & (new_high - new_low < h) & (!empty);
 
       const Mask found = searching & (!excluded) &
-                         ((narrowed >= Lanes(2.0f)) | ((!shrunk) & (h + h <= least_step)));
+                         ((narrowed >= Lanes(4.0f)) | ((!shrunk) & (h + h <= least_step)));
       from = select(found, low, from);
       searching = searching & !found;
 
