@@ -104,7 +104,7 @@ void Run::open_window() {
   const bool endless = !std::isfinite(mean_free_time);
   const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
   window_end_ = gas.clock.add(now, span);
-  search_span_ = span;
+  search_span_ = 4 * span;
 }
 
 bool Run::nothing_can_happen() const {

@@ -13,10 +13,15 @@ using kernels::BlockLink;
 using kernels::Motion;
 using kernels::PairColumns;
 
-// A needle stays in its cell until it is out of it by so much.
-constexpr double cell_margin = 0x1p-12;
-// What the roundings of times in blocks and motions amount to, twice; see near_needles_body.h.
+// A needle stays in its cell until it is out of it by so much of the cell's side: one that goes to
+// and fro at a border, or crosses a corner, has not to be placed anew so often.
+constexpr double overlap_of_side = 0.2;
+// What rounding does to the place of a hull, by far. [L]
+constexpr double hull_margin = 0x1p-12;
+// What the roundings of times in blocks and motions amount to, twice; see near_needles_body.h. Ends
+// of searches may be far ahead and have more added.
 constexpr double time_margin = 0x1p-18;
+constexpr double roundup = 1 + 0x1p-20;
 
 void store(float (&to)[3], const Vec3d& a) {
   to[0] = static_cast<float>(a.x);
@@ -34,9 +39,12 @@ double choose_radius(const Gas& gas) {
   return std::clamp(0.4 / std::cbrt(density_of(gas) * density_of(gas)), 0.02, 1.0);
 }
 
-// Cells of about this many needles fill the lanes.
+// Cells of about 8 or 12 needles fill the lanes. In a dilute gas it pays to look through more, as
+// needles cross many cells from one collision to the next.
 double choose_side(const Gas& gas, NearSearch::Hull hull) {
-  return std::cbrt((hull == NearSearch::Hull::cell ? 8 : 12) / density_of(gas));
+  const double density = density_of(gas);
+  if (hull == NearSearch::Hull::capsule) return std::cbrt(12 / density);
+  return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
 }
 
 }  // namespace
@@ -53,8 +61,9 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       blocks_(grid_.size()),
       links_(grid_.size()) {
   const auto sides = grid_.sides();
-  const double side = std::max({sides[0], sides[1], sides[2]});
-  margin_ = static_cast<float>(0x1p-16 + side * 0x1p-20);
+  if (hull == Hull::cell) overlap_ = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
+  margin_ =
+      static_cast<float>(0x1p-16 + (std::max({sides[0], sides[1], sides[2]}) + overlap_) * 0x1p-19);
 }
 
 Time NearSearch::place(Needle i, Time now) {
@@ -67,7 +76,7 @@ Time NearSearch::place(Needle i, Time now) {
   Vec3d r = centre_after(flight, elapsed), a;
   double stay;
   if (hull_ == Hull::cell) {
-    stay = grid_.time_to_leave(grid_.cell_of(r), r, flight.v, cell_margin);
+    stay = grid_.time_to_leave(grid_.cell_of(r), r, flight.v, overlap_);
     a = flight.v * (1 / unit_);
   } else {
     // The capsule is around where the needle will be in half of its time there, so that it may
@@ -118,7 +127,7 @@ void NearSearch::set_motion(Needle i, Time now) {
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
   out.omega = static_cast<float>(flight.omega * per_unit);
   out.time = static_cast<float>(since_base(now));
-  out.until = static_cast<float>(since_base(places_[i].until));
+  out.until = static_cast<float>(since_base(places_[i].until) * roundup);
 }
 
 // Writes the needle's entry into the block of its cell.
@@ -225,11 +234,11 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 // one's hull, or of its way in the time ahead, can have been placed in.
 void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
   // The margin covers the rounding of the seeker's place in its cell.
-  double reach = 1 + 2 * cell_margin + margin_;
+  double reach = 1 + overlap_ + hull_margin + margin_;
   double way = ahead * unit_;
   if (hull_ == Hull::capsule) {
     // Another centre is not farther from this axis than half a length and both radii.
-    reach = 0.5 + 2 * radius_ + 2 * cell_margin + margin_;
+    reach = 0.5 + 2 * radius_ + hull_margin + margin_;
     way = 0;
   }
   const auto sides = grid_.sides();
@@ -271,7 +280,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   kernels::Seeker seeker;
   seeker.motion = motions_[i];
   seeker.now = seeker.motion.time;
-  seeker.ahead = static_cast<float>(ahead * unit_ + time_margin);
+  seeker.ahead = static_cast<float>(ahead * unit_ * roundup + time_margin);
   seeker.margin = margin_;
   seeker.needle = i;
   const Place& place = places_[i];

@@ -79,7 +79,8 @@ class NearSearch {
   Counters& counters_;
   const kernels::NearKernels& kernels_;
   Hull hull_;
-  double radius_;  ///< of capsules; else 0 [L]
+  double radius_;       ///< of capsules; else 0 [L]
+  double overlap_ = 0;  ///< how far a needle may go beyond its cell; 0 for capsules [L]
   CellGrid grid_;
   float margin_ = 0;  ///< of lengths, see kernels::Seeker [L]
   double unit_ = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
