@@ -332,7 +332,7 @@ kernels::Contact EventLoop<Search, Calendar, effects>::predict(Needle a, Needle 
   // Both partners of a collision search the pair, with records made now.
   const bool shared = pair.touch.collided && first.time == second.time;
   const Shared& last = last_shared_;
-  if (shared && last.a == a && last.b == b && last.shift == shift &&
+  if (shared && last.a == a && last.b == b && same(last.shift, shift) &&
       last.serial_a == first.serial && last.serial_b == second.serial) {
     if (last.contact.found || until <= last.until) return last.contact;
     from = gas.clock.difference(last.until, start) * (1 - 0x1p-50);

@@ -12,7 +12,7 @@ namespace {
 // What the record of one needle says of touching the other, if it does.
 const kernels::Touch* find_touch(const Record& record, Needle partner, const Shift& shift) {
   for (const TouchEntry& entry : record.touches) {
-    if (entry.partner == partner && entry.shift == shift) return &entry.touch;
+    if (entry.partner == partner && same(entry.shift, shift)) return &entry.touch;
   }
   return nullptr;
 }
@@ -28,7 +28,7 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   if (record_a.time != start) pair.elapsed_first = gas.clock.exact_difference(start, record_a.time);
   if (record_b.time != start)
     pair.elapsed_second = gas.clock.exact_difference(start, record_b.time);
-  if (shift != Shift{}) {
+  if (!same(shift, Shift{})) {
     pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
                   two_prod(shift[2], gas.box[2])};
   }

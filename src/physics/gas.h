@@ -16,6 +16,10 @@ inline constexpr Needle no_needle = 0xffffffff;
 
 /// Boxes added to a needle's recorded centre, per axis.
 using Shift = std::array<std::int32_t, 3>;
+/// a == b, without a call to memcmp.
+inline bool same(const Shift& a, const Shift& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
 inline Shift operator-(const Shift& a) { return {-a[0], -a[1], -a[2]}; }
 inline Shift operator-(const Shift& a, const Shift& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};

@@ -102,7 +102,7 @@ class CellGrid {
   /// Boxes to add to a centre in cell `from` so that it comes to lie in `to`, an image of that
   /// cell.
   std::array<std::int32_t, 3> boxes_between(const Cell& to, const Cell& from) const {
-    if (to == from) return {};
+    if (to[0] == from[0] && to[1] == from[1] && to[2] == from[2]) return {};
     return {(to[0] - from[0]) / count_[0], (to[1] - from[1]) / count_[1],
             (to[2] - from[2]) / count_[2]};
   }
