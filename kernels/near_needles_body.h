@@ -108,9 +108,13 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, Found* found)
       });
 }
 
-/// The contact function of pairs, with what bounds it, at one time each.
+/// The contact function of pairs at one time each, with two derivatives; and what tells how far the
+/// needles stay apart along the gap between them: projected on it, centre, velocity, directors and
+/// their rates.
 struct LaneSample {
-  Lanes f, df, ddf, distance_squared;
+  Lanes f, df, ddf;
+  Lanes gap;  // its length
+  Lanes centre, velocity, director[2], turning[2];
 };
 
 /// The seeker's and the others' rotation and the relative centres, from now on.
@@ -134,7 +138,14 @@ NEEDLEWORK_INLINE LaneSample sample(const LanePairs& pair, Lanes s) {
   out.f = dot(c, x);
   out.df = dot(pair.v, x) + dot(c, dx);
   out.ddf = (vdx + vdx) + ((cdd + cdd) - squares * out.f);
-  out.distance_squared = segment_distance_squared(c, n[0], n[1], x, dot(x, x));
+  const V3 gap = segment_gap(c, n[0], n[1], x, dot(x, x));
+  out.gap = square_root(dot(gap, gap));
+  out.centre = dot(gap, c);
+  out.velocity = dot(gap, pair.v);
+  for (int i = 0; i < 2; ++i) {
+    out.director[i] = dot(gap, n[i]);
+    out.turning[i] = dot(gap, d[i]);
+  }
   return out;
 }
 
@@ -191,55 +202,69 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
       low = low + span * begin;
     }
 
-    // While they do, |f''| is at most `bend`.
-    const Lanes bend = ((v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w;
-    // And |f'''| at most 6 times this.
-    const Lanes twist = ((v + v + v) + Lanes(1 + 0x1p-8f) * square_root(reach_squared) * w) * w *
-                        w * Lanes(1.0f / 6);
+    // While they do, f'' is at most `bend`, and the third derivative 6 times `twist`.
+    const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(reach_squared);
+    const Lanes bend = ((v + v) + arm * w) * w;
+    const Lanes twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
+    const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
+    const Lanes slope_off = margin * (speed + speed), two_margins = margin + margin;
     // The first step is one over which f'' changes f by no more than this; steps adapt.
     constexpr float first_bend = 0.2f;
-    Lanes step = minimum(until - low, square_root(Lanes(8 * first_bend) / bend));
-    const Lanes least_step = minimum(until - low, Lanes(0x1p-6f) / speed);
-    Lanes high = minimum(low + step, until), next = high, narrowed = zero;
+    const Lanes least = Lanes(0x1p-9f) / speed;
+    const Lanes step = square_root(Lanes(8 * first_bend) / bend);
+    // Still to be looked at: from low to high, and from next on.
+    Lanes high = minimum(low + step, until), next = high;
     Mask searching = (counting() < Lanes(static_cast<float>(end - k))) & (!apart) & (low <= until);
     Lanes from(infinity);
     for (int round = 0; round < 40 && any(searching); ++round) {
       ++evaluations;
       const Lanes middle = half * (low + high), h = half * (high - low);
       const LaneSample e = sample(pair, middle);
-      // Ruled out: the needles cannot come together in time, or f keeps its sign.
-      const Lanes covered = speed * h + margin;
-      const Lanes curved =
-          h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend) + margin;
-      const Lanes slope = absolute(e.df), size = absolute(e.f),
-                  slope_off = margin * (speed + speed);
-      const Mask far = e.distance_squared > covered * covered;
-      const Mask signed_ = size > (slope + slope_off) * h + (curved + margin);
-      const Mask finite = e.distance_squared < Lanes(0x1p20f);
-      Mask excluded = trusted & finite & (far | signed_);
-      // Any root is within `off` of where the tangent has it.
-      const Lanes tangent = middle - e.f / e.df;
-      const Lanes off = (curved + margin + slope_off * h) / maximum(slope - slope_off, zero);
-      const Lanes new_low = maximum(tangent - off, low), new_high = minimum(tangent + off, high);
-      const Mask empty = new_low > new_high;
-      excluded = excluded | (trusted & finite & empty);
-      const Mask shrunk = trusted & (new_high - new_low < h) & (!empty);
+      const Mask known = trusted & (e.gap < Lanes(0x1p10f));
 
-      const Mask found = searching & (!excluded) &
-                         ((narrowed >= Lanes(4.0f)) | ((!shrunk) & (h + h <= least_step)));
+      // Two bounds, from below, on how far the needles are from a contact up to h before and after
+      // the middle, both concave in time: f with its sign, and along the gap that they have now.
+      const Lanes size = absolute(e.f), rising = select(e.f < zero, -e.df, e.df);
+      const Lanes f_now = size - two_margins;
+      const Lanes f_off =
+          f_now - h * slope_off -
+          h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend);
+      const Lanes f_change = h * rising;
+      const Lanes gap_off = two_margins * e.gap;
+      const Lanes g_now =
+          (e.centre - half * (absolute(e.director[0]) + absolute(e.director[1]))) - gap_off;
+      const Lanes g_off = (e.centre - Lanes(0.25f) * squares * h * h * e.gap) - gap_off;
+      const Lanes turned[2] = {h * e.turning[0], h * e.turning[1]}, moved = h * e.velocity;
+      const auto along_gap = [&](Lanes centre, Lanes a, Lanes b) NEEDLEWORK_TARGET {
+        return centre - half * (absolute(a) + absolute(b));
+      };
+      const Lanes f_before = f_off - f_change, f_after = f_off + f_change;
+      const Lanes g_before =
+          along_gap(g_off - moved, e.director[0] - turned[0], e.director[1] - turned[1]);
+      const Lanes g_after =
+          along_gap(g_off + moved, e.director[0] + turned[0], e.director[1] + turned[1]);
+      // The share of h that is free of contacts on either side: up to where the chord of a bound,
+      // which lies below it, comes to 0.
+      const auto share = [&](Lanes here, Lanes there) NEEDLEWORK_TARGET {
+        return select(here > zero, select(there > zero, one, here / (here - there)), zero);
+      };
+      const Lanes before =
+          select(known, maximum(share(f_now, f_before), share(g_now, g_before)), zero);
+      const Lanes after =
+          select(known, maximum(share(f_now, f_after), share(g_now, g_after)), zero);
+      const Mask left = before >= one, right = after >= one, both = left & right;
+
+      // With nothing of the first half left, the search goes on in the second, or after it; else in
+      // what is left of the first half, and then in what is left of the second.
+      const Lanes freed = middle + h * after, wide = Lanes(4.0f) * h;
+      low = select(left, select(right, next, freed), low);
+      high = select(both, minimum(next + wide, until), select(left, high, middle - h * before));
+      next = select(both, high, select(left | right, next, freed));
+
+      const Mask done = both & (low >= until);
+      const Mask found = searching & (!both) & (high - low <= least);
       from = select(found, low, from);
-      searching = searching & !found;
-
-      const Mask halve = (!excluded) & (!shrunk);
-      step = select(excluded, step + step, select(halve, h, step));
-      const Lanes after_low = select(excluded, next, select(shrunk, new_low, low));
-      const Lanes after_high =
-          select(excluded, minimum(next + step, until), select(shrunk, new_high, middle));
-      next = select(excluded | halve, after_high, next);
-      narrowed = select(excluded | halve, zero, narrowed + one);
-      low = after_low;
-      high = after_high;
-      searching = searching & !(excluded & (low >= until));
+      searching = searching & (!found) & !done;
     }
     from = select(searching, low, from);
     store_lanes(maximum(from - Lanes(0x1p-18f), zero), pairs.column[C::from] + k);
