@@ -81,7 +81,7 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
       [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
         const V3 from{r.x - Lanes(offset[0]), r.y - Lanes(offset[1]), r.z - Lanes(offset[2])};
         const V3 d = from - load(block, Block::x, lane);
-        // No cheaper test goes before: among 16 needles one would pass it nearly always.
+        // No cheaper test goes before: of many needles one would pass it nearly always.
         const V3 a = load(block, Block::a_x, lane), x = cross(u, a);
         return segment_distance_squared(d, u, a, x, dot(x, x)) <= near_squared;
       });
@@ -274,11 +274,13 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
 
 std::size_t isolate(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
   using C = PairColumns;
+  if (n == 0) return 0;
+  // Few pairs leave lanes idle: each is searched in several parts of its time at once. How many
+  // depends on nothing but n, so that no result depends on where its pair stands.
+  const std::size_t parts = std::clamp<std::size_t>(block_size / n, 1, 4);
   std::size_t evaluations = 0;
   for (std::size_t k = 0; k < n; k += block_size) {
-    // Few pairs leave lanes idle: each is searched in several parts of its time at once.
     const std::size_t count = std::min(n - k, block_size);
-    const std::size_t parts = std::min<std::size_t>(block_size / count, 4);
     float part[2 * block_size] = {};
     for (std::size_t p = 1; p < parts; ++p) {
       for (std::size_t lane = 0; lane < count; lane += lanes_at_once) {
