@@ -46,6 +46,9 @@ class WinnerTree {
  public:
   explicit WinnerTree(std::size_t n, TimeKey key) {
     std::size_t players = n;
+    // n / 8 + n / 64 + ..., and one for each round that is not full.
+    lines_.reserve(n / 7 + 32);
+    winner_.reserve(n / 7 + 32);
     do {
       const std::size_t lines = (players + KeyLine::width - 1) / KeyLine::width;
       first_.push_back(lines_.size());

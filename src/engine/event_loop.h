@@ -30,7 +30,7 @@ struct Effects {
 template <class Search, class Calendar, Effects effects>
 class EventLoop final : public Run {
  public:
-  EventLoop(const Scene& scene, const State& initial, const SearchSetup& setup);
+  EventLoop(const Scene& scene, Gas initial, const SearchSetup& setup);
 
   Stop advance(const Scene::Until& until) override;
   const char* search_name() const override { return Search::name; }
@@ -79,10 +79,11 @@ class EventLoop final : public Run {
 };
 
 template <class Search, class Calendar, Effects effects>
-EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, const State& initial,
+EventLoop<Search, Calendar, effects>::EventLoop(const Scene& scene, Gas initial,
                                                 const SearchSetup& setup)
-    : Run(scene, initial), search_(gas, counters, setup), calendar_(gas.size(), gas.clock) {
-  reorder(gas, order_in_space(gas, now));
+    : Run(scene, std::move(initial)),
+      search_(gas, counters, setup),
+      calendar_(gas.size(), gas.clock) {
   if constexpr (effects.contact_time) {
     last_collision_.assign(gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }
@@ -167,14 +168,16 @@ void EventLoop<Search, Calendar, effects>::sort_storage() {
   search_.renumber(ranks);
   if constexpr (effects.contact_time) permute(last_collision_, order);
   last_shared_ = {};
-  Calendar sorted(gas.size(), gas.clock);
+  std::vector<Event> events;
+  events.reserve(gas.size());
   for (const Needle i : order) {
-    Event event = calendar_.of(i);
+    Event& event = events.emplace_back(calendar_.of(i));
     event.owner = ranks[event.owner];
     if (event.is_contact()) event.partner = ranks[event.partner];
-    sorted.set(event);
   }
-  calendar_ = std::move(sorted);
+  calendar_ = Calendar(0, gas.clock);  // frees its memory
+  calendar_ = Calendar(gas.size(), gas.clock);
+  for (const Event& event : events) calendar_.set(event);
 }
 
 template <class Search, class Calendar, Effects effects>

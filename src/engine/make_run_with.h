@@ -14,7 +14,7 @@ namespace needlework {
 /// The event loop with this calendar and search, and with the effects that the scene calls for.
 /// Throws InputError for a search that does not exist.
 template <Calendar Queue>
-std::unique_ptr<Run> make_run_with(const Scene& scene, const State& initial,
-                                   const std::string& search, const SearchSetup& setup);
+std::unique_ptr<Run> make_run_with(const Scene& scene, Gas initial, const std::string& search,
+                                   const SearchSetup& setup);
 
 }  // namespace needlework

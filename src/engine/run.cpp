@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "src/engine/space_order.h"
 #include "src/error.h"
 #include "src/observe/exact_sum.h"
 #include "src/physics/director.h"
@@ -37,10 +38,7 @@ double sum_of(const Gas& gas, Term&& term) {
 
 }  // namespace
 
-Run::Run(const Scene& scene, const State& initial)
-    : restitution{scene.collisions.epsilon, scene.collisions.beta},
-      tc_(scene.collisions.tc),
-      tc_relative_(scene.collisions.tc_relative) {
+Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
   check_size(initial.velocity.size(), count, "velocity");
   check_size(initial.orientation.size(), count, "orientation");
@@ -52,6 +50,7 @@ Run::Run(const Scene& scene, const State& initial)
       throw InputError("state: box edge " + std::to_string(edge) + ": expected at least 2.01");
     }
   }
+  Gas gas;
   gas.box = initial.box;
   gas.k = scene.needles.k;
 
@@ -83,14 +82,24 @@ Run::Run(const Scene& scene, const State& initial)
                        ": expected finite numbers and a director that is not 0");
     }
   }
+  return gas;
+}
+
+Run::Run(const Scene& scene, Gas initial)
+    : gas(std::move(initial)),
+      restitution{scene.collisions.epsilon, scene.collisions.beta},
+      tc_(scene.collisions.tc),
+      tc_relative_(scene.collisions.tc_relative) {
   open_window();
   gas.clock = Clock(mean_free_time);
-  for (Needle i = 0; i < count; ++i) {
+  for (Needle i = 0; i < gas.size(); ++i) {
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now, flight.u, flight.v, flight.w);
   }
   open_window();
   initial_energy_ = energy_;
+  // Before search and calendar take their memory, which would add to what sorting needs.
+  reorder(gas, order_in_space(gas, now));
 }
 
 void Run::open_window() {

@@ -19,8 +19,8 @@ namespace needlework {
 /// the contact time in force are set anew.
 class Run {
  public:
-  /// Takes over scene parameters and the state; throws InputError for a state that cannot be run.
-  Run(const Scene& scene, const State& initial);
+  /// Takes over scene parameters and a gas fresh from make_gas().
+  Run(const Scene& scene, Gas initial);
   virtual ~Run() = default;
 
   virtual Stop advance(const Scene::Until& until) = 0;
@@ -55,8 +55,12 @@ class Run {
   double initial_energy_ = 0;
 };
 
+/// The needles of a state, whose arrays a run has no more use for. Throws InputError for a state
+/// that cannot be run.
+Gas make_gas(const Scene& scene, const State& initial);
+
 /// Makes the event loop that the scene asks for. Throws InputError for a search or queue that does
 /// not exist.
-std::unique_ptr<Run> make_run(const Scene& scene, const State& initial);
+std::unique_ptr<Run> make_run(const Scene& scene, Gas initial);
 
 }  // namespace needlework

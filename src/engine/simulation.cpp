@@ -23,12 +23,13 @@ kernels::Isa isa_of(const std::string& name) {
 // Makes the run with that of the calendars whose name it is.
 template <class... Queues>
 std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queue,
-                                const Scene& scene, const State& initial, const std::string& search,
+                                const Scene& scene, Gas initial, const std::string& search,
                                 const SearchSetup& setup) {
   std::unique_ptr<Run> run;
-  const bool found = ((queue == Queues::name &&
-                       (run = make_run_with<Queues>(scene, initial, search, setup), true)) ||
-                      ...);
+  const bool found =
+      ((queue == Queues::name &&
+        (run = make_run_with<Queues>(scene, std::move(initial), search, setup), true)) ||
+       ...);
   if (found) return run;
   std::string names = "auto";
   ((names += std::string(", ") + Queues::name), ...);
@@ -37,7 +38,7 @@ std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queu
 
 }  // namespace
 
-std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
+std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius};
   const double volume = initial.box[0] * initial.box[1] * initial.box[2];
@@ -45,14 +46,8 @@ std::unique_ptr<Run> make_run(const Scene& scene, const State& initial) {
                                  ? auto_search(static_cast<double>(initial.size()) / volume)
                                  : scene.engine.search;
   const std::string queue = scene.engine.queue == "auto" ? auto_queue : scene.engine.queue;
-  return with_queue(AllCalendars<CalendarList>(), queue, scene, initial, search, setup);
+  return with_queue(AllCalendars<CalendarList>(), queue, scene, std::move(initial), search, setup);
 }
-
-struct Simulation::Implementation {
-  std::unique_ptr<Run> run;
-  std::string effects;
-  std::string isa;
-};
 
 namespace {
 
@@ -73,14 +68,25 @@ std::string name_effects(const Scene::Collisions& collisions) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene) : Simulation(scene, initial_state(scene)) {}
+struct Simulation::Implementation {
+  Implementation(const Scene& scene, Gas initial)
+      : run(make_run(scene, std::move(initial))),
+        effects(name_effects(scene.collisions)),
+        isa(kernels::name_of(isa_of(scene.engine.isa))) {}
+
+  std::unique_ptr<Run> run;
+  std::string effects;
+  std::string isa;
+};
+
+Simulation::Simulation(const Scene& scene) {
+  // The state's arrays go before the rest of the run takes its memory.
+  Gas gas = make_gas(scene, initial_state(scene));
+  implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
+}
 
 Simulation::Simulation(const Scene& scene, const State& initial)
-    : implementation_(std::make_unique<Implementation>()) {
-  implementation_->run = make_run(scene, initial);
-  implementation_->effects = name_effects(scene.collisions);
-  implementation_->isa = kernels::name_of(isa_of(scene.engine.isa));
-}
+    : implementation_(std::make_unique<Implementation>(scene, make_gas(scene, initial))) {}
 
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

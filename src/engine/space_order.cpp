@@ -44,12 +44,6 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   return order;
 }
 
-std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
-  std::vector<Needle> ranks(order.size());
-  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = static_cast<Needle>(n);
-  return ranks;
-}
-
 void reorder(Gas& gas, const std::vector<Needle>& order) {
   const std::vector<Needle> ranks = ranks_of(order);
   for (Record& record : gas.records) {

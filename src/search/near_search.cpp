@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/power_of_two.h"
+#include "src/physics/permutation.h"
 
 namespace needlework {
 namespace {
@@ -58,8 +59,10 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull)), gas.size()),
       places_(gas.size()),
       motions_(gas.size()),
-      blocks_(grid_.size()),
       links_(grid_.size()) {
+  // With room for chained ones: growing would hold all blocks twice.
+  blocks_.reserve(grid_.size() + grid_.size() / 4);
+  blocks_.resize(grid_.size());
   const auto sides = grid_.sides();
   if (hull == Hull::cell) overlap_ = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
   margin_ =
@@ -203,14 +206,9 @@ void NearSearch::leave(Needle i) {
 }
 
 void NearSearch::renumber(const std::vector<Needle>& ranks) {
-  std::vector<Place> places(places_.size());
-  std::vector<Motion> motions(motions_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    places[ranks[i]] = places_[i];
-    motions[ranks[i]] = motions_[i];
-  }
-  places_ = std::move(places);
-  motions_ = std::move(motions);
+  const std::vector<Needle> order = ranks_of(ranks);
+  permute(places_, order);
+  permute(motions_, order);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     for (std::uint32_t lane = 0; lane < links_[b].size; ++lane) {
       blocks_[b].needle[lane] = ranks[blocks_[b].needle[lane]];

@@ -4,7 +4,7 @@
 
 namespace needlework {
 
-template std::unique_ptr<Run> make_run_with<CellCalendar>(const Scene&, const State&,
-                                                          const std::string&, const SearchSetup&);
+template std::unique_ptr<Run> make_run_with<CellCalendar>(const Scene&, Gas, const std::string&,
+                                                          const SearchSetup&);
 
 }  // namespace needlework

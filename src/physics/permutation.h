@@ -1,0 +1,37 @@
+// Needles, and what belongs to them, in another order.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// The inverse of a permutation: ranks[order[n]] = n.
+inline std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
+  std::vector<Needle> ranks(order.size());
+  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = static_cast<Needle>(n);
+  return ranks;
+}
+
+/// Puts values into the new order, in place: a second copy of all records would be the most memory
+/// that a run ever needs.
+template <class T>
+void permute(std::vector<T>& values, const std::vector<Needle>& order) {
+  std::vector<bool> placed(values.size());
+  for (std::size_t start = 0; start < values.size(); ++start) {
+    if (placed[start]) continue;
+    T first = std::move(values[start]);
+    std::size_t n = start;
+    for (; order[n] != start; n = order[n]) {
+      values[n] = std::move(values[order[n]]);
+      placed[n] = true;
+    }
+    values[n] = std::move(first);
+    placed[n] = true;
+  }
+}
+
+}  // namespace needlework
