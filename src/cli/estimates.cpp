@@ -17,7 +17,7 @@ namespace {
 // Peak resident memory, measured from N = 1e3 to 1e6 with the searches by lanes, and what frames
 // add. The scalar search takes a quarter less.
 constexpr double base_bytes = 12e6;
-constexpr double bytes_per_needle = 650;
+constexpr double bytes_per_needle = 580;
 constexpr double bytes_per_needle_of_a_frame = 100;
 
 }  // namespace
@@ -39,7 +39,7 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
   if (search == "linked-lists") return 40e-6 + 7e-6 * density + 0.9e-6 / density;
   const double out_of_cache = 3e-6 * std::log10(std::max(1.0, count / 1e4));
   const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
-  return (11e-6 + 1.3e-6 / std::cbrt(density * density) + out_of_cache) * slowness;
+  return (8e-6 + 0.5e-6 / std::cbrt(density * density) + out_of_cache) * slowness;
 }
 
 void require_memory(const Scene& scene) {
