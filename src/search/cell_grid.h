@@ -85,9 +85,12 @@ class CellGrid {
     float gap_squared;  ///< of its distance from the interval, not above [L^2]
   };
 
-  /// Appends the cells of an axis that are not farther than `reach` from [low, high].
-  void append_near(int axis, std::int32_t origin, double low, double high, double reach,
-                   std::vector<AxisCell>& out) const {
+  /// Appends the cells of an axis that, made larger by `overlap` on either side, are not farther
+  /// than `reach` from [low, high].
+  void append_near(int axis, std::int32_t origin, double low, double high, double overlap,
+                   double reach, std::vector<AxisCell>& out) const {
+    low -= overlap;
+    high += overlap;
     const std::int32_t first = floor((low - reach) * reciprocal_[axis]);
     const std::int32_t last = floor((high + reach) * reciprocal_[axis]);
     std::int32_t wrapped = wrap(first, axis);

@@ -232,7 +232,7 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 // one's hull, or of its way in the time ahead, can have been placed in.
 void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
   // The margin covers the rounding of the seeker's place in its cell.
-  double reach = 1 + overlap_ + hull_margin + margin_;
+  double reach = 1 + hull_margin + margin_;
   double way = ahead * unit_;
   if (hull_ == Hull::capsule) {
     // Another centre is not farther from this axis than half a length and both radii.
@@ -245,8 +245,8 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
     const double span = hull_ == Hull::capsule ? 0.5 * std::abs(seeker.u[axis]) : 0;
     const double end = r + seeker.motion.v[axis] * way;
     near_[axis].clear();
-    grid_.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span, reach,
-                      near_[axis]);
+    grid_.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span, overlap_,
+                      reach, near_[axis]);
   }
   const float reach_squared = static_cast<float>(reach * reach);
   const std::size_t most = near_[0].size() * near_[1].size() * near_[2].size();

@@ -84,5 +84,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 300}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// A needle that a hull hides from another is met once in a thousand collisions. Hulls reach
+// farthest beyond their cells where gases are dilute.
+TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions) {
+  for (const double box : {100.0, 46.0, 14.0, 5.57}) {
+    Scene scene = test::scene_of(2000, box, 1);
+    SCOPED_TRACE(test::name_of(scene));
+    const double count = 20000 / thin;
+    scene.engine.search = "linked-lists";
+    const test::Recorded truth = test::record(scene, count);
+    for (const char* search : {"linked-cells", "capsules"}) {
+      SCOPED_TRACE(search);
+      scene.engine.search = search;
+      ASSERT_NO_FATAL_FAILURE(expect_same(truth, test::record(scene, count)));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace needlework
