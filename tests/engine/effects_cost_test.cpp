@@ -74,6 +74,9 @@ CodeByLoop read_library() {
 }
 
 TEST(EffectThatIsOff, HasNoCodeInTheLoop) {
+#ifndef NDEBUG
+  GTEST_SKIP() << "checks and sanitizers add code of their own; built for release it is read";
+#endif
   const CodeByLoop loops = read_library();
   EXPECT_GE(loops.size(), 20u) << "searches times calendars";
   for (const auto& [loop, by_effects] : loops) {
