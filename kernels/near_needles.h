@@ -3,7 +3,7 @@
 // They work in float on compact copies of the records and only ever rule pairs out: with margins
 // that cover every rounding, so that no choice of kernel or instruction set can change a
 // trajectory. What they let pass goes to first_contact, with a time before which it meets nothing.
-// One body (near_needles-inl.h) serves all instruction sets; with one lane it is the plain twin,
+// One body (near_needles_body.h) serves all instruction sets; with one lane it is the plain twin,
 // and the results are equal bit for bit.
 //
 // Lengths are in L. Velocities are scaled by a power of two, the caller's unit of time, so that

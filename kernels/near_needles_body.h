@@ -157,118 +157,115 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Lanes zero(0.0f), one(1.0f), half(0.5f);
   std::size_t evaluations = 0;
-  {
-    const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
-    LanePairs pair;
-    pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
-    pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
-    pair.u[0] = broadcast(seeker.motion.u);
-    pair.p[0] = broadcast(seeker.motion.p);
-    pair.omega[0] = Lanes(seeker.motion.omega);
-    pair.age[0] = zero;
-    pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
-    pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
-    pair.omega[1] = column(C::omega);
-    pair.age[1] = column(C::age);
-    Lanes until = column(C::until);
+  const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
+  LanePairs pair;
+  pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
+  pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
+  pair.u[0] = broadcast(seeker.motion.u);
+  pair.p[0] = broadcast(seeker.motion.p);
+  pair.omega[0] = Lanes(seeker.motion.omega);
+  pair.age[0] = zero;
+  pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
+  pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
+  pair.omega[1] = column(C::omega);
+  pair.age[1] = column(C::age);
+  Lanes until = column(C::until);
 
-    const Lanes a = dot(pair.v, pair.v), b = dot(pair.r, pair.v), rr = dot(pair.r, pair.r);
-    const Lanes w = pair.omega[0] + pair.omega[1];
-    const Lanes v = square_root(a), speed = v + half * w;
-    // What times off by 2^-20 and phases off by 2^-23 of themselves do, and the caller's margin.
-    const Lanes swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
-    const Lanes phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
-    const Lanes margin = Lanes(seeker.margin) + swift * Lanes(0x1p-18f) + phase * Lanes(0x1p-20f);
-    const Mask trusted = phase < Lanes(0x1p12f);
+  const Lanes a = dot(pair.v, pair.v), b = dot(pair.r, pair.v), rr = dot(pair.r, pair.r);
+  const Lanes w = pair.omega[0] + pair.omega[1];
+  const Lanes v = square_root(a), speed = v + half * w;
+  // What times off by 2^-20 and phases off by 2^-23 of themselves do, and the caller's margin.
+  const Lanes swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
+  const Lanes phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
+  const Lanes margin = Lanes(seeker.margin) + swift * Lanes(0x1p-18f) + phase * Lanes(0x1p-20f);
+  const Mask trusted = phase < Lanes(0x1p12f);
 
-    // Time in which the bounding spheres overlap.
-    const Lanes reach = Lanes(1 + 0x1p-10f) + margin;
-    const Lanes reach_squared = reach * reach + rr * Lanes(0x1p-18f);
-    const Lanes c = rr - reach_squared;
-    const Lanes discriminant = b * b - a * c;
-    const Lanes root = square_root(maximum(discriminant, zero));
-    const Mask outside = c > zero;
-    const Mask apart = outside & ((b >= zero) | (discriminant < zero));
-    const Lanes q = select(b > zero, -(b + root), root - b);
-    const Lanes entry = select(outside, c / q, zero);
-    const Lanes exit = select(b > zero, c / q, q / a);
-    until = minimum(exit + Lanes(0x1p-18f), until);
-    Lanes low = maximum(maximum(entry, column(C::from)) - Lanes(0x1p-18f), zero);
-    if (parts > 1) {
-      const Lanes span = (until - low) * Lanes(1.0f / static_cast<float>(parts)),
-                  begin = load_lanes(part);
-      const Mask last = begin >= Lanes(static_cast<float>(parts - 1));
-      until = select(last, until, low + span * (begin + one));
-      low = low + span * begin;
-    }
-
-    // While they do, f'' is at most `bend`, and the third derivative 6 times `twist`.
-    const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(reach_squared);
-    const Lanes bend = ((v + v) + arm * w) * w;
-    const Lanes twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
-    const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
-    const Lanes slope_off = margin * (speed + speed), two_margins = margin + margin;
-    // The first step is one over which f'' changes f by no more than this; steps adapt.
-    constexpr float first_bend = 0.2f;
-    const Lanes least = Lanes(0x1p-9f) / speed;
-    const Lanes step = square_root(Lanes(8 * first_bend) / bend);
-    // Still to be looked at: from low to high, and from next on.
-    Lanes high = minimum(low + step, until), next = high;
-    Mask searching = (counting() < Lanes(static_cast<float>(end - k))) & (!apart) & (low <= until);
-    Lanes from(infinity);
-    for (int round = 0; round < 40 && any(searching); ++round) {
-      ++evaluations;
-      const Lanes middle = half * (low + high), h = half * (high - low);
-      const LaneSample e = sample(pair, middle);
-      const Mask known = trusted & (e.gap < Lanes(0x1p10f));
-
-      // Two bounds, from below, on how far the needles are from a contact up to h before and after
-      // the middle, both concave in time: f with its sign, and along the gap that they have now.
-      const Lanes size = absolute(e.f), rising = select(e.f < zero, -e.df, e.df);
-      const Lanes f_now = size - two_margins;
-      const Lanes f_off =
-          f_now - h * slope_off -
-          h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend);
-      const Lanes f_change = h * rising;
-      const Lanes gap_off = two_margins * e.gap;
-      const Lanes g_now =
-          (e.centre - half * (absolute(e.director[0]) + absolute(e.director[1]))) - gap_off;
-      const Lanes g_off = (e.centre - Lanes(0.25f) * squares * h * h * e.gap) - gap_off;
-      const Lanes turned[2] = {h * e.turning[0], h * e.turning[1]}, moved = h * e.velocity;
-      const auto along_gap = [&](Lanes centre, Lanes a, Lanes b) NEEDLEWORK_TARGET {
-        return centre - half * (absolute(a) + absolute(b));
-      };
-      const Lanes f_before = f_off - f_change, f_after = f_off + f_change;
-      const Lanes g_before =
-          along_gap(g_off - moved, e.director[0] - turned[0], e.director[1] - turned[1]);
-      const Lanes g_after =
-          along_gap(g_off + moved, e.director[0] + turned[0], e.director[1] + turned[1]);
-      // The share of h that is free of contacts on either side: up to where the chord of a bound,
-      // which lies below it, comes to 0.
-      const auto share = [&](Lanes here, Lanes there) NEEDLEWORK_TARGET {
-        return select(here > zero, select(there > zero, one, here / (here - there)), zero);
-      };
-      const Lanes before =
-          select(known, maximum(share(f_now, f_before), share(g_now, g_before)), zero);
-      const Lanes after =
-          select(known, maximum(share(f_now, f_after), share(g_now, g_after)), zero);
-      const Mask left = before >= one, right = after >= one, both = left & right;
-
-      // With nothing of the first half left, the search goes on in the second, or after it; else in
-      // what is left of the first half, and then in what is left of the second.
-      const Lanes freed = middle + h * after, wide = Lanes(4.0f) * h;
-      low = select(left, select(right, next, freed), low);
-      high = select(both, minimum(next + wide, until), select(left, high, middle - h * before));
-      next = select(both, high, select(left | right, next, freed));
-
-      const Mask done = both & (low >= until);
-      const Mask found = searching & (!both) & (high - low <= least);
-      from = select(found, low, from);
-      searching = searching & (!found) & !done;
-    }
-    from = select(searching, low, from);
-    store_lanes(maximum(from - Lanes(0x1p-18f), zero), pairs.column[C::from] + k);
+  // Time in which the bounding spheres overlap.
+  const Lanes reach = Lanes(1 + 0x1p-10f) + margin;
+  const Lanes reach_squared = reach * reach + rr * Lanes(0x1p-18f);
+  const Lanes c = rr - reach_squared;
+  const Lanes discriminant = b * b - a * c;
+  const Lanes root = square_root(maximum(discriminant, zero));
+  const Mask outside = c > zero;
+  const Mask apart = outside & ((b >= zero) | (discriminant < zero));
+  const Lanes q = select(b > zero, -(b + root), root - b);
+  const Lanes entry = select(outside, c / q, zero);
+  const Lanes exit = select(b > zero, c / q, q / a);
+  until = minimum(exit + Lanes(0x1p-18f), until);
+  Lanes low = maximum(maximum(entry, column(C::from)) - Lanes(0x1p-18f), zero);
+  if (parts > 1) {
+    const Lanes span = (until - low) * Lanes(1.0f / static_cast<float>(parts)),
+                begin = load_lanes(part);
+    const Mask last = begin >= Lanes(static_cast<float>(parts - 1));
+    until = select(last, until, low + span * (begin + one));
+    low = low + span * begin;
   }
+
+  // While they do, f'' is at most `bend`, and the third derivative 6 times `twist`.
+  const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(reach_squared);
+  const Lanes bend = ((v + v) + arm * w) * w;
+  const Lanes twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
+  const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
+  const Lanes slope_off = margin * (speed + speed), two_margins = margin + margin;
+  // The first step is one over which f'' changes f by no more than this; steps adapt.
+  constexpr float first_bend = 0.2f;
+  const Lanes least = Lanes(0x1p-9f) / speed;
+  const Lanes step = square_root(Lanes(8 * first_bend) / bend);
+  // Still to be looked at: from low to high, and from next on.
+  Lanes high = minimum(low + step, until), next = high;
+  Mask searching = (counting() < Lanes(static_cast<float>(end - k))) & (!apart) & (low <= until);
+  Lanes from(infinity);
+  for (int round = 0; round < 40 && any(searching); ++round) {
+    ++evaluations;
+    const Lanes middle = half * (low + high), h = half * (high - low);
+    const LaneSample e = sample(pair, middle);
+    const Mask known = trusted & (e.gap < Lanes(0x1p10f));
+
+    // Two bounds, from below, on how far the needles are from a contact up to h before and after
+    // the middle, both concave in time: f with its sign, and along the gap that they have now.
+    const Lanes size = absolute(e.f), rising = select(e.f < zero, -e.df, e.df);
+    const Lanes f_now = size - two_margins;
+    const Lanes f_off =
+        f_now - h * slope_off -
+        h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend);
+    const Lanes f_change = h * rising;
+    const Lanes gap_off = two_margins * e.gap;
+    const Lanes g_now =
+        (e.centre - half * (absolute(e.director[0]) + absolute(e.director[1]))) - gap_off;
+    const Lanes g_off = (e.centre - Lanes(0.25f) * squares * h * h * e.gap) - gap_off;
+    const Lanes turned[2] = {h * e.turning[0], h * e.turning[1]}, moved = h * e.velocity;
+    const auto along_gap = [&](Lanes centre, Lanes a, Lanes b) NEEDLEWORK_TARGET {
+      return centre - half * (absolute(a) + absolute(b));
+    };
+    const Lanes f_before = f_off - f_change, f_after = f_off + f_change;
+    const Lanes g_before =
+        along_gap(g_off - moved, e.director[0] - turned[0], e.director[1] - turned[1]);
+    const Lanes g_after =
+        along_gap(g_off + moved, e.director[0] + turned[0], e.director[1] + turned[1]);
+    // The share of h that is free of contacts on either side: up to where the chord of a bound,
+    // which lies below it, comes to 0.
+    const auto share = [&](Lanes here, Lanes there) NEEDLEWORK_TARGET {
+      return select(here > zero, select(there > zero, one, here / (here - there)), zero);
+    };
+    const Lanes before =
+        select(known, maximum(share(f_now, f_before), share(g_now, g_before)), zero);
+    const Lanes after = select(known, maximum(share(f_now, f_after), share(g_now, g_after)), zero);
+    const Mask left = before >= one, right = after >= one, both = left & right;
+
+    // With nothing of the first half left, the search goes on in the second, or after it; else in
+    // what is left of the first half, and then in what is left of the second.
+    const Lanes freed = middle + h * after, wide = Lanes(4.0f) * h;
+    low = select(left, select(right, next, freed), low);
+    high = select(both, minimum(next + wide, until), select(left, high, middle - h * before));
+    next = select(both, high, select(left | right, next, freed));
+
+    const Mask done = both & (low >= until);
+    const Mask found = searching & (!both) & (high - low <= least);
+    from = select(found, low, from);
+    searching = searching & (!found) & !done;
+  }
+  from = select(searching, low, from);
+  store_lanes(maximum(from - Lanes(0x1p-18f), zero), pairs.column[C::from] + k);
   return evaluations;
 }
 
