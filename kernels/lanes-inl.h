@@ -11,6 +11,8 @@
 
 #include <cstdint>
 
+#include "kernels/set_bits.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace needlework::kernels::HWY_NAMESPACE {
 
@@ -60,11 +62,50 @@ HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a
 HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 
-/// One bit for each lane.
-HWY_INLINE std::uint32_t bits_of(Mask m) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Tag(), m.m, bytes);
-  return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+/// The lanes for which a mask holds, brought together in front, in their order; what follows them
+/// is anything. (GCC 12 copies the tables of Highway's Compress onto the stack at each call.)
+struct Packing {
+#if HWY_TARGET == HWY_AVX3
+  hn::Mask<Tag> chosen;
+#else
+  decltype(hn::IndicesFromVec(Tag(), hn::Zero(hn::RebindToUnsigned<Tag>()))) order;
+#endif
+  std::size_t count;
+};
+HWY_INLINE Packing packing_of(Mask m) {
+#if HWY_TARGET == HWY_AVX3
+  return {m.m, hn::CountTrue(Tag(), m.m)};
+#else
+  const hn::RebindToUnsigned<Tag> whole;
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Tag(), m.m, bits);
+  const hn::Rebind<std::uint8_t, Tag> bytes;
+  const auto order = hn::PromoteTo(whole, hn::LoadU(bytes, set_bits.place[bits[0]]));
+  return {hn::IndicesFromVec(Tag(), order), hn::CountTrue(Tag(), m.m)};
+#endif
+}
+HWY_INLINE Lanes packed(Lanes a, const Packing& packing) {
+#if HWY_TARGET == HWY_AVX3
+  return hn::Compress(a.v, packing.chosen);
+#else
+  return hn::TableLookupLanes(a.v, packing.order);
+#endif
+}
+
+// Numbers without sign beside the lanes.
+HWY_INLINE Lanes load_numbers(const std::uint32_t* p) {
+  return hn::BitCast(Tag(), hn::LoadU(hn::RebindToUnsigned<Tag>(), p));
+}
+HWY_INLINE void store_numbers(Lanes a, std::uint32_t* p) {
+  const hn::RebindToUnsigned<Tag> whole;
+  hn::StoreU(hn::BitCast(whole, a.v), whole, p);
+}
+HWY_INLINE Lanes number(std::uint32_t a) {
+  return hn::BitCast(Tag(), hn::Set(hn::RebindToUnsigned<Tag>(), a));
+}
+HWY_INLINE Mask same_numbers(Lanes a, Lanes b) {
+  const hn::RebindToUnsigned<Tag> whole;
+  return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
 /// Turns (cosine, sine) by k quarters of a circle, k a whole number below 2^30.

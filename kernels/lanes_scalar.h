@@ -45,7 +45,19 @@ inline Lanes square_root(Lanes a) { return std::sqrt(a.v); }
 inline Lanes select(Mask m, Lanes a, Lanes b) { return m.m ? a : b; }
 inline Mask select(Mask m, Mask a, Mask b) { return m.m ? a : b; }
 inline bool any(Mask m) { return m.m; }
-inline std::uint32_t bits_of(Mask m) { return m.m; }
+
+struct Packing {
+  std::size_t count;
+};
+inline Packing packing_of(Mask m) { return {m.m}; }
+inline Lanes packed(Lanes a, Packing) { return a; }
+
+inline Lanes load_numbers(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
+inline void store_numbers(Lanes a, std::uint32_t* p) { *p = std::bit_cast<std::uint32_t>(a.v); }
+inline Lanes number(std::uint32_t a) { return std::bit_cast<float>(a); }
+inline Mask same_numbers(Lanes a, Lanes b) {
+  return {std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v)};
+}
 
 inline void turn(Lanes k, Lanes& cosine, Lanes& sine) {
   const auto q = static_cast<std::int32_t>(k.v);

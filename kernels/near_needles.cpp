@@ -1,7 +1,6 @@
 #include "kernels/near_needles.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <type_traits>

@@ -60,10 +60,10 @@ struct Surroundings {
   std::size_t cell_count;
 };
 
-/// A needle found in one of the cells.
+/// Needles found in the cells, in columns with room for one block more than there are needles.
 struct Found {
-  std::uint32_t needle;
-  std::uint32_t cell;  ///< index of the CellView
+  std::uint32_t* needle;
+  std::uint32_t* cell;  ///< index of the CellView
 };
 
 /// The needle that searches.
@@ -114,11 +114,12 @@ struct NearKernels {
   std::size_t lanes;
 
   /// Needles whose hulls, capsules of radius `radius` around where they have been placed, overlap
-  /// the seeker's, written to `found`, which has room for all.
-  Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius, Found* found);
+  /// the seeker's.
+  Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius,
+                      const Found& found);
   /// Needles whose bounding spheres come to overlap the seeker's in the time ahead; their columns
   /// a are velocities.
-  Scan (*approaching)(const Surroundings& around, const Seeker& seeker, Found* found);
+  Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
   /// Sets `from` of the first n pairs. Returns the evaluations of the contact function, by lanes.
   std::size_t (*isolate)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };

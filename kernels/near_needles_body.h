@@ -40,26 +40,32 @@ inline V3 broadcast(const float (&a)[3]) { return {Lanes(a[0]), Lanes(a[1]), Lan
 inline Lanes norm_1(const V3& a) { return absolute(a.x) + absolute(a.y) + absolute(a.z); }
 
 /// Calls test(block, lane, offset) -> Mask for the lanes of all blocks of these cells and notes the
-/// needles for which it holds.
+/// needles for which it holds. Without a branch on the outcome, which nothing foretells: a wrong
+/// guess would throw away what had begun on the next blocks.
 template <class Test>
-NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, Found* found,
+NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, const Found& found,
                             Test&& test) {
+  // Copied, for what is stored might be these, as far as a compiler can tell.
+  const BlockLink* const links = around.links;
+  const Block* const blocks = around.blocks;
+  std::uint32_t *const needles = found.needle, *const cells = found.cell;
+  const Lanes self = number(seeker.needle);
   std::size_t count = 0, seen = 0;
   for (std::uint32_t n = 0; n < around.cell_count; ++n) {
     const CellView& cell = around.cells[n];
-    for (std::uint32_t b = cell.block; b != BlockLink::none; b = around.links[b].next) {
-      const Block& block = around.blocks[b];
-      const std::uint32_t size = around.links[b].size;
+    for (std::uint32_t b = cell.block; b != BlockLink::none; b = links[b].next) {
+      const Block& block = blocks[b];
+      const std::uint32_t size = links[b].size;
       seen += size;
       for (std::uint32_t lane = 0; lane < size; lane += lanes_at_once) {
-        std::uint32_t bits = bits_of(test(block, lane, cell.offset));
         // Places beyond the last needle hold anything.
-        if (lane + lanes_at_once > size) bits &= (1u << (size - lane)) - 1;
-        for (; bits != 0; bits &= bits - 1) {
-          const std::uint32_t needle = block.needle[lane + std::countr_zero(bits)];
-          found[count] = {needle, n};
-          count += needle != seeker.needle;
-        }
+        const Mask taken = counting() < Lanes(static_cast<float>(size - lane));
+        const Lanes needle = load_numbers(block.needle + lane);
+        const Packing found_here =
+            packing_of(taken & test(block, lane, cell.offset) & !same_numbers(needle, self));
+        store_numbers(packed(needle, found_here), needles + count);
+        store_numbers(number(n), cells + count);
+        count += found_here.count;
       }
     }
   }
@@ -72,7 +78,8 @@ inline V3 load(const Block& block, int first_column, std::size_t lane) {
           load_lanes(block.column[first_column + 2] + lane)};
 }
 
-Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius, Found* found) {
+Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
+                 const Found& found) {
   const V3 r = broadcast(seeker.r), u = broadcast(seeker.u);
   const float near = 2 * radius + seeker.margin;
   const Lanes near_squared(near * near);
@@ -87,9 +94,10 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
       });
 }
 
-Scan approaching(const Surroundings& around, const Seeker& seeker, Found* found) {
+Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
   const V3 r = broadcast(seeker.motion.r), v = broadcast(seeker.motion.v);
   const Lanes now(seeker.now), ahead(seeker.ahead), zero(0.0f);
+  const Lanes reach_at_rest = Lanes(1 + seeker.margin + 0x1p-10f) + norm_1(v) * Lanes(0x1p-18f);
   return scan(
       around, seeker, found,
       [&](const Block& block, std::size_t lane, const float* offset) NEEDLEWORK_TARGET {
@@ -98,8 +106,7 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, Found* found)
         const Lanes age = now - load_lanes(block.column[Block::time] + lane);
         const V3 d = (from - load(block, Block::x, lane)) - other_v * age, w = v - other_v;
         const Lanes dd = dot(d, d), b = dot(d, w), a = dot(w, w);
-        const Lanes reach =
-            Lanes(1 + seeker.margin + 0x1p-10f) + (norm_1(v) + norm_1(other_v)) * Lanes(0x1p-18f);
+        const Lanes reach = reach_at_rest + norm_1(other_v) * Lanes(0x1p-18f);
         const Lanes c = dd - (reach * reach + dd * Lanes(0x1p-18f));
         // Nearest at -b / a, or at the end of the time ahead when that comes first.
         const Mask later = -b < a * ahead;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "bench/kernels/neighbourhood.h"
 
@@ -32,22 +33,28 @@ void count_pairs(benchmark::State& state, double pairs) {
       Counter(pairs / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
 }
 
+/// Room for what a filter finds.
+struct Findings {
+  explicit Findings(std::size_t most)
+      : needles(most + kernels::block_size), cells(most + kernels::block_size) {}
+  Found view() { return {needles.data(), cells.data()}; }
+
+  std::vector<std::uint32_t> needles, cells;
+};
+
 /// A filter over the cells around a needle; `apply` calls it.
 template <class Apply>
 void filter(benchmark::State& state, const std::string& name, Isa isa, const Neighbourhoods& gas,
             Apply&& apply) {
-  std::vector<Found> found(gas.most_needles + 2 * kernels::block_size), expected(found.size());
+  Findings found(gas.most_needles), expected(gas.most_needles);
   for (const Neighbourhood& one : gas.all) {
-    const auto reset = [](std::vector<Found>& list) { list.assign(list.size(), Found{}); };
-    reset(found);
-    reset(expected);
-    apply(kernels::near_kernels(isa), one, found.data());
-    apply(kernels::near_kernels(Isa::scalar), one, expected.data());
-    for (std::size_t n = 0; n < gas.most_needles; ++n) {
-      require(found[n].needle == expected[n].needle && found[n].cell == expected[n].cell, name,
+    const std::size_t count = apply(kernels::near_kernels(isa), one, found.view()).found;
+    require(count == apply(kernels::near_kernels(Isa::scalar), one, expected.view()).found, name,
+            isa);
+    // Beyond the last one kernels may leave anything.
+    for (std::size_t n = 0; n < count; ++n) {
+      require(found.needles[n] == expected.needles[n] && found.cells[n] == expected.cells[n], name,
               isa);
-      // Beyond the last one kernels may leave anything.
-      if (expected[n].needle == 0 && expected[n].cell == 0) break;
     }
   }
   const NearKernels& chosen = kernels::near_kernels(isa);
@@ -55,7 +62,7 @@ void filter(benchmark::State& state, const std::string& name, Isa isa, const Nei
   double pairs = 0;
   for (auto _ : state) {
     const Neighbourhood& one = gas.all[n];
-    apply(chosen, one, found.data());
+    apply(chosen, one, found.view());
     benchmark::ClobberMemory();
     pairs += static_cast<double>(one.needles);
     n = n + 1 < gas.all.size() ? n + 1 : 0;
@@ -67,16 +74,16 @@ void overlapping(benchmark::State& state, Isa isa, double density) {
   const Neighbourhoods gas(density, Neighbourhoods::Columns::directors, searches);
   const auto radius = static_cast<float>(capsule_radius(density));
   filter(state, "overlapping", isa, gas,
-         [&](const NearKernels& kernels, const Neighbourhood& one, Found* found) {
-           kernels.overlapping(gas.around(one), one.seeker, radius, found);
+         [&](const NearKernels& kernels, const Neighbourhood& one, const Found& found) {
+           return kernels.overlapping(gas.around(one), one.seeker, radius, found);
          });
 }
 
 void approaching(benchmark::State& state, Isa isa, double density) {
   const Neighbourhoods gas(density, Neighbourhoods::Columns::velocities, searches);
   filter(state, "approaching", isa, gas,
-         [&](const NearKernels& kernels, const Neighbourhood& one, Found* found) {
-           kernels.approaching(gas.around(one), one.seeker, found);
+         [&](const NearKernels& kernels, const Neighbourhood& one, const Found& found) {
+           return kernels.approaching(gas.around(one), one.seeker, found);
          });
 }
 

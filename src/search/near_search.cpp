@@ -270,8 +270,8 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
       }
     }
   }
-  const std::size_t room = view_count_ * longest_chain_ * kernels::block_size + 1;
-  if (room > found_.size()) found_.resize(2 * room);
+  const std::size_t room = (view_count_ * longest_chain_ + 1) * kernels::block_size;
+  if (2 * room > found_.size()) found_.resize(4 * room);
 }
 
 std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
@@ -288,19 +288,21 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   }
   look_around(seeker, place.cell, ahead);
   const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_};
+  const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto [entries, count] =
       hull_ == Hull::cell
-          ? kernels_.approaching(around, seeker, found_.data())
-          : kernels_.overlapping(around, seeker, static_cast<float>(radius_), found_.data());
+          ? kernels_.approaching(around, seeker, found)
+          : kernels_.overlapping(around, seeker, static_cast<float>(radius_), found);
   counters_.candidates += entries;
 
-  for (std::size_t k = 0; k < count; ++k) prefetch(&motions_[found_[k].needle]);
+  for (std::size_t k = 0; k < count; ++k) prefetch(&motions_[found.needle[k]]);
 
   candidates_.clear();
-  const auto propose = [&](const kernels::Found& found, double from, double to) {
-    prefetch(&places_[found.needle]);
-    prefetch(&gas_.records[found.needle]);
-    candidates_.push_back({from, to, found.needle, found.cell, {}});
+  const auto propose = [&](std::size_t k, double from, double to) {
+    const Needle j = found.needle[k];
+    prefetch(&places_[j]);
+    prefetch(&gas_.records[j]);
+    candidates_.push_back({from, to, j, found.cell[k], {}});
   };
   const PairColumns pairs = pair_columns(count);
   const Record& record = gas_.records[i];
@@ -311,8 +313,8 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   const float parting = 0.25f / speed;
   constexpr double endless = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < count; ++k) {
-    const Motion& other = motions_[found_[k].needle];
-    const float* offset = views_[found_[k].cell].offset;
+    const Motion& other = motions_[found.needle[k]];
+    const float* offset = views_[found.cell[k]].offset;
     const float age = seeker.now - other.time;
     for (int axis = 0; axis < 3; ++axis) {
       pairs.column[PairColumns::r_x + axis][k] =
@@ -326,16 +328,16 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     pairs.column[PairColumns::until][k] = std::min(
         seeker.ahead, std::max(0.0f, other.until - seeker.now) + static_cast<float>(time_margin));
     // A needle just hit is near for sure: this one looks from a little later on.
-    pairs.column[PairColumns::from][k] = found_[k].needle == just_hit ? parting : 0.0f;
+    pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
   }
   counters_.isolated += kernels_.isolate(seeker, pairs, count);
   for (std::size_t k = 0; k < count; ++k) {
     const float from = pairs.column[PairColumns::from][k];
     const bool met = from <= seeker.ahead;
-    if (found_[k].needle == just_hit) {
-      propose(found_[k], 0, met ? endless : parting / unit_);
+    if (found.needle[k] == just_hit) {
+      propose(k, 0, met ? endless : parting / unit_);
     } else if (met) {
-      propose(found_[k], from / unit_, endless);
+      propose(k, from / unit_, endless);
     }
   }
   std::sort(candidates_.begin(), candidates_.end(),

@@ -94,8 +94,8 @@ class NearSearch {
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;
-  std::vector<Cell> view_cells_;  ///< of the views, not wrapped into the box
-  std::vector<kernels::Found> found_;
+  std::vector<Cell> view_cells_;      ///< of the views, not wrapped into the box
+  std::vector<std::uint32_t> found_;  ///< needles, then their cells, each in one half
   std::vector<float> pair_storage_;
   std::size_t pair_capacity_ = 0;
   std::vector<Candidate> candidates_;

@@ -50,8 +50,19 @@ struct Neighbourhood {
   Seeker seeker{};
 
   Surroundings around() const { return {blocks.data(), links.data(), cells.data(), cells.size()}; }
-  std::size_t room() const { return blocks.size() * block_size + 1; }
 };
+
+/// What a kernel finds around a seeker; `apply` calls it. What it leaves beyond is of no account.
+template <class Apply>
+std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhood& near,
+                                                              Apply&& apply) {
+  const std::size_t room = (near.blocks.size() + 1) * block_size;
+  std::vector<std::uint32_t> needles(room), cells(room);
+  const Scan scan = apply(Found{needles.data(), cells.data()});
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
+  for (std::size_t n = 0; n < scan.found; ++n) out.push_back({needles[n], cells[n]});
+  return out;
+}
 
 /// Numbers for one needle in a block.
 using BlockRow = std::array<float, Block::columns>;
@@ -87,20 +98,16 @@ Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<Block
 std::vector<std::pair<std::uint32_t, std::uint32_t>> overlapping(const NearKernels& kernels,
                                                                  const Neighbourhood& near,
                                                                  float radius) {
-  std::vector<Found> found(near.room());
-  found.resize(kernels.overlapping(near.around(), near.seeker, radius, found.data()).found);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-  for (const Found& f : found) out.push_back({f.needle, f.cell});
-  return out;
+  return found_by(near, [&](const Found& found) {
+    return kernels.overlapping(near.around(), near.seeker, radius, found);
+  });
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> approaching(const NearKernels& kernels,
                                                                  const Neighbourhood& near) {
-  std::vector<Found> found(near.room());
-  found.resize(kernels.approaching(near.around(), near.seeker, found.data()).found);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> out;
-  for (const Found& f : found) out.push_back({f.needle, f.cell});
-  return out;
+  return found_by(near, [&](const Found& found) {
+    return kernels.approaching(near.around(), near.seeker, found);
+  });
 }
 
 std::vector<std::uint32_t> bits(const std::vector<float>& values) {

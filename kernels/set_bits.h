@@ -1,0 +1,22 @@
+// Where the bits set in a byte are: a table to bring lanes together by.
+#pragma once
+
+#include <cstdint>
+
+namespace needlework::kernels {
+
+struct SetBits {
+  std::uint8_t place[256][8] = {};  ///< of each, the lowest first; then 0
+};
+
+inline constexpr SetBits set_bits = [] {
+  SetBits out;
+  for (int bits = 0; bits < 256; ++bits) {
+    for (int place = 0, n = 0; place < 8; ++place) {
+      if (bits >> place & 1) out.place[bits][n++] = static_cast<std::uint8_t>(place);
+    }
+  }
+  return out;
+}();
+
+}  // namespace needlework::kernels
