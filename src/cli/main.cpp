@@ -4,20 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <new>
-#include <system_error>
 
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/export_command.h"
+#include "src/cli/failure.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/theory_command.h"
 #include "src/cli/version.h"
-#include "src/error.h"
 
 namespace needlework::cli {
 namespace {
@@ -47,24 +45,10 @@ int parse_and_run(int argc, char** argv) {
 int run_program(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
-  } catch (const InputError& error) {
-    print_error(error.what());
-    return bad_input;
-  } catch (const InvalidStateError& error) {
-    print_error(error.what());
-    return invalid_state;
-  } catch (const IoError& error) {
-    print_error(error.what());
-    return input_output_error;
-  } catch (const std::bad_alloc&) {
-    print_error("not enough memory: expected fewer needles (needles.count)");
-    return bad_input;
-  } catch (const std::system_error& error) {  // of printing
-    print_error(error.what());
-    return input_output_error;
-  } catch (const std::exception& error) {
-    print_error(fmt::format("unexpected error: {}", error.what()));
-    return invalid_state;
+  } catch (const std::exception&) {
+    const Failure failure = current_failure();
+    print_error(failure.message);
+    return failure.exit_code;
   }
 }
 
