@@ -133,7 +133,7 @@ Entry parse_override(std::string_view text) {
 }  // namespace
 
 Document::Document(std::string_view text, std::string_view name,
-                   std::span<const std::string> overrides)
+                   std::span<const Override> overrides)
     : text_(text), name_(name) {
   const std::string file = printable(name, name_limit);
   if (const auto hazard = find_toml_hazard(text))
@@ -144,14 +144,16 @@ Document::Document(std::string_view text, std::string_view name,
     throw InputError(fmt::format("{}: line {}: {}", file, error.source().begin.line,
                                  reason(error.description())));
   }
-  for (const std::string& override_text : overrides) {
-    Entry entry = parse_override(override_text);
+  for (const Override& given : overrides) {
+    Entry entry = parse_override(given.assignment);
+    entry.named = given.place;
     entry.value = override_value(entry.override_text);
     entries_.push_back(std::move(entry));
   }
 }
 
 std::string Document::place(const Entry& entry) const {
+  if (!entry.named.empty()) return entry.named;
   std::string key = printable(entry.section, key_limit);
   if (!entry.is_head) key += (key.empty() ? "" : ".") + printable(entry.key, key_limit);
   if (entry.is_override)

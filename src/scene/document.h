@@ -43,6 +43,13 @@ struct Entry {
   bool is_head = false;       ///< stands for [section] itself, without key and value
   bool is_override = false;   ///< given by --set
   std::string override_text;  ///< the value as given there
+  std::string named;          ///< Override::place
+};
+
+/// A key given from outside the file of a scene.
+struct Override {
+  std::string assignment;  ///< "section.key=value" or "key=value", the value in TOML
+  std::string place;       ///< how messages name it; empty: "--set ASSIGNMENT"
 };
 
 /// The entries of a scene file in the order in which they stand there, then the overrides in the
@@ -51,7 +58,7 @@ class Document {
  public:
   /// Throws InputError for what is no TOML, is nested deeper than any scene needs, or is an
   /// override without "section.key=" or "key=".
-  Document(std::string_view text, std::string_view name, std::span<const std::string> overrides);
+  Document(std::string_view text, std::string_view name, std::span<const Override> overrides);
 
   const std::vector<Entry>& entries() const { return entries_; }
 

@@ -74,29 +74,24 @@ void require_what_is_needed(const Scene& scene, const Document& document,
 }
 
 // The text as read, overrides appended as comments.
-std::string annotated(std::string_view text, std::span<const std::string> overrides) {
+std::string annotated(std::string_view text, std::span<const Override> overrides) {
   std::string result(text);
   if (!overrides.empty() && !result.empty() && result.back() != '\n') result += '\n';
-  for (const std::string& o : overrides) result += "# --set " + printable(o) + "\n";
+  for (const Override& o : overrides) result += "# --set " + printable(o.assignment) + "\n";
   return result;
-}
-
-std::string read_at_most(const std::string& path, std::size_t bytes) {
-  errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  std::string text(file ? bytes : 0, '\0');
-  if (file) text.resize(std::fread(text.data(), 1, bytes, file.get()));
-  if (!file || std::ferror(file.get()))
-    throw IoError(fmt::format("{}: cannot be read: {}", printable(path),
-                              std::generic_category().message(errno)));
-  return text;
 }
 
 }  // namespace
 
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides) {
+  std::vector<Override> set;
+  for (const std::string& assignment : overrides) set.push_back({assignment, {}});
+  return parse_overridden_scene(text, name, set);
+}
+
+Scene parse_overridden_scene(std::string_view text, std::string_view name,
+                             std::span<const Override> overrides) {
   if (text.size() > max_scene_bytes)
     throw InputError(fmt::format("{}: too large: expected a scene of at most {} bytes",
                                  printable(name), max_scene_bytes));
@@ -122,8 +117,22 @@ Scene parse_scene(std::string_view text, std::string_view name,
   return scene;
 }
 
+std::string read_scene_text(const std::string& path) {
+  // One byte more than is allowed shows what is too long.
+  constexpr std::size_t bytes = max_scene_bytes + 1;
+  errno = 0;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
+  std::string text(file ? bytes : 0, '\0');
+  if (file) text.resize(std::fread(text.data(), 1, bytes, file.get()));
+  if (!file || std::ferror(file.get()))
+    throw IoError(fmt::format("{}: cannot be read: {}", printable(path),
+                              std::generic_category().message(errno)));
+  return text;
+}
+
 Scene read_scene(const std::string& path, std::span<const std::string> overrides) {
-  return parse_scene(read_at_most(path, max_scene_bytes + 1), path, overrides);
+  return parse_scene(read_scene_text(path), path, overrides);
 }
 
 }  // namespace needlework

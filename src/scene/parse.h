@@ -10,6 +10,8 @@
 
 namespace needlework {
 
+struct Override;  // document.h
+
 /// The longest scene that is read [bytes].
 inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 
@@ -33,6 +35,14 @@ inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 /// or "--set section.key=VALUE: expected ...". Messages hold no control characters.
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {});
+
+/// The same with overrides that messages may name otherwise than --set.
+Scene parse_overridden_scene(std::string_view text, std::string_view name,
+                             std::span<const Override> overrides);
+
+/// The text of a scene file, or as much of a longer one as shows that it is too long. Throws
+/// IoError when it cannot be read.
+std::string read_scene_text(const std::string& path);
 
 /// Reads and parses a scene file. Throws IoError when it cannot be read.
 Scene read_scene(const std::string& path, std::span<const std::string> overrides = {});
