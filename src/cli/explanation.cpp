@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/cli/estimates.h"
+#include "src/cli/json_number.h"
 #include "src/cli/messages.h"
 #include "src/cli/resources.h"
 #include "src/scene/check.h"
@@ -15,8 +16,6 @@ namespace needlework::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 template <class T>
 Json optional_number(const std::optional<T>& x) {

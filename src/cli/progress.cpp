@@ -23,21 +23,18 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-Progress::Progress(bool quiet)
+ProgressLine::ProgressLine(bool quiet)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       next_(terminal_ ? terminal_interval : line_interval) {}
 
-bool Progress::is_due(double elapsed) const { return !quiet_ && elapsed >= next_; }
+bool ProgressLine::is_due(double elapsed) const { return !quiet_ && elapsed >= next_; }
 
-void Progress::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
+void ProgressLine::show(double elapsed, double fraction, std::string_view more) {
   next_ = elapsed + (terminal_ ? terminal_interval : line_interval);
   const double left = elapsed / fraction - elapsed;  // infinite at 0, and then not known
-  std::string line = fmt::format("{:4.1f} % done, {} left: {} collisions, time {:.4g}",
-                                 100 * fraction, duration_text(left), now.collisions, now.time);
-  if (now.energy < 0.999 * initial_energy) {
-    line += fmt::format(", E/E(0) = {:.3g}", now.energy / initial_energy);
-  }
+  std::string line =
+      fmt::format("{:4.1f} % done, {} left: {}", 100 * fraction, duration_text(left), more);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;
@@ -48,9 +45,17 @@ void Progress::show(double elapsed, double fraction, const Totals& now, double i
   std::fflush(stderr);
 }
 
-void Progress::clear() {
+void ProgressLine::clear() {
   if (drawn_ > 0) fmt::print(stderr, "\r{:<{}}\r", "", drawn_);
   drawn_ = 0;
+}
+
+void RunProgress::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
+  std::string more = fmt::format("{} collisions, time {:.4g}", now.collisions, now.time);
+  if (now.energy < 0.999 * initial_energy) {
+    more += fmt::format(", E/E(0) = {:.3g}", now.energy / initial_energy);
+  }
+  line_.show(elapsed, fraction, more);
 }
 
 }  // namespace needlework::cli

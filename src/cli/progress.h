@@ -1,7 +1,8 @@
-// How far a run is, on stderr while it lasts.
+// How far the work is, on stderr while it lasts.
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "src/engine/simulation.h"
 
@@ -9,16 +10,16 @@ namespace needlework::cli {
 
 /// On a terminal one line, drawn again and again; elsewhere a line every 10 s. Plain text without
 /// colours or other escape sequences, so there is nothing that NO_COLOR would have to turn off.
-class Progress {
+class ProgressLine {
  public:
-  explicit Progress(bool quiet);
-  ~Progress() { clear(); }
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine() { clear(); }
 
-  /// Whether it is time for another line, `elapsed` seconds of wall time into the run.
+  /// Whether it is time for another line, `elapsed` seconds of wall time into the work.
   bool is_due(double elapsed) const;
 
-  /// Shows the share done (of [0, 1]) and the time left that follows from it.
-  void show(double elapsed, double fraction, const Totals& now, double initial_energy);
+  /// Shows the share done (of [0, 1]), the time left that follows from it, and more.
+  void show(double elapsed, double fraction, std::string_view more);
 
   /// Takes the line off a terminal, before anything else is printed.
   void clear();
@@ -28,6 +29,29 @@ class Progress {
   bool terminal_;
   double next_;
   std::size_t drawn_ = 0;  ///< columns of the line on the terminal
+};
+
+/// Who is told, from time to time, how far a run is.
+class Progress {
+ public:
+  virtual ~Progress() = default;
+  /// Whether to be told now, `elapsed` seconds of wall time into the run.
+  virtual bool is_due(double elapsed) const = 0;
+  virtual void show(double elapsed, double fraction, const Totals& now, double initial_energy) = 0;
+  /// The run is over.
+  virtual void clear() {}
+};
+
+/// Shows the progress of the only run.
+class RunProgress : public Progress {
+ public:
+  explicit RunProgress(bool quiet) : line_(quiet) {}
+  bool is_due(double elapsed) const override { return line_.is_due(elapsed); }
+  void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
+  void clear() override { line_.clear(); }
+
+ private:
+  ProgressLine line_;
 };
 
 }  // namespace needlework::cli

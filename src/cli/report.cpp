@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 
+#include "src/cli/json_number.h"
 #include "src/cli/resources.h"
 #include "src/cli/scene_source.h"
 #include "src/observe/forecast.h"
@@ -16,9 +17,6 @@ using Json = nlohmann::ordered_json;
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
-
-// JSON has no NaN and no infinity.
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json stats_of(const Counters& counters) {
   return {{"candidates", counters.candidates}, {"filtered", counters.filtered},

@@ -4,16 +4,16 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "src/cli/drive.h"
 #include "src/cli/exit_codes.h"
 #include "src/cli/messages.h"
 #include "src/cli/output_path.h"
+#include "src/cli/prepared_run.h"
 #include "src/cli/report.h"
 #include "src/cli/scene_source.h"
 #include "src/cli/signals.h"
-#include "src/error.h"
-#include "src/io/h5md.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
@@ -24,19 +24,6 @@ struct RunArguments {
   std::optional<std::string> out;
   bool json = false, quiet = false, force = false;
 };
-
-Simulation make_simulation(const LoadedScene& loaded) {
-  return loaded.initial ? Simulation(loaded.scene, *loaded.initial) : Simulation(loaded.scene);
-}
-
-void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
-  if (scene.until.time) return;
-  Scene::Until at_once;
-  at_once.collisions_per_needle = 0;
-  if (simulation.advance(at_once) == Stop::nothing_can_happen) {
-    throw InputError(path + ": nothing can ever happen: expected needles that move, or until.time");
-  }
-}
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
@@ -57,19 +44,6 @@ int exit_code_of(const Course& course, const Scene& scene) {
   return ok;
 }
 
-io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
-  const std::string& file = scene.output.file;
-  try {
-    return io::Writer(file, force, scene,
-                      io::RunInfo{.isa = simulation.isa(),
-                                  .threads = scene.engine.threads.value_or(1),
-                                  .epoch_length = simulation.epoch_length()});
-  } catch (const IoError& error) {
-    throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
-                              error.what()));
-  }
-}
-
 int run(const RunArguments& arguments) {
   LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
@@ -81,28 +55,19 @@ int run(const RunArguments& arguments) {
   if (!file.empty()) require_writable(file, arguments.force, place_of(scene, "output.file", file));
   for (const std::string& warning : warnings(scene)) print_warning(warning);
 
-  Stopwatch setup;
-  setup.start();
-  Simulation simulation = make_simulation(loaded);
-  loaded.initial.reset();
-  setup.stop();
-  require_events(simulation, scene, arguments.scene.path);
+  PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  const SignalGuard guard(prepared.simulation());
+  RunProgress progress(arguments.quiet);
+  const Course course = prepared.drive(progress);
 
-  std::optional<io::Writer> writer;
-  if (!file.empty()) writer.emplace(open_output(simulation, scene, arguments.force));
-  const SignalGuard guard(simulation);
-  Progress progress(arguments.quiet);
-  const Course course = Drive(simulation, scene, writer ? &*writer : nullptr, progress).run();
-  if (writer) writer->close();
-
-  const Report report{scene, simulation, course, setup.wall()};
+  const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (arguments.json) {
     fmt::print("{}\n",
                json_of(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   } else if (!arguments.quiet) {
     fmt::print("{}", summary_of(report));
   }
-  return exit_code_of(course, scene);
+  return exit_code_of(course, prepared.scene());
 }
 
 }  // namespace

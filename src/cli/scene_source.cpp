@@ -1,6 +1,7 @@
 #include "src/cli/scene_source.h"
 
 #include <cmath>
+#include <utility>
 
 #include "src/cli/estimates.h"
 #include "src/error.h"
@@ -45,10 +46,13 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
 }
 
 LoadedScene load_scene(const SceneArguments& arguments) {
-  LoadedScene loaded;
+  return complete_scene(read_scene(arguments.path, arguments.overrides), arguments.engine);
+}
+
+LoadedScene complete_scene(Scene given, const EngineFlags& flags) {
+  LoadedScene loaded{.scene = std::move(given), .initial = {}};
   Scene& scene = loaded.scene;
-  scene = read_scene(arguments.path, arguments.overrides);
-  choose_engine(scene, arguments.engine);
+  choose_engine(scene, flags);
   require_memory(scene);
   if (!scene.initial.file.empty()) {
     loaded.initial = read_initial_state(scene);

@@ -34,6 +34,9 @@ struct LoadedScene {
 /// needles than the memory of this machine can hold.
 LoadedScene load_scene(const SceneArguments& arguments);
 
+/// The same for a scene that was read already.
+LoadedScene complete_scene(Scene given, const EngineFlags& flags);
+
 /// The state's sums at time 0.
 Totals totals_of(const State& state, double k);
 

@@ -43,8 +43,11 @@ void handle(int signal) {
 
 }  // namespace
 
-SignalGuard::SignalGuard(Simulation& simulation) {
+SignalGuard::SignalGuard(Simulation& simulation) : SignalGuard() {
   interrupted_by_signals = &simulation;
+}
+
+SignalGuard::SignalGuard() {
   signal_received = 0;
   set_handler(SIGINT, handle);
   set_handler(SIGTERM, handle);
