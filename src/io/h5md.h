@@ -22,8 +22,10 @@
 // other code of the process that uses HDF5.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "src/engine/simulation.h"
 #include "src/scene/scene.h"
@@ -90,6 +92,18 @@ class Writer {
 /// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
 /// "PATH: /DATASET[index] = VALUE: expected ...".
 State read_last_frame(const std::string& path);
+
+/// What a Writer has kept of a run but for its frames and events.
+struct RecordedRun {
+  std::string scene;           ///< Scene::text
+  std::string version;         ///< of the program
+  std::uint64_t needles = 0;   ///< their number
+  std::vector<Totals> series;  ///< without samples if `with_series` was false
+};
+
+/// Reads a file of a Writer. Throws IoError if it cannot be read, and InputError for content that
+/// no Writer leaves.
+RecordedRun read_run(const std::string& path, bool with_series = true);
 
 /// What `needlework info FILE` prints: datasets with their shapes, frames, times and parameters of
 /// any H5MD file, some lines of text. Throws IoError if the file cannot be read.

@@ -118,8 +118,23 @@ std::string to_string(const Shape& shape) {
   return text;
 }
 
+Handle without_times(hid_t kind, const std::string& place) {
+  Handle properties(H5Pcreate(kind), H5Pclose, place);
+  check(H5Pset_obj_track_times(properties.get(), false), place);
+  return properties;
+}
+
+Handle create_dataset(hid_t parent, const std::string& name, hid_t type, hid_t space,
+                      const std::string& place) {
+  const Handle timeless = without_times(H5P_DATASET_CREATE, place);
+  return {H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
+          H5Dclose, place};
+}
+
 Handle create_group(hid_t parent, const std::string& name, const std::string& place) {
-  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, place};
+  const Handle timeless = without_times(H5P_GROUP_CREATE, place);
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT), H5Gclose,
+          place};
 }
 
 Handle open_group(hid_t parent, const std::string& name, const std::string& place) {
@@ -169,17 +184,31 @@ void write_attribute(hid_t object, const std::string& name, std::span<const std:
   check(H5Awrite(attribute.get(), H5T_NATIVE_INT32, values.data()), place);
 }
 
-void write_scalar(hid_t group, const std::string& name, const std::string& value,
-                  const std::string& place) {
+namespace {
+
+void write_strings(hid_t group, const std::string& name, const Handle& space,
+                   std::span<const std::string> values, const std::string& place) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
   check(H5Tset_size(type.get(), H5T_VARIABLE), place);
   check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
-  const Handle dataset(H5Dcreate2(group, name.c_str(), type.get(), space.get(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose, place);
-  const char* text = value.c_str();
-  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text), place);
+  const Handle dataset = create_dataset(group, name, type.get(), space.get(), place);
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
+  check(H5Dwrite(dataset.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), place);
+}
+
+}  // namespace
+
+void write_scalar(hid_t group, const std::string& name, const std::string& value,
+                  const std::string& place) {
+  write_strings(group, name, Handle(H5Screate(H5S_SCALAR), H5Sclose, place), {&value, 1}, place);
+}
+
+void write_array(hid_t group, const std::string& name, std::span<const std::string> values,
+                 const std::string& place) {
+  const hsize_t count = values.size();
+  write_strings(group, name, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose, place), values,
+                place);
 }
 
 Shape shape_of(hid_t dataset, const std::string& place) {

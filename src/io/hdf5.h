@@ -98,6 +98,14 @@ inline hid_t type_of<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
 }
 
+/// Properties of this kind (H5P_GROUP_CREATE and so on) with which an object does not keep the time
+/// of its making, so that the same content makes the same file.
+Handle without_times(hid_t kind, const std::string& place);
+
+/// A dataset without values.
+Handle create_dataset(hid_t parent, const std::string& name, hid_t type, hid_t space,
+                      const std::string& place);
+
 Handle create_group(hid_t parent, const std::string& name, const std::string& place);
 Handle open_group(hid_t parent, const std::string& name, const std::string& place);
 Handle open_dataset(hid_t parent, const std::string& name, const std::string& place);
@@ -123,6 +131,10 @@ template <class T>
 void write_array(hid_t group, const std::string& name, const Shape& shape,
                  std::span<const T> values, const std::string& place);
 
+/// A dataset [n] of variable-length UTF-8 strings.
+void write_array(hid_t group, const std::string& name, std::span<const std::string> values,
+                 const std::string& place);
+
 Shape shape_of(hid_t dataset, const std::string& place);
 
 /// Whether `path`, relative to `object`, leads to something, each link on the way included.
@@ -140,9 +152,7 @@ std::vector<std::string> read_strings(hid_t dataset, const std::string& place);
 template <class T>
 void write_scalar(hid_t group, const std::string& name, T value, const std::string& place) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
-  const Handle dataset(H5Dcreate2(group, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose, place);
+  const Handle dataset = create_dataset(group, name, type_of<T>(), space.get(), place);
   check(H5Dwrite(dataset.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &value), place);
 }
 
@@ -151,9 +161,7 @@ void write_array(hid_t group, const std::string& name, const Shape& shape,
                  std::span<const T> values, const std::string& place) {
   const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                      H5Sclose, place);
-  const Handle dataset(H5Dcreate2(group, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT),
-                       H5Dclose, place);
+  const Handle dataset = create_dataset(group, name, type_of<T>(), space.get(), place);
   if (values.empty()) return;
   check(H5Dwrite(dataset.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
 }

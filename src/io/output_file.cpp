@@ -237,15 +237,19 @@ Handle register_driver(const std::string& place) {
   return {H5FDregister(&driver), H5FDunregister, place};
 }
 
+// Puts a note of them into the file, to which HDF5 adds the time.
+void set_pages(hid_t creation, const std::string& place) {
+  const bool keep_free_space = false;
+  check(H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_PAGE, keep_free_space, 1), place);
+  check(H5Pset_file_space_page_size(creation, page_size), place);
+}
+
 }  // namespace
 
-OutputFile::OutputFile(std::string name, std::string place)
+OutputFile::OutputFile(std::string name, std::string place, Use use)
     : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, place_);
-  const bool keep_free_space = false;
-  check(H5Pset_file_space_strategy(creation.get(), H5F_FSPACE_STRATEGY_PAGE, keep_free_space, 1),
-        place_);
-  check(H5Pset_file_space_page_size(creation.get(), page_size), place_);
+  const Handle creation = hdf5::without_times(H5P_FILE_CREATE, place_);
+  if (use == Use::growing) set_pages(creation.get(), place_);
   const Handle access = make_access();
   const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   if (file < 0) require_written();

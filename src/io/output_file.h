@@ -26,8 +26,12 @@ namespace needlework::io {
 /// system keeps other writers away while this one lives.
 class OutputFile {
  public:
+  /// A file that grows may be read at any moment, and says when it was made; one written in one go
+  /// has the same bytes whenever it is written.
+  enum class Use { growing, in_one_go };
+
   /// Makes the file `name` an empty HDF5 file. `place` begins the messages of errors.
-  OutputFile(std::string name, std::string place);
+  OutputFile(std::string name, std::string place, Use use);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;

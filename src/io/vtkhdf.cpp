@@ -81,7 +81,7 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
 void write_vtkhdf(const std::string& path, bool force, const State& state) {
   const hdf5::Session session;
   Draft draft(path, force);
-  OutputFile file(draft.temporary(), path);
+  OutputFile file(draft.temporary(), path, OutputFile::Use::in_one_go);
   {
     const Handle root = create_group(file.get(), "VTKHDF", path);
     const std::array<std::int32_t, 2> version{1, 0};

@@ -54,7 +54,7 @@ Writer::Implementation::Implementation(const std::string& name, bool force, cons
                                        const RunInfo& run)
     : path(name) {
   Draft draft(path, force);
-  file.emplace(draft.temporary(), path);
+  file.emplace(draft.temporary(), path, OutputFile::Use::growing);
   make_layout(file->get(), scene, run, path);
   file->start_swmr();
   open_datasets(scene.output.events);

@@ -1,0 +1,67 @@
+// Series of finished runs.
+#include <algorithm>
+
+#include "src/error.h"
+#include "src/io/h5md.h"
+#include "src/io/source.h"
+
+namespace needlework::io {
+namespace {
+
+std::string read_text(const Source& source, const std::string& path) {
+  const std::string place = source.place(path);
+  if (!hdf5::is_dataset(source.get(), path, place)) {
+    throw InputError(place + ": missing: expected a file of a run");
+  }
+  const auto texts = hdf5::read_strings(hdf5::open_dataset(source.get(), path, place).get(), place);
+  if (texts.size() != 1) throw InputError(place + ": expected a single string");
+  return texts.front();
+}
+
+// Passes each value on with the sample it belongs to.
+template <class Number, class Store>
+void read_series(const Source& source, const std::string& name, std::vector<Totals>& series,
+                 Store store) {
+  const Element element(source, "/series/" + name);
+  const auto times = element.times();
+  if (!times) throw InputError(source.place(element.name()) + ": no times: expected one a row");
+  series.resize(element.rows());
+  const std::vector<Number> values = element.read<Number>(std::nullopt);
+  const std::size_t width = element.shape()[0] ? values.size() / element.shape()[0] : 0;
+  for (std::size_t row = 0; row < series.size(); ++row) {
+    series[row].time = times->at(row);
+    store(series[row], values.data() + row * width);
+  }
+}
+
+}  // namespace
+
+RecordedRun read_run(const std::string& path, bool with_series) {
+  const hdf5::Session session;
+  const Source source(path);
+  RecordedRun run;
+  run.scene = read_text(source, "/parameters/scene");
+  run.version = read_text(source, "/parameters/version");
+  run.needles = Element(source, "/particles/needles/id").rows();
+  if (!with_series) return run;
+  const auto read = [&](const char* name, double Totals::*member) {
+    read_series<double>(source, name, run.series,
+                        [&](Totals& sample, const double* value) { sample.*member = *value; });
+  };
+  const auto read_count = [&](const char* name, std::uint64_t Totals::*member) {
+    read_series<std::uint64_t>(
+        source, name, run.series,
+        [&](Totals& sample, const std::uint64_t* value) { sample.*member = *value; });
+  };
+  read("t_tr", &Totals::t_tr);
+  read("t_rot", &Totals::t_rot);
+  read("energy", &Totals::energy);
+  read_count("collisions", &Totals::collisions);
+  read_count("tc_collisions", &Totals::tc_collisions);
+  read_series<double>(source, "momentum", run.series, [](Totals& sample, const double* value) {
+    std::copy_n(value, 3, sample.momentum.begin());
+  });
+  return run;
+}
+
+}  // namespace needlework::io
