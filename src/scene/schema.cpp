@@ -238,6 +238,8 @@ bool is_scene_section(std::string_view section) {
   return std::find(std::begin(sections), std::end(sections), section) != std::end(sections);
 }
 
+std::span<const std::string_view> scene_sections() { return sections; }
+
 std::string expected_instead(const Entry& unknown) {
   if (unknown.section.empty() && is_scene_section(unknown.key))
     return fmt::format("expected a section [{}]", unknown.key);

@@ -1,6 +1,7 @@
 // The keys that a scene file may hold, and what each of them must be.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,9 @@ struct SceneKey {
 const SceneKey* find_scene_key(std::string_view section, std::string_view key);
 
 bool is_scene_section(std::string_view section);
+
+/// All of them, in the order of their documentation.
+std::span<const std::string_view> scene_sections();
 
 /// What to expect instead of an unknown section, an unknown key, or a section that is no table:
 /// "expected ..., did you mean ...?".
