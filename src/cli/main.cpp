@@ -14,6 +14,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
 #include "src/cli/run_command.h"
+#include "src/cli/sweep_command.h"
 #include "src/cli/theory_command.h"
 #include "src/cli/version.h"
 
@@ -26,6 +27,7 @@ int parse_and_run(int argc, char** argv) {
   app.set_version_flag("--version", version_text, "tell version, compiler, CPU and libraries");
   int exit_code = ok;
   add_run_command(app, exit_code);
+  add_sweep_command(app, exit_code);
   add_check_command(app, exit_code);
   add_theory_command(app, exit_code);
   add_predict_command(app, exit_code);

@@ -1,0 +1,258 @@
+#include "src/cli/sweep_command.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "src/cli/engine_choice.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/messages.h"
+#include "src/cli/ranks.h"
+#include "src/cli/resources.h"
+#include "src/cli/sweep_folder.h"
+#include "src/cli/sweep_report.h"
+#include "src/cli/sweep_run.h"
+#include "src/error.h"
+#include "src/scene/check.h"
+#include "src/sweep/grid.h"
+#include "src/sweep/summary.h"
+
+namespace needlework::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using State = SweepFolder::State;
+
+/// Part `k` of `m`, from 0.
+struct Share {
+  std::size_t k = 0, m = 1;
+};
+
+struct SweepArguments {
+  std::string grid, member;
+  std::optional<std::string> out, isa;
+  std::optional<int> threads;
+  bool summary = false, json = false, quiet = false, force = false;
+};
+
+// Codes of members that this process knows nothing of; less than all exit codes.
+constexpr int unknown = -1;
+
+std::optional<Share> parse_share(const std::string& text) {
+  Share share;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, share.k);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != '/') return std::nullopt;
+  const auto second = std::from_chars(first.ptr + 1, end, share.m);
+  if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+  if (share.k < 1 || share.k > share.m || share.m > sweep::most_members) return std::nullopt;
+  --share.k;
+  return share;
+}
+
+// Before any of them runs.
+void require_engines(const sweep::Grid& grid, const std::optional<std::string>& isa) {
+  for (const sweep::Member& member : grid.members) {
+    Scene scene = member.scene;
+    choose_engine(scene, {.threads = 1, .isa = isa});
+  }
+}
+
+void tell_warnings(const sweep::Grid& grid) {
+  std::set<std::string> told;
+  for (const sweep::Member& member : grid.members) {
+    Scene scene = member.scene;
+    scene.output.file = member.name;  // output does go somewhere
+    for (const std::string& warning : warnings(scene)) {
+      if (told.insert(warning).second) print_warning(warning);
+    }
+  }
+}
+
+/// One sweep, step by step; all steps are done on all ranks.
+class Sweep {
+ public:
+  Sweep(const SweepArguments& arguments, Share share) : arguments_(arguments), share_(share) {}
+
+  int run();
+
+ private:
+  void prepare();
+  void find_out_what_is_there();
+  void run_what_is_missing();
+  void sum_up();
+  void tell(std::span<const sweep::PointSummary> summary);
+  std::vector<std::string> names_of(int code) const;
+
+  const SweepArguments& arguments_;
+  const Share share_;
+  const Ranks ranks_;
+  sweep::Grid grid_;
+  std::optional<SweepFolder> folder_;
+  std::vector<double> costs_;
+  std::vector<std::size_t> members_;  ///< of the share
+  std::vector<int> codes_;            ///< of all members of the grid
+  std::size_t computed_ = 0, missing_ = 0;
+  int threads_ = 1;
+};
+
+int Sweep::run() {
+  if (const int code = ranks_.do_everywhere([&] { prepare(); })) return code;
+  if (const int code = ranks_.do_everywhere([&] { find_out_what_is_there(); })) return code;
+  codes_ = ranks_.greatest(codes_);
+  if (!arguments_.summary) {
+    if (const int code = ranks_.do_everywhere([&] { run_what_is_missing(); })) return code;
+    codes_ = ranks_.greatest(codes_);
+  }
+  const int code = ranks_.do_everywhere([&] {
+    if (ranks_.rank() == 0) sum_up();
+  });
+  int result = code;
+  for (const std::size_t member : members_) result = std::max(result, codes_[member]);
+  return result;
+}
+
+void Sweep::prepare() {
+  grid_ = sweep::read_grid(arguments_.grid);
+  require_engines(grid_, arguments_.isa);
+  const std::string out = arguments_.out.value_or(grid_.out);
+  if (out.empty()) {
+    throw InputError(arguments_.grid + ": out is missing: expected a folder, or --out DIR");
+  }
+  const std::string place = arguments_.out ? "--out " + out : arguments_.grid + ": out = " + out;
+  folder_.emplace(out, grid_, arguments_.force, place);
+  if (ranks_.rank() == 0) tell_warnings(grid_);
+  costs_ = estimated_costs(grid_);
+  std::vector<std::size_t> all(grid_.members.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  members_ = share_of(all, costs_, share_.k, share_.m);
+  threads_ = arguments_.threads.value_or(omp_get_max_threads());
+}
+
+void Sweep::find_out_what_is_there() {
+  codes_.assign(grid_.members.size(), unknown);
+  for (const std::size_t member : members_) {
+    const State state = folder_->state(grid_.members[member]);
+    if (state == State::finished) codes_[member] = ok;
+    if (state == State::failed) codes_[member] = invalid_state;
+  }
+}
+
+void Sweep::run_what_is_missing() {
+  std::vector<std::size_t> missing;
+  for (const std::size_t member : members_) {
+    if (codes_[member] == unknown) missing.push_back(member);
+    if (codes_[member] == invalid_state && ranks_.rank() == 0) {
+      print_error(fmt::format("member {}: failed before (remove {} to try again)",
+                              grid_.members[member].name,
+                              folder_->failed_file(grid_.members[member])));
+    }
+  }
+  computed_ = missing.size();
+  const auto mine = share_of(missing, costs_, ranks_.rank(), ranks_.count());
+  const MemberRuns runs{.grid = grid_,
+                        .folder = *folder_,
+                        .members = mine,
+                        .costs = costs_,
+                        .threads = threads_,
+                        .isa = arguments_.isa,
+                        .quiet = arguments_.quiet || ranks_.rank() > 0};
+  require_memory(runs);
+  run_members(runs, codes_);
+}
+
+// The files alone count, as other processes may have made some of them.
+void Sweep::sum_up() {
+  for (const sweep::Member& member : grid_.members) {
+    missing_ += folder_->state(member) == State::missing;
+  }
+  std::vector<sweep::PointSummary> summary;
+  if (missing_ == 0 || arguments_.summary) {
+    summary = sweep::summarise(
+        grid_, [&](const sweep::Member& member) { return folder_->finished_run(member); });
+    sweep::write_summary(folder_->summary_file(), grid_, summary);
+  }
+  tell(summary);
+}
+
+void Sweep::tell(std::span<const sweep::PointSummary> summary) {
+  const std::size_t stops = names_of(stopped).size();
+  if (stops > 0) {
+    print_error(
+        fmt::format("stopped before {} of {} members were finished: the same command goes "
+                    "on with the rest",
+                    stops, members_.size()));
+  } else if (arguments_.summary && missing_ > 0) {
+    print_warning(fmt::format("{} of {} members are missing", missing_, grid_.members.size()));
+  }
+  if (arguments_.json) {
+    Json json{{"grid", arguments_.grid},
+              {"members", grid_.members.size()},
+              {"share", members_.size()},
+              {"computed", computed_},
+              {"missing", missing_},
+              {"failed", names_of(invalid_state)},
+              {"threads", threads_},
+              {"ranks", ranks_.count()},
+              {"total_s", seconds_since_launch()},
+              {"version", NEEDLEWORK_VERSION},
+              {"file", summary.empty() ? Json(nullptr) : Json(folder_->summary_file())},
+              {"points", json_of(grid_, summary)}};
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else if (!arguments_.quiet && !summary.empty()) {
+    fmt::print("{}", table_of(grid_, summary));
+  }
+}
+
+std::vector<std::string> Sweep::names_of(int code) const {
+  std::vector<std::string> names;
+  for (std::size_t member = 0; member < codes_.size(); ++member) {
+    if (codes_[member] == code) names.push_back(grid_.members[member].name);
+  }
+  return names;
+}
+
+int run(const SweepArguments& arguments) {
+  const auto share = arguments.member.empty() ? Share() : parse_share(arguments.member);
+  if (!share) {
+    print_error(
+        fmt::format("--member {}: expected K/M, part K of M, such as 1/16 (see needlework "
+                    "--help)",
+                    arguments.member));
+    return bad_usage;
+  }
+  return Sweep(arguments, *share).run();
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("sweep", "run a grid of parameters and seeds, and sum it up");
+  const auto arguments = std::make_shared<SweepArguments>();
+  command->add_option("GRID", arguments->grid, "grid file (TOML)")->required();
+  command->add_option("--out", arguments->out, "folder for the results")->option_text("DIR");
+  command->add_option("--threads", arguments->threads, "members to run at a time; default: cores")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--isa", arguments->isa, "instruction set: auto, scalar, sse4, avx2 or avx512")
+      ->option_text("NAME");
+  command->add_option("--member", arguments->member, "run the K-th of M parts only")
+      ->option_text("K/M");
+  command->add_flag("--summary", arguments->summary, "run nothing, sum up what is there");
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  command->add_flag("--force", arguments->force,
+                    "go on in a folder of another grid; members that differ are made anew");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+}  // namespace needlework::cli

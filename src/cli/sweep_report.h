@@ -1,0 +1,20 @@
+// What is told of a sweep when it is over.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+#include "src/sweep/grid.h"
+#include "src/sweep/summary.h"
+
+namespace needlework::cli {
+
+/// The points of the grid with their means and standard errors.
+nlohmann::ordered_json json_of(const sweep::Grid& grid,
+                               std::span<const sweep::PointSummary> summary);
+
+/// A table for people, a line for each point.
+std::string table_of(const sweep::Grid& grid, std::span<const sweep::PointSummary> summary);
+
+}  // namespace needlework::cli

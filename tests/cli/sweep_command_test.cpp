@@ -1,0 +1,277 @@
+// `needlework sweep`: what it computes, and how it goes on after whatever stopped it.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using nlohmann::json;
+
+class SweepCommand : public ProgramTest {
+ protected:
+  SweepCommand() {
+    write("cooling.toml", R"(
+[needles]
+count = 60
+box = 5
+[collisions]
+tc_relative = 1e-3
+[until]
+energy_ratio = 0.2
+)");
+    write("grid.toml", R"(scene = "cooling.toml"
+seeds = [1, 2, 3]
+[parameters]
+"collisions.epsilon" = [0.9, 0.8]
+)");
+    write("long.toml", R"(scene = "cooling.toml"
+seeds = [1, 2, 3, 4, 5, 6]
+[parameters]
+"needles.count" = 1000
+"needles.box" = 12
+"collisions.epsilon" = 0.8
+"until.energy_ratio" = 1e-3
+)");
+  }
+
+  json result(const std::string& arguments, const std::string& before = "") const {
+    const Outcome outcome = run("sweep --json " + arguments, before);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.json();
+  }
+  std::size_t count_of_files(const std::string& folder, const std::string& ending) const {
+    const std::filesystem::directory_iterator files(path(folder));
+    return std::count_if(begin(files), end(files), [&](const auto& file) {
+      return file.path().filename().string().ends_with(ending);
+    });
+  }
+};
+
+TEST_F(SweepCommand, GivesMeansAndStandardErrorsOfItsRuns) {
+  const json sweep = result("grid.toml --out all");
+  EXPECT_EQ(sweep["members"], 6);
+  EXPECT_EQ(sweep["computed"], 6);
+  ASSERT_EQ(sweep["points"].size(), 2u);
+  const json& point = sweep["points"][1];
+  EXPECT_EQ(point["parameters"]["collisions.epsilon"], 0.8);
+  EXPECT_EQ(point["seeds"], json({1, 2, 3}));
+
+  double sum = 0, squares = 0;
+  for (const std::string seed : {"1", "2", "3"}) {
+    const Outcome one =
+        run("run cooling.toml --json --set collisions.epsilon=0.8 "
+            "--set needles.seed=" +
+            seed);
+    const double collisions = one.json()["collisions"];
+    sum += collisions;
+    squares += collisions * collisions;
+  }
+  const json& collisions = point["results"]["collisions"];
+  EXPECT_DOUBLE_EQ(collisions["mean"].get<double>(), sum / 3);
+  EXPECT_NEAR(collisions["standard_error"].get<double>(), std::sqrt((squares - sum * sum / 3) / 6),
+              1e-6);
+
+  const json& series = point["series"];
+  const std::size_t samples = series["time"].size();
+  EXPECT_GT(samples, 10u);
+  EXPECT_EQ(series["time"][0], 0);
+  for (const char* name : {"energy", "t_tr", "t_rot", "momentum", "collisions", "tc_collisions"}) {
+    EXPECT_EQ(series[name]["mean"].size(), samples) << name;
+    EXPECT_EQ(series[name]["standard_error"].size(), samples) << name;
+  }
+  EXPECT_NEAR(series["energy"]["mean"][0].get<double>(), 2.5, 1e-12);
+  EXPECT_EQ(series["momentum"]["mean"][1].size(), 3u);
+}
+
+TEST_F(SweepCommand, SummaryDoesNotDependOnThreadsOrShares) {
+  const json one = result("grid.toml --out one --threads 1");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a time in the file would differ
+  const json two = result("grid.toml --out two --threads 2");
+  EXPECT_EQ(one["points"], two["points"]);
+  for (const std::string share : {"2/3", "3/3"}) {
+    const json part = result("grid.toml --out shares --member " + share);
+    EXPECT_TRUE(part["file"].is_null());
+    EXPECT_EQ(part["points"].size(), 0u);
+  }
+  EXPECT_FALSE(exists("shares/summary.h5"));
+  const json last = result("grid.toml --out shares --member 1/3");
+  EXPECT_EQ(last["missing"], 0);
+  EXPECT_EQ(last["points"], one["points"]);
+  const std::string bytes = read("one/summary.h5");
+  EXPECT_FALSE(bytes.empty());
+  EXPECT_TRUE(bytes == read("two/summary.h5"));
+  EXPECT_TRUE(bytes == read("shares/summary.h5"));
+}
+
+TEST_F(SweepCommand, SummaryAloneSumsUpWhatIsThere) {
+  result("grid.toml --out part --member 1/2");
+  const Outcome partial = run("sweep --json --summary grid.toml --out part");
+  EXPECT_EQ(partial.exit_code, 0);
+  EXPECT_TRUE(partial.complains("warning: 3 of 6 members are missing"));
+  EXPECT_EQ(partial.json()["computed"], 0);
+  EXPECT_EQ(
+      partial.json()["points"][0]["seeds"].size() + partial.json()["points"][1]["seeds"].size(),
+      3u);
+  const json rest = result("grid.toml --out part --member 2/2");
+  EXPECT_EQ(rest["points"], result("--summary grid.toml --out part")["points"]);
+}
+
+TEST_F(SweepCommand, RunsNothingTwice) {
+  const json first = result("grid.toml --out twice");
+  const json again = result("grid.toml --out twice");
+  EXPECT_EQ(again["computed"], 0);
+  EXPECT_EQ(again["points"], first["points"]);
+  std::filesystem::remove(path("twice/epsilon=0.9,seed=2.h5"));
+  write("twice/epsilon=0.9,seed=2.h5.part", "cut short");
+  const json mended = result("grid.toml --out twice");
+  EXPECT_EQ(mended["computed"], 1);
+  EXPECT_EQ(mended["points"], first["points"]);
+  EXPECT_FALSE(exists("twice/epsilon=0.9,seed=2.h5.part"));
+}
+
+TEST_F(SweepCommand, GoesOnAfterSignals) {
+  const json whole = result("long.toml --out whole --threads 2");
+  for (const std::string signal : {"INT", "TERM", "KILL"}) {
+    const std::string out = "long.toml --out " + signal;
+    const Outcome stopped =
+        run("sweep --json --threads 2 " + out, "timeout --preserve-status -s " + signal + " 0.8");
+    if (signal != "KILL") {
+      EXPECT_EQ(stopped.exit_code, 75) << signal;
+      EXPECT_TRUE(stopped.complains("the same command goes on with the rest"));
+      EXPECT_EQ(count_of_files(signal, ".part") + count_of_files(signal, ".lock"), 0u);
+    }
+    EXPECT_FALSE(exists(signal + "/summary.h5"));
+    const json rest = result(out);
+    EXPECT_GT(rest["computed"], 0);
+    EXPECT_EQ(rest["points"], whole["points"]) << signal;
+    EXPECT_EQ(count_of_files(signal, ".part") + count_of_files(signal, ".lock"), 0u);
+    EXPECT_TRUE(read(signal + "/summary.h5") == read("whole/summary.h5"));
+  }
+}
+
+TEST_F(SweepCommand, TwoSweepsOfOneFolderDoNotRunTheSame) {
+  Outcome other;
+  std::thread first([&] { other = run("sweep --json long.toml --out both --threads 1"); });
+  while (!exists("both/grid.toml")) std::this_thread::yield();
+  const Outcome outcome = run("sweep --json long.toml --out both --threads 1");
+  first.join();
+  for (const Outcome& one : {outcome, other}) {
+    EXPECT_TRUE(one.exit_code == 0 || one.exit_code == 75) << one.err;
+  }
+  EXPECT_EQ(result("long.toml --out both")["points"], result("long.toml --out alone")["points"]);
+}
+
+TEST_F(SweepCommand, KeepsToTheGridOfItsFolder) {
+  result("grid.toml --out here");
+  write("grid.toml", read("grid.toml") + "\"needles.k\" = 2\n");
+  const Outcome refused = run("sweep grid.toml --out here");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_TRUE(refused.complains("--out here: is of another grid, scene or version"));
+  EXPECT_EQ(result("grid.toml --out here --force")["computed"], 6);
+
+  // What is the same in both is kept.
+  write("more.toml",
+        std::string(read("grid.toml")).replace(read("grid.toml").find("1, 2"), 4, "7, 1, 2"));
+  EXPECT_EQ(result("more.toml --out here --force")["computed"], 2);
+
+  write("here/epsilon=0.9,seed=1.h5", "no such thing");
+  const Outcome damaged = run("sweep more.toml --out here");
+  EXPECT_EQ(damaged.exit_code, 3);
+  EXPECT_TRUE(damaged.complains("here/epsilon=0.9,seed=1.h5: expected a member of this grid"));
+  EXPECT_EQ(result("more.toml --out here --force")["computed"], 1);
+}
+
+// Inelastic pairs collapse sooner or later without the t_c rule.
+TEST_F(SweepCommand, OneThatFailsIsNamedAndHarmsNoOther) {
+  write("failing.toml", R"(seeds = [1, 2]
+[needles]
+count = 200
+box = 6
+[until]
+collisions_per_needle = 100
+[parameters]
+"collisions.epsilon" = [1, 0.3]
+)");
+  const Outcome outcome = run("sweep --json --quiet failing.toml --out f");
+  EXPECT_EQ(outcome.exit_code, 4);
+  for (const char* part : {"member epsilon=0.3,seed=1: ", "member epsilon=0.3,seed=2: ",
+                           "collapse of needles ", "saved in f/epsilon=0.3,seed=1.failed.h5"}) {
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(outcome.json()["failed"], json({"epsilon=0.3,seed=1", "epsilon=0.3,seed=2"}));
+  EXPECT_EQ(outcome.json()["points"][0]["seeds"].size(), 2u);
+  EXPECT_EQ(outcome.json()["points"][0]["results"]["collisions"]["mean"], 10000);
+  EXPECT_TRUE(outcome.json()["points"][1]["results"]["collisions"]["mean"].is_null());
+
+  const Outcome again = run("sweep --json --quiet failing.toml --out f");
+  EXPECT_EQ(again.exit_code, 4);
+  EXPECT_EQ(again.json()["computed"], 0);
+  EXPECT_NE(again.err.find("member epsilon=0.3,seed=2: failed before"), std::string::npos);
+}
+
+TEST_F(SweepCommand, ErrorsOfUsageAndInputAreTold) {
+  const std::tuple<std::string, int, std::string> cases[] = {
+      {"grid.toml --out a --member 0/3", 2, "--member 0/3: expected K/M"},
+      {"grid.toml --out a --member 4/3", 2, "--member 4/3: expected K/M"},
+      {"grid.toml --out a --member 1", 2, "--member 1: expected K/M"},
+      {"grid.toml --out a --threads 0", 2, "--help"},
+      {"grid.toml", 3, "grid.toml: out is missing: expected a folder, or --out DIR"},
+      {"cooling.toml --out a", 3, "cooling.toml: seeds is missing: expected a list"},
+      {"none.toml --out a", 5, "none.toml: cannot be read"},
+      {"grid.toml --out cooling.toml", 5, "--out cooling.toml: cannot be made"},
+      {"grid.toml --out a --isa bogus", 3, "--isa bogus: expected auto"}};
+  for (const auto& [arguments, code, message] : cases) {
+    const Outcome outcome = run("sweep --quiet " + arguments);
+    EXPECT_EQ(outcome.exit_code, code) << arguments;
+    EXPECT_TRUE(outcome.complains(message));
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST_F(SweepCommand, ExampleIsAGridThatCanBeRun) {
+  const std::string source = NEEDLEWORK_SOURCE;
+  const Outcome outcome =
+      run("sweep --json --summary '" + source + "/profiles/sweep-cooling.toml' --out example");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["members"], 12);
+  EXPECT_EQ(outcome.json()["missing"], 12);
+}
+
+class SweepOverRanks : public SweepCommand {
+ protected:
+  void SetUp() override {
+    if (!shell(launcher + "true").err.empty() || shell(launcher + "true").exit_code != 0)
+      GTEST_SKIP() << "mpirun is not there, or cannot start two processes";
+    if (run("sweep grid.toml --out probe", launcher).err.find("built with MPI") !=
+        std::string::npos)
+      GTEST_SKIP() << "the program was built without MPI";
+  }
+
+  const std::string launcher =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 ";
+};
+
+TEST_F(SweepOverRanks, GiveTheSameSummary) {
+  const json ranks = result("grid.toml --out ranks --threads 1", launcher);
+  EXPECT_EQ(ranks["ranks"], 2);
+  EXPECT_EQ(ranks["computed"], 6);
+  EXPECT_EQ(ranks["points"], result("grid.toml --out one")["points"]);
+  EXPECT_TRUE(read("ranks/summary.h5") == read("one/summary.h5"));
+}
+
+TEST_F(SweepOverRanks, TellAnErrorOnce) {
+  const Outcome outcome = run("sweep grid.toml", launcher);
+  EXPECT_EQ(outcome.exit_code, 3);
+  const std::string message = "needlework: grid.toml: out is missing";
+  const auto first = outcome.err.find(message);
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find(message, first + 1), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace needlework
