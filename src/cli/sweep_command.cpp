@@ -186,8 +186,8 @@ void Sweep::tell(std::span<const sweep::PointSummary> summary) {
   const std::size_t stops = names_of(stopped).size();
   if (stops > 0) {
     print_error(
-        fmt::format("stopped before {} of {} members were finished: the same command goes "
-                    "on with the rest",
+        fmt::format("{} of {} members are not finished, stopped by a signal or in the hands of "
+                    "another process: the same command goes on with them",
                     stops, members_.size()));
   } else if (arguments_.summary && missing_ > 0) {
     print_warning(fmt::format("{} of {} members are missing", missing_, grid_.members.size()));

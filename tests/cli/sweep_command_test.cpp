@@ -142,7 +142,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
         run("sweep --json --threads 2 " + out, "timeout --preserve-status -s " + signal + " 0.8");
     if (signal != "KILL") {
       EXPECT_EQ(stopped.exit_code, 75) << signal;
-      EXPECT_TRUE(stopped.complains("the same command goes on with the rest"));
+      EXPECT_TRUE(stopped.complains("the same command goes on with them"));
       EXPECT_EQ(count_of_files(signal, ".part") + count_of_files(signal, ".lock"), 0u);
     }
     EXPECT_FALSE(exists(signal + "/summary.h5"));
@@ -262,6 +262,22 @@ TEST_F(SweepOverRanks, GiveTheSameSummary) {
   EXPECT_EQ(ranks["computed"], 6);
   EXPECT_EQ(ranks["points"], result("grid.toml --out one")["points"]);
   EXPECT_TRUE(read("ranks/summary.h5") == read("one/summary.h5"));
+}
+
+TEST_F(SweepOverRanks, GoOnAfterASignal) {
+  const json whole = result("long.toml --out whole");
+  const Outcome stopped =
+      run("sweep long.toml --out ranks --threads 1", "timeout -s TERM 1.2 env " + launcher);
+  EXPECT_NE(stopped.exit_code, 0);
+  EXPECT_FALSE(exists("ranks/summary.h5"));
+  // Ranks that their launcher leaves behind keep what they are running for a moment.
+  Outcome rest;
+  for (int attempt = 0; attempt < 20 && rest.exit_code != 0; ++attempt) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    rest = run("sweep --json long.toml --out ranks");
+  }
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_EQ(rest.json()["points"], whole["points"]);
 }
 
 TEST_F(SweepOverRanks, TellAnErrorOnce) {
