@@ -108,10 +108,11 @@ HWY_INLINE Mask same_numbers(Lanes a, Lanes b) {
   return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
-/// Turns (cosine, sine) by k quarters of a circle, k a whole number below 2^30.
-HWY_INLINE void turn(Lanes k, Lanes& cosine, Lanes& sine) {
+/// Turns (cosine, sine) by k quarters of a circle, told by the last bits of `shifted`, 1.5 * 2^23 +
+/// k.
+HWY_INLINE void turn(Lanes shifted, Lanes& cosine, Lanes& sine) {
   const hn::RebindToSigned<Tag> whole;
-  const auto q = hn::ConvertTo(whole, k.v);
+  const auto q = hn::BitCast(whole, shifted.v);
   const auto odd = hn::MaskFromVec(
       hn::BitCast(Tag(), hn::VecFromMask(whole, hn::TestBit(q, hn::Set(whole, 1)))));
   const auto sign_of_sine = hn::BitCast(Tag(), hn::ShiftLeft<30>(hn::And(q, hn::Set(whole, 2))));

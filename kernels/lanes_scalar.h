@@ -59,8 +59,8 @@ inline Mask same_numbers(Lanes a, Lanes b) {
   return {std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v)};
 }
 
-inline void turn(Lanes k, Lanes& cosine, Lanes& sine) {
-  const auto q = static_cast<std::int32_t>(k.v);
+inline void turn(Lanes shifted, Lanes& cosine, Lanes& sine) {
+  const auto q = std::bit_cast<std::uint32_t>(shifted.v);
   const auto flipped = [](float a, bool flip) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(a) ^
                                 (flip ? std::uint32_t{1} << 31 : 0));

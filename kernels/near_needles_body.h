@@ -17,21 +17,22 @@ struct Turned {
   Lanes cosine, sine;
 };
 
-/// Sine and cosine of angles below 2^12 within 2^-20; beyond 2^15 ever worse.
+/// Sine and cosine of angles below 2^12 within 2^-20; beyond 2^15 ever worse, and from 2^22 on
+/// anything.
 NEEDLEWORK_INLINE Turned sine_cosine(Lanes angle) {
   // To the nearest quarter of a circle; pi / 2 in three parts of few bits.
-  const Lanes limit(0x1p29f), to_whole(0x1.8p23f);
-  Lanes k = (angle * Lanes(0.636619772f) + to_whole) - to_whole;
-  k = minimum(maximum(k, -limit), limit);
+  const Lanes to_whole(0x1.8p23f);
+  const Lanes shifted = angle * Lanes(0.636619772f) + to_whole, k = shifted - to_whole;
   const Lanes x =
       ((angle - k * Lanes(0x1.92p0f)) - k * Lanes(0x1.fb4p-12f)) - k * Lanes(0x1.4442d2p-24f);
-  const Lanes xx = x * x;
+  // Grouped so that little waits for what comes before.
+  const Lanes xx = x * x, xxxx = xx * xx;
   Turned out;
-  out.sine = x - x * xx * (Lanes(1.0f / 6) - xx * (Lanes(1.0f / 120) - xx * Lanes(1.0f / 5040)));
-  out.cosine = Lanes(1.0f) -
-               xx * (Lanes(0.5f) -
-                     xx * (Lanes(1.0f / 24) - xx * (Lanes(1.0f / 720) - xx * Lanes(1.0f / 40320))));
-  turn(k, out.cosine, out.sine);
+  out.sine =
+      x - (x * xx) * ((Lanes(1.0f / 6) - xx * Lanes(1.0f / 120)) + xxxx * Lanes(1.0f / 5040));
+  out.cosine = (Lanes(1.0f) - xx * Lanes(0.5f)) +
+               xxxx * ((Lanes(1.0f / 24) - xx * Lanes(1.0f / 720)) + xxxx * Lanes(1.0f / 40320));
+  turn(shifted, out.cosine, out.sine);
   return out;
 }
 
