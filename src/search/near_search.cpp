@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include "kernels/four.h"
 #include "kernels/power_of_two.h"
 #include "src/physics/permutation.h"
 
@@ -46,6 +48,51 @@ double choose_side(const Gas& gas, NearSearch::Hull hull) {
   const double density = density_of(gas);
   if (hull == NearSearch::Hull::capsule) return std::cbrt(12 / density);
   return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
+}
+
+// Fills in the pairs of the seeker with what it has found, four at once: most of the work is to
+// turn rows into columns.
+void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
+                const kernels::CellView* cells, const kernels::Found& found, std::size_t count,
+                const PairColumns& pairs) {
+  using C = PairColumns;
+  using kernels::four, kernels::Four;
+  static_assert(offsetof(Motion, r) == 0 && offsetof(Motion, v) == 12 &&
+                offsetof(Motion, u) == 24 && offsetof(Motion, p) == 36 &&
+                offsetof(Motion, omega) == 48 && offsetof(Motion, time) == 52 &&
+                offsetof(Motion, until) == 56 && offsetof(kernels::CellView, offset) == 4);
+  for (std::size_t k = 0; k < count; k += 4) {
+    Four part[4][4], offset[4];  // of the motions; of the cells, after their block
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t n = std::min(k + i, count - 1);
+      const auto* row = reinterpret_cast<const char*>(&motions[found.needle[n]]);
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        part[quarter][i] = kernels::load_four(row + 16 * quarter);
+      }
+      offset[i] = kernels::load_four(&cells[found.cell[n]]);
+    }
+    for (Four(&rows)[4] : part) kernels::transpose(rows);
+    kernels::transpose(offset);
+    const Four r[3] = {part[0][0], part[0][1], part[0][2]},
+               v[3] = {part[0][3], part[1][0], part[1][1]};
+    const Four age = four(seeker.now) - part[3][1];
+    const auto put = [&](int column, const Four& a) {
+      kernels::store_four(a, pairs.column[column] + k);
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      put(C::r_x + axis,
+          (four(seeker.motion.r[axis]) - offset[1 + axis] - r[axis]) - v[axis] * age);
+      put(C::v_x + axis, four(seeker.motion.v[axis]) - v[axis]);
+    }
+    put(C::u_x, part[1][2]);
+    put(C::u_y, part[1][3]);
+    for (int n = 0; n < 4; ++n) put(C::u_z + n, part[2][n]);
+    put(C::omega, part[3][0]);
+    put(C::age, age);
+    const Four left = part[3][2] - four(seeker.now), zero = four(0);
+    const Four until = (left > zero ? left : zero) + four(static_cast<float>(time_margin));
+    put(C::until, until < four(seeker.ahead) ? until : four(seeker.ahead));
+  }
 }
 
 }  // namespace
@@ -312,22 +359,9 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
                       std::abs(seeker.motion.v[2]) + seeker.motion.omega;
   const float parting = 0.25f / speed;
   constexpr double endless = std::numeric_limits<double>::infinity();
+  fill_pairs(seeker, motions_.data(), views_.data(), found, count, pairs);
+  // A needle just hit is near for sure: this one looks from a little later on.
   for (std::size_t k = 0; k < count; ++k) {
-    const Motion& other = motions_[found.needle[k]];
-    const float* offset = views_[found.cell[k]].offset;
-    const float age = seeker.now - other.time;
-    for (int axis = 0; axis < 3; ++axis) {
-      pairs.column[PairColumns::r_x + axis][k] =
-          (seeker.motion.r[axis] - offset[axis] - other.r[axis]) - other.v[axis] * age;
-      pairs.column[PairColumns::v_x + axis][k] = seeker.motion.v[axis] - other.v[axis];
-      pairs.column[PairColumns::u_x + axis][k] = other.u[axis];
-      pairs.column[PairColumns::p_x + axis][k] = other.p[axis];
-    }
-    pairs.column[PairColumns::omega][k] = other.omega;
-    pairs.column[PairColumns::age][k] = age;
-    pairs.column[PairColumns::until][k] = std::min(
-        seeker.ahead, std::max(0.0f, other.until - seeker.now) + static_cast<float>(time_margin));
-    // A needle just hit is near for sure: this one looks from a little later on.
     pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
   }
   counters_.isolated += kernels_.isolate(seeker, pairs, count);
