@@ -49,6 +49,7 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
   // Copied, for what is stored might be these, as far as a compiler can tell.
   const BlockLink* const links = around.links;
   const Block* const blocks = around.blocks;
+  const auto motions = reinterpret_cast<std::uintptr_t>(around.motions);
   std::uint32_t *const needles = found.needle, *const cells = found.cell;
   const Lanes self = number(seeker.needle);
   std::size_t count = 0, seen = 0;
@@ -66,6 +67,9 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
             packing_of(taken & test(block, lane, cell.offset) & !same_numbers(needle, self));
         store_numbers(packed(needle, found_here), needles + count);
         store_numbers(number(n), cells + count);
+        // Of several the first; and where there is none, whatever stands there.
+        __builtin_prefetch(
+            reinterpret_cast<const void*>(motions + sizeof(Motion) * needles[count]));
         count += found_here.count;
       }
     }

@@ -334,7 +334,8 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     seeker.u[axis] = blocks_[place.block].column[Block::a_x + axis][place.lane];
   }
   look_around(seeker, place.cell, ahead);
-  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_};
+  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_,
+                                     motions_.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto [entries, count] =
       hull_ == Hull::cell
