@@ -12,6 +12,11 @@
 
 namespace needlework {
 
+/// A needle just after a collision, bit for bit as the engine goes on with it.
+struct Aftermath {
+  std::array<double, 3> position, velocity, orientation, angular_velocity;
+};
+
 /// One collision, as passed to the callback. Directions are of needle `first` (the lower id).
 struct Collision {
   std::int64_t epoch = 0;               ///< the time is epoch * epoch_length + offset, exactly
@@ -27,6 +32,7 @@ struct Collision {
   std::array<double, 3> impulse{};      ///< on `first` [m L / time]
   double energy_change = 0;             ///< of the system, <= 0 up to rounding
   bool contact_time_rule = false;       ///< done with epsilon = 1, beta = -1 by the t_c rule
+  std::array<Aftermath, 2> after;       ///< of `first` and `second`; set for callbacks only
 };
 
 /// Sums over all needles at one instant, independent of their order.
