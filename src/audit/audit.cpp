@@ -1,0 +1,383 @@
+#include "src/audit/audit.h"
+
+#include <algorithm>
+#include <bit>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "src/error.h"
+
+namespace needlework::audit {
+namespace {
+
+constexpr std::size_t most_listed = 100;
+/// Times may be off by this share of the flight, or by four times the pair's condition limit.
+constexpr double relative_tolerance = 1e-12;
+/// A collision before its contact is early; without a contact in this share of the time in which
+/// the pair changes, there is none.
+constexpr double early_reach = 0x1p-10;
+
+Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
+
+// A good mixing function: the finaliser of SplitMix64.
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+// With time in epochs.
+Collision in_epochs(Collision collision, double epoch_length) {
+  collision.offset /= epoch_length;
+  collision.normal_velocity *= epoch_length;
+  collision.energy_change *= epoch_length * epoch_length;
+  for (double& p : collision.impulse) p *= epoch_length;
+  for (Aftermath& needle : collision.after) {
+    for (double& v : needle.velocity) v *= epoch_length;
+    for (double& w : needle.angular_velocity) w *= epoch_length;
+  }
+  return collision;
+}
+
+std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return std::uint64_t{i} << 32 | j; }
+
+}  // namespace
+
+const char* name(Kind kind) {
+  constexpr std::array names = {"missed", "spurious", "late", "early", "wrong_order", "wrong_rule"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+double Tally::bound95(Kind kind) const {
+  const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
+  const std::uint64_t n = of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0);
+  if (n == 0) return std::numeric_limits<double>::quiet_NaN();
+  return boost::math::gamma_q_inv(static_cast<double>(count(kind)) + 1, 0.05) /
+         static_cast<double>(n);
+}
+
+Audit::Audit(const State& initial, const Setup& setup)
+    : setup_(setup), space_{initial.box}, ids_(initial.id) {
+  needles_.reserve(initial.size());
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    needles_.emplace_back(Record{{},
+                                 vector(initial.position[i]),
+                                 vector(initial.velocity[i]) * setup.epoch_length,
+                                 vector(initial.orientation[i]),
+                                 vector(initial.angular_velocity[i]) * setup.epoch_length});
+  }
+  if (setup_.tc) *setup_.tc /= setup.epoch_length;
+  has_collided_.assign(initial.size(), false);
+}
+
+void Audit::resume(Checkpoint checkpoint) { resumed_ = std::move(checkpoint); }
+
+Checkpoint Audit::checkpoint() const {
+  if (resumed_) return *resumed_;
+  return {tally_, fingerprint_, touches_};
+}
+
+Audit::Index Audit::index_of(std::uint32_t id) const {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  if (found == ids_.end() || *found != id) {
+    throw InputError("collision of needle " + std::to_string(id) + ": expected one of the state");
+  }
+  return static_cast<Index>(found - ids_.begin());
+}
+
+bool Audit::is_chosen(Index i, Index j) const {
+  if (setup_.share >= 1) return true;
+  const std::uint64_t pair = key_of(std::min(i, j), std::max(i, j));
+  return static_cast<double>(mixed(mixed(setup_.seed) ^ pair)) < setup_.share * 0x1p64;
+}
+
+double Audit::since_start(const Instant& time) const { return elapsed<double>({}, time).middle; }
+
+Instant Audit::begin_of(Index i, Index j) const {
+  return std::max(needles_[i].record.time, needles_[j].record.time);
+}
+
+// From the later of both records on.
+Approach Audit::approach_of(Index i, Index j) const {
+  const Record &a = needles_[i].record, &b = needles_[j].record;
+  const Instant begin = std::max(a.time, b.time);
+  const auto centre = [&](const Record& record) {
+    return record.r + record.v * elapsed<double>(record.time, begin).middle;
+  };
+  return {centre(a) - centre(b), a.v - b.v};
+}
+
+void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) {
+  ++tally_.differences[static_cast<std::size_t>(kind)];
+  if (tally_.listed.size() >= most_listed) return;
+  const double time = (since_start(begin) + s) * setup_.epoch_length;
+  tally_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
+}
+
+void Audit::add(const Collision& reported) {
+  const Collision collision = in_epochs(reported, setup_.epoch_length);
+  const Instant now{collision.epoch, collision.offset};
+  const Index a = index_of(collision.first), b = index_of(collision.second);
+  for (const std::uint64_t word :
+       {std::uint64_t(collision.epoch), std::bit_cast<std::uint64_t>(collision.offset),
+        std::uint64_t{collision.first} << 32 | collision.second}) {
+    fingerprint_ = mixed(fingerprint_ ^ word);
+  }
+  ++tally_.collisions;
+  if (!resumed_) {
+    check_order(now, collision);
+    const bool backwards = now < needles_[a].record.time || now < needles_[b].record.time;
+    if (!backwards) {
+      check_rule(a, b, now, collision);
+      for (Index other = 0; other < needles_.size(); ++other) {
+        if (other == a || other == b) continue;
+        check_flight(a, other, now);
+        check_flight(b, other, now);
+      }
+      if (is_chosen(a, b)) check_contact(a, b, now);
+    }
+  }
+  follow(a, b, now, collision);
+  if (resumed_ && tally_.collisions == resumed_->tally.collisions) {
+    if (fingerprint_ != resumed_->fingerprint) {
+      throw InputError(
+          "the collisions are not those of the interrupted audit: expected the same "
+          "scene and engine");
+    }
+    tally_ = std::move(resumed_->tally);
+    touches_ = std::move(resumed_->touches);
+    resumed_.reset();
+  }
+}
+
+void Audit::follow(Index a, Index b, const Instant& now, const Collision& collision) {
+  for (const int i : {0, 1}) {
+    const Index index = i == 0 ? a : b;
+    const Aftermath& after = collision.after[i];
+    needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
+                                    vector(after.orientation), vector(after.angular_velocity)});
+    has_collided_[index] = true;
+  }
+  last_ = {now,
+           {collision.first, collision.second, collision.shift[0], collision.shift[1],
+            collision.shift[2]}};
+}
+
+void Audit::finish(double time) {
+  if (resumed_) {
+    throw InputError("the run ended after " + std::to_string(tally_.collisions) +
+                     " collisions: expected at least the " +
+                     std::to_string(resumed_->tally.collisions) + " of the interrupted audit");
+  }
+  const double epochs = time / setup_.epoch_length;
+  const Instant end{static_cast<std::int64_t>(std::floor(epochs)), epochs - std::floor(epochs)};
+  slack_ = 0x1p-51 * epochs;
+  for (Index i = 0; i < needles_.size(); ++i) {
+    for (Index j = i + 1; j < needles_.size(); ++j) check_flight(i, j, end);
+  }
+  slack_ = 0;
+}
+
+void Audit::check_order(const Instant& now, const Collision& collision) {
+  const std::pair<Instant, std::array<std::int64_t, 5>> key = {
+      now,
+      {collision.first, collision.second, collision.shift[0], collision.shift[1],
+       collision.shift[2]}};
+  const bool in_order = collision.first < collision.second && (!last_ || *last_ < key);
+  if (!in_order) {
+    report(Kind::wrong_order, index_of(collision.first), index_of(collision.second), now);
+  }
+}
+
+void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& collision) {
+  const double excess =
+      excess_over_rule(needles_[a], needles_[b], now, collision, setup_.rule, space_);
+  const bool by_contact_time = collision.contact_time_rule;
+  const double time = since_start(now) * setup_.epoch_length;
+  if (excess > 1 || by_contact_time != contact_time_is_due(a, b, now, by_contact_time) ||
+      std::abs(collision.time - time) > 0x1p-50 * time) {
+    report(Kind::wrong_rule, a, b, now);
+  }
+}
+
+// A relative contact time is in units that only the engine knows, so its word is taken.
+bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {
+  if (!setup_.tc) return setup_.tc_relative && reported;
+  for (const Index i : {a, b}) {
+    if (!has_collided_[i]) continue;
+    const double age = elapsed<double>(needles_[i].record.time, now).middle;
+    if (std::abs(age - *setup_.tc) <= 0x1p-50 * *setup_.tc) return reported;
+    if (age < *setup_.tc) return true;
+  }
+  return false;
+}
+
+std::optional<Touch> Audit::take_touch(Index i, Index j) {
+  const auto found = touches_.find(key_of(i, j));
+  if (found == touches_.end()) return std::nullopt;
+  const Touch touch = found->second;
+  touches_.erase(found);
+  return touch;
+}
+
+namespace {
+
+// How the pair starts in this image, given its touch before.
+Start start_of(const Vector<double>& r, const std::optional<Touch>& touch) {
+  if (!touch) return {};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(r[axis] - touch->r[axis]) > 0.25) return {};
+  }
+  return touch->start;
+}
+
+}  // namespace
+
+// No contact of the pair until now.
+void Audit::check_flight(Index i, Index j, const Instant& now) {
+  if (i > j) std::swap(i, j);
+  if (!is_chosen(i, j)) return;
+  const double duration = elapsed<double>(begin_of(i, j), now).middle;
+  if (!(duration > 0)) return;
+  ++tally_.checked;
+  const Approach approach = approach_of(i, j);
+  std::optional<Touch> touch;
+  if (!touches_.empty()) touch = take_touch(i, j);
+  for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
+    check_apart({i, j, approach, encounter, duration,
+                 start_of(separation(approach, 0, encounter.shift, space_.box), touch)});
+  });
+}
+
+// No contact until now, but for one now and here.
+void Audit::check_contact(Index a, Index b, const Instant& now) {
+  ++tally_.checked;
+  ++tally_.contacts;
+  const double duration = elapsed<double>(begin_of(a, b), now).middle;
+  const Approach approach = approach_of(a, b);
+  const Vector<double> r = separation(approach, duration, {}, space_.box);
+  Shift nearest;
+  for (int axis = 0; axis < 3; ++axis) {
+    nearest[axis] = static_cast<std::int32_t>(std::round(r[axis] / space_.box[axis]));
+  }
+  const std::optional<Touch> touch = take_touch(a, b);
+  bool met = false;
+  for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
+    const Flown flown{
+        a,         b,        approach,
+        encounter, duration, start_of(separation(approach, 0, encounter.shift, space_.box), touch)};
+    if (encounter.shift == nearest && encounter.end >= duration) {
+      met = true;
+      check_touching(flown);
+    } else {
+      check_apart(flown);
+    }
+  });
+  if (!met) report(Kind::spurious, a, b, now);
+}
+
+// By how much a contact at s may be off in time.
+double Audit::tolerance(Pair& pair, double s) const {
+  const Sample sample = pair.precise(s);
+  return 4 * pair.limit(sample, s) / std::abs(sample.df) + relative_tolerance * std::abs(s) +
+         2 * resolution + slack_;
+}
+
+void Audit::keep_touch(const Flown& flown, Start::Kind kind, int side) {
+  touches_[key_of(flown.first, flown.second)] = {
+      separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), {kind, side}};
+}
+
+void Audit::settle(const Pair& pair, bool undecided) {
+  tally_.escalated += pair.needed_quad();
+  tally_.undecided += undecided;
+}
+
+void Audit::check_apart(const Flown& flown) {
+  const double duration = flown.duration, last = flown.encounter.end;
+  const bool to_the_end = last >= duration;
+  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
+            flown.start);
+  if (!(pair.rate() > 0)) return;
+  Search search(pair);
+  bool undecided = false;
+  for (auto finding = search.first(flown.encounter.begin, last); finding;
+       finding = search.next(finding->end, last)) {
+    // What follows now may come first: the contact is due in the flight to come.
+    const double early = finding->certain ? tolerance(pair, finding->end) : 0;
+    if (to_the_end && finding->end >= duration - early) {
+      if (finding->side != 0) {
+        keep_touch(flown, Start::touching, finding->side);
+      } else {
+        undecided = true;
+      }
+      return settle(pair, undecided);
+    }
+    if (finding->certain) {
+      report(Kind::missed, flown.first, flown.second, begin_of(flown.first, flown.second),
+             finding->begin);
+      return settle(pair, undecided);
+    }
+    undecided = true;
+    if (finding->end >= last) break;
+  }
+  // Rounding the new records may move the needles through each other.
+  if (to_the_end) {
+    const Sample sample = pair.sample(duration);
+    const double near = sample.f_error + 4 * pair.limit(sample, duration) + space_.rounding() +
+                        std::abs(sample.df) * (relative_tolerance * duration + resolution);
+    if (std::abs(sample.f) <= near && search.on_needles(duration, duration) >= 0) {
+      const int side = search.sign(duration);
+      if (side != 0) keep_touch(flown, Start::touching, side);
+    }
+  }
+  settle(pair, undecided);
+}
+
+void Audit::check_touching(const Flown& flown) {
+  const double duration = flown.duration;
+  const Start& start = flown.start;
+  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_, start);
+  Search search(pair);
+  const double off = tolerance(pair, duration), begin = duration - off, end = duration + off;
+  bool undecided = !(off * pair.rate() < 0.25);
+
+  // A contact before this one.
+  std::optional<Finding> before;
+  if (begin > flown.encounter.begin) {
+    before = search.first(flown.encounter.begin, begin);
+    while (before && !before->certain) {
+      undecided = true;
+      before = before->end < begin ? search.next(before->end, begin) : std::nullopt;
+    }
+  }
+  // This one. The touch in which the pair began is no other contact.
+  const bool at_start = begin <= 0 && start.kind != Start::apart;
+  const int side = at_start ? start.side : search.sign(begin), after = search.sign(end);
+  const int inside = search.on_needles(begin, end);
+  const bool none = !undecided && (inside < 0 || (side != 0 && side == after));
+  const auto differs = [&](Kind kind, double s) {
+    report(kind, flown.first, flown.second, begin_of(flown.first, flown.second), s);
+  };
+  bool spurious = false;
+  if (none && before) {
+    differs(Kind::late, duration);
+  } else if (none) {
+    const auto later = search.next(end, end + early_reach / pair.rate());
+    spurious = !(later && later->certain);
+    differs(spurious ? Kind::spurious : Kind::early, duration);
+  } else if (before) {
+    differs(Kind::missed, before->begin);
+  } else if (side == 0 || after == 0 || inside == 0) {
+    undecided = true;
+  }
+  // The needles stay on the side that they came from.
+  const double approaching = pair.precise(duration).df;
+  if (!spurious) keep_touch(flown, Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1);
+  settle(pair, undecided);
+}
+
+}  // namespace needlework::audit

@@ -1,0 +1,80 @@
+// Which periodic images of two needles come within reach of each other, and when.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "src/audit/pair.h"
+
+namespace needlework::audit {
+
+/// The relative motion of two centres, r + v t. Here and below doubles do, as what they lose is far
+/// less than the margin of the reach.
+struct Approach {
+  Vector<double> r, v;
+};
+
+/// r12 at time s for this image.
+inline Vector<double> separation(const Approach& approach, double s, const Shift& shift,
+                                 const std::array<double, 3>& box) {
+  Vector<double> r = approach.r + approach.v * s;
+  for (int axis = 0; axis < 3; ++axis) r[axis] -= shift[axis] * box[axis];
+  return r;
+}
+
+/// An image whose centre is within reach from time `begin` to `end`.
+struct Encounter {
+  Shift shift;
+  double begin, end;
+};
+
+/// Needles touch when their centres are within 1; with a margin for rounding. [L]
+inline constexpr double reach = 1 + 0x1p-20;
+
+/// Calls `found` for each encounter in [0, duration].
+template <class Found>
+void for_each_encounter(const Approach& approach, double duration, const std::array<double, 3>& box,
+                        Found&& found) {
+  const double flown = norm(approach.v) * duration;
+  const double pieces = std::max(1.0, std::ceil(flown));
+  std::vector<Shift> seen;  // by more than one piece
+  for (double piece = 0; piece < pieces; ++piece) {
+    // The images whose centres are that near in the middle of the piece.
+    const double near = reach + 0.5 * flown / pieces + 0x1p-20;
+    const double middle = (piece + 0.5) / pieces * duration;
+    int first[3], last[3];
+    bool none = false;
+    for (int axis = 0; axis < 3 && !none; ++axis) {
+      const double r = approach.r[axis] + approach.v[axis] * middle;
+      first[axis] = static_cast<int>(std::ceil((r - near) / box[axis]));
+      last[axis] = static_cast<int>(std::floor((r + near) / box[axis]));
+      none = first[axis] > last[axis];
+    }
+    if (none) continue;
+    for (int x = first[0]; x <= last[0]; ++x) {
+      for (int y = first[1]; y <= last[1]; ++y) {
+        for (int z = first[2]; z <= last[2]; ++z) {
+          const Shift shift{x, y, z};
+          const Vector<double> r = {
+              {approach.r[0] - x * box[0], approach.r[1] - y * box[1], approach.r[2] - z * box[2]}};
+          const double vv = dot(approach.v, approach.v);
+          const double closest = vv > 0 ? -dot(r, approach.v) / vv : 0;
+          const Vector<double> there = r + approach.v * closest;
+          const double within = reach * reach - dot(there, there);
+          if (within < 0) continue;
+          const double half = vv > 0 ? std::sqrt(within / vv) : duration;
+          const double begin = std::max(0.0, closest - half);
+          const double end = std::min(duration, closest + half);
+          if (begin > end) continue;
+          if (pieces > 1) {
+            if (std::find(seen.begin(), seen.end(), shift) != seen.end()) continue;
+            seen.push_back(shift);
+          }
+          found(Encounter{shift, begin, end});
+        }
+      }
+    }
+  }
+}
+
+}  // namespace needlework::audit

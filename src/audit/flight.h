@@ -1,0 +1,63 @@
+// Free flight of one needle since its last collision, in any arithmetic.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+#include "src/audit/ball.h"
+#include "src/audit/vector.h"
+
+namespace needlework::audit {
+
+/// The time epoch + offset, in units of the engine's epochs; speeds are per epoch. As the length of
+/// these is a power of two near the mean free time, nothing is rounded, and no scene comes near
+/// under- or overflow.
+struct Instant {
+  std::int64_t epoch = 0;
+  double offset = 0;
+  friend auto operator<=>(const Instant&, const Instant&) = default;
+};
+
+template <class Real>
+Ball<Real> elapsed(const Instant& from, const Instant& to) {
+  const double epochs = static_cast<double>(to.epoch - from.epoch);  // exact
+  return Ball<Real>(epochs) + (Ball<Real>(to.offset) - Ball<Real>(from.offset));
+}
+
+/// A needle as it left its last collision; these numbers are taken as exact.
+struct Record {
+  Instant time;
+  Vector<double> r, v, u, w;
+};
+
+/// Centre, director and its rate of change at one time.
+template <class T>
+struct Pose {
+  Vector<T> r, u, du;
+};
+
+/// r(t) = r + v t, u(t) = u cos(omega t) + side sin(omega t). The director is made a unit vector
+/// and the angular velocity normal to it.
+template <class T>
+struct Flight {
+  Vector<T> r, v, u, side;
+  T omega;
+
+  explicit Flight(const Record& record) : r(to<T>(record.r)), v(to<T>(record.v)) {
+    const Vector<T> given = to<T>(record.u);
+    u = given * (T(1) / norm(given));
+    const Vector<T> spin = to<T>(record.w);
+    const Vector<T> w = spin - u * dot(u, spin);
+    const bool spins = record.w[0] != 0 || record.w[1] != 0 || record.w[2] != 0;
+    omega = spins ? norm(w) : T(0);
+    side = spins ? cross(w, u) * (T(1) / omega) : Vector<T>{{T(0), T(0), T(0)}};
+  }
+
+  Pose<T> at(const T& t) const {
+    const T angle = omega * t;
+    const T cosine = cos(angle), sine = sin(angle);
+    return {r + v * t, u * cosine + side * sine, (side * cosine - u * sine) * omega};
+  }
+};
+
+}  // namespace needlework::audit

@@ -1,0 +1,120 @@
+#include "src/audit/pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace needlework::audit {
+namespace {
+
+/// Half a unit in the last place of 1.
+constexpr double half_unit = 0x1p-53;
+
+template <class Real>
+Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& second,
+                const std::array<Ball<Real>, 2>& delay, const Vector<double>& shift,
+                const std::array<double, 3>& box, double offset, double s) {
+  using Number = Ball<Real>;
+  const Number t1 = delay[0] + Number(s), t2 = delay[1] + Number(s);
+  const Pose<Number> a = first.at(t1), b = second.at(t2);
+  Vector<Number> r = first.r - second.r;
+  for (int axis = 0; axis < 3; ++axis) r[axis] = r[axis] - Number(shift[axis]) * Number(box[axis]);
+  r = r + (first.v * t1 - second.v * t2);
+  const Vector<Number> x = cross(a.u, b.u);
+  const Vector<Number> dx = cross(a.du, b.u) + cross(a.u, b.du);
+  const Number f = dot(r, x) - Number(offset);
+  const Number df = dot(first.v - second.v, x) + dot(r, dx);
+
+  Sample out;
+  out.f = static_cast<double>(f.middle);
+  out.f_error = f.radius + half_unit * std::abs(out.f);
+  out.df = static_cast<double>(df.middle);
+  out.df_error = df.radius + half_unit * std::abs(out.df);
+  out.distance = upper(norm(r));
+  const Number xx = dot(x, x);
+  out.sine = upper(sqrt(xx));
+  const std::array<Vector<Number>, 2> moments = {cross(b.u, r), cross(a.u, r)};
+  for (int i = 0; i < 2; ++i) {
+    const Number moment = norm(moments[i]);
+    out.moment_least[i] = lower(moment);
+    out.moment_most[i] = upper(moment);
+    const Number along = dot(moments[i], x);
+    const Number margin = xx * Number(0.5) - (along.middle < 0 ? -along : along);
+    out.margin[i] = static_cast<double>(margin.middle);
+    out.margin_error[i] = margin.radius + half_unit * std::abs(out.margin[i]);
+  }
+  return out;
+}
+
+}  // namespace
+
+Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
+           const Start& start)
+    : first_(first),
+      second_(second),
+      shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
+      space_(space),
+      start_(start) {
+  const Instant begin = std::max(first.record.time, second.record.time);
+  delay_ = {elapsed<double>(first.record.time, begin), elapsed<double>(second.record.time, begin)};
+  omega_ = {upper(first.flight.omega), upper(second.flight.omega)};
+  velocity_ = {norm(first.record.v) * upward, norm(second.record.v) * upward};
+  speed_ = upper(norm(first.flight.v - second.flight.v));
+  spin_ = omega_[0] + omega_[1];
+  if (start.kind == Start::collided) offset_ = precise(0).f;
+}
+
+Sample Pair::sample(double s) const {
+  return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, offset_, s);
+}
+
+Sample Pair::precise(double s) {
+  if (!precise_) {
+    const Instant begin = std::max(first_.record.time, second_.record.time);
+    precise_.emplace(Precise{
+        Flight<Ball<Quad>>(first_.record),
+        Flight<Ball<Quad>>(second_.record),
+        {elapsed<Quad>(first_.record.time, begin), elapsed<Quad>(second_.record.time, begin)}});
+  }
+  return evaluate(precise_->first, precise_->second, precise_->delay, shift_, space_.box, offset_,
+                  s);
+}
+
+Pair::Uncertainty Pair::uncertainty(double s) const {
+  Uncertainty out{half_unit, {}, 0};
+  bool renewed = false;
+  for (int i = 0; i < 2; ++i) {
+    const double age = upper(delay_[i]) + std::abs(s);
+    out.flown += velocity_[i] * age;
+    out.directors[i] = half_unit * (2 + omega_[i] * age);
+    renewed = renewed || velocity_[i] * age > longest_record || omega_[i] * age > longest_record;
+  }
+  out.distance *= 1 + 2 * out.flown;
+  if (renewed) out.distance += space_.rounding();
+  return out;
+}
+
+double Pair::limit(const Sample& sample, double s, double half) const {
+  const Uncertainty by = uncertainty(std::abs(s) + half);
+  double sum = by.distance * std::min(1.0, sample.sine + spin_ * half);
+  for (int i = 0; i < 2; ++i) {
+    const double moment = sample.moment_most[i] + moment_rate(i, 1 + speed_ * half) * half;
+    sum += by.directors[i] * std::min(moment, sample.distance + speed_ * half);
+  }
+  sum += 2 * half_unit * (1 + by.flown);
+  // What both evaluations share drops out of f(s) - f(0).
+  if (start_.kind == Start::collided) {
+    sum *= std::min(1.0, 4 * rate() * (std::abs(s) + half));
+  } else if (start_.kind == Start::touching) {
+    sum += space_.rounding();
+  }
+  return sum;
+}
+
+double Pair::margin_limit(const Sample& sample, double s) const {
+  const Uncertainty by = uncertainty(s);
+  const double directors = by.directors[0] + by.directors[1];
+  const double moment = std::max(sample.moment_most[0], sample.moment_most[1]);
+  return 4 * (sample.sine * (by.distance + directors * (1 + sample.distance)) + moment * directors);
+}
+
+}  // namespace needlework::audit

@@ -1,0 +1,333 @@
+// The audit finds nothing wrong with the engine, and everything that is planted.
+#include "src/audit/audit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/error.h"
+#include "tests/support/reference_gas.h"
+#include "tests/support/runs.h"
+
+namespace needlework::test {
+namespace {
+
+using audit::Kind;
+using audit::Tally;
+
+#ifdef NDEBUG
+constexpr int thin = 1;
+#else
+constexpr int thin = 10;
+#endif
+
+audit::Setup setup_of(const Scene& scene, double epoch_length) {
+  const auto& c = scene.collisions;
+  audit::Setup setup;
+  setup.epoch_length = epoch_length;
+  setup.rule = {c.epsilon, c.beta, scene.needles.k};
+  setup.tc = c.tc;
+  setup.tc_relative = c.tc_relative.has_value();
+  return setup;
+}
+
+std::string text_of(const Tally& tally) {
+  std::string text;
+  for (const Kind kind : audit::kinds) {
+    text += std::string(audit::name(kind)) + " " + std::to_string(tally.count(kind)) + ", ";
+  }
+  text += "undecided " + std::to_string(tally.undecided) + ", collisions " +
+          std::to_string(tally.collisions) + ", checked " + std::to_string(tally.checked);
+  for (const auto& d : tally.listed) {
+    text += "\n" + std::string(audit::name(d.kind)) + " " + std::to_string(d.time) + " " +
+            std::to_string(d.first) + " " + std::to_string(d.second);
+    if (&d - tally.listed.data() >= 5) break;
+  }
+  return text;
+}
+
+/// A run of the engine, recorded with all that the audit needs.
+struct EngineRun {
+  State initial;
+  std::vector<Collision> collisions;
+  audit::Setup setup;
+  double end = 0;
+
+  EngineRun(const Scene& scene, double per_needle) {
+    Simulation simulation(scene);
+    initial = simulation.state();
+    setup = setup_of(scene, simulation.epoch_length());
+    simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
+    Scene::Until until;
+    until.collisions_per_needle = per_needle / thin;
+    simulation.advance(until);
+    end = simulation.time();
+  }
+
+  Tally audited() const {
+    audit::Audit audit(initial, setup);
+    for (const Collision& collision : collisions) audit.add(collision);
+    audit.finish(end);
+    return audit.tally();
+  }
+};
+
+Scene gas(std::uint64_t count, double density) {
+  return scene_of(count, std::cbrt(static_cast<double>(count) / density));
+}
+
+void expect_clean(const Tally& tally, const std::string& what) {
+  EXPECT_TRUE(tally.clean()) << what << ": " << text_of(tally);
+  // Pairs whose contact rounding decides are one in millions.
+  EXPECT_LE(tally.undecided, 1 + tally.checked / 1000000) << what << ": " << text_of(tally);
+  EXPECT_GT(tally.contacts, 0u);
+}
+
+TEST(Audit, FindsNothingWrongWithTheEngine) {
+  std::vector<Scene> scenes;
+  for (const double density : {0.05, 0.72, 11.6}) {
+    scenes.push_back(gas(150, density));
+    Scene& cooling = scenes.emplace_back(gas(150, density));
+    cooling.collisions.epsilon = 0.8;
+    cooling.collisions.tc_relative = 1e-3;
+    cooling.initial.t_rot = 0;
+    Scene& rough = scenes.emplace_back(gas(150, density));
+    rough.collisions.epsilon = 0.9;
+    rough.collisions.beta = 0.3;
+    rough.collisions.tc = 1e-3;
+    rough.needles.k = 2;
+  }
+  scenes.push_back(scene_of(60, 2.01));  // a pair can meet through two images
+  scenes.push_back(scene_of(2, 2.01));
+  Scene& slow = scenes.emplace_back(gas(100, 1));
+  slow.initial.t_tr = slow.initial.t_rot = 0x1p-560;
+  for (const Scene& scene : scenes) {
+    const EngineRun run(scene, scene.needles.count == 2 ? 300 : 30);
+    expect_clean(run.audited(), name_of(scene));
+  }
+}
+
+TEST(Audit, FollowsBouncesDownToTheContactTime) {
+  Scene scene = gas(60, 2);
+  scene.collisions.epsilon = 0.5;
+  scene.collisions.tc_relative = 1e-4;
+  const EngineRun run(scene, 300);
+  const auto by_rule = std::count_if(run.collisions.begin(), run.collisions.end(),
+                                     [](const Collision& c) { return c.contact_time_rule; });
+  EXPECT_GT(by_rule, 100 / thin);
+  expect_clean(run.audited(), name_of(scene));
+}
+
+TEST(Audit, LooksAtEveryPairAndCollision) {
+  const EngineRun run(gas(40, 1), 20);
+  const Tally tally = run.audited();
+  const std::size_t n = run.initial.size(), m = run.collisions.size();
+  EXPECT_EQ(tally.collisions, m);
+  EXPECT_EQ(tally.contacts, m);
+  // Two flights to each of the others, one between the partners; all once more at the end, but
+  // perhaps those that begin there.
+  const std::size_t at_collision = 2 * (n - 2) + 1, most = m * at_collision + n * (n - 1) / 2;
+  EXPECT_LE(tally.checked, most);
+  EXPECT_GE(tally.checked, most - at_collision);
+}
+
+TEST(Audit, ChecksAShareOfAllPairsByItsSeed) {
+  const EngineRun run(gas(100, 1), 20);
+  const auto share = [&](double share, std::uint64_t seed) {
+    EngineRun part = run;
+    part.setup.share = share;
+    part.setup.seed = seed;
+    return part.audited();
+  };
+  const Tally all = run.audited(), fifth = share(0.2, 1), other = share(0.2, 2);
+  EXPECT_NEAR(static_cast<double>(fifth.checked), 0.2 * static_cast<double>(all.checked),
+              0.02 * static_cast<double>(all.checked));
+  EXPECT_EQ(fifth.checked, share(0.2, 1).checked);
+  EXPECT_NE(fifth.contacts, other.contacts);
+  EXPECT_TRUE(fifth.clean() && other.clean());
+  EXPECT_EQ(share(0, 1).checked, 0u);
+  EXPECT_TRUE(std::isnan(share(0, 1).bound95(Kind::missed)));
+}
+
+TEST(Audit, BoundsWhatItDidNotSee) {
+  Tally tally;
+  tally.contacts = tally.collisions = 1000;
+  EXPECT_NEAR(tally.bound95(Kind::late), 2.9957e-3, 1e-6);  // -log(0.05) / n
+  tally.differences[0] = 2;                                 // missed
+  EXPECT_NEAR(tally.bound95(Kind::missed), 6.2958 / 1002, 1e-6);
+}
+
+// --- Faults planted in the engine: a history that is consistent but wrong.
+
+constexpr int collisions = 500 / thin;
+
+struct PlantedCase {
+  const char* name;
+  Fault fault;
+  Kind kind;
+};
+
+static void PrintTo(const PlantedCase& planted, std::ostream* out) { *out << planted.name; }
+
+class PlantedFault : public testing::TestWithParam<PlantedCase> {};
+
+TEST_P(PlantedFault, IsReported) {
+  const PlantedCase& planted = GetParam();
+  Scene scene = gas(20, 1.5);
+  const ReferenceRun run = run_reference(scene, collisions, planted.fault);
+  ASSERT_GT(run.planted, 0);
+  audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
+  for (const Collision& collision : run.collisions) audit.add(collision);
+  audit.finish(run.end);
+  const Tally& tally = audit.tally();
+  const auto expected = static_cast<std::uint64_t>(run.planted);
+  EXPECT_GE(tally.count(planted.kind) + 1, expected) << text_of(tally);  // one may lie at the end
+  EXPECT_LE(tally.count(planted.kind), expected) << text_of(tally);
+  EXPECT_GT(tally.count(planted.kind), 0u) << text_of(tally);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfTheEngine, PlantedFault,
+    testing::Values(PlantedCase{"Drop", {Fault::drop, 40 / thin}, Kind::missed},
+                    PlantedCase{"Late", {Fault::delay, 40 / thin, 1e-9}, Kind::late},
+                    PlantedCase{"Early", {Fault::delay, 40 / thin, -1e-9}, Kind::early},
+                    PlantedCase{"Blind", {Fault::blind, 1}, Kind::missed},
+                    PlantedCase{"Repeat", {Fault::repeat, 40 / thin}, Kind::spurious},
+                    PlantedCase{
+                        "Restitution", {Fault::restitution, 40 / thin, 1e-10}, Kind::wrong_rule}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(PlantedFault, NoneIsReportedWhereThereIsNone) {
+  const Scene scene = gas(20, 1.5);
+  const ReferenceRun run = run_reference(scene, collisions, {});
+  audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
+  for (const Collision& collision : run.collisions) audit.add(collision);
+  audit.finish(run.end);
+  expect_clean(audit.tally(), "reference");
+}
+
+// --- Faults in what is reported.
+
+class FalseReport : public testing::Test {
+ protected:
+  FalseReport() : run(gas(60, 2), 40) {
+    // In the middle, and of needles that have both collided before.
+    n = run.collisions.size() / 2;
+  }
+  Collision& victim() { return run.collisions[n]; }
+  std::uint64_t count(Kind kind) const { return run.audited().count(kind); }
+
+  EngineRun run;
+  std::size_t n;
+};
+
+TEST_F(FalseReport, OfACollisionLeftOutIsSeen) {
+  run.collisions.erase(run.collisions.begin() + static_cast<std::ptrdiff_t>(n));
+  EXPECT_GE(count(Kind::missed), 1u);
+}
+
+TEST_F(FalseReport, OfACollisionThatWasNotIsSeen) {
+  Collision invented = victim();
+  invented.offset -= 1e-4;
+  invented.time -= 1e-4;
+  while (n > 0 && invented.time < run.collisions[n - 1].time) --n;
+  run.collisions.insert(run.collisions.begin() + static_cast<std::ptrdiff_t>(n), invented);
+  EXPECT_GE(count(Kind::spurious) + count(Kind::late) + count(Kind::early), 1u);
+  EXPECT_GE(count(Kind::wrong_rule), 1u);
+}
+
+TEST_F(FalseReport, OfTheTimeIsSeen) {
+  victim().offset += 1e-9;
+  EXPECT_GE(count(Kind::late), 1u);
+}
+
+TEST_F(FalseReport, OfTheOrderIsSeen) {
+  std::swap(run.collisions[n], run.collisions[n + 1]);
+  EXPECT_EQ(count(Kind::wrong_order), 1u);
+}
+
+TEST_F(FalseReport, OfTheOrderWithinAPairIsSeen) {
+  std::swap(victim().first, victim().second);
+  std::swap(victim().after[0], victim().after[1]);
+  EXPECT_GE(count(Kind::wrong_order), 1u);
+}
+
+TEST_F(FalseReport, OfAnyNumberIsSeen) {
+  const auto altered = [&](auto&& alter) {
+    const Collision kept = victim();
+    alter(victim());
+    const std::uint64_t found = count(Kind::wrong_rule);
+    victim() = kept;
+    return found;
+  };
+  EXPECT_EQ(count(Kind::wrong_rule), 0u);
+  EXPECT_EQ(altered([](Collision& c) { c.arm_first += 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.arm_second += 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.sin_angle += 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.shift[0] += 1; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.normal_velocity *= 1 + 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.impulse[1] += 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.energy_change += 1e-10; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.contact_time_rule = true; }), 1u);
+  EXPECT_EQ(altered([](Collision& c) { c.time *= 1 + 1e-12; }), 1u);
+  EXPECT_GE(altered([](Collision& c) { c.after[0].position[2] += 1e-10; }), 1u);
+  EXPECT_GE(altered([](Collision& c) { c.after[1].velocity[0] += 1e-10; }), 1u);
+  EXPECT_GE(altered([](Collision& c) { c.after[0].angular_velocity[1] += 1e-10; }), 1u);
+  EXPECT_GE(altered([](Collision& c) { c.after[1].orientation[0] += 1e-10; }), 1u);
+  EXPECT_GE(altered([](Collision& c) { c.after[1].orientation[0] = NAN; }), 1u);
+}
+
+TEST(ContactTime, OfAnAbsoluteKindIsChecked) {
+  Scene scene = gas(60, 5);
+  scene.collisions.epsilon = 0.5;
+  scene.collisions.tc = 0.01;
+  EngineRun run(scene, 40);
+  EXPECT_TRUE(run.audited().clean());
+  *run.setup.tc *= 1.5;
+  EXPECT_GT(run.audited().count(Kind::wrong_rule), 0u);
+}
+
+// --- Interruption.
+
+TEST(Audit, GoesOnWhereItWasInterrupted) {
+  Scene scene = gas(50, 5);
+  scene.collisions.epsilon = 0.7;
+  scene.collisions.tc_relative = 1e-3;
+  EngineRun run(scene, 100);
+  run.collisions[run.collisions.size() / 3].impulse[0] += 1e-6;  // to have something to remember
+  const Tally whole = run.audited();
+  for (const std::size_t at : {std::size_t{1}, run.collisions.size() / 2, run.collisions.size()}) {
+    audit::Audit first(run.initial, run.setup);
+    for (std::size_t n = 0; n < at; ++n) first.add(run.collisions[n]);
+    audit::Audit second(run.initial, run.setup);
+    second.resume(first.checkpoint());
+    for (const Collision& collision : run.collisions) second.add(collision);
+    second.finish(run.end);
+    EXPECT_EQ(text_of(second.tally()), text_of(whole));
+  }
+}
+
+TEST(Audit, RefusesToGoOnWithAnotherRun) {
+  const EngineRun run(gas(30, 1), 20);
+  audit::Audit first(run.initial, run.setup);
+  for (const Collision& collision : run.collisions) first.add(collision);
+  audit::Audit second(run.initial, run.setup), third(run.initial, run.setup);
+  second.resume(first.checkpoint());
+  third.resume(first.checkpoint());
+  EXPECT_THROW(
+      {
+        for (Collision collision : run.collisions) {
+          collision.offset += 1e-14;
+          second.add(collision);
+        }
+      },
+      InputError);
+  third.add(run.collisions[0]);
+  EXPECT_THROW(third.finish(run.end), InputError);
+}
+
+}  // namespace
+}  // namespace needlework::test

@@ -1,0 +1,52 @@
+// The audit uses nothing of what it checks.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+namespace needlework {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = NEEDLEWORK_SOURCE;
+
+/// Files of this project that a file includes, by path from the root.
+std::set<std::string> included_by(const fs::path& file) {
+  std::set<std::string> out;
+  std::ifstream text(root / file);
+  EXPECT_TRUE(text) << file;
+  for (std::string line; std::getline(text, line);) {
+    const auto begin = line.find('"');
+    if (line.find("#include") == std::string::npos || begin == std::string::npos) continue;
+    out.insert(line.substr(begin + 1, line.find('"', begin + 1) - begin - 1));
+  }
+  return out;
+}
+
+/// All that a file includes, directly or not.
+void collect(const std::string& file, std::set<std::string>& all) {
+  if (!all.insert(file).second) return;
+  for (const std::string& included : included_by(file)) collect(included, all);
+}
+
+TEST(AuditIndependence, IncludesNothingOfTheEngineButItsPlainStructs) {
+  std::set<std::string> all;
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(root / "src/audit")) {
+    if (entry.path().extension() == ".md") continue;
+    ++files;
+    collect("src/audit/" + entry.path().filename().string(), all);
+  }
+  ASSERT_GE(files, 8u);
+  const std::set<std::string> plain = {"src/engine/simulation.h", "src/engine/counters.h",
+                                       "src/error.h", "src/scene/scene.h"};
+  for (const std::string& file : all) {
+    EXPECT_TRUE(file.starts_with("src/audit/") || plain.contains(file)) << file;
+  }
+}
+
+}  // namespace
+}  // namespace needlework

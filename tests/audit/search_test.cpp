@@ -1,0 +1,109 @@
+// The audit's search against the other oracle, over thermal pairs and all hard families.
+//
+// Law: where the decision is `clear` units of the inputs' noise from the other one, a contact is
+// found for certain, its time in the stretch told, unless a time wrong by the condition limit could
+// move a tip there or a neighbouring root; and where there is none, none is found. Nearer, the
+// search may say doubtful, but beyond one unit never the opposite for certain.
+#include "src/audit/search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/support/oracle.h"
+#include "tests/support/pair_families.h"
+#include "tests/support/pairs_csv.h"
+
+namespace needlework::test {
+
+static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
+
+namespace {
+
+#ifdef NDEBUG
+constexpr std::size_t count = 2000;
+#else
+constexpr std::size_t count = 100;
+#endif
+constexpr std::uint64_t seed = 77;
+constexpr double clear = 48, few = 256;
+
+audit::Needle needle_of(const FreeNeedle& needle) {
+  return audit::Needle(
+      {{}, {needle.position}, {needle.velocity}, {needle.orientation}, {needle.angular_velocity}});
+}
+
+/// In units of time in which the pair's fastest motion is about 1, as the audit has its epochs.
+NeedlePair in_own_time(const NeedlePair& pair) {
+  double fastest = 0;
+  for (const FreeNeedle* needle : {&pair.first, &pair.second}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      fastest = std::max(
+          {fastest, std::abs(needle->velocity[axis]), std::abs(needle->angular_velocity[axis])});
+    }
+  }
+  return slowed(pair, std::ilogb(fastest));
+}
+
+class SearchOracle : public testing::TestWithParam<PairFamily> {};
+
+TEST_P(SearchOracle, FindsTheSameContacts) {
+  std::size_t contacts = 0, doubtful = 0, near = 0, escalated = 0;
+  for (const NeedlePair& drawn : draw_pairs(GetParam().name, count, seed)) {
+    const NeedlePair pair = in_own_time(drawn);
+    const OracleAnswer truth =
+        first_contact(pair.first, pair.second, pair.horizon, pair.just_collided);
+    const audit::Needle first = needle_of(pair.first), second = needle_of(pair.second);
+    const audit::Space space{{64, 64, 64}};
+    audit::Start start;
+    if (pair.just_collided) {
+      audit::Pair before(first, second, {}, space, {});
+      start = {audit::Start::collided, before.precise(0).df > 0 ? 1 : -1};
+    }
+    audit::Pair flown(first, second, {}, space, start);
+    audit::Search search(flown);
+    const auto found = search.first(0, pair.horizon);
+    contacts += truth.contact;
+    doubtful += found && !found->certain;
+    escalated += flown.needed_quad();
+    if (truth.decision_margin < 1) continue;
+    const std::string text =
+        csv_line(0, pair) + "\nmargin " + std::to_string(truth.decision_margin);
+    if (found && found->certain) {
+      ASSERT_TRUE(truth.contact) << text;
+      const double off = std::max(1e-12, 4 * truth.time_limit) * truth.time;
+      EXPECT_GE(truth.time, found->begin - off) << text;
+      EXPECT_LE(truth.time, found->end + off) << text;
+      EXPECT_LT(found->end - found->begin, 16 * off) << text;
+      continue;
+    }
+    ASSERT_FALSE(truth.contact && !found) << text;
+    if (truth.decision_margin < clear) {
+      ++near;
+    } else if (truth.contact && found->end >= truth.time) {
+      const double inside = 0.5 - std::max(std::abs(truth.arm_first), std::abs(truth.arm_second));
+      EXPECT_TRUE(inside < few * truth.arm_limit || truth.root_depth < few)
+          << text << " inside " << inside << " arm limit " << truth.arm_limit << " depth "
+          << truth.root_depth << " begin " << found->begin << " end " << found->end;
+    }
+    if (HasFailure()) break;
+  }
+  std::printf("%-14.*s contacts %zu, doubtful %zu, near %zu, with 113 bits %zu\n",
+              static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, doubtful,
+              near, escalated);
+  if (GetParam().thermal) {
+    EXPECT_EQ(doubtful, 0u);
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<PairFamily>& info) {
+  std::string text(info.param.name);
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SearchOracle, testing::ValuesIn(pair_families()), test_name);
+
+}  // namespace
+}  // namespace needlework::test
