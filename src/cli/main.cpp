@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "src/cli/audit_command.h"
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/exit_codes.h"
@@ -31,6 +32,7 @@ int parse_and_run(int argc, char** argv) {
   add_check_command(app, exit_code);
   add_theory_command(app, exit_code);
   add_predict_command(app, exit_code);
+  add_audit_command(app, exit_code);
   add_info_command(app, exit_code);
   add_export_command(app, exit_code);
   add_bench_command(app, exit_code);

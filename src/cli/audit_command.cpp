@@ -1,0 +1,207 @@
+#include "src/cli/audit_command.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "src/audit/audit.h"
+#include "src/cli/audit_state.h"
+#include "src/cli/exit_codes.h"
+#include "src/cli/json_number.h"
+#include "src/cli/messages.h"
+#include "src/cli/output_path.h"
+#include "src/cli/progress.h"
+#include "src/cli/resources.h"
+#include "src/cli/scene_source.h"
+#include "src/cli/signals.h"
+#include "src/engine/simulation.h"
+#include "src/error.h"
+#include "src/observe/completion.h"
+
+namespace needlework::cli {
+namespace {
+
+/// Longest stay in the event loop between two looks at the clock [s].
+constexpr double longest_step = 0.25;
+
+struct AuditArguments {
+  SceneArguments scene;
+  double share = 1;
+  std::uint64_t seed = 0;
+  std::optional<std::string> state;
+  bool json = false, quiet = false;
+};
+
+struct Outcome {
+  Stop stop = Stop::time;
+  std::optional<std::string> failure;  ///< of the run
+  Stopwatch clock;
+
+  bool is_complete() const { return stop != Stop::interrupted && stop != Stop::wall_time; }
+};
+
+audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, double epoch_length) {
+  const Scene::Collisions& collisions = scene.collisions;
+  return {.epoch_length = epoch_length,
+          .rule = {collisions.epsilon, collisions.beta, scene.needles.k},
+          .tc = collisions.tc,
+          .tc_relative = collisions.tc_relative.has_value(),
+          .share = arguments.share,
+          .seed = arguments.seed};
+}
+
+// Runs and audits until the end or a signal.
+Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, bool quiet) {
+  RunProgress progress(quiet);
+  Outcome outcome;
+  outcome.clock.start();
+  const double begin = seconds_since_launch();
+  const Totals initial = simulation.totals();
+  try {
+    for (;;) {
+      const double elapsed = seconds_since_launch() - begin;
+      if (SignalGuard::received()) {
+        outcome.stop = Stop::interrupted;
+        break;
+      }
+      if (scene.until.wall_s && elapsed >= *scene.until.wall_s) {
+        outcome.stop = Stop::wall_time;
+        break;
+      }
+      if (progress.is_due(elapsed)) {
+        const Totals now = simulation.totals();
+        progress.show(elapsed,
+                      completed_fraction(scene.until, initial, now,
+                                         static_cast<double>(scene.needles.count), elapsed),
+                      now, initial.energy);
+      }
+      Scene::Until until = scene.until;
+      until.wall_s = longest_step;
+      outcome.stop = simulation.advance(until);
+      if (outcome.is_complete()) break;
+    }
+    if (outcome.is_complete()) audit.finish(simulation.time());
+  } catch (const InvalidStateError& error) {
+    outcome.failure = error.what();
+  }
+  outcome.clock.stop();
+  return outcome;
+}
+
+nlohmann::ordered_json json_of(const audit::Tally& tally, const AuditArguments& arguments,
+                               const Outcome& outcome) {
+  nlohmann::ordered_json json;
+  json["checked"] = tally.checked;
+  for (const audit::Kind kind : audit::kinds) json[audit::name(kind)] = tally.count(kind);
+  json["undecided"] = tally.undecided;
+  for (const audit::Kind kind : audit::kinds) {
+    json["bound95"][audit::name(kind)] = number(tally.bound95(kind));
+  }
+  json["collisions"] = tally.collisions;
+  json["contacts"] = tally.contacts;
+  json["escalated"] = tally.escalated;
+  json["share"] = arguments.share;
+  json["complete"] = outcome.is_complete() && !outcome.failure;
+  json["wall_s"] = outcome.clock.wall();
+  json["cpu_s"] = outcome.clock.cpu();
+  json["differences"] = nlohmann::json::array();
+  for (const audit::Difference& difference : tally.listed) {
+    json["differences"].push_back({{"kind", audit::name(difference.kind)},
+                                   {"time", difference.time},
+                                   {"pair", {difference.first, difference.second}}});
+  }
+  return json;
+}
+
+std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
+                    const Outcome& outcome) {
+  std::string text =
+      fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", tally.checked,
+                  arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
+                  tally.collisions, duration_text(outcome.clock.wall()));
+  for (const audit::Kind kind : audit::kinds) {
+    text += fmt::format("{:12} {:8}   at most {:.2g} of all collisions (95 %)\n", audit::name(kind),
+                        tally.count(kind), tally.bound95(kind));
+  }
+  text += fmt::format("{:12} {:8}   rounding decides\n", "undecided", tally.undecided);
+  for (const audit::Difference& difference : tally.listed) {
+    text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
+                        difference.first, difference.second, difference.time);
+  }
+  return text;
+}
+
+int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
+                 const std::optional<std::string>& state) {
+  if (outcome.failure) {
+    print_error(*outcome.failure);
+    return invalid_state;
+  }
+  if (!outcome.is_complete()) {
+    print_error(fmt::format(
+        "stopped by {} after {} collisions ({})",
+        outcome.stop == Stop::wall_time ? "until.wall_s" : "a signal", tally.collisions,
+        state ? "saved in " + *state : "nothing is saved, as no --state file is named"));
+    return stopped;
+  }
+  return tally.clean() ? ok : differences_found;
+}
+
+int run_audit(const AuditArguments& arguments) {
+  const LoadedScene loaded = load_scene(arguments.scene);
+  const Scene& scene = loaded.scene;
+  if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
+  Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
+  audit::Audit audit(simulation.state(), setup_of(scene, arguments, simulation.epoch_length()));
+  const AuditIdentity identity =
+      fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);
+  if (arguments.state) {
+    if (auto checkpoint = read_audit_state(*arguments.state, identity)) {
+      audit.resume(std::move(*checkpoint));
+    }
+  }
+  simulation.on_collision([&](const Collision& collision) { audit.add(collision); });
+  const SignalGuard guard(simulation);
+  const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);
+  if (outcome.stop == Stop::nothing_can_happen && !scene.until.time) {
+    throw InputError(arguments.scene.path +
+                     ": nothing can ever happen: expected needles that move, or until.time");
+  }
+  if (arguments.state && !outcome.failure) {
+    if (outcome.is_complete()) {
+      std::remove(arguments.state->c_str());
+    } else {
+      write_audit_state(*arguments.state, identity, audit.checkpoint());
+    }
+  }
+  const audit::Tally tally = audit.checkpoint().tally;
+  if (arguments.json) {
+    fmt::print("{}\n", json_of(tally, arguments, outcome).dump(2));
+  } else if (!arguments.quiet) {
+    fmt::print("{}", text_of(tally, arguments, outcome));
+  }
+  return exit_code_of(tally, outcome, arguments.state);
+}
+
+}  // namespace
+
+void add_audit_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("audit", "check each collision of a scene, and that none was missed");
+  const auto arguments = std::make_shared<AuditArguments>();
+  add_scene_arguments(*command, arguments->scene);
+  command->add_option("--share", arguments->share, "share of all pairs to check")
+      ->option_text("P")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--seed", arguments->seed, "says which pairs these are")->option_text("N");
+  command->add_option("--state", arguments->state, "where an interrupted audit goes on from")
+      ->option_text("FILE");
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  command->callback([arguments, &exit_code] { exit_code = run_audit(*arguments); });
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,95 @@
+#include "src/cli/audit_state.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "src/error.h"
+
+namespace needlework::cli {
+namespace {
+
+using nlohmann::json;
+
+// 64-bit keys are text: readers of JSON may hold numbers as doubles.
+json json_of(const audit::Checkpoint& checkpoint) {
+  const audit::Tally& tally = checkpoint.tally;
+  json touches = json::array();
+  for (const auto& [pair, touch] : checkpoint.touches) {
+    touches.push_back({{"pair", std::to_string(pair)},
+                       {"r", touch.r.components},
+                       {"kind", static_cast<int>(touch.start.kind)},
+                       {"side", touch.start.side}});
+  }
+  json listed = json::array();
+  for (const audit::Difference& difference : tally.listed) {
+    listed.push_back(
+        {static_cast<int>(difference.kind), difference.time, difference.first, difference.second});
+  }
+  return {{"fingerprint", std::to_string(checkpoint.fingerprint)},
+          {"collisions", tally.collisions},
+          {"contacts", tally.contacts},
+          {"checked", tally.checked},
+          {"escalated", tally.escalated},
+          {"undecided", tally.undecided},
+          {"differences", tally.differences},
+          {"listed", listed},
+          {"touches", touches}};
+}
+
+audit::Checkpoint checkpoint_of(const json& from) {
+  audit::Checkpoint out;
+  out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
+  audit::Tally& tally = out.tally;
+  from.at("collisions").get_to(tally.collisions);
+  from.at("contacts").get_to(tally.contacts);
+  from.at("checked").get_to(tally.checked);
+  from.at("escalated").get_to(tally.escalated);
+  from.at("undecided").get_to(tally.undecided);
+  from.at("differences").get_to(tally.differences);
+  for (const json& row : from.at("listed")) {
+    tally.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()), row.at(1).get<double>(),
+                            row.at(2).get<std::uint32_t>(), row.at(3).get<std::uint32_t>()});
+  }
+  for (const json& row : from.at("touches")) {
+    audit::Touch touch;
+    row.at("r").get_to(touch.r.components);
+    touch.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
+    row.at("side").get_to(touch.start.side);
+    out.touches[std::stoull(row.at("pair").get<std::string>())] = touch;
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_audit_state(const std::string& path, const AuditIdentity& identity,
+                       const audit::Checkpoint& checkpoint) {
+  const std::string draft = path + ".part";
+  std::ofstream file(draft);
+  file << json{{"audit", identity}, {"state", json_of(checkpoint)}} << '\n';
+  file.close();
+  if (!file || std::rename(draft.c_str(), path.c_str()) != 0) {
+    throw IoError(path + ": cannot be written");
+  }
+}
+
+std::optional<audit::Checkpoint> read_audit_state(const std::string& path,
+                                                  const AuditIdentity& identity) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  std::ifstream file(path);
+  if (!file) throw IoError(path + ": cannot be read");
+  try {
+    const json content = json::parse(file);
+    if (content.at("audit").get<std::string>() != identity) {
+      throw InputError(path +
+                       ": the state of another audit: expected the same scene, engine and share");
+    }
+    return checkpoint_of(content.at("state"));
+  } catch (const json::exception&) {
+  } catch (const std::logic_error&) {  // of numbers
+  }
+  throw InputError(path + ": expected the state of an interrupted audit");
+}
+
+}  // namespace needlework::cli

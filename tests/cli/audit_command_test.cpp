@@ -1,0 +1,115 @@
+// What `needlework audit` prints, how it ends, and how it goes on.
+#include <string>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+using nlohmann::json;
+
+class AuditCommand : public ProgramTest {
+ protected:
+  AuditCommand() {
+    write("cooling.toml", R"(
+[needles]
+count = 200
+box = 7
+[collisions]
+epsilon = 0.8
+tc_relative = 1e-3
+[until]
+collisions_per_needle = 60
+)");
+  }
+};
+
+TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
+  const Outcome outcome = run("audit small.toml --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  const json result = outcome.json();
+  for (const char* kind : {"missed", "spurious", "late", "early", "wrong_order", "wrong_rule"}) {
+    EXPECT_EQ(result[kind], 0) << kind;
+    EXPECT_NEAR(result["bound95"][kind].get<double>(), 2.9957 / 250, 1e-5) << kind;
+  }
+  EXPECT_EQ(result["collisions"], 250);
+  EXPECT_EQ(result["contacts"], 250);
+  EXPECT_GT(result["checked"].get<int>(), 250 * 97);
+  EXPECT_TRUE(result["undecided"].is_number_integer());
+  EXPECT_TRUE(result["complete"].get<bool>());
+  EXPECT_EQ(result["differences"].size(), 0u);
+}
+
+TEST_F(AuditCommand, TellsPeople) {
+  const Outcome outcome = run("audit small.toml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* part : {"flights of pairs checked", "missed", "undecided"}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  }
+  EXPECT_EQ(run("audit small.toml --quiet").out, "");
+}
+
+TEST_F(AuditCommand, TakesAShareOfThePairs) {
+  const json all = run("audit small.toml --json").json();
+  const json some = run("audit small.toml --json --share 0.1 --seed 3").json();
+  EXPECT_LT(some["checked"].get<double>(), 0.2 * all["checked"].get<double>());
+  EXPECT_EQ(some["collisions"], all["collisions"]);
+  EXPECT_EQ(some["checked"], run("audit small.toml --json --share 0.1 --seed 3").json()["checked"]);
+  const json none = run("audit small.toml --json --share 0").json();
+  EXPECT_EQ(none["checked"], 0);
+  EXPECT_TRUE(none["bound95"]["missed"].is_null());
+}
+
+TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
+  json whole = run("audit cooling.toml --json").json();
+  int pieces = 0;
+  Outcome outcome;
+  do {
+    outcome = shell("timeout --preserve-status -s INT 0.5 '" + std::string(NEEDLEWORK_PROGRAM) +
+                    "' audit cooling.toml --json --state audit.state");
+    EXPECT_EQ(exists("audit.state"), outcome.exit_code == 75);
+  } while (outcome.exit_code == 75 && ++pieces < 60);
+  EXPECT_GT(pieces, 0);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  json resumed = outcome.json();
+  for (const char* key : {"wall_s", "cpu_s"}) {
+    whole.erase(key);
+    resumed.erase(key);
+  }
+  EXPECT_EQ(resumed, whole);
+  EXPECT_FALSE(exists("audit.state"));
+}
+
+TEST_F(AuditCommand, SavesWhenStopped) {
+  const Outcome outcome =
+      run("audit cooling.toml --set until.wall_s=0 --state audit.state --json --quiet");
+  EXPECT_EQ(outcome.exit_code, 75);
+  EXPECT_TRUE(outcome.complains("saved in audit.state"));
+  EXPECT_FALSE(outcome.json()["complete"].get<bool>());
+  EXPECT_TRUE(exists("audit.state"));
+  const Outcome other = run("audit small.toml --state audit.state");
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_TRUE(other.complains("audit.state: the state of another audit"));
+  write("audit.state", "{}");
+  EXPECT_EQ(run("audit cooling.toml --state audit.state").exit_code, 3);
+  EXPECT_EQ(run("audit cooling.toml --state nowhere/audit.state").exit_code, 5);
+}
+
+TEST_F(AuditCommand, NamesWhatIsWrongInItsInput) {
+  EXPECT_TRUE(run("audit small.toml --set needles.box=2").complains("needles.box"));
+  EXPECT_EQ(run("audit small.toml --set needles.box=2").exit_code, 3);
+  EXPECT_EQ(run("audit none.toml").exit_code, 5);
+  EXPECT_EQ(run("audit small.toml --share 2").exit_code, 2);
+  EXPECT_EQ(run("audit small.toml --set initial.t_tr=0 --set initial.t_rot=0").exit_code, 3);
+}
+
+TEST_F(AuditCommand, EndsWithTheRun) {
+  const Outcome collapse = run("audit cooling.toml --quiet --set collisions.tc_relative=1e-15");
+  EXPECT_EQ(collapse.exit_code, 4) << collapse.err;
+  EXPECT_EQ(run("audit small.toml --quiet --set until.time=0.5").exit_code, 0);
+  EXPECT_EQ(run("audit small.toml --quiet --set needles.count=1 --set until.time=1").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace needlework
