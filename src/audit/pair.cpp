@@ -60,6 +60,7 @@ Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const 
   velocity_ = {norm(first.record.v) * upward, norm(second.record.v) * upward};
   speed_ = upper(norm(first.flight.v - second.flight.v));
   spin_ = omega_[0] + omega_[1];
+  distance_ = sample(0).distance;
   if (start.kind == Start::collided) offset_ = precise(0).f;
 }
 
@@ -80,15 +81,17 @@ Sample Pair::precise(double s) {
 }
 
 Pair::Uncertainty Pair::uncertainty(double s) const {
-  Uncertainty out{half_unit, {}, 0};
+  // Lengths whose rounding counts: the separation at s = 0, with the way there of the older record,
+  // and the way since.
+  Uncertainty out{0, {}, distance_ + speed_ * std::abs(s)};
   bool renewed = false;
   for (int i = 0; i < 2; ++i) {
-    const double age = upper(delay_[i]) + std::abs(s);
-    out.flown += velocity_[i] * age;
+    const double delay = upper(delay_[i]), age = delay + std::abs(s);
+    out.lengths += velocity_[i] * delay;
     out.directors[i] = half_unit * (2 + omega_[i] * age);
     renewed = renewed || velocity_[i] * age > longest_record || omega_[i] * age > longest_record;
   }
-  out.distance *= 1 + 2 * out.flown;
+  out.distance = half_unit * (out.lengths + speed_ * std::abs(s));
   if (renewed) out.distance += space_.rounding();
   return out;
 }
@@ -100,7 +103,7 @@ double Pair::limit(const Sample& sample, double s, double half) const {
     const double moment = sample.moment_most[i] + moment_rate(i, 1 + speed_ * half) * half;
     sum += by.directors[i] * std::min(moment, sample.distance + speed_ * half);
   }
-  sum += 2 * half_unit * (1 + by.flown);
+  sum += 2 * half_unit * by.lengths;
   // What both evaluations share drops out of f(s) - f(0).
   if (start_.kind == Start::collided) {
     sum *= std::min(1.0, 4 * rate() * (std::abs(s) + half));

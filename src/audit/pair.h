@@ -87,7 +87,7 @@ class Pair {
   struct Uncertainty {
     double distance;                  ///< of r12
     std::array<double, 2> directors;  ///< of u1 and u2
-    double flown;                     ///< how far both have come since their records
+    double lengths;                   ///< that f is computed from [L]
   };
   Uncertainty uncertainty(double s) const;
 
@@ -104,7 +104,8 @@ class Pair {
   std::array<Ball<double>, 2> delay_;  ///< from the records to s = 0
   std::array<double, 2> omega_, velocity_;
   double speed_ = 0, spin_ = 0;
-  double offset_ = 0;  ///< f(0) of a pair that has collided there
+  double distance_ = 0;  ///< |r12| at s = 0, not below
+  double offset_ = 0;    ///< f(0) of a pair that has collided there
   std::optional<Precise> precise_;
 };
 

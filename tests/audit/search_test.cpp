@@ -27,7 +27,7 @@ constexpr std::size_t count = 2000;
 constexpr std::size_t count = 100;
 #endif
 constexpr std::uint64_t seed = 77;
-constexpr double clear = 48, few = 256;
+constexpr double clear = 48, few = 64;
 
 audit::Needle needle_of(const FreeNeedle& needle) {
   return audit::Needle(
