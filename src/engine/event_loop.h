@@ -21,11 +21,6 @@
 
 namespace needlework {
 
-inline Aftermath aftermath(const kernels::Flight& flight) {
-  const auto array = [](const Vec3d& a) { return std::array{a.x, a.y, a.z}; };
-  return {array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
-}
-
 /// Effects inside a collision, chosen at compile time.
 struct Effects {
   bool rough = false;         ///< beta != -1
@@ -274,10 +269,7 @@ void EventLoop<Search, Calendar, effects>::collide(const Event& event) {
   const Time placed_a = search_.place(a, now), placed_b = search_.place(b, now);
   schedule(a, placed_a);
   schedule(b, placed_b);
-  if (callback) {
-    report.after = {aftermath(gas.records[a].flight), aftermath(gas.records[b].flight)};
-    callback(report);
-  }
+  if (callback) tell(report, a, b);
 }
 
 // Searches contacts of needle i from now on and enters its next event.

@@ -116,6 +116,15 @@ void Run::open_window() {
   search_span_ = 4 * span;
 }
 
+void Run::tell(Collision& report, Needle a, Needle b) const {
+  const auto aftermath = [&](Needle i) {
+    const kernels::Flight& flight = gas.records[i].flight;
+    return Aftermath{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
+  };
+  report.after = {aftermath(a), aftermath(b)};
+  callback(report);
+}
+
 bool Run::nothing_can_happen() const {
   if (gas.size() < 2) return true;
   const Vec3d& v = gas.records[0].flight.v;

@@ -43,6 +43,9 @@ class Run {
   /// Sets mean free time, contact time and the next window's end from the present state.
   void open_window();
   bool nothing_can_happen() const;
+  /// Passes a collision of these two to the callback. Apart from the loops, whose code it would
+  /// swell.
+  void tell(Collision& report, Needle a, Needle b) const;
   /// Fills in temperatures and energy.
   void sum_energies(Totals& out) const;
 
