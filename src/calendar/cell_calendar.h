@@ -1,9 +1,11 @@
-// A calendar in blocks: needles near in memory, and so in space, share a small queue, and the
-// blocks' next events meet in a tournament.
+// A calendar by place: needles of one cell of space share a block, and the blocks' next events meet
+// in a tournament, or in several, one for each thread.
 #pragma once
 
-#include <array>
+#include <atomic>
 #include <bit>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "src/calendar/event_table.h"
@@ -11,101 +13,230 @@
 
 namespace needlework {
 
-/// Blocks are stretches of 64 indices. A block knows its next event and its own clock, the key of
-/// that event; putting an event in writes to the block of its owner and, when the block's next
-/// event changes by that, to the tournament over the blocks. So blocks can be given to different
-/// threads, each with a tournament over its own, and others see how far a block is by its clock.
+/// A block holds the keys of the needles in it, and knows its next event; its clock is the key of
+/// that. Blocks are divided among zones, at first one, and each zone has a tournament over its own.
 ///
-/// `set` is O(1) on average for an event that does not come up next, else O(log n); `top` O(1).
-/// 74 bytes a needle.
+/// Alone, by `set`, it is a calendar like the others. Several threads, each with a zone, use it so:
+/// `put` changes blocks that nobody else reads or writes meanwhile; then the thread makes their
+/// clocks known by `publish`, which everybody may read at any time, and whoever has the zone plays
+/// the tournament again by `follow`.
+///
+/// `set` is O(1) on average for an event that does not come up next, else O(log n); `top` O(number
+/// of zones). About 110 bytes a needle.
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
-  static constexpr std::uint32_t block_size = KeyLine::width * KeyLine::width;
+  using Block = std::uint32_t;
+  /// Later than any event.
+  static constexpr TimeKey no_event = ~TimeKey{8};
 
-  CellCalendar(std::size_t n, const Clock& clock)
-      : events_(n, clock),
-        blocks_((n + block_size - 1) / block_size),
-        order_(blocks_.size(), events_.key_of(Time::never())) {
-    for (Needle i = 0; i < n; ++i) {
-      Block& block = blocks_[block_of(i)];
-      block.line_of(i).key[i % KeyLine::width] = block.least_of_line(i) = events_.key(i);
-      if (i % block_size == 0) block.next = i;
-    }
+  CellCalendar(std::size_t n, const Clock& clock) : CellCalendar(n, clock, (n + 15) / 16) {}
+  /// With so many blocks, over which the needles are spread by index until they are set.
+  CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
+      : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
+    for (Needle i = 0; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
+    for (Block b = 0; b < blocks; ++b) find_next(b);
+    divide(std::vector<std::uint32_t>(blocks, 0), 1);
   }
 
   bool empty() const { return events_.size() == 0; }
-  const Event& top() const { return top_of(order_.winner()); }
   const Event& of(Needle i) const { return events_[i]; }
+  const Event& top() const {
+    std::uint32_t best = 0;
+    for (std::uint32_t z = 1; z < zones_.size(); ++z) {
+      if (earlier(winner(z), winner(best))) best = z;
+    }
+    return top_of(winner(best));
+  }
   Needle soon() const {
-    const Needle i = blocks_[order_.second()].next;
+    const Zone& zone = zones_.front();
+    if (zone.blocks.empty()) return top().owner;
+    const Block b = zone.blocks[zone.order.second()];
+    const Needle i = blocks_[b].keys.empty() ? events_[0].owner : blocks_[b].next;
     events_.prefetch(i);
     return i;
   }
 
-  std::uint32_t blocks() const { return static_cast<std::uint32_t>(blocks_.size()); }
-  static std::uint32_t block_of(Needle i) { return i / block_size; }
-  /// The next event of a block.
-  const Event& top_of(std::uint32_t block) const { return events_[blocks_[block].next]; }
-  /// How far a block is: all its events are at this time or later.
-  TimeKey clock_of(std::uint32_t block) const { return order_.key(block); }
+  void set(const Event& event) { set(event, block_of(event.owner)); }
+  /// As set(event), for an owner who is in this block now.
+  void set(const Event& event, Block block) {
+    changed_.clear();
+    put(event, block, changed_);
+    for (const Block b : changed_) {
+      publish(b);
+      follow(b);
+    }
+  }
 
-  void set(const Event& event) {
-    const std::uint32_t block = block_of(event.owner);
-    if (!set_in_block(event)) return;
-    order_.update(
-        block, blocks_[block].key_of(blocks_[block].next),
-        [&](std::uint32_t a, std::uint32_t b) { return top_of(a) < top_of(b); },
-        [&](std::uint32_t near) { events_.prefetch(blocks_[near].next); });
+  // Blocks and zones.
+
+  Block blocks() const { return static_cast<Block>(blocks_.size()); }
+  Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
+  /// The next event of a block that has one.
+  const Event& top_of(Block b) const { return events_[blocks_[b].next]; }
+  /// How far a block is: none of its events is earlier. Any thread may ask.
+  TimeKey clock_of(Block b) const { return clocks_[b].load(std::memory_order_acquire); }
+  TimeKey key_of(Time time) const { return events_.key_of(time); }
+  std::uint32_t zone_of(Block b) const { return owners_[b].zone; }
+  std::size_t needles_in(Block b) const { return blocks_[b].keys.size(); }
+
+  /// Gives block b to zone `zone_of[b]`, and orders all blocks anew.
+  void divide(const std::vector<std::uint32_t>& zone_of, std::uint32_t zones) {
+    owners_.resize(blocks_.size());
+    zones_.clear();
+    std::vector<std::vector<Block>> parts(zones);
+    for (Block b = 0; b < blocks(); ++b) {
+      owners_[b] = {zone_of[b], static_cast<std::uint32_t>(parts[zone_of[b]].size())};
+      parts[zone_of[b]].push_back(b);
+    }
+    for (auto& part : parts) {
+      const std::size_t size = std::max<std::size_t>(part.size(), 1);
+      zones_.push_back({WinnerTree(size, no_event), std::move(part)});
+    }
+    for (Block b = 0; b < blocks(); ++b) {
+      publish(b);
+      follow(b);
+    }
+  }
+  /// Plays all tournaments anew, with events of equal keys in their order.
+  void order_again() {
+    for (Block b = 0; b < blocks(); ++b) {
+      publish(b);
+      follow(b, no_event);
+    }
+    for (Block b = 0; b < blocks(); ++b) follow(b);
+  }
+
+  /// Replaces the event of event.owner, who is in block `block` now, and appends the blocks whose
+  /// next event may be another one to `changed`.
+  void put(const Event& event, Block block, std::vector<Block>& changed) {
+    const Needle i = event.owner;
+    const TimeKey key = events_.put(event);
+    Place& place = places_[i];
+    if (const Block old = block_of(i); old != block) {
+      remove(i);
+      if (blocks_[old].next == i) {
+        find_next(old);
+        changed.push_back(old);
+      }
+      insert(i, block, key);
+      if (blocks_[block].keys.size() == 1) blocks_[block].next = i;
+    } else {
+      blocks_[block].keys[place.slot].key = key;
+    }
+    Content& content = blocks_[block];
+    if (content.next == i) {
+      find_next(block);
+    } else {
+      const TimeKey first = key_of_next(block);
+      if (first < key || (first == key && !events_.before(i, content.next))) return;
+      content.next = i;
+    }
+    changed.push_back(block);
+  }
+  /// The clock that a block has come to.
+  TimeKey key_of_next(Block b) const {
+    const Content& content = blocks_[b];
+    return content.keys.empty() ? no_event : content.keys[places_[content.next].slot].key;
+  }
+  void publish(Block b) { clocks_[b].store(key_of_next(b), std::memory_order_release); }
+
+  /// The block of a zone that comes next, by the clocks that its tournament has been told.
+  Block winner(std::uint32_t z) const {
+    const Zone& zone = zones_[z];
+    return zone.blocks.empty() ? 0 : zone.blocks[zone.order.winner()];
+  }
+  TimeKey winning_key(std::uint32_t z) const {
+    return zones_[z].order.key(zones_[z].order.winner());
+  }
+  /// Tells the tournament of its zone where a block is. Of equal keys the earlier event wins.
+  void follow(Block b) { follow(b, clock_of(b)); }
+  /// The same without a look at events: of equal keys the lower block wins.
+  void follow_by_key(Block b, TimeKey key) {
+    Zone& zone = zones_[owners_[b].zone];
+    zone.order.update(
+        owners_[b].rank, key, [](std::uint32_t x, std::uint32_t y) { return x < y; },
+        [](std::uint32_t) {});
   }
 
  private:
-  // A tournament of two rounds in one stretch of memory.
-  struct Block {
-    std::array<KeyLine, KeyLine::width> lines;
-    KeyLine least;  ///< of each line
-    Needle next = no_needle;
+  struct Entry {
+    TimeKey key;
+    Needle needle;
+  };
+  struct Content {
+    std::vector<Entry> keys;
+    Needle next = no_needle;  ///< of those in it
+  };
+  struct Place {
+    std::atomic<Block> block{0};  ///< others may ask where a needle is, and be told late
+    std::uint32_t slot = 0;
 
-    KeyLine& line_of(Needle i) { return lines[i / KeyLine::width % KeyLine::width]; }
-    TimeKey& least_of_line(Needle i) { return least.key[i / KeyLine::width % KeyLine::width]; }
-    TimeKey key_of(Needle i) { return line_of(i).key[i % KeyLine::width]; }
+    Place() = default;
+    Place(Place&& other) noexcept : block(other.block.load()), slot(other.slot) {}
+  };
+  struct Owner {
+    std::uint32_t zone, rank;
+  };
+  struct Zone {
+    WinnerTree order;
+    std::vector<Block> blocks;
+  };
+  struct ClockCell : std::atomic<TimeKey> {
+    ClockCell() : std::atomic<TimeKey>(no_event) {}
+    ClockCell(ClockCell&& other) noexcept : std::atomic<TimeKey>(other.load()) {}
   };
 
-  // Returns whether the block's next event is another one than before.
-  bool set_in_block(const Event& event) {
-    const Needle i = event.owner;
-    const TimeKey key = events_.put(event);
-    Block& block = blocks_[block_of(i)];
-    KeyLine& line = block.line_of(i);
-    line.key[i % KeyLine::width] = key;
-    block.least_of_line(i) = LeastKeys(line).key;
-    if (block.next == i) {
-      block.next = earliest_of(block, i / block_size * block_size);
-      return true;
-    }
-    const TimeKey first = block.key_of(block.next);
-    if (first < key || (first == key && !events_.before(i, block.next))) return false;
-    block.next = i;
-    return true;
+  bool earlier(Block a, Block b) const {
+    const TimeKey x = key_of_next(a), y = key_of_next(b);
+    if (x != y || x == no_event) return x < y;
+    return top_of(a) < top_of(b);
   }
 
-  Needle earliest_of(const Block& block, Needle first) const {
-    Needle best = no_needle;
-    const LeastKeys of_block(block.least);
-    for (std::uint32_t lines = of_block.places; lines != 0; lines &= lines - 1) {
-      const auto line = static_cast<std::uint32_t>(std::countr_zero(lines));
-      for (std::uint32_t tied = LeastKeys(block.lines[line]).places; tied != 0; tied &= tied - 1) {
-        const Needle i =
-            first + line * KeyLine::width + static_cast<std::uint32_t>(std::countr_zero(tied));
-        if (best == no_needle || events_.before(i, best)) best = i;
+  void follow(Block b, TimeKey key) {
+    Zone& zone = zones_[owners_[b].zone];
+    zone.order.update(
+        owners_[b].rank, key,
+        [&](std::uint32_t x, std::uint32_t y) { return earlier(zone.blocks[x], zone.blocks[y]); },
+        [&](std::uint32_t near) {
+          const Content& content = blocks_[zone.blocks[near]];
+          if (!content.keys.empty()) events_.prefetch(content.next);
+        });
+  }
+
+  void insert(Needle i, Block b, TimeKey key) {
+    Place& place = places_[i];
+    place.block.store(b, std::memory_order_relaxed);
+    place.slot = static_cast<std::uint32_t>(blocks_[b].keys.size());
+    blocks_[b].keys.push_back({key, i});
+  }
+  void remove(Needle i) {
+    std::vector<Entry>& keys = blocks_[block_of(i)].keys;
+    const std::uint32_t slot = places_[i].slot;
+    keys[slot] = keys.back();
+    places_[keys[slot].needle].slot = slot;
+    keys.pop_back();
+  }
+  void find_next(Block b) {
+    Content& content = blocks_[b];
+    if (content.keys.empty()) return;
+    const Entry* best = &content.keys.front();
+    for (const Entry& entry : content.keys) {
+      if (entry.key < best->key ||
+          (entry.key == best->key && events_.before(entry.needle, best->needle))) {
+        best = &entry;
       }
     }
-    return best;
+    content.next = best->needle;
   }
 
   EventTable events_;
-  std::vector<Block> blocks_;
-  WinnerTree order_;  ///< of the blocks by their next events
+  std::vector<Place> places_;
+  std::vector<Content> blocks_;
+  std::vector<ClockCell> clocks_;
+  std::vector<Owner> owners_;
+  std::vector<Zone> zones_;
+  std::vector<Block> changed_;
 };
 
 }  // namespace needlework

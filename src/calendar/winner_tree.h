@@ -91,20 +91,25 @@ class WinnerTree {
   /// called for a player who has come within one round of winning. O(log n).
   template <class Before, class Near>
   void update(std::uint32_t player, TimeKey key, const Before& before, const Near& near) {
-    std::size_t contestant = player;  // a player, then the number of the match that it won
+    std::size_t contestant = player;    // a player, then the number of the match that it won
+    std::uint32_t challenger = player;  // who comes from there
     for (std::size_t round = 0;; ++round) {
       const std::size_t match = first_[round] + contestant / KeyLine::width;
       KeyLine& line = lines_[match];
       line.key[contestant % KeyLine::width] = key;
       std::uint32_t& winner = winner_[match];
       if (winner != player) {
-        const TimeKey best = line.key[(winner >> (round * log2_width)) % KeyLine::width];
-        if (best < key || (best == key && !before(player, winner))) return;
-        winner = player;
+        // One from the same place has been beaten in the round before.
+        const std::size_t place = (winner >> (round * log2_width)) % KeyLine::width;
+        if (place != contestant % KeyLine::width) {
+          const TimeKey best = line.key[place];
+          if (best < key || (best == key && !before(challenger, winner))) return;
+        }
+        winner = challenger;
       } else {
         const LeastKeys least(line);
         key = least.key;
-        winner = winner_among(round, contestant, least.places, before);
+        winner = challenger = winner_among(round, contestant, least.places, before);
       }
       if (round + 1 == first_.size()) return;
       if (round + 2 == first_.size()) near(winner);

@@ -21,6 +21,8 @@ using Names = std::vector<std::string>;
 const Names searches{"linked-cells", "capsules", "linked-lists", "all-pairs"};
 const Names queues{"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"};
 const Names accuracies{"standard"};
+const Names parallel_searches{"linked-cells", "capsules"};
+const Names parallel_queues{"cell-calendar"};
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -40,6 +42,16 @@ void require_instruction_set(const std::string& isa, const std::string& place) {
     throw InputError(
         fmt::format("{}: expected auto or one that this CPU has ({})", place, list(names)));
   }
+}
+
+// The first number of OMP_NUM_THREADS, which may be a list, or 1.
+int threads_of_environment() {
+  const char* text = std::getenv("OMP_NUM_THREADS");
+  if (!text) return 1;
+  char* end = nullptr;
+  const long threads = std::strtol(text, &end, 10);
+  if (end == text || (*end != '\0' && *end != ',' && *end != ' ')) return 1;
+  return static_cast<int>(std::clamp(threads, 1L, 1024L));
 }
 
 }  // namespace
@@ -71,24 +83,30 @@ void choose_engine(Scene& scene, const EngineFlags& flags) {
   }
   require_instruction_set(engine.isa, isa_place);
 
-  // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
   std::string threads_place =
       place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
   if (flags.threads) {
     engine.threads = *flags.threads;
     threads_place = fmt::format("--threads {}", *flags.threads);
   }
-  if (engine.threads.value_or(1) != 1) {
-    throw InputError(threads_place + ": expected 1: this version runs on one thread");
+  const bool parallel = (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
+                        (engine.queue == "auto" || contains(parallel_queues, engine.queue));
+  if (engine.threads && *engine.threads > 1 && !parallel) {
+    throw InputError(
+        fmt::format("{}: expected 1 with search {} and queue {}; several threads need "
+                    "search {} and queue {}",
+                    threads_place, engine.search, engine.queue, list(parallel_searches),
+                    list(parallel_queues)));
   }
-  engine.threads = 1;
+  // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
+  if (!engine.threads) engine.threads = parallel ? threads_of_environment() : 1;
 }
 
 std::string resolved_search(const Scene::Engine& engine, double density) {
   return engine.search == "auto" ? auto_search(density) : engine.search;
 }
 std::string resolved_queue(const Scene::Engine& engine) {
-  return engine.queue == "auto" ? auto_queue : engine.queue;
+  return engine.queue == "auto" ? auto_queue(engine.threads.value_or(1)) : engine.queue;
 }
 std::string resolved_isa(const Scene::Engine& engine) {
   return engine.isa == "auto" ? instruction_sets().back() : engine.isa;

@@ -19,13 +19,25 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
 
 Json stats_of(const Counters& counters) {
-  return {{"candidates", counters.candidates}, {"filtered", counters.filtered},
-          {"isolated", counters.isolated},     {"predicted", counters.predicted},
-          {"evaluated", counters.evaluated},   {"escalated", counters.escalated},
-          {"rebuilds", counters.rebuilds},     {"crossings", counters.crossings},
-          {"sorts", counters.sorts},           {"stale", counters.stale},
-          {"renewals", counters.renewals},     {"searches", counters.searches},
-          {"touches", counters.touches}};
+  return {{"candidates", counters.candidates},
+          {"filtered", counters.filtered},
+          {"isolated", counters.isolated},
+          {"predicted", counters.predicted},
+          {"evaluated", counters.evaluated},
+          {"escalated", counters.escalated},
+          {"rebuilds", counters.rebuilds},
+          {"crossings", counters.crossings},
+          {"sorts", counters.sorts},
+          {"stale", counters.stale},
+          {"renewals", counters.renewals},
+          {"searches", counters.searches},
+          {"touches", counters.touches},
+          {"phases", counters.phases},
+          {"redone", counters.redone},
+          {"border", counters.border},
+          {"held", counters.held},
+          {"waited", counters.waited},
+          {"foreign", counters.foreign}};
 }
 
 }  // namespace

@@ -20,6 +20,25 @@ struct Counters {
   std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double
   std::uint64_t touches = 0;     ///< third needles found touching at a renewal
+  // Of several threads; see parallel_loop.h.
+  std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
+  std::uint64_t redone = 0;   ///< of these, done again by one thread
+  std::uint64_t border = 0;   ///< events that might read what another thread writes
+  std::uint64_t held = 0;     ///< times that an event had to wait for others near it
+  std::uint64_t waited = 0;   ///< turns in which a thread had no event that it might do
+  std::uint64_t foreign = 0;  ///< blocks of other threads written to
+
+  Counters& operator+=(const Counters& other) {
+    for (const auto member : members) this->*member += other.*member;
+    return *this;
+  }
+
+  static constexpr std::uint64_t Counters::*members[] = {
+      &Counters::events,   &Counters::stale,    &Counters::crossings, &Counters::rebuilds,
+      &Counters::sorts,    &Counters::renewals, &Counters::searches,  &Counters::candidates,
+      &Counters::filtered, &Counters::isolated, &Counters::predicted, &Counters::touches,
+      &Counters::phases,   &Counters::redone,   &Counters::border,    &Counters::held,
+      &Counters::waited,   &Counters::foreign};
 };
 
 }  // namespace needlework

@@ -1,6 +1,9 @@
 // The definition of make_run_with, for the files that instantiate it.
 #pragma once
 
+#include <concepts>
+
+#include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/make_run_with.h"
 #include "src/error.h"
@@ -10,11 +13,31 @@
 
 namespace needlework {
 
+template <class Search, Effects effects>
+class ParallelLoop;  // parallel_loop.h, for the calendar that it works with
+
+/// Whether several threads may share the work.
+template <class Search, class Queue>
+inline constexpr bool parallel_with =
+    std::derived_from<Search, NearSearch>&& std::same_as<Queue, CellCalendar>;
+
 template <class Search, Calendar Queue>
 std::unique_ptr<Run> with_effects(const Scene& scene, Gas initial, const SearchSetup& setup) {
   const bool rough = scene.collisions.beta != -1;
   const bool contact_time = scene.collisions.tc || scene.collisions.tc_relative;
+  const int threads = scene.engine.threads.value_or(1);
+  if (threads > 1 && !parallel_with<Search, Queue>) {
+    throw InputError("engine.threads = " + std::to_string(threads) + ": expected 1 for search " +
+                     Search::name + " with queue " + Queue::name +
+                     "; several threads need linked-cells or capsules, and cell-calendar");
+  }
   const auto make = [&]<Effects effects>() -> std::unique_ptr<Run> {
+    if constexpr (parallel_with<Search, Queue>) {
+      if (threads > 1) {
+        return std::make_unique<ParallelLoop<Search, effects>>(scene, std::move(initial), setup,
+                                                               threads);
+      }
+    }
     return std::make_unique<EventLoop<Search, Queue, effects>>(scene, std::move(initial), setup);
   };
   if (rough) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "kernels/power_of_two.h"
 #include "src/engine/space_order.h"
 #include "src/error.h"
 #include "src/observe/exact_sum.h"
@@ -97,7 +98,7 @@ Run::Run(const Scene& scene, Gas initial)
     renew_record(gas, i, now, flight.u, flight.v, flight.w);
   }
   open_window();
-  initial_energy_ = energy_;
+  initial_energy = energy();
   // Before search and calendar take their memory, which would add to what sorting needs.
   reorder(gas, order_in_space(gas, now));
 }
@@ -106,14 +107,18 @@ void Run::open_window() {
   Totals sums;
   sum_energies(sums);
   const double count = static_cast<double>(gas.size());
-  energy_ = sums.energy * count;
+  energy_at_window_ = sums.energy * count;
+  quanta_at_window_ = tally.energy;
+  // 2^58 quanta, so that sums of many changes fit.
+  quantum_ = energy_at_window_ > 0 ? times_power_of_two(1, exponent_of(energy_at_window_) - 58) : 1;
+  per_quantum_ = 1 / quantum_;
   const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
   mean_free_time = needlework::mean_free_time(density, sums.t_tr, sums.t_rot, gas.k);
-  contact_time_ = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
+  contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
   const bool endless = !std::isfinite(mean_free_time);
-  const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
-  window_end_ = gas.clock.add(now, span);
-  search_span_ = 4 * span;
+  window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+  window_end_ = gas.clock.add(now, window_span_);
+  search_span = 4 * window_span_;
 }
 
 void Run::tell(Collision& report, Needle a, Needle b) const {
@@ -146,8 +151,8 @@ void Run::sum_energies(Totals& out) const {
 Totals Run::totals() const {
   Totals out;
   out.time = gas.clock.since_start(now);
-  out.collisions = collisions_;
-  out.tc_collisions = tc_collisions_;
+  out.collisions = tally.collisions;
+  out.tc_collisions = tally.tc_collisions;
   if (gas.size() == 0) return out;
   sum_energies(out);
   out.momentum = {sum_of(gas, [](const Record& a) { return a.flight.v.x; }),

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "src/engine/simulation.h"
-#include "src/observe/trajectory_hash.h"
+#include "src/engine/tally.h"
 #include "src/physics/collision.h"
 #include "src/physics/gas.h"
 
@@ -30,12 +30,25 @@ class Run {
   Totals totals() const;
   State state() const;
 
+  /// Of all needles, kept up by the collisions.
+  double energy() const {
+    return energy_at_window_ + quantum_ * static_cast<double>(tally.energy - quanta_at_window_);
+  }
+  /// An energy in whole quanta, far below what a double resolves of the whole: sums of them do not
+  /// depend on the order.
+  std::int64_t in_quanta(double energy) const {
+    return static_cast<std::int64_t>(energy * per_quantum_);
+  }
+
   Gas gas;
   Time now;
   Restitution restitution;
   double mean_free_time = 0;
-  Counters counters;
-  TrajectoryHash hash;
+  double contact_time = 0;           ///< in force in this window
+  double search_span = 0;            ///< how far ahead contacts are searched for [time]
+  std::vector<Time> last_collision;  ///< for the t_c rule; renewals do not count
+  double initial_energy = 0;
+  Tally tally;
   std::function<void(const Collision&)> callback;
   std::atomic<bool> interrupted = false;
 
@@ -50,12 +63,10 @@ class Run {
   void sum_energies(Totals& out) const;
 
   std::optional<double> tc_, tc_relative_;
-  double contact_time_ = 0;  ///< in force in this window
   Time window_end_;
-  double search_span_ = 0;  ///< how far ahead contacts are searched for [time]
-  std::uint64_t collisions_ = 0, tc_collisions_ = 0;
-  double energy_ = 0;  ///< of all needles, kept up by the collisions
-  double initial_energy_ = 0;
+  double window_span_ = 0;
+  double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
+  std::int64_t quanta_at_window_ = 0;
 };
 
 /// The needles of a state, whose arrays a run has no more use for. Throws InputError for a state

@@ -45,7 +45,9 @@ std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
   const std::string search = scene.engine.search == "auto"
                                  ? auto_search(static_cast<double>(initial.size()) / volume)
                                  : scene.engine.search;
-  const std::string queue = scene.engine.queue == "auto" ? auto_queue : scene.engine.queue;
+  const std::string queue = scene.engine.queue == "auto"
+                                ? auto_queue(scene.engine.threads.value_or(1))
+                                : scene.engine.queue;
   return with_queue(AllCalendars<CalendarList>(), queue, scene, std::move(initial), search, setup);
 }
 
@@ -100,13 +102,13 @@ void Simulation::on_collision(std::function<void(const Collision&)> callback) {
 
 void Simulation::interrupt() noexcept { implementation_->run->interrupted = true; }
 Totals Simulation::totals() const { return implementation_->run->totals(); }
-const Counters& Simulation::counters() const { return implementation_->run->counters; }
+const Counters& Simulation::counters() const { return implementation_->run->tally.counters; }
 double Simulation::time() const {
   return implementation_->run->gas.clock.since_start(implementation_->run->now);
 }
 double Simulation::epoch_length() const { return implementation_->run->gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run->mean_free_time; }
-std::string Simulation::trajectory_hash() const { return implementation_->run->hash.hex(); }
+std::string Simulation::trajectory_hash() const { return implementation_->run->tally.hash.hex(); }
 State Simulation::state() const { return implementation_->run->state(); }
 std::string Simulation::search() const { return implementation_->run->search_name(); }
 std::string Simulation::queue() const { return implementation_->run->queue_name(); }

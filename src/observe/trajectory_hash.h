@@ -29,6 +29,11 @@ class TrajectoryHash {
     high_ += high.state + (low_ < low.state);
   }
 
+  void add(const TrajectoryHash& other) {
+    low_ += other.low_;
+    high_ += other.high_ + (low_ < other.low_);
+  }
+
   std::string hex() const {
     std::string out;
     for (const std::uint64_t half : {high_, low_}) {

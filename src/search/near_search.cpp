@@ -44,9 +44,9 @@ double choose_radius(const Gas& gas) {
 
 // Cells of about 8 or 12 needles fill the lanes. In a dilute gas it pays to look through more, as
 // needles cross many cells from one collision to the next.
-double choose_side(const Gas& gas, NearSearch::Hull hull) {
+double choose_side(const Gas& gas, Hulls::Kind kind) {
   const double density = density_of(gas);
-  if (hull == NearSearch::Hull::capsule) return std::cbrt(12 / density);
+  if (kind == Hulls::Kind::capsule) return std::cbrt(12 / density);
   return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
 }
 
@@ -97,94 +97,105 @@ void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
 
 }  // namespace
 
-NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hull hull)
-    : gas_(gas),
-      counters_(counters),
-      kernels_(kernels::near_kernels(setup.isa)),
-      hull_(hull),
-      radius_(hull == Hull::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
-      grid_(gas.box, setup.cell_side.value_or(choose_side(gas, hull)), gas.size()),
-      places_(gas.size()),
-      motions_(gas.size()),
-      links_(grid_.size()) {
-  // With room for chained ones: growing would hold all blocks twice.
-  blocks_.reserve(grid_.size() + grid_.size() / 4);
-  blocks_.resize(grid_.size());
-  const auto sides = grid_.sides();
-  if (hull == Hull::cell) overlap_ = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
-  margin_ =
-      static_cast<float>(0x1p-16 + (std::max({sides[0], sides[1], sides[2]}) + overlap_) * 0x1p-19);
+Hulls::Hulls(const Gas& all, const SearchSetup& setup, Kind which)
+    : gas(all),
+      kind(which),
+      radius(kind == Kind::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
+      grid(gas.box, setup.cell_side.value_or(choose_side(gas, kind)), gas.size()),
+      places(gas.size()),
+      motions(gas.size()) {
+  // With room for all that may ever be chained, as only full blocks have others after them: threads
+  // must not find their blocks moved.
+  const std::size_t most = grid.size() + gas.size() / kernels::block_size;
+  blocks.reserve(most);
+  blocks.resize(grid.size());
+  links.reserve(most);
+  links.resize(grid.size());
+  const auto sides = grid.sides();
+  if (kind == Kind::cell) overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
+  margin =
+      static_cast<float>(0x1p-16 + (std::max({sides[0], sides[1], sides[2]}) + overlap) * 0x1p-19);
 }
 
+NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup,
+                       Hulls::Kind kind)
+    : hulls_(std::make_shared<Hulls>(gas, setup, kind)),
+      counters_(counters),
+      kernels_(kernels::near_kernels(setup.isa)) {}
+
+NearSearch::NearSearch(const NearSearch& other, Counters& counters)
+    : hulls_(other.hulls_), counters_(counters), kernels_(other.kernels_) {}
+
 Time NearSearch::place(Needle i, Time now) {
-  if (unit_ == 0 || since_base(now) > kernels::longest_time) rebase(now);
-  const Record& record = gas_.records[i];
+  Hulls& hulls = *hulls_;
+  prepare(now, now);
+  const Record& record = hulls.gas.records[i];
   const kernels::Flight& flight = record.flight;
-  const double elapsed = gas_.clock.difference(now, record.time);
-  Place& place = places_[i];
+  const double elapsed = hulls.gas.clock.difference(now, record.time);
+  Hulls::Place& place = hulls.places[i];
   counters_.rebuilds += place.until <= now;
   Vec3d r = centre_after(flight, elapsed), a;
   double stay;
-  if (hull_ == Hull::cell) {
-    stay = grid_.time_to_leave(grid_.cell_of(r), r, flight.v, overlap_);
-    a = flight.v * (1 / unit_);
+  if (hulls.kind == Hulls::Kind::cell) {
+    stay = hulls.grid.time_to_leave(hulls.grid.cell_of(r), r, flight.v, hulls.overlap);
+    a = flight.v * (1 / hulls.unit);
   } else {
     // The capsule is around where the needle will be in half of its time there, so that it may
     // move by the radius before that and after.
-    const double half = radius_ / (std::sqrt(dot(flight.v, flight.v)) + 0.5 * flight.omega);
+    const double half = hulls.radius / (std::sqrt(dot(flight.v, flight.v)) + 0.5 * flight.omega);
     stay = 2 * half;
     const double middle = std::isfinite(half) ? elapsed + half : elapsed;
     r = centre_after(flight, middle);
     a = director_after(flight, middle);
   }
-  enter(i, grid_.cell_of(r));
-  place.until = gas_.clock.add(now, stay);
-  write_entry(i, r, a, now);
-  set_motion(i, now);
+  counters_.crossings += hulls.enter(i, hulls.grid.cell_of(r));
+  place.until = hulls.gas.clock.add(now, stay);
+  hulls.write_entry(i, r, a, now);
+  hulls.set_motion(i, now);
   return place.until;
 }
 
 // Sets unit and origin of time in blocks and motions anew, before times grow so long that floats
 // lose digits of them.
-void NearSearch::rebase(Time now) {
+void Hulls::rebase(Time now) {
   double sum = 0;
-  for (const Record& record : gas_.records) {
+  for (const Record& record : gas.records) {
     sum += dot(record.flight.v, record.flight.v) + 0.25 * record.flight.omega * record.flight.omega;
   }
-  const double speed = std::sqrt(sum / static_cast<double>(gas_.size()));
-  unit_ = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
-  base_ = now;
-  for (Needle i = 0; i < gas_.size(); ++i) {
-    if (places_[i].block == BlockLink::none) continue;
+  const double speed = std::sqrt(sum / static_cast<double>(gas.size()));
+  unit = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
+  base = now;
+  for (Needle i = 0; i < gas.size(); ++i) {
+    if (places[i].block == BlockLink::none) continue;
     set_motion(i, now);
-    if (hull_ == Hull::capsule) continue;
-    const Record& record = gas_.records[i];
-    const double elapsed = gas_.clock.difference(now, record.time);
-    write_entry(i, centre_after(record.flight, elapsed), record.flight.v * (1 / unit_), now);
+    if (kind == Kind::capsule) continue;
+    const Record& record = gas.records[i];
+    const double elapsed = gas.clock.difference(now, record.time);
+    write_entry(i, centre_after(record.flight, elapsed), record.flight.v * (1 / unit), now);
   }
 }
 
-void NearSearch::set_motion(Needle i, Time now) {
-  const Record& record = gas_.records[i];
+void Hulls::set_motion(Needle i, Time now) {
+  const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
-  const double elapsed = gas_.clock.difference(now, record.time);
+  const double elapsed = gas.clock.difference(now, record.time);
   const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
-  const double per_unit = 1 / unit_;
-  Motion& out = motions_[i];
-  store(out.r, centre_after(flight, elapsed) - grid_.corner(places_[i].cell));
+  const double per_unit = 1 / unit;
+  Motion& out = motions[i];
+  store(out.r, centre_after(flight, elapsed) - grid.corner(places[i].cell));
   store(out.v, flight.v * per_unit);
   store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
   out.omega = static_cast<float>(flight.omega * per_unit);
   out.time = static_cast<float>(since_base(now));
-  out.until = static_cast<float>(since_base(places_[i].until) * roundup);
+  out.until = static_cast<float>(since_base(places[i].until) * roundup);
 }
 
 // Writes the needle's entry into the block of its cell.
-void NearSearch::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
-  const Place& place = places_[i];
-  Block& block = blocks_[place.block];
-  const Vec3d r = centre - grid_.corner(place.cell);
+void Hulls::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
+  const Place& place = places[i];
+  Block& block = blocks[place.block];
+  const Vec3d r = centre - grid.corner(place.cell);
   const double values[Block::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
   for (int column = 0; column < Block::columns; ++column) {
     block.column[column][place.lane] = static_cast<float>(values[column]);
@@ -194,71 +205,72 @@ void NearSearch::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time
 
 // Moves needle i to this cell. It takes the next free place there; a block is chained where all are
 // full.
-void NearSearch::enter(Needle i, const Cell& cell) {
-  Place& place = places_[i];
+bool Hulls::enter(Needle i, const Cell& cell) {
+  Place& place = places[i];
   const bool entered = place.block != BlockLink::none;
-  const std::size_t index = grid_.index_of(cell);
-  const bool stays = entered && index == grid_.index_of(place.cell);
-  if (entered && !stays) {
-    ++counters_.crossings;
-    leave(i);
-  }
+  const std::size_t index = grid.index_of(cell);
+  const bool stays = entered && index == grid.index_of(place.cell);
+  if (entered && !stays) leave(i);
   place.cell = cell;
-  if (stays) return;
+  if (stays) return false;
   std::uint32_t b = static_cast<std::uint32_t>(index);
   std::size_t chain = 1;
-  for (; links_[b].size == kernels::block_size; ++chain) {
-    if (links_[b].next == BlockLink::none) {
-      if (free_blocks_.empty()) {
-        free_blocks_.push_back(static_cast<std::uint32_t>(blocks_.size()));
-        blocks_.emplace_back();
-        links_.emplace_back();
+  for (; links[b].size == kernels::block_size; ++chain) {
+    if (links[b].next == BlockLink::none) {
+      const std::lock_guard alone(chaining);
+      if (free_blocks.empty()) {
+        free_blocks.push_back(static_cast<std::uint32_t>(blocks.size()));
+        blocks.emplace_back();
+        links.emplace_back();
       }
-      links_[b].next = free_blocks_.back();
-      free_blocks_.pop_back();
+      links[b].next = free_blocks.back();
+      free_blocks.pop_back();
+      if (chain + 1 > longest_chain) longest_chain = chain + 1;
     }
-    b = links_[b].next;
+    b = links[b].next;
   }
-  longest_chain_ = std::max(longest_chain_, chain);
   place.block = b;
-  place.lane = links_[b].size++;
+  place.lane = links[b].size++;
+  return entered;
 }
 
 // Takes needle i from its cell. The last needle of the cell moves to its place, so that only the
 // last block has free ones.
-void NearSearch::leave(Needle i) {
-  const Place& place = places_[i];
+void Hulls::leave(Needle i) {
+  const Place& place = places[i];
   std::uint32_t last = place.block, previous = BlockLink::none;
-  for (std::uint32_t b = static_cast<std::uint32_t>(grid_.index_of(place.cell));
-       links_[b].next != BlockLink::none; b = links_[b].next) {
+  for (std::uint32_t b = static_cast<std::uint32_t>(grid.index_of(place.cell));
+       links[b].next != BlockLink::none; b = links[b].next) {
     previous = b;
-    last = links_[b].next;
+    last = links[b].next;
   }
-  const std::uint32_t lane = --links_[last].size;
-  const Needle moved = blocks_[last].needle[lane];
+  const std::uint32_t lane = --links[last].size;
+  const Needle moved = blocks[last].needle[lane];
   if (moved != i) {
-    Block& to = blocks_[place.block];
+    Block& to = blocks[place.block];
     for (int column = 0; column < Block::columns; ++column) {
-      to.column[column][place.lane] = blocks_[last].column[column][lane];
+      to.column[column][place.lane] = blocks[last].column[column][lane];
     }
     to.needle[place.lane] = moved;
-    places_[moved].block = place.block;
-    places_[moved].lane = place.lane;
+    places[moved].block = place.block;
+    places[moved].lane = place.lane;
   }
-  if (links_[last].size == 0 && previous != BlockLink::none) {
-    links_[previous].next = BlockLink::none;
-    links_[last] = {};
-    free_blocks_.push_back(last);
+  if (links[last].size == 0 && previous != BlockLink::none) {
+    links[previous].next = BlockLink::none;
+    links[last] = {};
+    const std::lock_guard alone(chaining);
+    free_blocks.push_back(last);
   }
 }
 
 void NearSearch::renumber(const std::vector<Needle>& ranks) {
+  Hulls& hulls = *hulls_;
   const std::vector<Needle> order = ranks_of(ranks);
-  permute(places_, order);
-  permute(motions_, order);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    for (std::uint32_t lane = 0; lane < links_[b].size; ++lane) {
-      blocks_[b].needle[lane] = ranks[blocks_[b].needle[lane]];
+  permute(hulls.places, order);
+  permute(hulls.motions, order);
+  for (std::size_t b = 0; b < hulls.blocks.size(); ++b) {
+    for (std::uint32_t lane = 0; lane < hulls.links[b].size; ++lane) {
+      hulls.blocks[b].needle[lane] = ranks[hulls.blocks[b].needle[lane]];
     }
   }
 }
@@ -278,22 +290,23 @@ PairColumns NearSearch::pair_columns(std::size_t n) {
 // Makes views of the cells in which needles may be found: those that a needle within reach of this
 // one's hull, or of its way in the time ahead, can have been placed in.
 void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
+  const Hulls& hulls = *hulls_;
   // The margin covers the rounding of the seeker's place in its cell.
-  double reach = 1 + hull_margin + margin_;
-  double way = ahead * unit_;
-  if (hull_ == Hull::capsule) {
+  double reach = 1 + hull_margin + hulls.margin;
+  double way = ahead * hulls.unit;
+  if (hulls.kind == Hulls::Kind::capsule) {
     // Another centre is not farther from this axis than half a length and both radii.
-    reach = 0.5 + 2 * radius_ + hull_margin + margin_;
+    reach = 0.5 + 2 * hulls.radius + hull_margin + hulls.margin;
     way = 0;
   }
-  const auto sides = grid_.sides();
+  const auto sides = hulls.grid.sides();
   for (int axis = 0; axis < 3; ++axis) {
     const double r = cell[axis] * sides[axis] + seeker.r[axis];
-    const double span = hull_ == Hull::capsule ? 0.5 * std::abs(seeker.u[axis]) : 0;
+    const double span = hulls.kind == Hulls::Kind::capsule ? 0.5 * std::abs(seeker.u[axis]) : 0;
     const double end = r + seeker.motion.v[axis] * way;
     near_[axis].clear();
-    grid_.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span, overlap_,
-                      reach, near_[axis]);
+    hulls.grid.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span,
+                           hulls.overlap, reach, near_[axis]);
   }
   const float reach_squared = static_cast<float>(reach * reach);
   const std::size_t most = near_[0].size() * near_[1].size() * near_[2].size();
@@ -306,61 +319,62 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
     for (const auto& y : near_[1]) {
       const float gap_squared = z.gap_squared + y.gap_squared;
       if (gap_squared > reach_squared) continue;
-      const std::size_t row = grid_.index(0, y.wrapped, z.wrapped);
+      const std::size_t row = hulls.grid.index(0, y.wrapped, z.wrapped);
       for (const auto& x : near_[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
-        prefetch(&blocks_[first]);
+        prefetch(&hulls.blocks[first]);
         views_[view_count_] = {first, {x.offset, y.offset, z.offset}};
         view_cells_[view_count_] = {x.cell, y.cell, z.cell};
         ++view_count_;
       }
     }
   }
-  const std::size_t room = (view_count_ * longest_chain_ + 1) * kernels::block_size;
+  const std::size_t room = (view_count_ * hulls.longest_chain + 1) * kernels::block_size;
   if (2 * room > found_.size()) found_.resize(4 * room);
 }
 
 std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
+  const Hulls& hulls = *hulls_;
   kernels::Seeker seeker;
-  seeker.motion = motions_[i];
+  seeker.motion = hulls.motions[i];
   seeker.now = seeker.motion.time;
-  seeker.ahead = static_cast<float>(ahead * unit_ * roundup + time_margin);
-  seeker.margin = margin_;
+  seeker.ahead = static_cast<float>(ahead * hulls.unit * roundup + time_margin);
+  seeker.margin = hulls.margin;
   seeker.needle = i;
-  const Place& place = places_[i];
+  const Hulls::Place& place = hulls.places[i];
   for (int axis = 0; axis < 3; ++axis) {
-    seeker.r[axis] = blocks_[place.block].column[Block::x + axis][place.lane];
-    seeker.u[axis] = blocks_[place.block].column[Block::a_x + axis][place.lane];
+    seeker.r[axis] = hulls.blocks[place.block].column[Block::x + axis][place.lane];
+    seeker.u[axis] = hulls.blocks[place.block].column[Block::a_x + axis][place.lane];
   }
   look_around(seeker, place.cell, ahead);
-  const kernels::Surroundings around{blocks_.data(), links_.data(), views_.data(), view_count_,
-                                     motions_.data()};
+  const kernels::Surroundings around{hulls.blocks.data(), hulls.links.data(), views_.data(),
+                                     view_count_, hulls.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto [entries, count] =
-      hull_ == Hull::cell
+      hulls.kind == Hulls::Kind::cell
           ? kernels_.approaching(around, seeker, found)
-          : kernels_.overlapping(around, seeker, static_cast<float>(radius_), found);
+          : kernels_.overlapping(around, seeker, static_cast<float>(hulls.radius), found);
   counters_.candidates += entries;
 
-  for (std::size_t k = 0; k < count; ++k) prefetch(&motions_[found.needle[k]]);
+  for (std::size_t k = 0; k < count; ++k) prefetch(&hulls.motions[found.needle[k]]);
 
   candidates_.clear();
   const auto propose = [&](std::size_t k, double from, double to) {
     const Needle j = found.needle[k];
-    prefetch(&places_[j]);
-    prefetch(&gas_.records[j]);
+    prefetch(&hulls.places[j]);
+    prefetch(&hulls.gas.records[j]);
     candidates_.push_back({from, to, j, found.cell[k], {}});
   };
   const PairColumns pairs = pair_columns(count);
-  const Record& record = gas_.records[i];
+  const Record& record = hulls.gas.records[i];
   const Needle just_hit =
       record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
   const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
                       std::abs(seeker.motion.v[2]) + seeker.motion.omega;
   const float parting = 0.25f / speed;
   constexpr double endless = std::numeric_limits<double>::infinity();
-  fill_pairs(seeker, motions_.data(), views_.data(), found, count, pairs);
+  fill_pairs(seeker, hulls.motions.data(), views_.data(), found, count, pairs);
   // A needle just hit is near for sure: this one looks from a little later on.
   for (std::size_t k = 0; k < count; ++k) {
     pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
@@ -370,16 +384,16 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     const float from = pairs.column[PairColumns::from][k];
     const bool met = from <= seeker.ahead;
     if (found.needle[k] == just_hit) {
-      propose(k, 0, met ? endless : parting / unit_);
+      propose(k, 0, met ? endless : parting / hulls.unit);
     } else if (met) {
-      propose(k, from / unit_, endless);
+      propose(k, from / hulls.unit, endless);
     }
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
   for (Candidate& candidate : candidates_) {
     candidate.shift =
-        grid_.boxes_between(view_cells_[candidate.view], places_[candidate.needle].cell);
+        hulls.grid.boxes_between(view_cells_[candidate.view], hulls.places[candidate.needle].cell);
   }
   counters_.filtered += entries - candidates_.size();
   return candidates_;

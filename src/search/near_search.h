@@ -14,6 +14,9 @@
 // follows both needles until they cannot meet, or to where they may.
 #pragma once
 
+#include <atomic>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -26,19 +29,60 @@
 
 namespace needlework {
 
+/// Where all needles are: their hulls, and the cells that hold them. Several threads may use it at
+/// once, as long as none reads what another writes: placing a needle writes to the cells that it
+/// leaves and enters, finding its neighbours reads cells within `reach_in_cells` of its own.
+struct Hulls {
+  enum class Kind { cell, capsule };
+
+  struct Place {
+    Cell cell{};
+    std::uint32_t block = kernels::BlockLink::none;
+    std::uint32_t lane = 0;
+    Time until = Time::never();
+  };
+
+  Hulls(const Gas& gas, const SearchSetup& setup, Kind kind);
+
+  void rebase(Time now);
+  void set_motion(Needle i, Time now);
+  void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
+  /// Returns whether i has come from another cell.
+  bool enter(Needle i, const Cell& cell);
+  void leave(Needle i);
+  double since_base(Time t) const { return gas.clock.difference(t, base) * unit; }
+
+  const Gas& gas;
+  Kind kind;
+  double radius;       ///< of capsules; else 0 [L]
+  double overlap = 0;  ///< how far a needle may go beyond its cell; 0 for capsules [L]
+  CellGrid grid;
+  float margin = 0;  ///< of lengths, see kernels::Seeker [L]
+  double unit = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
+  Time base;         ///< from which times in blocks and motions count
+  std::vector<Place> places;
+  std::vector<kernels::Motion> motions;
+  std::vector<kernels::Block> blocks;  ///< first those of the cells, then those chained to them
+  std::vector<kernels::BlockLink> links;
+  std::vector<std::uint32_t> free_blocks;
+  std::mutex chaining;  ///< held while blocks are taken from or given to the free ones
+  std::atomic<std::size_t> longest_chain = 1;  ///< blocks of one cell that there have ever been
+};
+
+/// A thread's own part of the search.
 class NearSearch {
  public:
-  enum class Hull { cell, capsule };
-
   /// `gas` must outlive the search; needles are entered by place().
-  NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hull hull);
+  NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hulls::Kind kind);
+  /// For another thread, with counters of its own; shares the hulls.
+  NearSearch(const NearSearch& other, Counters& counters);
 
   Time place(Needle i, Time now);
   void renumber(const std::vector<Needle>& ranks);
   /// Brings what place() reads near.
   void bring_near(Needle i) const {
-    prefetch(&places_[i]);
-    prefetch(&motions_[i]);
+    prefetch(&hulls_->places[i]);
+    prefetch(&hulls_->motions[i]);
   }
 
   template <class Visit>
@@ -49,7 +93,20 @@ class NearSearch {
     }
   }
 
-  const CellGrid& grid() const { return grid_; }
+  const CellGrid& grid() const { return hulls_->grid; }
+  /// The cell in which needle i has been placed, in the frame of its record.
+  const Cell& cell_of(Needle i) const { return hulls_->places[i].cell; }
+  std::uint32_t cell_index(Needle i) const {
+    return static_cast<std::uint32_t>(grid().index_of(cell_of(i)));
+  }
+  /// How far from its cell a needle may come before it is placed anew. [L]
+  double drift() const { return hulls_->kind == Hulls::Kind::cell ? hulls_->overlap : radius(); }
+  /// How far from where a needle is it may be placed. [L]
+  double radius() const { return hulls_->radius; }
+  /// Makes times until then fit for place(): needed before several threads call it.
+  void prepare(Time now, Time until) {
+    if (hulls_->unit == 0 || hulls_->since_base(until) > kernels::longest_time) hulls_->rebase(now);
+  }
 
  private:
   struct Candidate {
@@ -58,39 +115,14 @@ class NearSearch {
     std::uint32_t view;  ///< of the cell in which it was found
     Shift shift;
   };
-  struct Place {
-    Cell cell{};
-    std::uint32_t block = kernels::BlockLink::none;
-    std::uint32_t lane = 0;
-    Time until = Time::never();
-  };
 
   std::span<const Candidate> candidates(Needle i, Time now, double ahead);
   void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
-  void rebase(Time now);
-  void set_motion(Needle i, Time now);
-  void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
-  void enter(Needle i, const Cell& cell);
-  void leave(Needle i);
-  double since_base(Time t) const { return gas_.clock.difference(t, base_) * unit_; }
   kernels::PairColumns pair_columns(std::size_t n);
 
-  const Gas& gas_;
+  std::shared_ptr<Hulls> hulls_;
   Counters& counters_;
   const kernels::NearKernels& kernels_;
-  Hull hull_;
-  double radius_;       ///< of capsules; else 0 [L]
-  double overlap_ = 0;  ///< how far a needle may go beyond its cell; 0 for capsules [L]
-  CellGrid grid_;
-  float margin_ = 0;  ///< of lengths, see kernels::Seeker [L]
-  double unit_ = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
-  Time base_;         ///< from which times in blocks and motions count
-  std::vector<Place> places_;
-  std::vector<kernels::Motion> motions_;
-  std::vector<kernels::Block> blocks_;  ///< first those of the cells, then those chained to them
-  std::vector<kernels::BlockLink> links_;
-  std::vector<std::uint32_t> free_blocks_;
-  std::size_t longest_chain_ = 1;  ///< blocks of one cell that there have ever been
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;
@@ -105,14 +137,16 @@ class LinkedCells : public NearSearch {
  public:
   static constexpr const char* name = "linked-cells";
   LinkedCells(const Gas& gas, Counters& counters, const SearchSetup& setup)
-      : NearSearch(gas, counters, setup, Hull::cell) {}
+      : NearSearch(gas, counters, setup, Hulls::Kind::cell) {}
+  LinkedCells(const LinkedCells& other, Counters& counters) : NearSearch(other, counters) {}
 };
 
 class Capsules : public NearSearch {
  public:
   static constexpr const char* name = "capsules";
   Capsules(const Gas& gas, Counters& counters, const SearchSetup& setup)
-      : NearSearch(gas, counters, setup, Hull::capsule) {}
+      : NearSearch(gas, counters, setup, Hulls::Kind::capsule) {}
+  Capsules(const Capsules& other, Counters& counters) : NearSearch(other, counters) {}
 };
 
 }  // namespace needlework

@@ -310,26 +310,35 @@ TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
 }
 
 TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
-  constexpr Needle n = 3 * CellCalendar::block_size - 1;
-  CellCalendar calendar(n, Clock());
-  ASSERT_EQ(calendar.blocks(), 3u);
+  constexpr Needle n = 200;
+  constexpr std::uint32_t blocks = 7, zones = 3;
+  CellCalendar calendar(n, Clock(), blocks);
   Random random(seed);
   std::vector<Time> time(n, Time::never());
+  std::vector<std::uint32_t> place(n), zone(blocks);
+  for (Needle i = 0; i < n; ++i) place[i] = calendar.block_of(i);
   for (int step = 0; step < operations; ++step) {
+    if (step % 1000 == 0) {
+      for (auto& z : zone) z = static_cast<std::uint32_t>(random.below(zones));
+      calendar.divide(zone, zones);
+    }
     Event event;
     event.owner = static_cast<Needle>(random.below(n));
     event.time = time[event.owner] = {random.below(9), random.uniform()};
-    calendar.set(event);
-    for (std::uint32_t block = 0; block < 3; ++block) {
-      const Event& next = calendar.top_of(block);
-      ASSERT_EQ(calendar.block_of(next.owner), block);
-      const auto first = time.begin() + block * CellCalendar::block_size;
-      const auto last = block == 2 ? time.end() : first + CellCalendar::block_size;
-      ASSERT_EQ(next.time, *std::min_element(first, last)) << "step " << step;
-      ASSERT_EQ(
-          next.time <= calendar.top().time,
-          calendar.clock_of(block) <= calendar.clock_of(calendar.block_of(calendar.top().owner)));
+    if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
+    calendar.set(event, place[event.owner]);
+    std::vector<Time> first(blocks, Time::never());
+    for (Needle i = 0; i < n; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+      ASSERT_EQ(calendar.clock_of(block) == CellCalendar::no_event,
+                std::count(place.begin(), place.end(), block) == 0);
+      if (calendar.clock_of(block) == CellCalendar::no_event) continue;
+      ASSERT_EQ(calendar.top_of(block).time, first[block]) << "step " << step;
+      ASSERT_EQ(calendar.clock_of(block), calendar.key_of(first[block]));
+      ASSERT_GE(first[block], calendar.top().time);
+      ASSERT_GE(calendar.clock_of(block), calendar.winning_key(zone[block]));
     }
+    ASSERT_EQ(calendar.top().time, *std::min_element(first.begin(), first.end()));
   }
 }
 

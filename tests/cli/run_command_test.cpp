@@ -163,12 +163,16 @@ file = "scene.h5"
   EXPECT_EQ(result(one_thread + "--set output.file=set2.h5 --out flag.h5")["file"], "flag.h5");
   EXPECT_FALSE(exists("set2.h5"));
   EXPECT_EQ(result("thrice.toml --out x.h5 --threads 1 --isa scalar")["threads"], 1);
-  EXPECT_EQ(run("run thrice.toml --out y.h5 --set engine.threads=1 --threads 2").exit_code, 3);
+  EXPECT_EQ(result(one_thread + "--out y.h5 --threads 2")["threads"], 2);
   EXPECT_EQ(result("small.toml --set needles.seed=8 --set needles.seed=9")["seed"], 9);
 }
 
 TEST_F(RunCommand, TakesTheEnvironmentLast) {
-  EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=8")["threads"], 1);
+  EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=3")["threads"], 3);
+  EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=3,2")["threads"], 3);
+  EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=many")["threads"], 1);
+  EXPECT_EQ(result("small.toml --set engine.threads=1", "OMP_NUM_THREADS=3")["threads"], 1);
+  EXPECT_EQ(result("small.toml --set engine.queue=bucket", "OMP_NUM_THREADS=3")["threads"], 1);
   EXPECT_EQ(run("run small.toml", "NEEDLEWORK_ISA=bogus").exit_code, 3);
   EXPECT_EQ(result("small.toml", "NEEDLEWORK_ISA=scalar")["isa"], "scalar");
   EXPECT_EQ(result("small.toml --isa scalar", "NEEDLEWORK_ISA=bogus")["isa"], "scalar");
@@ -245,7 +249,26 @@ TEST_F(RunCommand, IsSilentWhenQuietButForErrorsAndWarnings) {
   const Outcome warned = run("run small.toml --quiet --set needles.k=1");
   EXPECT_EQ(warned.out, "");
   EXPECT_TRUE(warned.complains("needlework: warning: needles.k = 1: "));
-  EXPECT_EQ(run("run small.toml --quiet --threads 2").exit_code, 3);
+}
+
+TEST_F(RunCommand, GivesOneTrajectoryOnAnyNumberOfThreads) {
+  const json one = result("small.toml --threads 1");
+  for (const char* threads : {"2", "5"}) {
+    const json several = result(std::string("small.toml --threads ") + threads);
+    EXPECT_EQ(several["queue"], "cell-calendar");
+    EXPECT_GT(several["stats"]["phases"], 0);
+    for (const char* key : {"trajectory_hash", "collisions", "energy", "momentum", "time"}) {
+      EXPECT_EQ(several[key], one[key]) << key;
+    }
+  }
+}
+
+TEST_F(RunCommand, RefusesThreadsThatSearchOrQueueCannotUse) {
+  for (const char* choice : {"queue=tournament", "search=all-pairs", "search=linked-lists"}) {
+    const Outcome outcome = run(std::string("run small.toml --threads 2 --set engine.") + choice);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_TRUE(outcome.complains("--threads 2: expected 1 with search ")) << outcome.err;
+  }
 }
 
 TEST_F(RunCommand, SumsUpInPlainWords) {

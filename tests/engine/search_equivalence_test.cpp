@@ -1,7 +1,7 @@
 // Every search on every instruction set gives the same events, bit for bit: all-pairs is the truth.
 #include <gtest/gtest.h>
 
-#include "tests/support/runs.h"
+#include "tests/support/same_run.h"
 #include "tests/support/searches.h"
 
 namespace needlework {
@@ -21,22 +21,6 @@ struct Case {
   double collisions;
   double energy = 10;  ///< per needle, to have fallen below
 };
-
-void expect_same(const test::Recorded& truth, const test::Recorded& other) {
-  ASSERT_EQ(truth.collisions.size(), other.collisions.size());
-  for (std::size_t n = 0; n < truth.collisions.size(); ++n) {
-    const Collision &a = truth.collisions[n], &b = other.collisions[n];
-    ASSERT_TRUE(a.epoch == b.epoch && a.offset == b.offset && a.first == b.first &&
-                a.second == b.second && a.shift == b.shift && a.impulse == b.impulse)
-        << "collision " << n << ": " << a.first << "-" << a.second << " at " << a.time
-        << " against " << b.first << "-" << b.second << " at " << b.time;
-  }
-  EXPECT_EQ(truth.hash, other.hash);
-  EXPECT_EQ(truth.end.position, other.end.position);
-  EXPECT_EQ(truth.end.velocity, other.end.velocity);
-  EXPECT_EQ(truth.end.orientation, other.end.orientation);
-  EXPECT_EQ(truth.end.angular_velocity, other.end.angular_velocity);
-}
 
 class SearchEquivalence : public testing::TestWithParam<Case> {};
 
@@ -61,7 +45,7 @@ TEST_P(SearchEquivalence, EverySearchGivesTheEventsOfAllPairs) {
     for (std::size_t n = 1 + seed; n < choices.size(); n += seeds) {
       SCOPED_TRACE(choices[n].name() + ", " + test::name_of(scene));
       choices[n].apply(scene);
-      ASSERT_NO_FATAL_FAILURE(expect_same(truth, test::record(scene, count)));
+      ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, test::record(scene, count)));
     }
   }
 }
@@ -96,7 +80,7 @@ TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions) {
     for (const char* search : {"linked-cells", "capsules"}) {
       SCOPED_TRACE(search);
       scene.engine.search = search;
-      ASSERT_NO_FATAL_FAILURE(expect_same(truth, test::record(scene, count)));
+      ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, test::record(scene, count)));
     }
   }
 }

@@ -1,6 +1,7 @@
 #include "src/calendar/cell_calendar.h"
 
 #include "src/engine/make_run_with_body.h"
+#include "src/engine/parallel_loop.h"
 
 namespace needlework {
 

@@ -1,0 +1,113 @@
+// Claims: what part of space each thread is at work in, so that no two touch the same needles.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "src/engine/patience.h"
+#include "src/engine/zones.h"
+
+namespace needlework {
+
+/// A box of cells on a grid that repeats itself.
+struct CellBox {
+  CellCounts low{};   ///< in the grid
+  CellCounts more{};  ///< cells beyond `low` along each axis
+};
+
+/// Whether two boxes are not more than `distance` cells apart along every axis.
+inline bool near(const CellBox& a, const CellBox& b, const CellCounts& cells,
+                 const CellCounts& distance) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t n = cells[axis];
+    std::int32_t ahead = b.low[axis] - a.low[axis];
+    if (ahead < 0) ahead += n;
+    if (ahead > a.more[axis] + distance[axis] && n - ahead > b.more[axis] + distance[axis]) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// One claim per thread: up to two boxes of cells to which it writes; it reads not farther than
+/// `distance` cells from them. Of two threads that make claims so near to each other that one would
+/// read what the other writes, at least one sees it, since each makes its claim known before it
+/// looks at those of others.
+class Claims {
+ public:
+  Claims(const CellCounts& cells, const CellCounts& distance, std::size_t threads)
+      : cells_(cells), distance_(distance), claims_(threads) {}
+
+  enum Part { owner, partner };
+
+  /// Adds to the claim of a thread, or makes a part of it larger; waits until no other claim is in
+  /// the way. Gives up all of it and returns false when a thread of lower number is.
+  bool claim(std::size_t thread, Part part, const CellBox& box) {
+    claims_[thread].part[part].store(packed(box), std::memory_order_seq_cst);
+    for (std::size_t other = 0; other < claims_.size(); ++other) {
+      if (other == thread) continue;
+      Patience patience;
+      while (in_the_way(other, box)) {
+        if (other < thread) {
+          drop(thread);
+          return false;
+        }
+        patience.wait();
+      }
+    }
+    return true;
+  }
+  void drop(std::size_t thread) {
+    for (auto& part : claims_[thread].part) part.store(nothing, std::memory_order_release);
+  }
+
+ private:
+  static constexpr std::uint64_t nothing = ~std::uint64_t{0};
+  static constexpr int low_bits = 17, more_bits = 4;
+  static constexpr std::int32_t all = (1 << more_bits) - 1;  ///< an axis from end to end
+
+ public:
+  static constexpr std::int32_t most_cells = 1 << low_bits;  ///< along an axis
+
+ private:
+  struct alignas(128) Claim {
+    std::atomic<std::uint64_t> part[2] = {nothing, nothing};
+    Claim() = default;
+    Claim(Claim&&) noexcept {}
+  };
+
+  static std::uint64_t packed(const CellBox& box) {
+    std::uint64_t out = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      out = out << low_bits | static_cast<std::uint64_t>(box.low[axis]);
+      out = out << more_bits | static_cast<std::uint64_t>(std::min(box.more[axis], all));
+    }
+    return out;
+  }
+  CellBox unpacked(std::uint64_t bits) const {
+    CellBox out;
+    for (int axis = 2; axis >= 0; --axis) {
+      out.more[axis] = static_cast<std::int32_t>(bits & all);
+      if (out.more[axis] == all) out.more[axis] = cells_[axis];
+      bits >>= more_bits;
+      out.low[axis] = static_cast<std::int32_t>(bits & (most_cells - 1));
+      bits >>= low_bits;
+    }
+    return out;
+  }
+  bool in_the_way(std::size_t other, const CellBox& box) const {
+    for (const auto& part : claims_[other].part) {
+      const std::uint64_t bits = part.load(std::memory_order_seq_cst);
+      if (bits != nothing && near(unpacked(bits), box, cells_, distance_)) return true;
+    }
+    return false;
+  }
+
+  CellCounts cells_, distance_;
+  std::vector<Claim> claims_;
+};
+
+}  // namespace needlework

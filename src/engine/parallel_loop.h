@@ -1,0 +1,607 @@
+// The event loop on several threads, with the trajectory of one.
+//
+// Each thread has a zone of the box and makes the events of the needles there happen, the earliest
+// first. What an event reads and writes lies within some cells of it, so events far from each other
+// may happen in any order, or at once. An event waits while the clock of any block within `reach_`
+// cells is behind it; other events of the zone, far from the waiting ones, go on. Where zones are
+// near, a thread claims the cells that its event may write to before it reads any.
+//
+// That is nearly always enough, and nothing of the kind can be enough for sure: between two needles
+// there may be a row of others that hand a push on in no time, from an event outside the reach to
+// one that has been done. So every event looks for later ones that have been done near it. They do
+// no harm unless the needles of both may meet in the time between: until then nothing that one does
+// can matter to the other, and from then on each has been searched after the other was placed. When
+// they may, or when anything else has gone amiss, the whole phase since the threads last met is
+// undone, and one thread does it again. Counters tell how often (`redone`).
+//
+// The same serves ends that lie at one collision of the total order: a phase in which one is passed
+// is done again by one thread, which stops there.
+#pragma once
+
+#include <omp.h>
+
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <tuple>
+
+#include "src/calendar/cell_calendar.h"
+#include "src/engine/claims.h"
+#include "src/engine/event_loop.h"
+#include "src/engine/patience.h"
+#include "src/engine/zones.h"
+#include "src/search/cell_grid.h"
+
+namespace needlework {
+
+template <class Search, Effects effects>
+class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
+  using Base = EventLoop<Search, CellCalendar, effects>;
+  using Block = CellCalendar::Block;
+  using Base::gas;
+  using Base::now;
+  using Base::queue_;
+  using Base::search_;
+  using Base::tally;
+  using typename Base::Limits;
+
+ public:
+  ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads);
+
+  Stop advance(const Scene::Until& until) override;
+
+ private:
+  // What a thread needs of the calendar, and what it has changed there in the event at hand.
+  struct ZoneQueue {
+    void set(const Event& event, Block block) { calendar.put(event, block, changed); }
+
+    CellCalendar& calendar;
+    std::vector<Block> changed;
+  };
+
+  // An event that has to wait until the clock of `for_block` is past it.
+  struct Held {
+    Block block, for_block;
+    TimeKey key;
+  };
+
+  // A thread.
+  struct alignas(128) Hand {
+    Hand(ParallelLoop& loop, std::uint32_t number)
+        : zone(number),
+          queue{loop.queue_, {}},
+          search(loop.search_, tally.counters),
+          worker(loop, search, queue, tally) {
+      worker.undo = &undo;
+    }
+
+    std::uint32_t zone;
+    Tally tally;
+    ZoneQueue queue;
+    Search search;
+    Worker<Search, ZoneQueue, effects> worker;
+    UndoLog undo;
+    std::vector<Held> held;
+    std::vector<Collision> reports;
+    TimeKey latest = 0;  ///< of the events that it has done in this phase
+    // For others:
+    std::atomic<bool> has_mail = false;
+    std::vector<Block> mail;  ///< its blocks to which others have written
+    bool resting = false;
+  };
+
+  enum class Outcome { done, held, again };
+
+  void divide();
+  void sort_storage() override {
+    Base::sort_storage();
+    divide();
+  }
+  void run_together(const Limits& limits, Time end);
+  void undo();
+  void report();
+
+  void work(Hand& me, TimeKey end);
+  Outcome attempt(Hand& me, Block block, TimeKey key);
+  Outcome hold(Hand& me, Block block, TimeKey key, Block for_block);
+  void release_held(Hand& me);
+  void read_mail(Hand& me);
+  bool rest(Hand& me);
+  void make_known(Hand& me);
+
+  // A needle of an event: where it was then, and how fast before.
+  struct Taken {
+    TimeKey key;
+    Vec3d r;
+    double speed;
+    bool contact;
+    std::uint32_t lower_id, higher_id;
+  };
+
+  CellCounts place_of(Block block) const;
+  template <class Visit>
+  bool any_around(const CellBox& box, const CellCounts& distance, Visit&& visit) const;
+  Block earlier_around(Block centre, Block block, TimeKey key) const;
+  Taken take(Needle i, const Event& event, TimeKey key) const;
+  CellBox cells_of(Needle i, const Vec3d& r) const;
+  bool may_have_met(const Taken& mine, double speed) const;
+  Block block_at(const Vec3d& r) const {
+    return static_cast<Block>(search_.grid().index_of(search_.grid().cell_of(r)));
+  }
+
+  // Collisions between two meetings of all threads, at most and at least.
+  static constexpr double most_together = 0x1p15, least_together = 0x1p6;
+  // Events that wait while a thread looks for one that need not.
+  static constexpr std::size_t most_held = 12;
+  static constexpr Block nobody = ~Block{0};
+
+  CellCounts cells_;
+  CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
+  CellCounts reach_;       ///< how far an event looks for earlier ones
+  CellCounts apart_;       ///< events farther than this never touch the same
+  Claims claims_;
+  std::vector<std::uint8_t> inner_;       ///< of a block: nobody else ever comes near
+  std::vector<std::vector<Taken>> done_;  ///< in a block: needles whose events this phase has done
+  std::vector<TimeKey> latest_done_;      ///< of these
+  std::deque<Hand> hands_;
+  std::atomic<bool> amiss_ = false, finished_ = false;
+  std::mutex meeting_;  ///< for mail and rest
+  std::size_t resting_ = 0;
+};
+
+namespace parallel {
+
+/// Cells along each axis that cover a distance from anywhere in a cell.
+inline CellCounts cells_within(const CellGrid& grid, double distance) {
+  CellCounts out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = std::floor(distance / grid.sides()[axis]) + 1;
+    out[axis] = static_cast<std::int32_t>(std::min<double>(cells, grid.counts()[axis]));
+  }
+  return out;
+}
+
+}  // namespace parallel
+
+template <class Search, Effects effects>
+ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
+                                            const SearchSetup& setup, int threads)
+    : Base(scene, std::move(initial), setup),
+      cells_(search_.grid().counts()),
+      // Two needles that may meet before one of them is placed anew, with room for rounding.
+      neighbours_(parallel::cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
+      // Where it is shorter, phases are undone again and again; longer, events wait for nothing.
+      reach_(parallel::cells_within(search_.grid(), 1.5)),
+      claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
+      done_(queue_.blocks()),
+      latest_done_(queue_.blocks()) {
+  const CellCounts moves =
+      parallel::cells_within(search_.grid(), search_.drift() + search_.radius());
+  for (int axis = 0; axis < 3; ++axis) {
+    apart_[axis] = 3 * neighbours_[axis] + 2 * moves[axis];
+    if (cells_[axis] >= Claims::most_cells) {
+      throw InputError("engine.threads = " + std::to_string(threads) +
+                       ": expected 1 for a box of " + std::to_string(cells_[axis]) +
+                       " cells along an edge");
+    }
+  }
+  for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
+  divide();
+}
+
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::divide() {
+  std::vector<std::size_t> weight(queue_.blocks());
+  for (Block b = 0; b < queue_.blocks(); ++b) weight[b] = queue_.needles_in(b);
+  const auto threads = static_cast<std::uint32_t>(hands_.size());
+  const std::vector<std::uint32_t> zone = divide_box(cells_, weight, threads);
+  queue_.divide(zone, threads);
+  inner_ = inner_cells(cells_, zone, apart_);
+  for (Hand& hand : hands_) hand.worker.forget();
+}
+
+template <class Search, Effects effects>
+Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
+  this->interrupted = false;
+  const Limits limits(*this, until);
+  if (const auto stop = this->needs_no_events(limits)) return *stop;
+  const Time last =
+      limits.time == Time::never()
+          ? limits.time
+          : Time{limits.time.epoch,
+                 std::nextafter(limits.time.offset, std::numeric_limits<double>::infinity())};
+  for (;;) {
+    if (const auto stop = this->reached(limits)) return *stop;
+    if (const auto stop = this->called_off(limits)) return *stop;
+    const Time next = queue_.top().time;
+    if (this->pass_window(next, limits)) continue;
+    if (next > limits.time) {
+      now = limits.time;
+      return Stop::time;
+    }
+    Time end = std::min(this->window_end_, last);
+    // An end by collisions is approached in smaller and smaller phases, to undo little.
+    const double left = limits.collisions - static_cast<double>(tally.collisions);
+    const double per_time = 0.5 * static_cast<double>(gas.size()) / this->mean_free_time;
+    const double expected =
+        std::min({most_together, left / 2, per_time * gas.clock.difference(end, next)});
+    end = std::min(end, gas.clock.add(next, expected / per_time));
+    if (expected >= least_together) run_together(limits, end);
+    // What is left: the last collisions, a phase that was undone, events at its very end.
+    if (queue_.top().time >= end) continue;
+    queue_.order_again();
+    if (const auto stop = this->run_alone(limits, end)) return *stop;
+  }
+}
+
+// Runs events before `end` on all threads. Undoes all when that is not what one thread would have
+// done, or when it would have stopped before.
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end) {
+  search_.prepare(now, end);
+  std::fill(latest_done_.begin(), latest_done_.end(), TimeKey{0});
+  for (std::vector<Taken>& needles : done_) needles.clear();
+  amiss_ = finished_ = false;
+  resting_ = 0;
+  for (Hand& hand : hands_) {
+    hand.undo.clear();
+    hand.reports.clear();
+    hand.worker.now = now;
+    hand.worker.reports = this->callback ? &hand.reports : nullptr;
+    hand.latest = 0;
+    hand.has_mail = hand.resting = false;
+    hand.mail.clear();
+    hand.held.clear();
+  }
+  const TimeKey end_key = queue_.key_of(end);
+  const int threads = static_cast<int>(hands_.size());
+#pragma omp parallel num_threads(threads)
+  {
+    if (omp_get_num_threads() == threads) {
+      Hand& me = hands_[static_cast<std::size_t>(omp_get_thread_num())];
+      try {
+        work(me, end_key);
+      } catch (...) {
+        // Whatever it was, one thread will come to it, if it is so, with all that was before.
+        amiss_ = true;
+      }
+      claims_.drop(me.zone);
+    } else {
+      amiss_ = true;
+    }
+  }
+  ++tally.counters.phases;
+  const Tally before = tally;
+  for (Hand& hand : hands_) tally.take(hand.tally);
+  if (amiss_ || this->reached(limits)) {
+    const Counters counters = tally.counters;
+    tally = before;
+    tally.counters = counters;
+    ++tally.counters.redone;
+    undo();
+    return;
+  }
+  for (const Hand& hand : hands_) now = std::max(now, hand.worker.now);
+  report();
+}
+
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::undo() {
+  std::vector<Needle> needles;
+  for (Hand& hand : hands_) {
+    hand.undo.put_back(gas, this->last_collision);
+    needles.insert(needles.end(), hand.undo.scheduled().begin(), hand.undo.scheduled().end());
+    hand.worker.forget();
+  }
+  std::sort(needles.begin(), needles.end());
+  needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
+  queue_.order_again();  // events that were held among them
+  this->worker_.now = now;
+  this->worker_.forget();
+  std::vector<Time> placed_until;
+  for (const Needle i : needles) placed_until.push_back(search_.place(i, now));
+  for (std::size_t n = 0; n < needles.size(); ++n) {
+    this->worker_.schedule(needles[n], placed_until[n]);
+  }
+}
+
+// Reports the collisions of the phase in their order.
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::report() {
+  if (!this->callback) return;
+  std::vector<Collision> all;
+  for (const Hand& hand : hands_) {
+    all.insert(all.end(), hand.reports.begin(), hand.reports.end());
+  }
+  std::sort(all.begin(), all.end(), [](const Collision& a, const Collision& b) {
+    const auto key = [](const Collision& c) {
+      return std::tie(c.epoch, c.offset, c.first, c.second, c.shift);
+    };
+    return key(a) < key(b);
+  });
+  for (const Collision& collision : all) this->callback(collision);
+}
+
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
+  Patience patience;
+  while (!amiss_.load(std::memory_order_relaxed)) {
+    if (me.has_mail.load(std::memory_order_acquire)) read_mail(me);
+    release_held(me);
+    const TimeKey key = queue_.winning_key(me.zone);
+    // Those held may wait for one that has come up since.
+    const auto before_all = [&] {
+      return std::all_of(me.held.begin(), me.held.end(),
+                         [&](const Held& held) { return key < held.key; });
+    };
+    if (key < end && (me.held.size() < most_held || before_all())) {
+      const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
+      if (outcome == Outcome::done) patience.reset();
+      if (outcome == Outcome::again) patience.wait();
+      continue;
+    }
+    if (me.held.empty()) {
+      if (rest(me)) return;
+      continue;
+    }
+    ++me.tally.counters.waited;
+    patience.wait();
+  }
+}
+
+// Does the next event of a block, unless it has to wait.
+template <class Search, Effects effects>
+auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) -> Outcome {
+  const bool alone = inner_[block] && me.held.empty();
+  const auto give_up = [&](Block for_block) {
+    claims_.drop(me.zone);
+    return for_block == nobody ? Outcome::again : hold(me, block, key, for_block);
+  };
+  const auto claim = [&](Claims::Part part, const CellBox& box) {
+    return alone || claims_.claim(me.zone, part, box);
+  };
+  if (!alone) {
+    ++me.tally.counters.border;
+    const Block earlier = earlier_around(block, block, key);
+    if (earlier != nobody) return give_up(earlier);
+    if (!claim(Claims::owner, {place_of(block), {}})) return Outcome::again;
+    // Somebody may have written to the block just before.
+    if (queue_.clock_of(block) != key) return give_up(nobody);
+  }
+  const Event event = queue_.top_of(block);
+  bool stale = false, near_partner = false;
+  if (event.is_contact()) {
+    // A partner that is no longer near has had another collision.
+    const Block other = queue_.block_of(event.partner);
+    const CellBox here{place_of(block), {}}, there{place_of(other), {}};
+    near_partner = near(here, there, cells_, neighbours_);
+    stale = !near_partner;
+    if (near_partner) {
+      if (!alone && other != block) {
+        const Block earlier = earlier_around(other, block, key);
+        if (earlier != nobody) return give_up(earlier);
+      }
+      if (!claim(Claims::partner, there)) return Outcome::again;
+      if (queue_.block_of(event.partner) != other) return give_up(nobody);
+      stale = me.worker.is_stale(event);
+    }
+  }
+  const bool collides = event.is_contact() && !stale;
+  const Taken owner = take(event.owner, event, key);
+  if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
+  Taken partner;
+  if (collides) {
+    partner = take(event.partner, event, key);
+    if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
+  } else if (stale && near_partner && gas.records[event.partner].time > event.time) {
+    // It may have happened, had it had its turn.
+    amiss_ = true;
+    return give_up(nobody);
+  }
+  me.queue.changed.clear();
+  me.worker.happen(event, stale);
+  const auto record = [&](Needle i, const Taken& taken) {
+    const Vec3d& v = gas.records[i].flight.v;
+    if ((!alone || key <= me.latest) && may_have_met(taken, std::sqrt(dot(v, v)))) amiss_ = true;
+    const Block at = block_at(taken.r);
+    done_[at].push_back(taken);
+    latest_done_[at] = std::max(latest_done_[at], key);
+  };
+  record(event.owner, owner);
+  if (collides) record(event.partner, partner);
+  me.latest = std::max(me.latest, key);
+  make_known(me);
+  if (!alone) claims_.drop(me.zone);
+  return Outcome::done;
+}
+
+template <class Search, Effects effects>
+auto ParallelLoop<Search, effects>::hold(Hand& me, Block block, TimeKey key, Block for_block)
+    -> Outcome {
+  ++me.tally.counters.held;
+  me.held.push_back({block, for_block, key});
+  queue_.follow_by_key(block, CellCalendar::no_event);
+  return Outcome::held;
+}
+
+// Lets those go on whose turn may have come.
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::release_held(Hand& me) {
+  std::erase_if(me.held, [&](const Held& held) {
+    look_away();
+    const TimeKey clock = queue_.clock_of(held.for_block);
+    if (clock < held.key || (clock == held.key && held.for_block < held.block)) return false;
+    queue_.follow_by_key(held.block, queue_.clock_of(held.block));
+    return true;
+  });
+}
+
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::read_mail(Hand& me) {
+  std::vector<Block> blocks;
+  {
+    const std::lock_guard alone(meeting_);
+    blocks.swap(me.mail);
+    me.has_mail.store(false, std::memory_order_relaxed);
+  }
+  for (const Block block : blocks) {
+    std::erase_if(me.held, [&](const Held& held) { return held.block == block; });
+    queue_.follow_by_key(block, queue_.clock_of(block));
+  }
+}
+
+// Waits for mail; returns true when all threads do.
+template <class Search, Effects effects>
+bool ParallelLoop<Search, effects>::rest(Hand& me) {
+  {
+    const std::lock_guard alone(meeting_);
+    if (!me.mail.empty()) return false;
+    me.resting = true;
+    if (++resting_ == hands_.size()) finished_ = true;
+  }
+  for (Patience patience; !finished_.load() && !amiss_.load(); patience.wait()) {
+    if (me.has_mail.load(std::memory_order_acquire)) return false;
+  }
+  return true;
+}
+
+// Makes the clocks of the blocks that an event has changed known: first those that it has brought
+// forward, so that nobody sees this one done and not what follows from it.
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::make_known(Hand& me) {
+  std::vector<Block>& changed = me.queue.changed;
+  for (const Block b : changed) {
+    if (queue_.key_of_next(b) < queue_.clock_of(b)) queue_.publish(b);
+  }
+  for (const Block b : changed) {
+    queue_.publish(b);
+    const std::uint32_t zone = queue_.zone_of(b);
+    if (zone == me.zone) {
+      std::erase_if(me.held, [&](const Held& held) { return held.block == b; });
+      queue_.follow_by_key(b, queue_.clock_of(b));
+      continue;
+    }
+    ++me.tally.counters.foreign;
+    Hand& other = hands_[zone];
+    const std::lock_guard alone(meeting_);
+    other.mail.push_back(b);
+    other.has_mail.store(true, std::memory_order_release);
+    if (other.resting) {
+      other.resting = false;
+      --resting_;
+    }
+  }
+}
+
+template <class Search, Effects effects>
+CellCounts ParallelLoop<Search, effects>::place_of(Block block) const {
+  const auto x = static_cast<Block>(cells_[0]), y = static_cast<Block>(cells_[1]);
+  return {static_cast<std::int32_t>(block % x), static_cast<std::int32_t>(block / x % y),
+          static_cast<std::int32_t>(block / x / y)};
+}
+
+// Whether visit(block) holds for any block not farther than `distance` from the box.
+template <class Search, Effects effects>
+template <class Visit>
+bool ParallelLoop<Search, effects>::any_around(const CellBox& box, const CellCounts& distance,
+                                               Visit&& visit) const {
+  CellCounts first, count;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t n = cells_[axis];
+    count[axis] = std::min(n, box.more[axis] + 1 + 2 * distance[axis]);
+    first[axis] = box.low[axis] - std::min(distance[axis], n);
+    if (first[axis] < 0) first[axis] += n;
+  }
+  CellCounts at;
+  at[2] = first[2];
+  for (std::int32_t z = 0; z < count[2]; ++z) {
+    at[1] = first[1];
+    for (std::int32_t y = 0; y < count[1]; ++y) {
+      const std::size_t row = (static_cast<std::size_t>(at[2]) * cells_[1] + at[1]) * cells_[0];
+      at[0] = first[0];
+      for (std::int32_t x = 0; x < count[0]; ++x) {
+        if (visit(static_cast<Block>(row + at[0]))) return true;
+        if (++at[0] == cells_[0]) at[0] = 0;
+      }
+      if (++at[1] == cells_[1]) at[1] = 0;
+    }
+    if (++at[2] == cells_[2]) at[2] = 0;
+  }
+  return false;
+}
+
+// A block within reach of `centre` whose clock is behind the event of `block`, if any.
+template <class Search, Effects effects>
+auto ParallelLoop<Search, effects>::earlier_around(Block centre, Block block, TimeKey key) const
+    -> Block {
+  look_away();
+  Block found = nobody;
+  any_around({place_of(centre), {}}, reach_, [&](Block b) {
+    const TimeKey clock = queue_.clock_of(b);
+    if (clock > key || (clock == key && b >= block)) return false;
+    found = b;
+    return true;
+  });
+  return found;
+}
+
+template <class Search, Effects effects>
+auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Taken {
+  const Record& record = gas.records[i];
+  const kernels::Flight& flight = record.flight;
+  return {key,
+          centre_after(flight, gas.clock.difference(event.time, record.time)),
+          std::sqrt(dot(flight.v, flight.v)),
+          event.is_contact(),
+          event.lower_id,
+          event.higher_id};
+}
+
+// The cell of a needle that is at r, and those in which it may be placed.
+template <class Search, Effects effects>
+CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
+  const CellGrid& grid = search_.grid();
+  const double margin = search_.radius() * (1 + 0x1p-10) + 0x1p-20;
+  const Vec3d all_around{margin, margin, margin};
+  const Cell cell = search_.cell_of(i), low = grid.cell_of(r - all_around),
+             high = grid.cell_of(r + all_around);
+  CellBox out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t first = std::min(cell[axis], low[axis]);
+    out.low[axis] = grid.wrap(first, axis);
+    out.more[axis] = std::min(std::max(cell[axis], high[axis]) - first, grid.counts()[axis] - 1);
+  }
+  return out;
+}
+
+// Whether a needle that has had an event, and is so fast since, may have met one whose later event
+// has been done, before that.
+template <class Search, Effects effects>
+bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed) const {
+  const auto after = [](const Taken& a, const Taken& b) {
+    if (a.key != b.key) return a.key > b.key;
+    // Two searches at one time may be made in any order.
+    return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
+                                           std::tie(b.contact, b.lower_id, b.higher_id);
+  };
+  return any_around({place_of(block_at(mine.r)), {}}, neighbours_, [&](Block b) {
+    if (latest_done_[b] < mine.key) return false;
+    return std::any_of(done_[b].begin(), done_[b].end(), [&](const Taken& other) {
+      if (!after(other, mine)) return false;
+      const double then = EventTable::time_of(other.key);
+      const double time = then - EventTable::time_of(mine.key) + 0x1p-50 * then;
+      const double reach = 1 + 0x1p-20 + time * (speed + other.speed) * (1 + 0x1p-20);
+      // Farther than this it may be where nobody has looked.
+      if (!(reach < 1.01 + 2 * search_.drift())) return true;
+      double squares = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double gap = (&other.r.x)[axis] - (&mine.r.x)[axis], box = gas.box[axis];
+        const double nearest = gap - std::nearbyint(gap / box) * box;
+        squares += nearest * nearest;
+      }
+      return squares < reach * reach;
+    });
+  });
+}
+
+}  // namespace needlework

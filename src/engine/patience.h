@@ -1,0 +1,42 @@
+// How a thread waits for another.
+#pragma once
+
+#include <thread>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace needlework {
+
+/// Spins for about a microsecond, as long as most waits are, then lets others have the core: they
+/// may be those waited for.
+class Patience {
+ public:
+  void wait() {
+    if (++turns_ > 32) {
+      std::this_thread::yield();
+    } else {
+#if defined(__x86_64__)
+      _mm_pause();
+#endif
+    }
+  }
+  void reset() { turns_ = 0; }
+
+ private:
+  int turns_ = 0;
+};
+
+/// Called where a thread looks at how far others are. In a test build it lets others go first at
+/// random, to bring about orders of events in time that hardly ever happen otherwise.
+inline void look_away() {
+#ifdef NEEDLEWORK_RANDOM_YIELDS
+  thread_local unsigned state =
+      static_cast<unsigned>(reinterpret_cast<std::uintptr_t>(&state) >> 4);
+  state = state * 1664525u + 1013904223u;
+  if (state >> 24 < 16) std::this_thread::yield();
+#endif
+}
+
+}  // namespace needlework

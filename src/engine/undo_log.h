@@ -1,0 +1,58 @@
+// What a thread has replaced since the threads last met, so that it can be put back.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+class UndoLog {
+ public:
+  void replaced(Needle i, const Record& record, const Shift& image, Time last_collision) {
+    if (used_ == entries_.size()) entries_.emplace_back();
+    // Assigned, so that the memory of touches is used again.
+    Entry& entry = entries_[used_++];
+    entry.needle = i;
+    entry.record = record;
+    entry.image = image;
+    entry.last_collision = last_collision;
+    scheduled(i);
+  }
+  void scheduled(Needle i) { scheduled_.push_back(i); }
+
+  /// Needles whose event has been replaced, some of them more than once.
+  const std::vector<Needle>& scheduled() const { return scheduled_; }
+
+  void clear() {
+    used_ = 0;
+    scheduled_.clear();
+  }
+
+  /// Puts records back that are older than the present ones, so that with the logs of all threads
+  /// the oldest are left. `last_collision` may be empty.
+  void put_back(Gas& gas, std::vector<Time>& last_collision) {
+    for (std::size_t n = 0; n < used_; ++n) {
+      Entry& entry = entries_[n];
+      Record& record = gas.records[entry.needle];
+      if (entry.record.serial >= record.serial) continue;
+      std::swap(record, entry.record);
+      gas.images[entry.needle] = entry.image;
+      if (!last_collision.empty()) last_collision[entry.needle] = entry.last_collision;
+    }
+  }
+
+ private:
+  struct Entry {
+    Needle needle = no_needle;
+    Record record;
+    Shift image{};
+    Time last_collision;
+  };
+  std::vector<Entry> entries_;
+  std::size_t used_ = 0;
+  std::vector<Needle> scheduled_;
+};
+
+}  // namespace needlework

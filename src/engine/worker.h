@@ -1,0 +1,381 @@
+// Makes events happen: changes the records, and predicts anew for the needles concerned.
+//
+// Every needle has one event in the calendar: the earliest contact that its own last search found,
+// or the horizon at which that search was cut. A contact lies only with the needle that predicted
+// it; when its partner has been changed meanwhile, it is stale, and its owner searches again at
+// that time. So no cut search is ever forgotten, whatever happens to the contact that cut it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "src/engine/run.h"
+#include "src/engine/undo_log.h"
+#include "src/error.h"
+#include "src/prefetch.h"
+
+namespace needlework {
+
+inline Aftermath aftermath(const kernels::Flight& flight) {
+  const auto array = [](const Vec3d& a) { return std::array{a.x, a.y, a.z}; };
+  return {array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
+}
+
+/// Effects inside a collision, chosen at compile time.
+struct Effects {
+  bool rough = false;         ///< beta != -1
+  bool contact_time = false;  ///< the t_c rule
+};
+
+/// One thread's part in a run. Search, queue and tally are its own; the run is everybody's.
+template <class Search, class Queue, Effects effects>
+class Worker {
+ public:
+  Worker(Run& run, Search& search, Queue& queue, Tally& tally)
+      : run_(run), gas_(run.gas), search_(search), queue_(queue), tally_(tally) {}
+
+  /// Whether the partner of this contact has a new record since it was predicted.
+  bool is_stale(const Event& event) const {
+    return event.is_contact() && gas_.records[event.partner].serial != event.partner_serial;
+  }
+  /// Makes the event happen, at `now`.
+  void happen(const Event& event, bool stale);
+  /// Searches contacts of needle i from now on and enters its next event.
+  void schedule(Needle i, Time placed_until);
+  /// Puts an event into the queue; one by place is told where its owner is.
+  void enter(const Event& event) {
+    if constexpr (requires { queue_.set(event, search_.cell_index(event.owner)); }) {
+      queue_.set(event, search_.cell_index(event.owner));
+    } else {
+      queue_.set(event);
+    }
+  }
+  /// Brings what an event of this needle will read near.
+  void bring_near(Needle i) const {
+    prefetch(&gas_.records[i]);
+    if constexpr (requires { search_.bring_near(i); }) search_.bring_near(i);
+  }
+  /// Needles have other places in storage.
+  void forget() { last_shared_ = {}; }
+
+  Time now;
+  UndoLog* undo = nullptr;                    ///< where to note what is replaced, if anywhere
+  std::vector<Collision>* reports = nullptr;  ///< where to put collisions in place of the callback
+
+ private:
+  // A record that the event at hand has replaced, and the boxes by which its centre was wrapped.
+  struct Replaced {
+    Needle needle = no_needle;
+    Record record;
+    Shift wraps{};
+  };
+
+  // What was predicted of two needles just after their collision.
+  struct Shared {
+    Needle a = no_needle, b = no_needle;
+    std::uint32_t serial_a = 0, serial_b = 0;
+    Shift shift{};
+    Time until;
+    kernels::Contact contact;
+  };
+
+  void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
+  kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from, Time until);
+  kernels::Contact first_contact_of(const kernels::Pair& pair, double from, double to);
+  void settle_touch(Needle a, Needle b, const Shift& shift);
+  Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v, const Vec3d& w);
+  void horizon(Needle i);
+  void collide(const Event& event);
+  void count_at_instant(Needle a, Needle b);
+  [[noreturn]] void report_collapse(const Event& event) const;
+
+  Run& run_;
+  Gas& gas_;
+  Search& search_;
+  Queue& queue_;
+  Tally& tally_;
+  Time instant_;  ///< of the last collision
+  std::uint64_t collisions_at_instant_ = 0;
+  Shared last_shared_;
+  Replaced replaced_[2];
+  int replaced_count_ = 0;
+};
+
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::happen(const Event& event, bool stale) {
+  if (!event.resolvable && !stale) report_collapse(event);
+  ++tally_.counters.events;
+  now = event.time;
+  replaced_count_ = 0;
+  if (!event.is_contact()) {
+    horizon(event.owner);
+  } else if (stale) {
+    ++tally_.counters.stale;
+    schedule(event.owner, search_.place(event.owner, now));
+  } else {
+    collide(event);
+  }
+}
+
+// A horizon is the end of the record's precision, of the search's candidates, or of the span ahead.
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::horizon(Needle i) {
+  const Record& record = gas_.records[i];
+  if (record.renewal <= now) {
+    ++tally_.counters.renewals;
+    const double elapsed = gas_.clock.difference(now, record.time);
+    replace_record(i, director_after(record.flight, elapsed), record.flight.v, record.flight.w);
+  }
+  schedule(i, search_.place(i, now));
+}
+
+template <class Search, class Queue, Effects effects>
+Shift Worker<Search, Queue, effects>::replace_record(Needle i, const Vec3d& director,
+                                                     const Vec3d& v, const Vec3d& w) {
+  Replaced& old = replaced_[replaced_count_++];
+  old.needle = i;
+  old.record = gas_.records[i];
+  if (undo) {
+    undo->replaced(i, old.record, gas_.images[i],
+                   effects.contact_time ? run_.last_collision[i] : Time{});
+  }
+  old.wraps = renew_record(gas_, i, now, director, v, w);
+  return old.wraps;
+}
+
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::collide(const Event& event) {
+  const Needle a = event.lower(), b = event.higher();
+  count_at_instant(a, b);
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const kernels::Pair pair = make_pair(gas_, a, first, b, second, event.shift);
+  const DoubleDouble elapsed = gas_.clock.exact_difference(now, Gas::start_of(first, second));
+  const kernels::ContactGeometry contact = contact_geometry(pair, elapsed);
+
+  bool by_contact_time = false;
+  if constexpr (effects.contact_time) {
+    by_contact_time = gas_.clock.difference(now, run_.last_collision[a]) < run_.contact_time ||
+                      gas_.clock.difference(now, run_.last_collision[b]) < run_.contact_time;
+  }
+  const auto outcome = [&] {
+    const kernels::Flight &x = first.flight, &y = second.flight;
+    if (by_contact_time) {
+      return needlework::collide<true>(x, y, contact, event.side, gas_.k, Restitution{});
+    }
+    return needlework::collide<!effects.rough>(x, y, contact, event.side, gas_.k, run_.restitution);
+  };
+  const Impact impact = outcome();
+
+  Collision report;
+  report.epoch = now.epoch;
+  report.offset = now.offset;
+  report.time = gas_.clock.since_start(now);
+  report.first = gas_.ids[a];
+  report.second = gas_.ids[b];
+  report.shift = event.shift;
+  report.arm_first = contact.arm_first;
+  report.arm_second = contact.arm_second;
+  report.sin_angle = contact.sin_angle;
+  report.normal_velocity = impact.normal_velocity;
+  report.impulse = {impact.impulse.x, impact.impulse.y, impact.impulse.z};
+  report.energy_change = impact.energy_change;
+  report.contact_time_rule = by_contact_time;
+
+  const Shift wraps_a = replace_record(a, contact.u_first, impact.v_first, impact.w_first);
+  const Shift wraps_b = replace_record(b, contact.u_second, impact.v_second, impact.w_second);
+  if constexpr (effects.contact_time) run_.last_collision[a] = run_.last_collision[b] = now;
+  const Shift shift = event.shift + wraps_b - wraps_a;
+  const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};
+  gas_.records[a].touches.push_back({b, shift, touch});
+  gas_.records[b].touches.push_back({a, -shift, touch});
+
+  tally_.energy += run_.in_quanta(impact.energy_change);
+  ++tally_.collisions;
+  tally_.tc_collisions += by_contact_time;
+  tally_.hash.add(report);
+  const Time placed_a = search_.place(a, now), placed_b = search_.place(b, now);
+  schedule(a, placed_a);
+  schedule(b, placed_b);
+  if (reports || run_.callback) {
+    report.after = {aftermath(gas_.records[a].flight), aftermath(gas_.records[b].flight)};
+    if (reports) {
+      reports->push_back(report);
+    } else {
+      run_.callback(report);
+    }
+  }
+}
+
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::schedule(Needle i, Time placed_until) {
+  ++tally_.counters.searches;
+  if (undo) undo->scheduled(i);
+  Event best;
+  best.owner = i;
+  best.lower_id = best.higher_id = gas_.ids[i];
+  best.time =
+      std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(now, run_.search_span)});
+  search_.find(i, now, gas_.clock.difference(best.time, now),
+               [&](Needle j, const Shift& shift, double from, double to) {
+                 consider(i, j, shift, from, to, best);
+                 return gas_.clock.difference(best.time, now);
+               });
+  enter(best);
+}
+
+// Looks for a contact of i with this candidate before `best`, and makes it the best. It can only be
+// between the times `from` and `to` from now.
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::consider(Needle i, Needle j, const Shift& shift, double from,
+                                              double to, Event& best) {
+  const Record& mine = gas_.records[i];
+  const Record& other = gas_.records[j];
+  // Beyond the renewal of j its own event takes over.
+  const Time until = std::min({best.time, other.renewal, gas_.clock.add(now, to)});
+  Event event;
+  event.owner = i;
+  event.partner = j;
+  event.partner_serial = other.serial;
+  event.owner_is_lower = gas_.ids[i] < gas_.ids[j];
+  event.shift = event.owner_is_lower ? shift : -shift;
+  const Needle a = event.lower(), b = event.higher();
+  event.lower_id = gas_.ids[a];
+  event.higher_id = gas_.ids[b];
+  const kernels::Contact contact = predict(a, b, event.shift, from, until);
+  if (!contact.found) return;
+  event.time = gas_.clock.add(Gas::start_of(mine, other), contact.elapsed.hi);
+  event.side = static_cast<std::int8_t>(contact.side);
+  event.resolvable = !contact.unresolvable;
+  if (event.time < now) {
+    throw InvalidStateError("needles " + std::to_string(event.lower_id) + " and " +
+                            std::to_string(event.higher_id) + ": a contact at time " +
+                            std::to_string(gas_.clock.since_start(event.time)) +
+                            " was missed; this is a defect of the program");
+  }
+  if (event < best) best = event;
+}
+
+template <class Search, class Queue, Effects effects>
+kernels::Contact Worker<Search, Queue, effects>::predict(Needle a, Needle b, const Shift& shift,
+                                                         double from_now, Time until) {
+  ++tally_.counters.predicted;
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const Time start = Gas::start_of(first, second);
+  // With several threads a record may be from later than now; till then the needles do not meet.
+  if (until < start) return {};
+  // Rounded outwards; the times themselves are compared exactly.
+  double from = std::max(0.0, (gas_.clock.difference(now, start) + from_now) * (1 - 0x1p-50));
+  const double to = gas_.clock.difference(until, start) * (1 + 0x1p-50);
+  kernels::Pair pair = make_pair(gas_, a, first, b, second, shift);
+  // Both partners of a collision search the pair, with records made now.
+  const bool shared = pair.touch.collided && first.time == second.time;
+  const Shared& last = last_shared_;
+  if (shared && last.a == a && last.b == b && same(last.shift, shift) &&
+      last.serial_a == first.serial && last.serial_b == second.serial) {
+    if (last.contact.found || until <= last.until) return last.contact;
+    from = gas_.clock.difference(last.until, start) * (1 - 0x1p-50);
+  }
+  kernels::Contact contact = first_contact_of(pair, from, to);
+  if (contact.side_unknown) {
+    settle_touch(a, b, shift);
+    pair = make_pair(gas_, a, first, b, second, shift);
+    contact = first_contact_of(pair, from, to);
+  }
+  // A return that the clock cannot tell from the collision before.
+  if (contact.found && pair.touch.collided && contact.elapsed.hi < 64 * gas_.clock.resolution()) {
+    contact.unresolvable = true;
+  }
+  if (shared) last_shared_ = {a, b, first.serial, second.serial, shift, until, contact};
+  return contact;
+}
+
+template <class Search, class Queue, Effects effects>
+kernels::Contact Worker<Search, Queue, effects>::first_contact_of(const kernels::Pair& pair,
+                                                                  double from, double to) {
+  kernels::SearchCounters spent;
+  const kernels::Contact contact = first_contact(pair, from, to, spent);
+  tally_.counters.evaluated += spent.evaluated;
+  tally_.counters.escalated += spent.escalated;
+  return contact;
+}
+
+// A record has just been made anew so near to touching another needle that rounding it may have
+// moved it to the other side. The gap is continued from the records before.
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shift& shift) {
+  if (std::max(gas_.records[a].time, gas_.records[b].time) > now) {
+    throw InvalidStateError("needles touch at an event that another thread has done before");
+  }
+  ++tally_.counters.touches;
+  const Record* first = &gas_.records[a];
+  const Record* second = &gas_.records[b];
+  Shift old_shift = shift;
+  for (int n = 0; n < replaced_count_; ++n) {
+    const Replaced& old = replaced_[n];
+    if (old.needle == a) {
+      first = &old.record;
+      old_shift = old_shift + old.wraps;
+    } else if (old.needle == b) {
+      second = &old.record;
+      old_shift = old_shift - old.wraps;
+    }
+  }
+  const kernels::Pair before = make_pair(gas_, a, *first, b, *second, old_shift);
+  const Time start = Gas::start_of(*first, *second);
+  const double elapsed = gas_.clock.difference(now, start);
+  kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
+  const kernels::Contact due =
+      first_contact_of(before, elapsed * (1 - 0x1p-50), elapsed * (1 + 0x1p-50));
+  if (due.found && gas_.clock.add(start, due.elapsed.hi) <= now) {
+    touch.side = due.side;  // a contact that is due now and has not happened yet
+  } else {
+    touch.gap = gap_at(before, gas_.clock.exact_difference(now, start));
+    touch.side = touch.gap > 0 ? 1 : touch.gap < 0 ? -1 : side_after(before);
+  }
+  Record& later = gas_.records[a].time >= gas_.records[b].time ? gas_.records[a] : gas_.records[b];
+  const bool is_first = &later == &gas_.records[a];
+  later.touches.push_back({is_first ? b : a, is_first ? shift : -shift, touch});
+}
+
+// Three needles or more can collapse too, by hitting each other in turn. When that has come to
+// where the clock stands still, more collisions happen at one instant than needles could have
+// there.
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::count_at_instant(Needle a, Needle b) {
+  if (now != instant_) collisions_at_instant_ = 0;
+  instant_ = now;
+  if (++collisions_at_instant_ <= 64 + 2 * gas_.size()) return;
+  throw InvalidStateError("needles " + std::to_string(gas_.ids[a]) + " and " +
+                          std::to_string(gas_.ids[b]) + " and others collapse at time " +
+                          std::to_string(gas_.clock.since_start(now)) + ": " +
+                          std::to_string(collisions_at_instant_) +
+                          " collisions at one instant; set collisions.tc_relative, to 1e-3 say");
+}
+
+template <class Search, class Queue, Effects effects>
+void Worker<Search, Queue, effects>::report_collapse(const Event& event) const {
+  const Needle a = event.lower(), b = event.higher();
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const kernels::Pair pair = make_pair(gas_, a, first, b, second, event.shift);
+  const Time start = Gas::start_of(first, second);
+  const kernels::ContactGeometry contact =
+      contact_geometry(pair, gas_.clock.exact_difference(event.time, start));
+  const double gap =
+      gap_at(pair, gas_.clock.exact_difference(event.time, start)) / contact.sin_angle;
+  const std::string advice =
+      run_.restitution.epsilon == 0
+          ? "with collisions.epsilon = 0 there is no rebound, and no contact time can help"
+          : "set collisions.tc_relative, to 1e-3 say, so that they slide along each other";
+  char numbers[160];
+  std::snprintf(numbers, sizeof numbers, " at time %.17g, gap %.3g, back after %.3g",
+                gas_.clock.since_start(event.time), gap, gas_.clock.difference(event.time, start));
+  throw InvalidStateError("collapse of needles " + std::to_string(gas_.ids[a]) + " and " +
+                          std::to_string(gas_.ids[b]) + numbers +
+                          ": their next bounce is below what double resolves; " + advice);
+}
+
+}  // namespace needlework

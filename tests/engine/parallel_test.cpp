@@ -1,0 +1,172 @@
+// Runs on several threads are those on one, bit for bit, to the last collision.
+#include <gtest/gtest.h>
+
+#include "src/error.h"
+#include "tests/support/same_run.h"
+
+namespace needlework {
+namespace {
+
+#ifdef NDEBUG
+constexpr double thin = 1;
+#else
+constexpr double thin = 10;
+#endif
+
+struct Case {
+  const char* name;
+  std::uint64_t count;
+  std::array<double, 3> box;
+  double epsilon, beta, tc_relative, k, collisions;
+};
+
+Scene scene_of(const Case& c) {
+  Scene scene = test::scene_of(c.count, c.box[0], 3);
+  scene.needles.box = c.box;
+  scene.needles.k = c.k;
+  scene.collisions.epsilon = c.epsilon;
+  scene.collisions.beta = c.beta;
+  if (c.tc_relative > 0) scene.collisions.tc_relative = c.tc_relative;
+  return scene;
+}
+
+class ParallelRun : public testing::TestWithParam<Case> {};
+
+TEST_P(ParallelRun, IsThatOfOneThread) {
+  Scene scene = scene_of(GetParam());
+  const double count = GetParam().collisions / thin;
+  scene.engine.threads = 1;
+  const test::Recorded truth = test::record(scene, count);
+  for (const char* search : {"linked-cells", "capsules"}) {
+    for (const int threads : {2, 3, 4, 8}) {
+      SCOPED_TRACE(std::string(search) + " on " + std::to_string(threads) + " threads");
+      scene.engine.search = search;
+      scene.engine.threads = threads;
+      ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, test::record(scene, count)));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, ParallelRun,
+    testing::Values(Case{"dilute", 2000, {14, 14, 14}, 1, -1, 0, 6, 10000},
+                    Case{"dense", 4000, {7, 7, 7}, 1, -1, 0, 6, 10000},
+                    Case{"very_dense", 2000, {2.7, 2.7, 2.7}, 1, -1, 0, 6, 4000},
+                    Case{"cooling", 2000, {9, 9, 9}, 0.8, -1, 1e-3, 6, 10000},
+                    Case{"strongly_cooling", 1000, {8, 8, 8}, 0.4, -1, 1e-2, 6, 10000},
+                    Case{"rough", 1000, {10, 10, 10}, 0.9, 0.4, 1e-3, 6, 4000},
+                    Case{"swift_rotation", 1000, {10, 10, 10}, 1, -1, 0, 50, 4000},
+                    Case{"slab", 1000, {30, 2.01, 9}, 1, -1, 0, 6, 4000},
+                    Case{"thread", 500, {200, 2.01, 2.01}, 0.9, -1, 1e-3, 6, 2000},
+                    Case{"least_box", 300, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 2000},
+                    Case{"very_dilute", 300, {30, 30, 30}, 1, -1, 0, 6, 1000},
+                    Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+// Who runs when is up to the system, so a run is repeated.
+TEST(Parallel, IsTheSameEveryTime) {
+  Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
+  scene.engine.threads = 1;
+  const std::string truth = test::record(scene, 2000).hash;
+  for (int n = 0; n < 50 / thin; ++n) {
+    for (const int threads : {3, 8}) {
+      scene.engine.threads = threads;
+      ASSERT_EQ(test::record(scene, 2000).hash, truth) << threads << " threads, run " << n;
+    }
+  }
+}
+
+TEST(Parallel, UsesItsThreads) {
+  Scene scene = scene_of({"", 2000, {14, 14, 14}, 1, -1, 0, 6, 0});
+  scene.engine.threads = 2;
+  Simulation simulation(scene);
+  Scene::Until until;
+  until.collisions_per_needle = 10;
+  ASSERT_EQ(simulation.advance(until), Stop::collisions);
+  const Counters& counters = simulation.counters();
+  EXPECT_EQ(simulation.queue(), "cell-calendar");
+  EXPECT_GT(counters.phases, 5u);
+  EXPECT_LE(counters.redone, counters.phases / 5);
+  EXPECT_GT(counters.foreign, 10u);  // collisions over the border
+}
+
+TEST(Parallel, StopsWhereOneThreadStops) {
+  Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
+  const auto stops = [&](int threads) {
+    scene.engine.threads = threads;
+    Simulation simulation(scene);
+    std::vector<std::tuple<Stop, double, std::uint64_t, std::string>> out;
+    std::vector<State> states;
+    const auto advance = [&](const Scene::Until& until) {
+      const Stop stop = simulation.advance(until);
+      out.push_back(
+          {stop, simulation.time(), simulation.totals().collisions, simulation.trajectory_hash()});
+      states.push_back(simulation.state());
+    };
+    for (const double time : {0.001, 0.13, 0.2, 0.2}) advance({.time = time});
+    for (const double mean : {1.5, 1.502, 3.0}) advance({.collisions_per_needle = mean});
+    for (const double ratio : {0.7, 0.31}) advance({.energy_ratio = ratio});
+    return std::pair(out, states);
+  };
+  const auto [truth, states] = stops(1);
+  for (const int threads : {2, 3, 8}) {
+    const auto [stopped, seen] = stops(threads);
+    ASSERT_EQ(stopped, truth) << threads << " threads";
+    for (std::size_t n = 0; n < states.size(); ++n) {
+      EXPECT_EQ(seen[n].position, states[n].position);
+      EXPECT_EQ(seen[n].image, states[n].image);
+      EXPECT_EQ(seen[n].velocity, states[n].velocity);
+      EXPECT_EQ(seen[n].orientation, states[n].orientation);
+    }
+  }
+}
+
+// An end by energy cannot be foreseen: the phase in which it lies is undone.
+TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
+  Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
+  scene.engine.threads = 2;
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.advance({.energy_ratio = 0.5}), Stop::energy);
+  EXPECT_GE(simulation.counters().redone, 1u);
+}
+
+TEST(Parallel, FailsWhereOneThreadFails) {
+  Scene scene = scene_of({"", 400, {5, 5, 5}, 0.2, -1, 0, 6, 0});
+  const auto failure = [&](int threads) {
+    scene.engine.threads = threads;
+    Simulation simulation(scene);
+    std::string message;
+    try {
+      simulation.advance({.collisions_per_needle = 1000});
+    } catch (const InvalidStateError& error) {
+      message = error.what();
+    }
+    return std::tuple(message, simulation.totals().collisions, simulation.trajectory_hash(),
+                      simulation.state().position);
+  };
+  const auto truth = failure(1);
+  ASSERT_NE(std::get<0>(truth), "");
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(failure(threads), truth) << threads << " threads";
+}
+
+TEST(Parallel, CanBeInterrupted) {
+  Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
+  scene.engine.threads = 2;
+  Simulation simulation(scene);
+  simulation.on_collision([&](const Collision&) { simulation.interrupt(); });
+  EXPECT_EQ(simulation.advance({.collisions_per_needle = 1e6}), Stop::interrupted);
+  EXPECT_EQ(simulation.advance({.wall_s = 0.05}), Stop::interrupted);
+}
+
+TEST(Parallel, RefusesSearchesAndQueuesOfOneThread) {
+  Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
+  scene.engine.threads = 2;
+  scene.engine.search = "all-pairs";
+  EXPECT_THROW(Simulation{scene}, InputError);
+  scene.engine.search = "auto";
+  scene.engine.queue = "tournament";
+  EXPECT_THROW(Simulation{scene}, InputError);
+}
+
+}  // namespace
+}  // namespace needlework

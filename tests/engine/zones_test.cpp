@@ -1,0 +1,122 @@
+#include "src/engine/zones.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "src/engine/claims.h"
+#include "tests/support/random.h"
+
+namespace needlework {
+namespace {
+
+std::size_t size_of(const CellCounts& cells) {
+  return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2];
+}
+
+CellCounts place_of(std::size_t index, const CellCounts& cells) {
+  const auto i = static_cast<std::int32_t>(index);
+  return {i % cells[0], i / cells[0] % cells[1], i / cells[0] / cells[1]};
+}
+
+std::int32_t steps_between(std::int32_t a, std::int32_t b, std::int32_t n) {
+  const std::int32_t d = std::abs(a - b);
+  return std::min(d, n - d);
+}
+
+TEST(Zones, GetTheirShareOfTheNeedles) {
+  test::Random random(1);
+  for (const CellCounts cells : {CellCounts{12, 12, 12}, {40, 3, 7}, {1, 1, 64}}) {
+    std::vector<std::size_t> weight(size_of(cells));
+    for (auto& w : weight) w = 5 + random.below(10);
+    const std::size_t total = std::accumulate(weight.begin(), weight.end(), std::size_t{0});
+    for (const std::uint32_t zones : {1u, 2u, 3u, 8u}) {
+      const std::vector<std::uint32_t> zone = divide_box(cells, weight, zones);
+      std::vector<std::size_t> share(zones);
+      for (std::size_t c = 0; c < zone.size(); ++c) share.at(zone[c]) += weight[c];
+      for (const std::size_t s : share) {
+        EXPECT_NEAR(static_cast<double>(s) * zones / static_cast<double>(total), 1, 0.35)
+            << zones << " zones of " << cells[0];
+      }
+    }
+  }
+}
+
+TEST(Zones, MayBeMoreThanTheCells) {
+  const std::vector<std::uint32_t> zone = divide_box({1, 1, 2}, {1, 1}, 8);
+  EXPECT_NE(zone[0], zone[1]);
+  EXPECT_LT(zone[0], 8u);
+  EXPECT_LT(zone[1], 8u);
+}
+
+TEST(Zones, KnowTheirInnerCells) {
+  const CellCounts cells{9, 8, 10}, distance{2, 1, 3};
+  const std::vector<std::uint32_t> zone =
+      divide_box(cells, std::vector<std::size_t>(size_of(cells), 1), 3);
+  const std::vector<std::uint8_t> inner = inner_cells(cells, zone, distance);
+  int count = 0;
+  for (std::size_t a = 0; a < zone.size(); ++a) {
+    bool alone = true;
+    for (std::size_t b = 0; b < zone.size(); ++b) {
+      const CellCounts x = place_of(a, cells), y = place_of(b, cells);
+      bool close = true;
+      for (int i = 0; i < 3; ++i) close &= steps_between(x[i], y[i], cells[i]) <= distance[i];
+      alone &= !close || zone[a] == zone[b];
+    }
+    EXPECT_EQ(inner[a], alone) << a;
+    count += inner[a];
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(CellBoxes, AreNearWhenAnyOfTheirCellsAre) {
+  test::Random random(2);
+  const CellCounts cells{7, 5, 11};
+  const auto box = [&] {
+    CellBox out;
+    for (int i = 0; i < 3; ++i) {
+      out.low[i] = static_cast<std::int32_t>(random.below(cells[i]));
+      out.more[i] = static_cast<std::int32_t>(random.below(3));
+    }
+    return out;
+  };
+  int nears = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const CellBox a = box(), b = box();
+    const CellCounts distance{static_cast<std::int32_t>(random.below(3)),
+                              static_cast<std::int32_t>(random.below(2)), 1};
+    bool expected = true;
+    for (int i = 0; i < 3; ++i) {
+      bool close = false;
+      for (std::int32_t x = 0; x <= a.more[i]; ++x) {
+        for (std::int32_t y = 0; y <= b.more[i]; ++y) {
+          close |= steps_between((a.low[i] + x) % cells[i], (b.low[i] + y) % cells[i], cells[i]) <=
+                   distance[i];
+        }
+      }
+      expected &= close;
+    }
+    ASSERT_EQ(near(a, b, cells, distance), expected);
+    ASSERT_EQ(near(b, a, cells, distance), expected);
+    nears += expected;
+  }
+  EXPECT_GT(nears, 500);
+  EXPECT_LT(nears, 4500);
+}
+
+TEST(Claims, GiveWayToThreadsOfLowerNumber) {
+  Claims claims({20, 20, 20}, {1, 1, 1}, 3);
+  EXPECT_TRUE(claims.claim(1, Claims::owner, {{5, 5, 5}, {1, 0, 0}}));
+  EXPECT_FALSE(claims.claim(2, Claims::owner, {{7, 6, 4}, {}}));
+  EXPECT_TRUE(claims.claim(2, Claims::owner, {{8, 5, 5}, {}}));
+  EXPECT_FALSE(claims.claim(2, Claims::partner, {{4, 5, 5}, {}}));  // gives up all
+  EXPECT_TRUE(claims.claim(0, Claims::owner, {{8, 5, 5}, {}}));
+  claims.drop(0);
+  claims.drop(1);
+  EXPECT_TRUE(claims.claim(2, Claims::owner, {{5, 5, 5}, {19, 0, 0}}));
+}
+
+}  // namespace
+}  // namespace needlework
