@@ -48,11 +48,10 @@ class CellCalendar {
     }
     return top_of(winner(best));
   }
-  Needle soon() const {
-    const Zone& zone = zones_.front();
-    if (zone.blocks.empty()) return top().owner;
-    const Block b = zone.blocks[zone.order.second()];
-    const Needle i = blocks_[b].keys.empty() ? events_[0].owner : blocks_[b].next;
+  Needle soon(std::uint32_t zone = 0) const {
+    const Zone& of = zones_[zone];
+    if (of.blocks.empty()) return 0;
+    const Needle i = blocks_[of.blocks[of.order.second()]].next;
     events_.prefetch(i);
     return i;
   }
@@ -164,9 +163,21 @@ class CellCalendar {
     TimeKey key;
     Needle needle;
   };
+  // Anybody may ask, and be told late.
+  struct Next {
+    std::atomic<Needle> value{0};
+
+    Next() = default;
+    Next(Next&& other) noexcept : value(other) {}
+    Next& operator=(Needle i) {
+      value.store(i, std::memory_order_relaxed);
+      return *this;
+    }
+    operator Needle() const { return value.load(std::memory_order_relaxed); }
+  };
   struct Content {
     std::vector<Entry> keys;
-    Needle next = no_needle;  ///< of those in it
+    Next next;  ///< of those in it
   };
   struct Place {
     std::atomic<Block> block{0};  ///< others may ask where a needle is, and be told late

@@ -46,7 +46,9 @@ class Claims {
   /// Adds to the claim of a thread, or makes a part of it larger; waits until no other claim is in
   /// the way. Gives up all of it and returns false when a thread of lower number is.
   bool claim(std::size_t thread, Part part, const CellBox& box) {
-    claims_[thread].part[part].store(packed(box), std::memory_order_seq_cst);
+    std::atomic<std::uint64_t>& mine = claims_[thread].part[part];
+    if (mine.load(std::memory_order_relaxed) == packed(box)) return true;
+    mine.store(packed(box), std::memory_order_seq_cst);
     for (std::size_t other = 0; other < claims_.size(); ++other) {
       if (other == thread) continue;
       Patience patience;

@@ -118,10 +118,10 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
     std::uint32_t lower_id, higher_id;
   };
 
-  CellCounts place_of(Block block) const;
+  CellBox cell_of(Block block) const { return {places_[block], {}}; }
   template <class Visit>
   bool any_around(const CellBox& box, const CellCounts& distance, Visit&& visit) const;
-  Block earlier_around(Block centre, Block block, TimeKey key) const;
+  Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   bool may_have_met(const Taken& mine, double speed) const;
@@ -141,6 +141,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   CellCounts apart_;       ///< events farther than this never touch the same
   Claims claims_;
   std::vector<std::uint8_t> inner_;       ///< of a block: nobody else ever comes near
+  std::vector<std::uint8_t> ours_;        ///< of a block: all within reach are of its zone
+  std::vector<CellCounts> places_;        ///< of the blocks
   std::vector<std::vector<Taken>> done_;  ///< in a block: needles whose events this phase has done
   std::vector<TimeKey> latest_done_;      ///< of these
   std::deque<Hand> hands_;
@@ -185,6 +187,11 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
                        " cells along an edge");
     }
   }
+  const auto x = static_cast<Block>(cells_[0]), y = static_cast<Block>(cells_[1]);
+  for (Block b = 0; b < queue_.blocks(); ++b) {
+    places_.push_back({static_cast<std::int32_t>(b % x), static_cast<std::int32_t>(b / x % y),
+                       static_cast<std::int32_t>(b / x / y)});
+  }
   for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
   divide();
 }
@@ -197,6 +204,7 @@ void ParallelLoop<Search, effects>::divide() {
   const std::vector<std::uint32_t> zone = divide_box(cells_, weight, threads);
   queue_.divide(zone, threads);
   inner_ = inner_cells(cells_, zone, apart_);
+  ours_ = inner_cells(cells_, zone, reach_);
   for (Hand& hand : hands_) hand.worker.forget();
 }
 
@@ -309,17 +317,17 @@ void ParallelLoop<Search, effects>::undo() {
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::report() {
   if (!this->callback) return;
-  std::vector<Collision> all;
+  std::vector<const Collision*> all;
   for (const Hand& hand : hands_) {
-    all.insert(all.end(), hand.reports.begin(), hand.reports.end());
+    for (const Collision& collision : hand.reports) all.push_back(&collision);
   }
-  std::sort(all.begin(), all.end(), [](const Collision& a, const Collision& b) {
+  std::sort(all.begin(), all.end(), [](const Collision* a, const Collision* b) {
     const auto key = [](const Collision& c) {
       return std::tie(c.epoch, c.offset, c.first, c.second, c.shift);
     };
-    return key(a) < key(b);
+    return key(*a) < key(*b);
   });
-  for (const Collision& collision : all) this->callback(collision);
+  for (const Collision* collision : all) this->callback(*collision);
 }
 
 template <class Search, Effects effects>
@@ -362,23 +370,24 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   };
   if (!alone) {
     ++me.tally.counters.border;
-    const Block earlier = earlier_around(block, block, key);
+    const Block earlier = earlier_around(me, block, block, key);
     if (earlier != nobody) return give_up(earlier);
-    if (!claim(Claims::owner, {place_of(block), {}})) return Outcome::again;
+    if (!claim(Claims::owner, cell_of(block))) return Outcome::again;
     // Somebody may have written to the block just before.
     if (queue_.clock_of(block) != key) return give_up(nobody);
   }
   const Event event = queue_.top_of(block);
+  me.worker.bring_near(queue_.soon(me.zone));
   bool stale = false, near_partner = false;
   if (event.is_contact()) {
     // A partner that is no longer near has had another collision.
     const Block other = queue_.block_of(event.partner);
-    const CellBox here{place_of(block), {}}, there{place_of(other), {}};
+    const CellBox here = cell_of(block), there = cell_of(other);
     near_partner = near(here, there, cells_, neighbours_);
     stale = !near_partner;
     if (near_partner) {
       if (!alone && other != block) {
-        const Block earlier = earlier_around(other, block, key);
+        const Block earlier = earlier_around(me, other, block, key);
         if (earlier != nobody) return give_up(earlier);
       }
       if (!claim(Claims::partner, there)) return Outcome::again;
@@ -493,13 +502,6 @@ void ParallelLoop<Search, effects>::make_known(Hand& me) {
   }
 }
 
-template <class Search, Effects effects>
-CellCounts ParallelLoop<Search, effects>::place_of(Block block) const {
-  const auto x = static_cast<Block>(cells_[0]), y = static_cast<Block>(cells_[1]);
-  return {static_cast<std::int32_t>(block % x), static_cast<std::int32_t>(block / x % y),
-          static_cast<std::int32_t>(block / x / y)};
-}
-
 // Whether visit(block) holds for any block not farther than `distance` from the box.
 template <class Search, Effects effects>
 template <class Visit>
@@ -530,13 +532,19 @@ bool ParallelLoop<Search, effects>::any_around(const CellBox& box, const CellCou
   return false;
 }
 
-// A block within reach of `centre` whose clock is behind the event of `block`, if any.
+// A block within reach of `centre` whose clock is behind the event of `block`, if any. Of the
+// zone's own blocks these can only be held ones.
 template <class Search, Effects effects>
-auto ParallelLoop<Search, effects>::earlier_around(Block centre, Block block, TimeKey key) const
-    -> Block {
+auto ParallelLoop<Search, effects>::earlier_around(const Hand& me, Block centre, Block block,
+                                                   TimeKey key) const -> Block {
   look_away();
+  for (const Held& held : me.held) {
+    const bool before = held.key < key || (held.key == key && held.block < block);
+    if (before && near(cell_of(held.block), cell_of(centre), cells_, reach_)) return held.block;
+  }
   Block found = nobody;
-  any_around({place_of(centre), {}}, reach_, [&](Block b) {
+  if (ours_[centre] && queue_.zone_of(centre) == me.zone) return found;
+  any_around(cell_of(centre), reach_, [&](Block b) {
     const TimeKey clock = queue_.clock_of(b);
     if (clock > key || (clock == key && b >= block)) return false;
     found = b;
@@ -584,7 +592,7 @@ bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed
     return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
                                            std::tie(b.contact, b.lower_id, b.higher_id);
   };
-  return any_around({place_of(block_at(mine.r)), {}}, neighbours_, [&](Block b) {
+  return any_around(cell_of(block_at(mine.r)), neighbours_, [&](Block b) {
     if (latest_done_[b] < mine.key) return false;
     return std::any_of(done_[b].begin(), done_[b].end(), [&](const Taken& other) {
       if (!after(other, mine)) return false;

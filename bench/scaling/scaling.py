@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""Measures how a run gains from threads, and what limits it.
+
+    bench/scaling/scaling.py                 all scenes on 1 to all cores, 10 minutes on two
+    bench/scaling/scaling.py dilute weak     some of them
+    bench/scaling/scaling.py tables          no measuring: table and picture anew from the file
+
+Repetitions of all settings are interleaved, and the best of each is taken: wall time of the event
+loop per collision. "alone" is one thread with whatever search and queue is best for one; "apart" is
+as many runs of that as there are threads, at once, and their collisions together: what the cores
+can give. Writes scaling.json, scaling.md and scaling.svg to bench/results/MACHINE-ISA/.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench"))
+import study  # noqa: E402
+
+DILUTE = 24 / 10000 ** (1 / 3)  # box over N^(1/3)
+DENSE = 12 / 20000 ** (1 / 3)
+
+# name: (needles, box, collisions per needle)
+STRONG = {
+    "dilute": (10000, 24.0, 10),
+    "dense": (20000, 12.0, 5),
+    "dilute-1e5": (100000, DILUTE * 1e5 ** (1 / 3), 1.0),
+    "dilute-1e6": (1000000, DILUTE * 1e6 ** (1 / 3), 0.3),
+}
+WEAK = {"weak": (100000, DILUTE, 1.0)}  # needles for each thread
+
+
+def scene(needles, box, collisions):
+    return (f"[needles]\ncount = {needles}\nbox = {box}\n"
+            f"[until]\ncollisions_per_needle = {collisions}\n")
+
+
+def start(program, file, threads):
+    return subprocess.Popen([program, "run", file, "--json", "--quiet", "--threads", str(threads)],
+                            stdout=subprocess.PIPE, text=True)
+
+
+def end(process):
+    out, _ = process.communicate()
+    if process.returncode:
+        sys.exit(f"{process.args}: exit {process.returncode}")
+    return json.loads(out)
+
+
+def measure(program, names, most, repetitions):
+    results = []
+    for name in names:
+        weak = name in WEAK
+        needles, box, collisions = (WEAK if weak else STRONG)[name]
+        counts = sorted({1, most} | {n for n in (2, 3, 4, 6, 8, 12, 16, 24, 32) if n <= most})
+        settings = [("alone", 1)] + [("together", n) for n in counts if n > 1]
+        settings += [("apart", n) for n in counts if n > 1]
+        best = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(repetitions):
+                for kind, n in settings:
+                    count = needles * n if weak and kind == "together" else needles
+                    side = box * count ** (1 / 3) if weak else box
+                    file = Path(folder) / f"{name}-{count}.toml"
+                    file.write_text(scene(count, side, collisions))
+                    runs = [end(p) for p in [start(program, file, 1 if kind == "apart" else n)
+                                             for _ in range(n if kind == "apart" else 1)]]
+                    rate = sum(r["collisions"] / r["wall_s"] for r in runs)
+                    if rate > best.get((kind, n), (0, None))[0]:
+                        best[kind, n] = rate, runs[0]
+        for (kind, n), (rate, run) in best.items():
+            results.append({"scene": name, "kind": kind, "threads": n, "needles": run["needles"],
+                            "collisions_per_s": rate, "us_per_collision": 1e6 / rate,
+                            "cpu_us_per_collision": run["us_per_collision"],
+                            "hash": run["trajectory_hash"], "queue": run["queue"],
+                            "search": run["search"], "events": run["events"],
+                            "stats": run["stats"]})
+            print(f"{name:11} {kind:9} {n:2}  {1e6 / rate:7.3f} us per collision", flush=True)
+        if not weak and len({r["hash"] for r in results if r["scene"] == name}) > 1:
+            sys.exit(f"{name}: the trajectory depends on the number of threads")
+    return results
+
+
+def table(data):
+    rows = ["| scene | needles | threads | us per collision | speed-up | efficiency | of runs apart |"
+            " events that look at others | events a wait | of phases undone |",
+            "|---|---|---|---|---|---|---|---|---|---|"]
+    by = {(r["scene"], r["kind"], r["threads"]): r for r in data["results"]}
+    for (name, kind, n), r in by.items():
+        if kind == "apart":
+            continue
+        one = by[name, "alone", 1]
+        gain = r["collisions_per_s"] / one["collisions_per_s"]
+        cells = [name, f"{r['needles']}", f"{n}", f"{r['us_per_collision']:.2f}"]
+        if kind == "together":
+            apart = by[name, "apart", n]["collisions_per_s"]
+            s = r["stats"]
+            cells += [f"{gain:.2f}", f"{gain / n:.2f}", f"{r['collisions_per_s'] / apart:.2f}",
+                      f"{100 * s['border'] / r['events']:.0f} %",
+                      f"{r['events'] / max(1, s['waited']):.1f}",
+                      f"{s['redone']} of {s['phases']}"]
+        else:
+            cells += ["1", "1"] + [""] * 4
+        rows.append("| " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def draw(data, file):
+    import matplotlib
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+    matplotlib.rcParams["svg.hashsalt"] = "needlework"
+    figure, axes = plt.subplots(figsize=(5.2, 4))
+    by = {}
+    for r in data["results"]:
+        by.setdefault(r["scene"], {})[r["kind"], r["threads"]] = r["collisions_per_s"]
+    most = max(r["threads"] for r in data["results"])
+    for name, rates in by.items():
+        points = [(n, rate / rates["alone", 1]) for (kind, n), rate in sorted(rates.items())
+                  if kind != "apart"]
+        axes.plot(*zip(*points), "o-", label=name)
+    axes.plot([1, most], [1, most], color="0.7", linestyle="--", label="ideal")
+    axes.set_xticks(range(1, most + 1) if most < 9 else [1, 2, 4, 8, 16, 32])
+    axes.set_xlabel("threads")
+    axes.set_ylabel("speed-up over the best setting for one thread")
+    axes.legend(frameon=False)
+    figure.tight_layout()
+    figure.savefig(file, metadata={"Date": None})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", help=", ".join([*STRONG, *WEAK, "tables"]))
+    parser.add_argument("--build", type=Path, default=ROOT / "build/release")
+    parser.add_argument("--machine", help="its name among the results")
+    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--repetitions", type=int, default=5)
+    arguments = parser.parse_args()
+    names = arguments.scenes or [*STRONG, *WEAK]
+    folder = study.BENCH / "results" / (arguments.machine or study.machine_name(arguments.build))
+    file = folder / "scaling.json"
+    if names != ["tables"]:
+        for name in names:
+            if name not in STRONG and name not in WEAK:
+                parser.error(f"{name}: expected some of {', '.join([*STRONG, *WEAK, 'tables'])}")
+        new = measure(arguments.build / "needlework", names, arguments.threads,
+                      arguments.repetitions)
+        old = json.loads(file.read_text())["results"] if file.exists() else []
+        kept = [r for r in old if r["scene"] not in names]
+        order = [*STRONG, *WEAK]
+        study.write_json(file, {"commit": study.commit(), "results": sorted(
+            kept + new, key=lambda r: order.index(r["scene"]))})
+    data = json.loads(file.read_text())
+    (folder / "scaling.md").write_text(
+        "# Threads\n\nMade by `bench/scaling/scaling.py`; bench/README.md says what the columns are.\n\n" + table(data) +
+        "\n")
+    draw(data, folder / "scaling.svg")
+    print(table(data))
+
+
+if __name__ == "__main__":
+    main()
