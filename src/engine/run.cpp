@@ -121,13 +121,17 @@ void Run::open_window() {
   search_span = 4 * window_span_;
 }
 
-void Run::tell(Collision& report, Needle a, Needle b) const {
+void Run::tell(Collision& report, Needle a, Needle b, std::vector<Collision>* later) const {
   const auto aftermath = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return Aftermath{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
   };
   report.after = {aftermath(a), aftermath(b)};
-  callback(report);
+  if (later) {
+    later->push_back(report);
+  } else {
+    callback(report);
+  }
 }
 
 bool Run::nothing_can_happen() const {

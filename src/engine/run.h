@@ -40,6 +40,10 @@ class Run {
     return static_cast<std::int64_t>(energy * per_quantum_);
   }
 
+  /// Passes a collision of these two to the callback, or puts it down for later. Apart from the
+  /// loops, whose code it would swell.
+  void tell(Collision& report, Needle a, Needle b, std::vector<Collision>* later) const;
+
   Gas gas;
   Time now;
   Restitution restitution;
@@ -56,9 +60,6 @@ class Run {
   /// Sets mean free time, contact time and the next window's end from the present state.
   void open_window();
   bool nothing_can_happen() const;
-  /// Passes a collision of these two to the callback. Apart from the loops, whose code it would
-  /// swell.
-  void tell(Collision& report, Needle a, Needle b) const;
   /// Fills in temperatures and energy.
   void sum_energies(Totals& out) const;
 

@@ -17,11 +17,6 @@
 
 namespace needlework {
 
-inline Aftermath aftermath(const kernels::Flight& flight) {
-  const auto array = [](const Vec3d& a) { return std::array{a.x, a.y, a.z}; };
-  return {array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
-}
-
 /// Effects inside a collision, chosen at compile time.
 struct Effects {
   bool rough = false;         ///< beta != -1
@@ -198,14 +193,7 @@ void Worker<Search, Queue, effects>::collide(const Event& event) {
   const Time placed_a = search_.place(a, now), placed_b = search_.place(b, now);
   schedule(a, placed_a);
   schedule(b, placed_b);
-  if (reports || run_.callback) {
-    report.after = {aftermath(gas_.records[a].flight), aftermath(gas_.records[b].flight)};
-    if (reports) {
-      reports->push_back(report);
-    } else {
-      run_.callback(report);
-    }
-  }
+  if (reports || run_.callback) run_.tell(report, a, b, reports);
 }
 
 template <class Search, class Queue, Effects effects>

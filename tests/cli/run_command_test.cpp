@@ -252,9 +252,10 @@ TEST_F(RunCommand, IsSilentWhenQuietButForErrorsAndWarnings) {
 }
 
 TEST_F(RunCommand, GivesOneTrajectoryOnAnyNumberOfThreads) {
-  const json one = result("small.toml --threads 1");
+  const std::string many = "small.toml --set needles.count=1000 --set needles.box=9 ";
+  const json one = result(many + "--threads 1");
   for (const char* threads : {"2", "5"}) {
-    const json several = result(std::string("small.toml --threads ") + threads);
+    const json several = result(many + "--threads " + threads);
     EXPECT_EQ(several["queue"], "cell-calendar");
     EXPECT_GT(several["stats"]["phases"], 0);
     for (const char* key : {"trajectory_hash", "collisions", "energy", "momentum", "time"}) {

@@ -48,8 +48,9 @@ TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
   const std::pair<const char*, const char*> cases[] = {
       {"--set engine.accuracy=fast",
        "--set engine.accuracy=fast: expected one of auto, standard (all that this version offers)"},
-      {"--threads 2", "--threads 2: expected 1"},
-      {"--set engine.threads=2", "--set engine.threads=2: expected 1"},
+      {"--threads 2 --set engine.queue=bucket", "--threads 2: expected 1 with search "},
+      {"--set engine.threads=2 --set engine.search=all-pairs",
+       "--set engine.threads=2: expected 1 with search "},
       {"--isa bogus", "--isa bogus: expected auto or one that this CPU has (scalar"},
       {"--isa AVX2", "--isa AVX2: expected "}};
   const auto expect_refusal = [&](const std::string& arguments, const std::string& message) {
@@ -87,7 +88,8 @@ TEST_F(Usage, WhatThisMachineLacksIsNamedWithItsLine) {
                  "3: needles.count = 4_000_000_000: expected fewer: ");
   const std::string rest = "needles = {count = 5, box = 5}\nuntil.time = 1\n[engine]\n";
   expect_refusal(rest + "accuracy = 'fast'\n", "4: engine.accuracy = 'fast': expected one of");
-  expect_refusal(rest + "threads = 2\n", "4: engine.threads = 2: expected 1");
+  expect_refusal(rest + "threads = 2\nqueue = 'bucket'\n",
+                 "4: engine.threads = 2: expected 1 with search ");
 }
 
 TEST_F(Usage, RunsInWhichNothingHappensNeedAnEndTime) {
@@ -157,7 +159,7 @@ TEST_F(Usage, AnExistingFileIsKeptUnlessForced) {
 
 TEST_F(Usage, NothingIsWrittenAfterAnErrorOrWithoutAName) {
   for (const char* arguments :
-       {"run small.toml", "run small.toml --out a.h5 --threads 2",
+       {"run small.toml", "run small.toml --out a.h5 --isa bogus",
         "run small.toml --out a.h5 --set needles.box=1", "run small.toml --out a.h5 --json --fast",
         "run small.toml --out a.h5 --set needles.count=4000000000"}) {
     run(arguments);

@@ -48,7 +48,7 @@ CodeByLoop read_library() {
   const auto close = [](FILE* file) { EXPECT_EQ(pclose(file), 0); };
   const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
   const std::regex loop(
-      "<needlework::EventLoop<(.*), needlework::Effects\\{(.*)\\}>::collide\\(.*");
+      "<needlework::Worker<(.*), needlework::Effects\\{(.*)\\}>::collide\\(.*");
   CollideCode* code = nullptr;
   char buffer[4096];
   while (fgets(buffer, sizeof buffer, pipe.get())) {
