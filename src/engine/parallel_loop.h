@@ -34,6 +34,14 @@
 
 namespace needlework {
 
+/// What a thread needs of the calendar, and what it has changed there in the event at hand.
+struct ZoneQueue {
+  void set(const Event& event, CellCalendar::Block block) { calendar.put(event, block, changed); }
+
+  CellCalendar& calendar;
+  std::vector<CellCalendar::Block> changed;
+};
+
 template <class Search, Effects effects>
 class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   using Base = EventLoop<Search, CellCalendar, effects>;
@@ -51,14 +59,6 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   Stop advance(const Scene::Until& until) override;
 
  private:
-  // What a thread needs of the calendar, and what it has changed there in the event at hand.
-  struct ZoneQueue {
-    void set(const Event& event, Block block) { calendar.put(event, block, changed); }
-
-    CellCalendar& calendar;
-    std::vector<Block> changed;
-  };
-
   // An event that has to wait until the clock of `for_block` is past it.
   struct Held {
     Block block, for_block;

@@ -37,7 +37,7 @@ class Worker {
   /// Makes the event happen, at `now`.
   void happen(const Event& event, bool stale);
   /// Searches contacts of needle i from now on and enters its next event.
-  void schedule(Needle i, Time placed_until);
+  [[gnu::noinline]] void schedule(Needle i, Time placed_until);
   /// Puts an event into the queue; one by place is told where its owner is.
   void enter(const Event& event) {
     if constexpr (requires { queue_.set(event, search_.cell_index(event.owner)); }) {
@@ -79,9 +79,11 @@ class Worker {
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from, Time until);
   kernels::Contact first_contact_of(const kernels::Pair& pair, double from, double to);
   void settle_touch(Needle a, Needle b, const Shift& shift);
-  Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v, const Vec3d& w);
+  [[gnu::noinline]] Shift replace_record(Needle i, const Vec3d& director, const Vec3d& v,
+                                         const Vec3d& w);
   void horizon(Needle i);
-  void collide(const Event& event);
+  // Functions apart, so that a test can read what code an effect has.
+  [[gnu::noinline]] void collide(const Event& event);
   void count_at_instant(Needle a, Needle b);
   [[noreturn]] void report_collapse(const Event& event) const;
 

@@ -14,7 +14,8 @@ namespace needlework {
 
 class TrajectoryHash {
  public:
-  void add(const Collision& c) {
+  // A call, lest it swell the loops.
+  [[gnu::noinline]] void add(const Collision& c) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     const auto word = [](std::int32_t x) { return static_cast<std::uint64_t>(x); };
     Mixer low{0x243f6a8885a308d3}, high{0x13198a2e03707344};

@@ -267,7 +267,7 @@ TEST_F(SweepOverRanks, GiveTheSameSummary) {
 TEST_F(SweepOverRanks, GoOnAfterASignal) {
   const json whole = result("long.toml --out whole");
   const Outcome stopped =
-      run("sweep long.toml --out ranks --threads 1", "timeout -s TERM 1.2 env " + launcher);
+      run("sweep long.toml --out ranks --threads 1", "timeout -s TERM 0.8 env " + launcher);
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_FALSE(exists("ranks/summary.h5"));
   // Ranks that their launcher leaves behind keep what they are running for a moment.
