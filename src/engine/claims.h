@@ -51,7 +51,7 @@ class Claims {
     mine.store(packed(box), std::memory_order_seq_cst);
     for (std::size_t other = 0; other < claims_.size(); ++other) {
       if (other == thread) continue;
-      Patience patience;
+      Patience patience(32);
       while (in_the_way(other, box)) {
         if (other < thread) {
           drop(thread);

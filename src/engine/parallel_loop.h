@@ -83,8 +83,9 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
     UndoLog undo;
     std::vector<Held> held;
     std::vector<Collision> reports;
-    TimeKey latest = 0;  ///< of the events that it has done in this phase
     // For others:
+    alignas(128) std::atomic<TimeKey> latest = 0;  ///< of the events that it has done in this phase
+    std::atomic<double> fastest = 0;               ///< speed of any needle in them, before or after
     std::atomic<bool> has_mail = false;
     std::vector<Block> mail;  ///< its blocks to which others have written
     bool resting = false;
@@ -92,6 +93,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
 
   enum class Outcome { done, held, again };
 
+  void find_rows();
   void divide();
   void sort_storage() override {
     Base::sort_storage();
@@ -109,6 +111,15 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   bool rest(Hand& me);
   void make_known(Hand& me);
 
+  // Cells side by side, from one at (x, y, z) from another on.
+  struct Row {
+    std::int32_t x, y, z, more;
+  };
+
+  static std::int32_t wrapped(std::int32_t cell, std::int32_t count) {
+    return cell < 0 ? cell + count : cell >= count ? cell - count : cell;
+  }
+
   // A needle of an event: where it was then, and how fast before.
   struct Taken {
     TimeKey key;
@@ -124,7 +135,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  bool may_have_met(const Taken& mine, double speed) const;
+  CellBox cells_around(const Vec3d& r, double distance, std::optional<Cell> one = {}) const;
+  bool may_have_met(const Taken& mine, double speed, bool alone) const;
   Block block_at(const Vec3d& r) const {
     return static_cast<Block>(search_.grid().index_of(search_.grid().cell_of(r)));
   }
@@ -134,10 +146,13 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   // Events that wait while a thread looks for one that need not.
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
+  // How far from its cell an event looks for earlier ones. [L]
+  static constexpr double look_for = 1.5;
 
   CellCounts cells_;
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellCounts reach_;       ///< how far an event looks for earlier ones
+  std::vector<Row> rows_;  ///< of the cells within reach
   CellCounts apart_;       ///< events farther than this never touch the same
   Claims claims_;
   std::vector<std::uint8_t> inner_;       ///< of a block: nobody else ever comes near
@@ -149,6 +164,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   std::atomic<bool> amiss_ = false, finished_ = false;
   std::mutex meeting_;  ///< for mail and rest
   std::size_t resting_ = 0;
+  int spins_;  ///< before a waiting thread yields
 };
 
 namespace parallel {
@@ -173,7 +189,7 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
       // Two needles that may meet before one of them is placed anew, with room for rounding.
       neighbours_(parallel::cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
       // Where it is shorter, phases are undone again and again; longer, events wait for nothing.
-      reach_(parallel::cells_within(search_.grid(), 1.5)),
+      reach_(parallel::cells_within(search_.grid(), look_for)),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
       done_(queue_.blocks()),
       latest_done_(queue_.blocks()) {
@@ -193,7 +209,26 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
                        static_cast<std::int32_t>(b / x / y)});
   }
   for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
+  // With a core for each, most waits are shorter than a visit to the system.
+  spins_ = threads <= omp_get_num_procs() ? 1000 : 32;
+  find_rows();
   divide();
+}
+
+// The cells that come nearer than look_for to a cell, without those at the corners of a cube.
+template <class Search, Effects effects>
+void ParallelLoop<Search, effects>::find_rows() {
+  const auto sides = search_.grid().sides();
+  const auto gap = [&](std::int32_t cells, int axis) {
+    return std::max(0, std::abs(cells) - 1) * sides[axis];
+  };
+  for (std::int32_t z = -reach_[2]; z <= reach_[2]; ++z) {
+    for (std::int32_t y = -reach_[1]; y <= reach_[1]; ++y) {
+      std::int32_t x = -1;
+      while (x < reach_[0] && std::hypot(gap(x + 1, 0), gap(y, 1), gap(z, 2)) < look_for) ++x;
+      if (x >= 0) rows_.push_back({-x, y, z, std::min(2 * x, cells_[0] - 1)});
+    }
+  }
 }
 
 template <class Search, Effects effects>
@@ -257,6 +292,7 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
     hand.worker.now = now;
     hand.worker.reports = this->callback ? &hand.reports : nullptr;
     hand.latest = 0;
+    hand.fastest = 0;
     hand.has_mail = hand.resting = false;
     hand.mail.clear();
     hand.held.clear();
@@ -332,7 +368,7 @@ void ParallelLoop<Search, effects>::report() {
 
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
-  Patience patience;
+  Patience patience(spins_);
   while (!amiss_.load(std::memory_order_relaxed)) {
     if (me.has_mail.load(std::memory_order_acquire)) read_mail(me);
     release_held(me);
@@ -340,7 +376,7 @@ void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
     // Those held may wait for one that has come up since.
     const auto before_all = [&] {
       return std::all_of(me.held.begin(), me.held.end(),
-                         [&](const Held& held) { return key < held.key; });
+                         [&](const Held& held) { return key <= held.key; });
     };
     if (key < end && (me.held.size() < most_held || before_all())) {
       const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
@@ -411,14 +447,17 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   me.worker.happen(event, stale);
   const auto record = [&](Needle i, const Taken& taken) {
     const Vec3d& v = gas.records[i].flight.v;
-    if ((!alone || key <= me.latest) && may_have_met(taken, std::sqrt(dot(v, v)))) amiss_ = true;
+    const double speed = std::sqrt(dot(v, v));
+    if (may_have_met(taken, speed, alone && key > me.latest)) amiss_ = true;
     const Block at = block_at(taken.r);
     done_[at].push_back(taken);
     latest_done_[at] = std::max(latest_done_[at], key);
+    const double fastest = std::max(taken.speed, speed);
+    if (fastest > me.fastest) me.fastest = fastest;
   };
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
-  me.latest = std::max(me.latest, key);
+  if (key > me.latest) me.latest.store(key, std::memory_order_relaxed);
   make_known(me);
   if (!alone) claims_.drop(me.zone);
   return Outcome::done;
@@ -468,7 +507,7 @@ bool ParallelLoop<Search, effects>::rest(Hand& me) {
     me.resting = true;
     if (++resting_ == hands_.size()) finished_ = true;
   }
-  for (Patience patience; !finished_.load() && !amiss_.load(); patience.wait()) {
+  for (Patience patience(spins_); !finished_.load() && !amiss_.load(); patience.wait()) {
     if (me.has_mail.load(std::memory_order_acquire)) return false;
   }
   return true;
@@ -544,12 +583,21 @@ auto ParallelLoop<Search, effects>::earlier_around(const Hand& me, Block centre,
   }
   Block found = nobody;
   if (ours_[centre] && queue_.zone_of(centre) == me.zone) return found;
-  any_around(cell_of(centre), reach_, [&](Block b) {
-    const TimeKey clock = queue_.clock_of(b);
-    if (clock > key || (clock == key && b >= block)) return false;
-    found = b;
-    return true;
-  });
+  const CellCounts at = places_[centre];
+  for (const Row& row : rows_) {
+    CellBox cells{at, {row.more, 0, 0}};
+    const CellCounts offset = {row.x, row.y, row.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      cells.low[axis] = wrapped(at[axis] + offset[axis], cells_[axis]);
+    }
+    const bool any = any_around(cells, {}, [&](Block b) {
+      const TimeKey clock = queue_.clock_of(b);
+      if (clock > key || (clock == key && b >= block)) return false;
+      found = b;
+      return true;
+    });
+    if (any) break;
+  }
   return found;
 }
 
@@ -568,39 +616,60 @@ auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey k
 // The cell of a needle that is at r, and those in which it may be placed.
 template <class Search, Effects effects>
 CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
+  return cells_around(r, search_.radius() * (1 + 0x1p-10) + 0x1p-20, search_.cell_of(i));
+}
+
+// The cells not farther than `distance` from r along the axes, and one more.
+template <class Search, Effects effects>
+CellBox ParallelLoop<Search, effects>::cells_around(const Vec3d& r, double distance,
+                                                    std::optional<Cell> one) const {
   const CellGrid& grid = search_.grid();
-  const double margin = search_.radius() * (1 + 0x1p-10) + 0x1p-20;
-  const Vec3d all_around{margin, margin, margin};
-  const Cell cell = search_.cell_of(i), low = grid.cell_of(r - all_around),
-             high = grid.cell_of(r + all_around);
+  const Vec3d all_around{distance, distance, distance};
+  Cell low = grid.cell_of(r - all_around), high = grid.cell_of(r + all_around);
   CellBox out;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::int32_t first = std::min(cell[axis], low[axis]);
-    out.low[axis] = grid.wrap(first, axis);
-    out.more[axis] = std::min(std::max(cell[axis], high[axis]) - first, grid.counts()[axis] - 1);
+    if (one) {
+      low[axis] = std::min(low[axis], (*one)[axis]);
+      high[axis] = std::max(high[axis], (*one)[axis]);
+    }
+    out.low[axis] = grid.wrap(low[axis], axis);
+    out.more[axis] = std::min(high[axis] - low[axis], grid.counts()[axis] - 1);
   }
   return out;
 }
 
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
-// has been done, before that.
+// has been done, before that. `alone`: those of its own zone cannot be later, others are far.
 template <class Search, Effects effects>
-bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed) const {
+bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed,
+                                                 bool alone) const {
+  TimeKey latest = 0;
+  double fastest = speed;
+  for (const Hand& hand : hands_) {
+    latest = std::max(latest, hand.latest.load(std::memory_order_relaxed));
+    fastest = std::max(fastest, hand.fastest.load(std::memory_order_relaxed));
+  }
+  if (latest < mine.key) return false;
+  const auto reach_until = [&](TimeKey key, double other_speed) {
+    const double then = EventTable::time_of(key);
+    const double time = then - EventTable::time_of(mine.key) + 0x1p-50 * then;
+    return 1 + 0x1p-20 + time * (speed + other_speed) * (1 + 0x1p-20);
+  };
+  // Farther than this others may be at work.
+  const double farthest = reach_until(latest, fastest);
+  if (!(farthest < 1.01 + 2 * search_.drift())) return true;
+  if (alone) return false;
   const auto after = [](const Taken& a, const Taken& b) {
     if (a.key != b.key) return a.key > b.key;
     // Two searches at one time may be made in any order.
     return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
                                            std::tie(b.contact, b.lower_id, b.higher_id);
   };
-  return any_around(cell_of(block_at(mine.r)), neighbours_, [&](Block b) {
+  return any_around(cells_around(mine.r, farthest), {}, [&](Block b) {
     if (latest_done_[b] < mine.key) return false;
     return std::any_of(done_[b].begin(), done_[b].end(), [&](const Taken& other) {
       if (!after(other, mine)) return false;
-      const double then = EventTable::time_of(other.key);
-      const double time = then - EventTable::time_of(mine.key) + 0x1p-50 * then;
-      const double reach = 1 + 0x1p-20 + time * (speed + other.speed) * (1 + 0x1p-20);
-      // Farther than this it may be where nobody has looked.
-      if (!(reach < 1.01 + 2 * search_.drift())) return true;
+      const double reach = reach_until(other.key, other.speed);
       double squares = 0;
       for (int axis = 0; axis < 3; ++axis) {
         const double gap = (&other.r.x)[axis] - (&mine.r.x)[axis], box = gas.box[axis];

@@ -1,6 +1,7 @@
 // How a thread waits for another.
 #pragma once
 
+#include <cstdint>
 #include <thread>
 
 #if defined(__x86_64__)
@@ -9,12 +10,13 @@
 
 namespace needlework {
 
-/// Spins for about a microsecond, as long as most waits are, then lets others have the core: they
-/// may be those waited for.
+/// Spins for a while, then lets others have the core: they may be those waited for.
 class Patience {
  public:
+  explicit Patience(int spins) : spins_(spins) {}
+
   void wait() {
-    if (++turns_ > 32) {
+    if (++turns_ > spins_) {
       std::this_thread::yield();
     } else {
 #if defined(__x86_64__)
@@ -25,6 +27,7 @@ class Patience {
   void reset() { turns_ = 0; }
 
  private:
+  int spins_;
   int turns_ = 0;
 };
 

@@ -47,8 +47,7 @@ CodeByLoop read_library() {
       std::string(NEEDLEWORK_OBJDUMP) + " -drC --no-show-raw-insn " + NEEDLEWORK_LIBRARY;
   const auto close = [](FILE* file) { EXPECT_EQ(pclose(file), 0); };
   const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
-  const std::regex loop(
-      "<needlework::Worker<(.*), needlework::Effects\\{(.*)\\}>::collide\\(.*");
+  const std::regex loop("<needlework::Worker<(.*), needlework::Effects\\{(.*)\\}>::collide\\(.*");
   CollideCode* code = nullptr;
   char buffer[4096];
   while (fgets(buffer, sizeof buffer, pipe.get())) {
