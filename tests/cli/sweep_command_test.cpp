@@ -265,16 +265,22 @@ TEST_F(SweepOverRanks, GiveTheSameSummary) {
 }
 
 TEST_F(SweepOverRanks, GoOnAfterASignal) {
-  const json whole = result("long.toml --out whole");
+  // Long enough that the signal comes in the middle, on a fast machine too.
+  std::string grid = read("long.toml"), seeds = "seeds = [1";
+  for (int seed = 2; seed <= 60; ++seed) seeds += ", " + std::to_string(seed);
+  const auto first = grid.find("seeds = [");
+  grid.replace(first, grid.find(']', first) - first, seeds);
+  write("longer.toml", grid);
+  const json whole = result("longer.toml --out whole --threads 2");
   const Outcome stopped =
-      run("sweep long.toml --out ranks --threads 1", "timeout -s TERM 0.8 env " + launcher);
+      run("sweep longer.toml --out ranks --threads 1", "timeout -s TERM 1.5 env " + launcher);
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_FALSE(exists("ranks/summary.h5"));
   // Ranks that their launcher leaves behind keep what they are running for a moment.
   Outcome rest;
   for (int attempt = 0; attempt < 20 && rest.exit_code != 0; ++attempt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    rest = run("sweep --json long.toml --out ranks");
+    rest = run("sweep --json longer.toml --out ranks");
   }
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(rest.json()["points"], whole["points"]);

@@ -67,11 +67,11 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Parallel, IsTheSameEveryTime) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
-  const std::string truth = test::record(scene, 2000).hash;
+  const std::string truth = test::record(scene, 700).hash;
   for (int n = 0; n < 50 / thin; ++n) {
     for (const int threads : {3, 8}) {
       scene.engine.threads = threads;
-      ASSERT_EQ(test::record(scene, 2000).hash, truth) << threads << " threads, run " << n;
+      ASSERT_EQ(test::record(scene, 700).hash, truth) << threads << " threads, run " << n;
     }
   }
 }
