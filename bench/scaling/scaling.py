@@ -89,7 +89,7 @@ def measure(program, names, most, repetitions):
 
 def table(data):
     rows = ["| scene | needles | threads | us per collision | speed-up | efficiency | of runs apart |"
-            " events that look at others | events a wait | of phases undone |",
+            " border tries per event | turns waited per event | phases undone |",
             "|---|---|---|---|---|---|---|---|---|---|"]
     by = {(r["scene"], r["kind"], r["threads"]): r for r in data["results"]}
     for (name, kind, n), r in by.items():
@@ -102,8 +102,8 @@ def table(data):
             apart = by[name, "apart", n]["collisions_per_s"]
             s = r["stats"]
             cells += [f"{gain:.2f}", f"{gain / n:.2f}", f"{r['collisions_per_s'] / apart:.2f}",
-                      f"{100 * s['border'] / r['events']:.0f} %",
-                      f"{r['events'] / max(1, s['waited']):.1f}",
+                      f"{s['border'] / r['events']:.2f}",
+                      f"{s['waited'] / r['events']:.1f}",
                       f"{s['redone']} of {s['phases']}"]
         else:
             cells += ["1", "1"] + [""] * 4
@@ -159,8 +159,8 @@ def main():
             kept + new, key=lambda r: order.index(r["scene"]))})
     data = json.loads(file.read_text())
     (folder / "scaling.md").write_text(
-        "# Threads\n\nMade by `bench/scaling/scaling.py`; bench/README.md says what the columns are.\n\n" + table(data) +
-        "\n")
+        "# Threads\n\nMade by `bench/scaling/scaling.py`; bench/README.md says what the columns are.\n\n"
+        + table(data) + "\n")
     draw(data, folder / "scaling.svg")
     print(table(data))
 
