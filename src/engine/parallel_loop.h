@@ -83,9 +83,10 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
     UndoLog undo;
     std::vector<Held> held;
     std::vector<Collision> reports;
-    // For others:
-    alignas(128) std::atomic<TimeKey> latest = 0;  ///< of the events that it has done in this phase
-    std::atomic<double> fastest = 0;               ///< speed of any needle in them, before or after
+    // For others: the latest event taken up in this phase, the speed of the fastest needle before
+    // any of them, and whether there is mail.
+    alignas(128) std::atomic<TimeKey> latest = 0;
+    std::atomic<double> fastest = 0;
     std::atomic<bool> has_mail = false;
     std::vector<Block> mail;  ///< its blocks to which others have written
     bool resting = false;
@@ -136,7 +137,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   CellBox cells_around(const Vec3d& r, double distance, std::optional<Cell> one = {}) const;
-  bool may_have_met(const Taken& mine, double speed, bool alone) const;
+  bool may_have_met(const Hand& me, const Taken& mine, double speed, bool in_order,
+                    bool alone) const;
   Block block_at(const Vec3d& r) const {
     return static_cast<Block>(search_.grid().index_of(search_.grid().cell_of(r)));
   }
@@ -443,21 +445,23 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
     amiss_ = true;
     return give_up(nobody);
   }
+  // Told before it happens, and others asked after: of two events at once, whichever asks last
+  // knows of the other.
+  const bool in_order = key > me.latest;
+  const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
+  if (fastest > me.fastest) me.fastest = fastest;
+  if (in_order) me.latest = key;
   me.queue.changed.clear();
   me.worker.happen(event, stale);
   const auto record = [&](Needle i, const Taken& taken) {
     const Vec3d& v = gas.records[i].flight.v;
-    const double speed = std::sqrt(dot(v, v));
-    if (may_have_met(taken, speed, alone && key > me.latest)) amiss_ = true;
+    if (may_have_met(me, taken, std::sqrt(dot(v, v)), in_order, alone)) amiss_ = true;
     const Block at = block_at(taken.r);
     done_[at].push_back(taken);
     latest_done_[at] = std::max(latest_done_[at], key);
-    const double fastest = std::max(taken.speed, speed);
-    if (fastest > me.fastest) me.fastest = fastest;
   };
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
-  if (key > me.latest) me.latest.store(key, std::memory_order_relaxed);
   make_known(me);
   if (!alone) claims_.drop(me.zone);
   return Outcome::done;
@@ -639,15 +643,17 @@ CellBox ParallelLoop<Search, effects>::cells_around(const Vec3d& r, double dista
 }
 
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
-// has been done, before that. `alone`: those of its own zone cannot be later, others are far.
+// has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
+// are far.
 template <class Search, Effects effects>
-bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed,
-                                                 bool alone) const {
+bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Taken& mine, double speed,
+                                                 bool in_order, bool alone) const {
   TimeKey latest = 0;
   double fastest = speed;
   for (const Hand& hand : hands_) {
-    latest = std::max(latest, hand.latest.load(std::memory_order_relaxed));
-    fastest = std::max(fastest, hand.fastest.load(std::memory_order_relaxed));
+    if (&hand == &me && in_order) continue;
+    latest = std::max(latest, hand.latest.load());
+    fastest = std::max(fastest, hand.fastest.load());
   }
   if (latest < mine.key) return false;
   const auto reach_until = [&](TimeKey key, double other_speed) {
@@ -658,7 +664,7 @@ bool ParallelLoop<Search, effects>::may_have_met(const Taken& mine, double speed
   // Farther than this others may be at work.
   const double farthest = reach_until(latest, fastest);
   if (!(farthest < 1.01 + 2 * search_.drift())) return true;
-  if (alone) return false;
+  if (alone && in_order) return false;
   const auto after = [](const Taken& a, const Taken& b) {
     if (a.key != b.key) return a.key > b.key;
     // Two searches at one time may be made in any order.

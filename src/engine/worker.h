@@ -51,8 +51,12 @@ class Worker {
     prefetch(&gas_.records[i]);
     if constexpr (requires { search_.bring_near(i); }) search_.bring_near(i);
   }
-  /// Needles have other places in storage.
-  void forget() { last_shared_ = {}; }
+  /// What is known of the last event no longer holds: needles have other places in storage, or
+  /// records have been put back.
+  void forget() {
+    last_shared_ = {};
+    replaced_count_ = 0;
+  }
 
   Time now;
   UndoLog* undo = nullptr;                    ///< where to note what is replaced, if anywhere

@@ -7,11 +7,7 @@
 namespace needlework {
 namespace {
 
-#ifdef NDEBUG
-constexpr double thin = 1;
-#else
-constexpr double thin = 10;
-#endif
+using test::thin;
 
 struct Case {
   const char* name;

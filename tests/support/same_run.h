@@ -7,6 +7,13 @@
 
 namespace needlework::test {
 
+/// By how much runs are cut short where checks make them slow.
+#ifdef NDEBUG
+inline constexpr double thin = 1;
+#else
+inline constexpr double thin = 10;
+#endif
+
 inline void expect_same(const Recorded& truth, const Recorded& other) {
   ASSERT_EQ(truth.collisions.size(), other.collisions.size());
   for (std::size_t n = 0; n < truth.collisions.size(); ++n) {
