@@ -80,6 +80,7 @@ class Search {
   std::optional<Root> search_interval(const Interval& interval);
   std::optional<Root> search_fold(const Interval& interval, const Estimate& e);
   std::optional<Root> search_start(const Interval& interval, const Estimate& e);
+  std::optional<Root> search_flat_start(const Interval& interval);
   std::optional<Root> accept(double begin, double end, double start, int side,
                              double least_slope = 0);
   std::optional<Root> accept(const DoubleDouble& begin, const DoubleDouble& end,
@@ -427,6 +428,15 @@ std::optional<Root> Search::search_start(const Interval& interval, const Estimat
   return accept(lift, interval.end, back, side);
 }
 
+// The interval that begins at a touch, where f is not told from 0: f leaves it on one side, which
+// need not be the pair's. f' and f'' vanish too when the contact points of rough needles have come
+// to rest on each other.
+std::optional<Root> Search::search_flat_start(const Interval& interval) {
+  const int side = pair_.touch.side;
+  if (side == 0 || sign_at(interval.end) != -side) return std::nullopt;
+  return Root{0.0, 0.0, side};
+}
+
 std::optional<Root> Search::search_interval(const Interval& interval) {
   if (interval.end < first_ || interval.begin > last_) return std::nullopt;
   if (interval.depth >= sharpen_depth && !amplitude_) {
@@ -442,8 +452,10 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
   const bool starts = just_collided_ && interval.begin == 0;
   switch (shape) {
     case Shape::free:
-    case Shape::flat:
       return std::nullopt;
+    case Shape::flat:
+      return pair_.touch.touching && interval.begin == 0 ? search_flat_start(interval)
+                                                         : std::nullopt;
     case Shape::monotone:
       if (starts) {
         // f leaves 0 and does not return, unless it approaches, which only rounding can claim.

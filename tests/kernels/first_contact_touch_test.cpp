@@ -181,6 +181,29 @@ TEST(FirstContactAfterCollision, AReturnBelowTheRoundingOfVelocitiesIsUnresolvab
   EXPECT_GT(unresolvable, count / 2);
 }
 
+// Contact points at rest to each other, as rough needles come to be: f, f' and f'' are 0, and the
+// third derivative decides. Whatever the search cannot resolve near 0, the side must not be lost.
+TEST(FirstContactAfterCollision, ACubicReturnIsUnresolvableAndNotMissed) {
+  for (const double turn : {0.5, -0.5}) {
+    KernelPair pair;
+    pair.first = flight({-0.25, 0.125, 0}, {1, 0, 0}, {0, -0.0625, turn / 4}, {0, turn, 0.25});
+    pair.second = flight({}, {0, 1, 0}, {}, {});
+    const auto exact = at_start(pair);
+    ASSERT_EQ(exact.f, 0);
+    ASSERT_LT(abs(exact.df), 1e-40);
+    ASSERT_LT(abs(exact.ddf), 1e-40);
+    const int away = turn > 0 ? -1 : 1;  // the sign of the third derivative
+    pair.touch = {.touching = true, .collided = true, .side = -away, .gap = 0};
+    const Contact contact = find(pair, 1);
+    ASSERT_TRUE(contact.found) << turn;
+    EXPECT_TRUE(contact.unresolvable);
+    EXPECT_EQ(contact.elapsed, DoubleDouble());
+    EXPECT_EQ(contact.side, -away);
+    pair.touch.side = away;
+    EXPECT_FALSE(find(pair, 1).found) << turn;
+  }
+}
+
 // A third needle was renewed while it touched: the gap is known from the records before, f(0) of
 // the new records is not to be trusted.
 TEST(FirstContactFromACarriedGap, ClosesWhenItApproachesAndStaysOpenWhenNot) {
