@@ -27,6 +27,18 @@ inline std::string name_of(const Scene& scene) {
          ", seed " + std::to_string(scene.needles.seed);
 }
 
+inline Scene::Until until_time(double time) {
+  Scene::Until until;
+  until.time = time;
+  return until;
+}
+
+inline Scene::Until until_collisions(double per_needle) {
+  Scene::Until until;
+  until.collisions_per_needle = per_needle;
+  return until;
+}
+
 struct Recorded {
   std::vector<Collision> collisions;
   State end;
@@ -40,9 +52,7 @@ inline Recorded record(const Scene& scene, const State& initial, double count) {
   Simulation simulation(scene, initial);
   Recorded out;
   simulation.on_collision([&](const Collision& c) { out.collisions.push_back(c); });
-  Scene::Until until;
-  until.collisions_per_needle = 2 * count / static_cast<double>(initial.size());
-  simulation.advance(until);
+  simulation.advance(until_collisions(2 * count / static_cast<double>(initial.size())));
   out.end = simulation.state();
   out.totals = simulation.totals();
   out.hash = simulation.trajectory_hash();

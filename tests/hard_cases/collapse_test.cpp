@@ -5,23 +5,15 @@
 #include <cmath>
 
 #include "src/error.h"
+#include "tests/hard_cases/collapsing_pairs.h"
 #include "tests/support/runs.h"
 #include "tests/support/searches.h"
 
 namespace needlework {
 namespace {
 
-// Needle 0 along x, above needle 1 along y, which turns its contact point towards it while it
-// slides along: the gap's acceleration is -2 w v_y < 0 all the while.
-State collapsing_pair(double approach) {
-  State state;
-  state.box = {6, 6, 6};
-  state.position = {{3, 2.6, 3.001}, {3, 3, 3}};
-  state.orientation = {{1, 0, 0}, {0, 1, 0}};
-  state.velocity = {{0, 0.5, -0.4 - approach}, {0, -0.5, 0}};
-  state.angular_velocity = {{0, 0, 0}, {1, 0, 0}};
-  return state;
-}
+using test::collapsing_pair;
+using test::until_time;
 
 // How two needles stand to each other: the contact function and the arms of the nearest points of
 // their lines.
@@ -57,12 +49,6 @@ class SideWatch {
  private:
   Standing before_{0, 1, 1};
 };
-
-Scene::Until until_time(double time) {
-  Scene::Until until;
-  until.time = time;
-  return until;
-}
 
 Scene pair_scene(double epsilon) {
   Scene scene = test::scene_of(2, 6);

@@ -1,0 +1,79 @@
+// A few needles in endless space, followed from collision to collision in quad precision, and two
+// that slide along each other. Shares nothing with the engine: contacts are roots of power series.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "src/engine/simulation.h"
+#include "tests/support/contact_state.h"
+
+namespace needlework::test {
+
+struct QuadRule {
+  double k = 6, epsilon = 1, beta = -1;
+  double tc = 0;  ///< contact time; 0: none
+  /// Whether what a collision leaves is rounded to doubles, which an engine in double cannot avoid.
+  /// The contact functions go on from the values that they had.
+  bool rounded = false;
+};
+
+struct QuadCollision {
+  Real time;
+  std::size_t first, second;  ///< ascending
+  std::array<Real, 2> arms;   ///< s12, s21
+  Real normal_velocity;       ///< V_n before
+  bool contact_time_rule;     ///< done with epsilon = 1, beta = -1
+};
+
+/// The end of a sliding contact.
+struct QuadSlide {
+  Real time;
+  bool over_a_tip;  ///< else the needles have come to part
+  PairState end;
+  Real gap, normal_velocity;  ///< that should be 0; what the integration has lost
+};
+
+class QuadGas {
+ public:
+  /// From the state of a run. No periodic images: the needles must stay in the box.
+  QuadGas(const State& state, const QuadRule& rule);
+
+  /// Flies to the next contact up to `until` and collides there, else flies to `until`.
+  std::optional<QuadCollision> collide(const Real& until);
+
+  const Real& time() const { return time_; }
+  Real energy() const;
+  const std::vector<NeedleState>& needles() const { return needles_; }
+
+  /// What becomes of needles 0 and 1, which have just collided and separate by next to nothing,
+  /// when their contact points keep to each other: without friction, by a force along the normal
+  /// for as long as that is a push. `steps` per unit of time.
+  QuadSlide slide(int steps) const;
+
+ private:
+  struct Contact {
+    Real after;
+    std::size_t i, j;
+  };
+  std::optional<Contact> next_contact(const Real& within) const;
+  Real gap(std::size_t i, std::size_t j) const;
+  QuadCollision strike(std::size_t i, std::size_t j);
+
+  QuadRule rule_;
+  std::vector<NeedleState> needles_;
+  Real time_ = 0;
+  std::vector<std::optional<Real>> last_collision_;
+  using Pair = std::pair<std::size_t, std::size_t>;  // ascending
+  /// The two that stand on their contact now, if any: f = 0.
+  std::optional<Pair> touching_;
+  std::map<Pair, Real> offsets_;  ///< added to f, for what rounding has changed
+};
+
+/// s12 and s21 of the lines' nearest points.
+std::array<Real, 2> arms(const PairState& pair);
+/// Velocity of the first contact point relative to the second, along the normal.
+Real normal_velocity(const PairState& pair);
+
+}  // namespace needlework::test
