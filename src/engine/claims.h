@@ -2,35 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
 
+#include "src/engine/cell_box.h"
 #include "src/engine/patience.h"
-#include "src/engine/zones.h"
 
 namespace needlework {
-
-/// A box of cells on a grid that repeats itself.
-struct CellBox {
-  CellCounts low{};   ///< in the grid
-  CellCounts more{};  ///< cells beyond `low` along each axis
-};
-
-/// Whether two boxes are not more than `distance` cells apart along every axis.
-inline bool near(const CellBox& a, const CellBox& b, const CellCounts& cells,
-                 const CellCounts& distance) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int32_t n = cells[axis];
-    std::int32_t ahead = b.low[axis] - a.low[axis];
-    if (ahead < 0) ahead += n;
-    if (ahead > a.more[axis] + distance[axis] && n - ahead > b.more[axis] + distance[axis]) {
-      return false;
-    }
-  }
-  return true;
-}
 
 /// One claim per thread: up to two boxes of cells to which it writes; it reads not farther than
 /// `distance` cells from them. Of two threads that make claims so near to each other that one would

@@ -23,10 +23,11 @@
 #include <atomic>
 #include <deque>
 #include <mutex>
-#include <tuple>
 
 #include "src/calendar/cell_calendar.h"
+#include "src/engine/cell_box.h"
 #include "src/engine/claims.h"
+#include "src/engine/done_log.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/patience.h"
 #include "src/engine/zones.h"
@@ -54,7 +55,12 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   using typename Base::Limits;
 
  public:
-  ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads);
+  // How far from its cell an event looks for earlier ones. Where it is shorter, phases are undone
+  // again and again; longer, events wait for nothing. [L]
+  static constexpr double usual_sight = 1.5;
+
+  ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads,
+               double sight = usual_sight);
 
   Stop advance(const Scene::Until& until) override;
 
@@ -94,7 +100,6 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
 
   enum class Outcome { done, held, again };
 
-  void find_rows();
   void divide();
   void sort_storage() override {
     Base::sort_storage();
@@ -112,56 +117,28 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   bool rest(Hand& me);
   void make_known(Hand& me);
 
-  // Cells side by side, from one at (x, y, z) from another on.
-  struct Row {
-    std::int32_t x, y, z, more;
-  };
-
-  static std::int32_t wrapped(std::int32_t cell, std::int32_t count) {
-    return cell < 0 ? cell + count : cell >= count ? cell - count : cell;
-  }
-
-  // A needle of an event: where it was then, and how fast before.
-  struct Taken {
-    TimeKey key;
-    Vec3d r;
-    double speed;
-    bool contact;
-    std::uint32_t lower_id, higher_id;
-  };
-
   CellBox cell_of(Block block) const { return {places_[block], {}}; }
-  template <class Visit>
-  bool any_around(const CellBox& box, const CellCounts& distance, Visit&& visit) const;
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
-  Taken take(Needle i, const Event& event, TimeKey key) const;
+  Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  CellBox cells_around(const Vec3d& r, double distance, std::optional<Cell> one = {}) const;
-  bool may_have_met(const Hand& me, const Taken& mine, double speed, bool in_order,
+  bool may_have_met(const Hand& me, const Done& mine, double speed, bool in_order,
                     bool alone) const;
-  Block block_at(const Vec3d& r) const {
-    return static_cast<Block>(search_.grid().index_of(search_.grid().cell_of(r)));
-  }
 
   // Collisions between two meetings of all threads, at most and at least.
   static constexpr double most_together = 0x1p15, least_together = 0x1p6;
   // Events that wait while a thread looks for one that need not.
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
-  // How far from its cell an event looks for earlier ones. [L]
-  static constexpr double look_for = 1.5;
 
   CellCounts cells_;
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
-  CellCounts reach_;       ///< how far an event looks for earlier ones
-  std::vector<Row> rows_;  ///< of the cells within reach
+  CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
   Claims claims_;
-  std::vector<std::uint8_t> inner_;       ///< of a block: nobody else ever comes near
-  std::vector<std::uint8_t> ours_;        ///< of a block: all within reach are of its zone
-  std::vector<CellCounts> places_;        ///< of the blocks
-  std::vector<std::vector<Taken>> done_;  ///< in a block: needles whose events this phase has done
-  std::vector<TimeKey> latest_done_;      ///< of these
+  DoneLog done_;                     ///< in this phase
+  std::vector<std::uint8_t> inner_;  ///< of a block: nobody else ever comes near
+  std::vector<std::uint8_t> ours_;   ///< of a block: all within reach are of its zone
+  std::vector<CellCounts> places_;   ///< of the blocks
   std::deque<Hand> hands_;
   std::atomic<bool> amiss_ = false, finished_ = false;
   std::mutex meeting_;  ///< for mail and rest
@@ -169,34 +146,17 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   int spins_;  ///< before a waiting thread yields
 };
 
-namespace parallel {
-
-/// Cells along each axis that cover a distance from anywhere in a cell.
-inline CellCounts cells_within(const CellGrid& grid, double distance) {
-  CellCounts out;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double cells = std::floor(distance / grid.sides()[axis]) + 1;
-    out[axis] = static_cast<std::int32_t>(std::min<double>(cells, grid.counts()[axis]));
-  }
-  return out;
-}
-
-}  // namespace parallel
-
 template <class Search, Effects effects>
 ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
-                                            const SearchSetup& setup, int threads)
+                                            const SearchSetup& setup, int threads, double sight)
     : Base(scene, std::move(initial), setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
-      neighbours_(parallel::cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
-      // Where it is shorter, phases are undone again and again; longer, events wait for nothing.
-      reach_(parallel::cells_within(search_.grid(), look_for)),
+      neighbours_(cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
+      reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
-      done_(queue_.blocks()),
-      latest_done_(queue_.blocks()) {
-  const CellCounts moves =
-      parallel::cells_within(search_.grid(), search_.drift() + search_.radius());
+      done_(search_.grid(), gas.box) {
+  const CellCounts moves = cells_within(search_.grid(), search_.drift() + search_.radius());
   for (int axis = 0; axis < 3; ++axis) {
     apart_[axis] = 3 * neighbours_[axis] + 2 * moves[axis];
     if (cells_[axis] >= Claims::most_cells) {
@@ -213,24 +173,7 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
   for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
   // With a core for each, most waits are shorter than a visit to the system.
   spins_ = threads <= omp_get_num_procs() ? 1000 : 32;
-  find_rows();
   divide();
-}
-
-// The cells that come nearer than look_for to a cell, without those at the corners of a cube.
-template <class Search, Effects effects>
-void ParallelLoop<Search, effects>::find_rows() {
-  const auto sides = search_.grid().sides();
-  const auto gap = [&](std::int32_t cells, int axis) {
-    return std::max(0, std::abs(cells) - 1) * sides[axis];
-  };
-  for (std::int32_t z = -reach_[2]; z <= reach_[2]; ++z) {
-    for (std::int32_t y = -reach_[1]; y <= reach_[1]; ++y) {
-      std::int32_t x = -1;
-      while (x < reach_[0] && std::hypot(gap(x + 1, 0), gap(y, 1), gap(z, 2)) < look_for) ++x;
-      if (x >= 0) rows_.push_back({-x, y, z, std::min(2 * x, cells_[0] - 1)});
-    }
-  }
 }
 
 template <class Search, Effects effects>
@@ -241,7 +184,7 @@ void ParallelLoop<Search, effects>::divide() {
   const std::vector<std::uint32_t> zone = divide_box(cells_, weight, threads);
   queue_.divide(zone, threads);
   inner_ = inner_cells(cells_, zone, apart_);
-  ours_ = inner_cells(cells_, zone, reach_);
+  ours_ = inner_cells(cells_, zone, reach_.reach());
   for (Hand& hand : hands_) hand.worker.forget();
 }
 
@@ -284,8 +227,7 @@ Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end) {
   search_.prepare(now, end);
-  std::fill(latest_done_.begin(), latest_done_.end(), TimeKey{0});
-  for (std::vector<Taken>& needles : done_) needles.clear();
+  done_.clear();
   amiss_ = finished_ = false;
   resting_ = 0;
   for (Hand& hand : hands_) {
@@ -434,9 +376,9 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
     }
   }
   const bool collides = event.is_contact() && !stale;
-  const Taken owner = take(event.owner, event, key);
+  const Done owner = take(event.owner, event, key);
   if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
-  Taken partner;
+  Done partner;
   if (collides) {
     partner = take(event.partner, event, key);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
@@ -453,12 +395,10 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   if (in_order) me.latest = key;
   me.queue.changed.clear();
   me.worker.happen(event, stale);
-  const auto record = [&](Needle i, const Taken& taken) {
+  const auto record = [&](Needle i, const Done& taken) {
     const Vec3d& v = gas.records[i].flight.v;
     if (may_have_met(me, taken, std::sqrt(dot(v, v)), in_order, alone)) amiss_ = true;
-    const Block at = block_at(taken.r);
-    done_[at].push_back(taken);
-    latest_done_[at] = std::max(latest_done_[at], key);
+    done_.add(taken);
   };
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
@@ -545,36 +485,6 @@ void ParallelLoop<Search, effects>::make_known(Hand& me) {
   }
 }
 
-// Whether visit(block) holds for any block not farther than `distance` from the box.
-template <class Search, Effects effects>
-template <class Visit>
-bool ParallelLoop<Search, effects>::any_around(const CellBox& box, const CellCounts& distance,
-                                               Visit&& visit) const {
-  CellCounts first, count;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::int32_t n = cells_[axis];
-    count[axis] = std::min(n, box.more[axis] + 1 + 2 * distance[axis]);
-    first[axis] = box.low[axis] - std::min(distance[axis], n);
-    if (first[axis] < 0) first[axis] += n;
-  }
-  CellCounts at;
-  at[2] = first[2];
-  for (std::int32_t z = 0; z < count[2]; ++z) {
-    at[1] = first[1];
-    for (std::int32_t y = 0; y < count[1]; ++y) {
-      const std::size_t row = (static_cast<std::size_t>(at[2]) * cells_[1] + at[1]) * cells_[0];
-      at[0] = first[0];
-      for (std::int32_t x = 0; x < count[0]; ++x) {
-        if (visit(static_cast<Block>(row + at[0]))) return true;
-        if (++at[0] == cells_[0]) at[0] = 0;
-      }
-      if (++at[1] == cells_[1]) at[1] = 0;
-    }
-    if (++at[2] == cells_[2]) at[2] = 0;
-  }
-  return false;
-}
-
 // A block within reach of `centre` whose clock is behind the event of `block`, if any. Of the
 // zone's own blocks these can only be held ones.
 template <class Search, Effects effects>
@@ -583,30 +493,22 @@ auto ParallelLoop<Search, effects>::earlier_around(const Hand& me, Block centre,
   look_away();
   for (const Held& held : me.held) {
     const bool before = held.key < key || (held.key == key && held.block < block);
-    if (before && near(cell_of(held.block), cell_of(centre), cells_, reach_)) return held.block;
+    if (before && near(cell_of(held.block), cell_of(centre), cells_, reach_.reach()))
+      return held.block;
   }
   Block found = nobody;
   if (ours_[centre] && queue_.zone_of(centre) == me.zone) return found;
-  const CellCounts at = places_[centre];
-  for (const Row& row : rows_) {
-    CellBox cells{at, {row.more, 0, 0}};
-    const CellCounts offset = {row.x, row.y, row.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      cells.low[axis] = wrapped(at[axis] + offset[axis], cells_[axis]);
-    }
-    const bool any = any_around(cells, {}, [&](Block b) {
-      const TimeKey clock = queue_.clock_of(b);
-      if (clock > key || (clock == key && b >= block)) return false;
-      found = b;
-      return true;
-    });
-    if (any) break;
-  }
+  reach_.any(places_[centre], [&](Block b) {
+    const TimeKey clock = queue_.clock_of(b);
+    if (clock > key || (clock == key && b >= block)) return false;
+    found = b;
+    return true;
+  });
   return found;
 }
 
 template <class Search, Effects effects>
-auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Taken {
+auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Done {
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
   return {key,
@@ -620,33 +522,15 @@ auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey k
 // The cell of a needle that is at r, and those in which it may be placed.
 template <class Search, Effects effects>
 CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
-  return cells_around(r, search_.radius() * (1 + 0x1p-10) + 0x1p-20, search_.cell_of(i));
-}
-
-// The cells not farther than `distance` from r along the axes, and one more.
-template <class Search, Effects effects>
-CellBox ParallelLoop<Search, effects>::cells_around(const Vec3d& r, double distance,
-                                                    std::optional<Cell> one) const {
-  const CellGrid& grid = search_.grid();
-  const Vec3d all_around{distance, distance, distance};
-  Cell low = grid.cell_of(r - all_around), high = grid.cell_of(r + all_around);
-  CellBox out;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (one) {
-      low[axis] = std::min(low[axis], (*one)[axis]);
-      high[axis] = std::max(high[axis], (*one)[axis]);
-    }
-    out.low[axis] = grid.wrap(low[axis], axis);
-    out.more[axis] = std::min(high[axis] - low[axis], grid.counts()[axis] - 1);
-  }
-  return out;
+  return cells_around(search_.grid(), r, search_.radius() * (1 + 0x1p-10) + 0x1p-20,
+                      search_.cell_of(i));
 }
 
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
 // has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
 // are far.
 template <class Search, Effects effects>
-bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Taken& mine, double speed,
+bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Done& mine, double speed,
                                                  bool in_order, bool alone) const {
   TimeKey latest = 0;
   double fastest = speed;
@@ -656,35 +540,10 @@ bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Taken& mi
     fastest = std::max(fastest, hand.fastest.load());
   }
   if (latest < mine.key) return false;
-  const auto reach_until = [&](TimeKey key, double other_speed) {
-    const double then = EventTable::time_of(key);
-    const double time = then - EventTable::time_of(mine.key) + 0x1p-50 * then;
-    return 1 + 0x1p-20 + time * (speed + other_speed) * (1 + 0x1p-20);
-  };
   // Farther than this others may be at work.
-  const double farthest = reach_until(latest, fastest);
+  const double farthest = DoneLog::reach(mine.key, latest, speed + fastest);
   if (!(farthest < 1.01 + 2 * search_.drift())) return true;
-  if (alone && in_order) return false;
-  const auto after = [](const Taken& a, const Taken& b) {
-    if (a.key != b.key) return a.key > b.key;
-    // Two searches at one time may be made in any order.
-    return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
-                                           std::tie(b.contact, b.lower_id, b.higher_id);
-  };
-  return any_around(cells_around(mine.r, farthest), {}, [&](Block b) {
-    if (latest_done_[b] < mine.key) return false;
-    return std::any_of(done_[b].begin(), done_[b].end(), [&](const Taken& other) {
-      if (!after(other, mine)) return false;
-      const double reach = reach_until(other.key, other.speed);
-      double squares = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double gap = (&other.r.x)[axis] - (&mine.r.x)[axis], box = gas.box[axis];
-        const double nearest = gap - std::nearbyint(gap / box) * box;
-        squares += nearest * nearest;
-      }
-      return squares < reach * reach;
-    });
-  });
+  return !(alone && in_order) && done_.may_have_met(mine, speed, farthest);
 }
 
 }  // namespace needlework

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "src/engine/claims.h"
 #include "tests/support/random.h"
 
 namespace needlework {
@@ -69,53 +68,6 @@ TEST(Zones, KnowTheirInnerCells) {
     count += inner[a];
   }
   EXPECT_GT(count, 0);
-}
-
-TEST(CellBoxes, AreNearWhenAnyOfTheirCellsAre) {
-  test::Random random(2);
-  const CellCounts cells{7, 5, 11};
-  const auto box = [&] {
-    CellBox out;
-    for (int i = 0; i < 3; ++i) {
-      out.low[i] = static_cast<std::int32_t>(random.below(cells[i]));
-      out.more[i] = static_cast<std::int32_t>(random.below(3));
-    }
-    return out;
-  };
-  int nears = 0;
-  for (int n = 0; n < 5000; ++n) {
-    const CellBox a = box(), b = box();
-    const CellCounts distance{static_cast<std::int32_t>(random.below(3)),
-                              static_cast<std::int32_t>(random.below(2)), 1};
-    bool expected = true;
-    for (int i = 0; i < 3; ++i) {
-      bool close = false;
-      for (std::int32_t x = 0; x <= a.more[i]; ++x) {
-        for (std::int32_t y = 0; y <= b.more[i]; ++y) {
-          close |= steps_between((a.low[i] + x) % cells[i], (b.low[i] + y) % cells[i], cells[i]) <=
-                   distance[i];
-        }
-      }
-      expected &= close;
-    }
-    ASSERT_EQ(near(a, b, cells, distance), expected);
-    ASSERT_EQ(near(b, a, cells, distance), expected);
-    nears += expected;
-  }
-  EXPECT_GT(nears, 500);
-  EXPECT_LT(nears, 4500);
-}
-
-TEST(Claims, GiveWayToThreadsOfLowerNumber) {
-  Claims claims({20, 20, 20}, {1, 1, 1}, 3);
-  EXPECT_TRUE(claims.claim(1, Claims::owner, {{5, 5, 5}, {1, 0, 0}}));
-  EXPECT_FALSE(claims.claim(2, Claims::owner, {{7, 6, 4}, {}}));
-  EXPECT_TRUE(claims.claim(2, Claims::owner, {{8, 5, 5}, {}}));
-  EXPECT_FALSE(claims.claim(2, Claims::partner, {{4, 5, 5}, {}}));  // gives up all
-  EXPECT_TRUE(claims.claim(0, Claims::owner, {{8, 5, 5}, {}}));
-  claims.drop(0);
-  claims.drop(1);
-  EXPECT_TRUE(claims.claim(2, Claims::owner, {{5, 5, 5}, {19, 0, 0}}));
 }
 
 }  // namespace

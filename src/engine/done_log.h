@@ -1,0 +1,85 @@
+// What has been done since the threads last met, so that each event can look for later ones that
+// have been done near it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "src/calendar/event_table.h"
+#include "src/engine/cell_box.h"
+
+namespace needlework {
+
+/// A needle of an event: where it was then, and how fast before.
+struct Done {
+  TimeKey key;
+  Vec3d r;       ///< not wrapped into the box
+  double speed;  ///< [L/time]
+  bool contact;
+  std::uint32_t lower_id, higher_id;  ///< of the event's needles
+};
+
+/// The events done, by the cell in which they were. Threads may use it at once, as long as none
+/// adds to cells that another reads or adds to.
+class DoneLog {
+ public:
+  DoneLog(const CellGrid& grid, const std::array<double, 3>& box)
+      : grid_(grid), box_(box), done_(grid.size()), latest_(grid.size()) {}
+
+  void clear() {
+    std::fill(latest_.begin(), latest_.end(), TimeKey{0});
+    for (std::vector<Done>& events : done_) events.clear();
+  }
+  void add(const Done& done) {
+    const std::size_t cell = grid_.index_of(grid_.cell_of(done.r));
+    done_[cell].push_back(done);
+    latest_[cell] = std::max(latest_[cell], done.key);
+  }
+
+  /// Needles farther apart than this [L], the one where it has been seen at time `from`, the other
+  /// at time `until`, and with speeds of this sum in between, have not met between.
+  static double reach(TimeKey from, TimeKey until, double speeds) {
+    const double then = EventTable::time_of(until);
+    const double time = then - EventTable::time_of(from) + 0x1p-50 * then;
+    return 1 + 0x1p-20 + time * speeds * (1 + 0x1p-20);
+  }
+
+  /// Whether a needle that has had this event, and has had `speed` since, may have met one whose
+  /// later event has been done, before that. Looks not farther than `farthest` along the axes.
+  bool may_have_met(const Done& mine, double speed, double farthest) const {
+    return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t cell) {
+      if (latest_[cell] < mine.key) return false;
+      return std::any_of(done_[cell].begin(), done_[cell].end(), [&](const Done& other) {
+        return comes_after(other, mine) &&
+               are_nearer(other.r, mine.r, reach(mine.key, other.key, speed + other.speed));
+      });
+    });
+  }
+
+ private:
+  static bool comes_after(const Done& a, const Done& b) {
+    if (a.key != b.key) return a.key > b.key;
+    // Two searches at one time may be made in any order.
+    return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
+                                           std::tie(b.contact, b.lower_id, b.higher_id);
+  }
+  bool are_nearer(const Vec3d& a, const Vec3d& b, double distance) const {
+    double squares = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = (&a.x)[axis] - (&b.x)[axis];
+      const double nearest = gap - std::nearbyint(gap / box_[axis]) * box_[axis];
+      squares += nearest * nearest;
+    }
+    return squares < distance * distance;
+  }
+
+  CellGrid grid_;
+  std::array<double, 3> box_;
+  std::vector<std::vector<Done>> done_;  ///< by cell
+  std::vector<TimeKey> latest_;          ///< of these
+};
+
+}  // namespace needlework

@@ -1,0 +1,122 @@
+// The check that no event done before its turn could have mattered to one before it.
+#include "src/engine/done_log.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace needlework {
+namespace {
+
+TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
+
+Done at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
+        std::uint32_t higher = 1) {
+  return {key_at(time), r, speed, lower != higher, lower, higher};
+}
+
+const std::array<double, 3> box{8, 9, 10};
+const Vec3d here{4, 4, 4};
+constexpr double far = 3;
+constexpr double just = 1e-5;
+
+// Whether a needle with an event may have met the one with this other event, and the same with both
+// moved by parts of the box.
+bool may_have_met(const Done& mine, double speed, const Done& other) {
+  std::optional<bool> out;
+  for (const Vec3d& move : {Vec3d{0, 0, 0}, {3.9, 0, 0}, {0, 5.1, 0}, {0, 0, -3.8}, {-4, -4, -4}}) {
+    DoneLog log(CellGrid(box, 0.7, 1000), box);
+    Done a = mine, b = other;
+    a.r = a.r + move;
+    b.r = b.r + move;
+    log.add(b);
+    const bool met = log.may_have_met(a, speed, far);
+    EXPECT_EQ(met, out.value_or(met)) << "moved by " << move.x << ' ' << move.y << ' ' << move.z;
+    out = met;
+  }
+  return *out;
+}
+
+// After an event at time 1, with speed 2; the other's is at 1.25, with speed 1 before: in a quarter
+// they come nearer by 3/4, and touch within 1.
+constexpr double reach = 1 + 0.25 * 3;
+
+TEST(DoneLog, KnowsHowFarNeedlesCanMeet) {
+  EXPECT_NEAR(DoneLog::reach(key_at(1), key_at(1.25), 3), reach, just);
+  EXPECT_GT(DoneLog::reach(key_at(1), key_at(1.25), 3), reach);
+  // With room for rounding, also that of the times.
+  EXPECT_GT(DoneLog::reach(key_at(1), key_at(1), 0), 1);
+  EXPECT_GT(DoneLog::reach(key_at(0x1p40), key_at(0x1p40), 0x1p20), 1 + 2 * 0x1p-53 * 0x1p60);
+}
+
+TEST(DoneLog, FindsThoseThatMayHaveMet) {
+  const Done mine = at(1, here, 0);
+  for (const Vec3d& way :
+       {Vec3d{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0.6, 0, -0.8}, {0.48, 0.6, 0.64}}) {
+    EXPECT_TRUE(may_have_met(mine, 2, at(1.25, here + (reach - just) * way, 1)));
+    EXPECT_FALSE(may_have_met(mine, 2, at(1.25, here + (reach + just) * way, 1)));
+    // What counts is how fast mine is since, and the other was before.
+    EXPECT_FALSE(may_have_met(at(1, here, 9), 2, at(1.25, here + (reach + just) * way, 1)));
+    EXPECT_FALSE(may_have_met(mine, 2 - 1e-3, at(1.25, here + (reach - just) * way, 1)));
+    EXPECT_FALSE(may_have_met(mine, 2, at(1.25 - 1e-3, here + (reach - just) * way, 1)));
+  }
+}
+
+TEST(DoneLog, FindsAnImage) {
+  DoneLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(2, {0.1, 8.9, 0.1}, 0));
+  EXPECT_TRUE(log.may_have_met(at(1, {7.6, 0.4, 9.7}, 0), 0, far));   // 0.5, 0.5, 0.4
+  EXPECT_FALSE(log.may_have_met(at(1, {7.4, 0.4, 9.5}, 0), 0, far));  // 0.7, 0.5, 0.6
+  EXPECT_TRUE(log.may_have_met(at(1, {8.6, -0.6, 0.4}, 0), 0, far));  // not wrapped
+}
+
+TEST(DoneLog, LooksAtLaterEventsOnly) {
+  for (const double before : {0.5, 1 - 1e-12}) {
+    EXPECT_FALSE(may_have_met(at(1, here, 0), 2, at(before, here, 1, 2, 3)));
+  }
+  EXPECT_TRUE(may_have_met(at(1, here, 0), 2, at(1 + 1e-12, here, 1)));
+}
+
+TEST(DoneLog, LooksAtAllLaterEvents) {
+  DoneLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0));
+  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0));  // does not hide the one before it
+  EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
+  log.clear();
+  EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
+  log.add(at(1, here, 0, 5, 5));
+  EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
+  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5));
+  EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
+}
+
+// Events of one key, in the order of Event.
+TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
+  const auto after = [](const Done& other, const Done& mine) {
+    return may_have_met(mine, 1, other);
+  };
+  const Done early = at(1, here, 1, 2, 7), late = at(1, here, 1, 3, 5),
+             later = at(1, here, 1, 3, 6);
+  EXPECT_TRUE(after(late, early));
+  EXPECT_FALSE(after(early, late));
+  EXPECT_TRUE(after(later, late));
+  EXPECT_FALSE(after(late, later));
+  EXPECT_FALSE(after(late, late));  // the partner's entry for one event
+  const Done search = at(1, here, 1, 9, 9), other_search = at(1, here, 1, 8, 8);
+  EXPECT_TRUE(after(early, search));  // a horizon comes before contacts
+  EXPECT_FALSE(after(search, early));
+  EXPECT_FALSE(after(search, other_search));  // in any order
+  EXPECT_FALSE(after(other_search, search));
+}
+
+// The window of the search is a bound that the caller knows; a wider one finds the same.
+TEST(DoneLog, SearchesAsFarAsItIsTold) {
+  DoneLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
+  EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));
+  EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, 100));
+  EXPECT_FALSE(log.may_have_met(at(1, here, 0), 2, 0.1));
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,58 @@
+// Events done in the wrong order are found, and undone. To have some, these loops look less far for
+// earlier events than they should.
+#include <gtest/gtest.h>
+
+#include "src/engine/parallel_loop.h"
+#include "src/search/near_search.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+Scene::Until mean_collisions(double mean) {
+  Scene::Until until;
+  until.collisions_per_needle = mean;
+  return until;
+}
+
+// How many of the phases were undone. The trajectory is right in any case.
+template <class Search>
+double redone(const Scene& scene, int threads, double sight, const Scene::Until& until,
+              const std::string& truth) {
+  ParallelLoop<Search, Effects{}> loop(scene, make_gas(scene, draw_initial_state(scene)), {},
+                                       threads, sight);
+  EXPECT_EQ(loop.advance(until), Stop::collisions);
+  const Tally& tally = static_cast<const Run&>(loop).tally;
+  EXPECT_EQ(tally.hash.hex(), truth) << threads << " threads";
+  return static_cast<double>(tally.counters.redone) / static_cast<double>(tally.counters.phases);
+}
+
+std::string hash_of_one_thread(const Scene& scene, const Scene::Until& until) {
+  Simulation simulation(scene);
+  simulation.advance(until);
+  return simulation.trajectory_hash();
+}
+
+TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
+  const Scene::Until until = mean_collisions(4);
+  const Scene dilute = test::scene_of(2000, 14, 3), dense = test::scene_of(2000, 5, 3);
+  const std::string of_dilute = hash_of_one_thread(dilute, until);
+  const std::string of_dense = hash_of_one_thread(dense, until);
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_GT(redone<LinkedCells>(dilute, threads, 0, until, of_dilute), 0.5);
+    EXPECT_GT(redone<Capsules>(dense, threads, 0, until, of_dense), 0.7);
+  }
+}
+
+// Here hardly any other sign tells of it.
+TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
+  const Scene::Until until = mean_collisions(12);
+  const Scene scene = test::scene_of(2000, 5, 3);
+  const std::string truth = hash_of_one_thread(scene, until);
+  double all = 0;
+  for (const int threads : {2, 3, 8}) all += redone<Capsules>(scene, threads, 0.2, until, truth);
+  EXPECT_GT(all, 0);
+}
+
+}  // namespace
+}  // namespace needlework
