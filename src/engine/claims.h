@@ -28,6 +28,7 @@ class Claims {
     std::atomic<std::uint64_t>& mine = claims_[thread].part[part];
     if (mine.load(std::memory_order_relaxed) == packed(box)) return true;
     mine.store(packed(box), std::memory_order_seq_cst);
+    look_away();
     for (std::size_t other = 0; other < claims_.size(); ++other) {
       if (other == thread) continue;
       Patience patience(32);

@@ -462,10 +462,12 @@ bool ParallelLoop<Search, effects>::rest(Hand& me) {
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::make_known(Hand& me) {
   std::vector<Block>& changed = me.queue.changed;
+  look_away();
   for (const Block b : changed) {
     if (queue_.key_of_next(b) < queue_.clock_of(b)) queue_.publish(b);
   }
   for (const Block b : changed) {
+    look_away();
     queue_.publish(b);
     const std::uint32_t zone = queue_.zone_of(b);
     if (zone == me.zone) {

@@ -31,14 +31,20 @@ class Patience {
   int turns_ = 0;
 };
 
-/// Called where a thread looks at how far others are. In a test build it lets others go first at
-/// random, to bring about orders of events in time that hardly ever happen otherwise.
+/// Called where a thread looks at how far others are, or tells them how far it is. In a build with
+/// NEEDLEWORK_RANDOM_YIELDS it dawdles there at random, for some microseconds, or lets others have
+/// the core: to bring about orders of events in time that hardly ever happen otherwise.
 inline void look_away() {
 #ifdef NEEDLEWORK_RANDOM_YIELDS
   thread_local unsigned state =
       static_cast<unsigned>(reinterpret_cast<std::uintptr_t>(&state) >> 4);
   state = state * 1664525u + 1013904223u;
-  if (state >> 24 < 16) std::this_thread::yield();
+  const unsigned drawn = state >> 22;
+  if (drawn < 64) std::this_thread::yield();
+  if (drawn >= 1016) {
+    Patience patience(4096);
+    for (unsigned turns = (state >> 10) % 4096; turns > 0; --turns) patience.wait();
+  }
 #endif
 }
 
