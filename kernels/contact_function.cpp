@@ -123,6 +123,36 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
   return out;
 }
 
+Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
+  // What a few operations in double-double may be off by, as a share of the largest number in them.
+  constexpr double share = 0x1p-96;
+  const auto number = [&](const DoubleDouble& a) { return range_of(a, share * std::abs(a.hi)); };
+  const auto vector = [&](const Vec3dd& a) {
+    const double error = share * largest({a.x.hi, a.y.hi, a.z.hi});
+    return Vec3<Range>{range_of(a.x, error), range_of(a.y, error), range_of(a.z, error)};
+  };
+  Frame<Range> out;
+  const double far = largest(pair.first->r) + largest(pair.second->r) +
+                     largest(to_double(pair.shift)) +
+                     largest(pair.first->v) * pair.elapsed_first.hi +
+                     largest(pair.second->v) * pair.elapsed_second.hi;
+  out.r = {range_of(frame.r.x, share * far), range_of(frame.r.y, share * far),
+           range_of(frame.r.z, share * far)};
+  out.v = vector(frame.v);
+  for (int i = 0; i < 2; ++i) {
+    out.u[i] = vector(frame.u[i]);
+    out.p[i] = vector(frame.p[i]);
+    out.omega[i] = number(frame.omega[i]);
+    out.delay[i] = number(frame.delay[i]);
+  }
+  // What continues from a touch is a difference of numbers up to |r|, or |v| + |r| w.
+  const double r = frame.r_norm + far;
+  out.offset = range_of(frame.offset, share * r);
+  out.slope = range_of(frame.slope, share * (frame.v_norm + r * frame.w_sum));
+  set_norms(out);
+  return out;
+}
+
 Amplitude amplitude(const Frame<DoubleDouble>& frame) {
   const auto part = [&](double sign) {
     // cos cos and sin sin, cos sin and sin cos, join in the cosine and sine of the sum (sign +1)

@@ -6,14 +6,16 @@
 // since the later of the two records. Everything is scaled by a power of two so that
 // |v12| + |w1| + |w2| is about 1: no tolerance below refers to a unit of time.
 //
-// One template serves double and double-double; each value comes with a bound on its rounding
-// error, the rounding of its inputs to T included, relative to the records taken as exact numbers.
+// One template serves double, double-double and intervals; each value of the former two comes with a
+// bound on its rounding error, the rounding of its inputs to T included, relative to the records
+// taken as exact numbers.
 #pragma once
 
 #include <cmath>
 #include <limits>
 
 #include "kernels/double_double.h"
+#include "kernels/range.h"
 #include "kernels/sine_cosine.h"
 #include "kernels/vec3.h"
 
@@ -87,6 +89,9 @@ struct Frame {
 
 template <class T>
 Frame<T> make_frame(const Pair& pair, const PairScale& scale);
+
+/// Encloses the frame of this pair, made to double-double precision.
+Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair);
 
 /// f with two derivatives and bounds on their errors at one time.
 struct Estimate {

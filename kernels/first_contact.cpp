@@ -13,9 +13,11 @@ constexpr double grid = 0.5;
 // From this depth on, bounds are sharpened by the coefficients of f: costly, but the only way when
 // f is small everywhere, as for needles in nearly one plane.
 constexpr int sharpen_depth = 3;
-// Halving ends here: f, f' and f'' all vanish to double-double precision, and only the signs at the
+// Halving ends here: f, f' and f'' all vanish to the precision there is, and only the signs at the
 // ends decide.
-constexpr int last_depth = 44;
+constexpr int last_depth_of(Escalation escalation) {
+  return escalation == Escalation::never ? 12 : 44;
+}
 // Roots whose double value may be off by more than this share of the time since s = 0 are refined
 // in double-double.
 constexpr double polish_above = 0x1p-40;
@@ -24,6 +26,8 @@ constexpr double velocity_noise = 0x1p-46;
 // Segments farther apart do not touch, however small f is; far above what rounding does to them,
 // and below the margins of every filter.
 constexpr double touching = 0x1p-18;
+// Without error bounds, f is taken to vanish where it stays below this share of the distance.
+constexpr double flat_in_double = 0x1p-48;
 // Bounds computed with a few roundings are enlarged by this.
 constexpr double roundup = 1 + 0x1p-40;
 
@@ -45,10 +49,17 @@ struct Root {
   int side;  // sign of f before
 };
 
+// The search by one isolation and one escalation: what others need is not in its code.
+template <Isolation isolation, Escalation escalation>
 class Search {
  public:
-  Search(const Pair& pair, const PairScale& scale, SearchCounters& counters)
-      : pair_(pair), scale_(scale), frame_(make_frame<double>(pair, scale)), counters_(counters) {
+  Search(const Pair& pair, const PairScale& scale, const Accuracy& accuracy,
+         SearchCounters& counters)
+      : pair_(pair),
+        scale_(scale),
+        accuracy_(accuracy),
+        frame_(make_frame<double>(pair, scale)),
+        counters_(counters) {
     if (pair.touch.touching) continue_from_touch();
   }
 
@@ -62,29 +73,46 @@ class Search {
   const Frame<T>& frame();
   Sample<double> sample_at(double s);
   Sample<DoubleDouble> sample_at(const DoubleDouble& s);
-  Estimate in_double(double s) { return estimate(frame_, s, sample_at(s)); }
+  template <class T>
+  Estimate estimate_of(const T& s, const Sample<T>& sample);
+  Estimate in_double(double s) { return estimate_of(s, sample_at(s)); }
   Estimate in_double_double(const DoubleDouble& s) {
-    return estimate(precise_frame(), s, sample_at(s));
+    if constexpr (escalates) {
+      return estimate_of(s, sample_at(s));
+    } else {
+      return in_double(to_double(s));
+    }
+  }
+
+  // What decides on a sign first.
+  Estimate decisive(double s) {
+    return escalation == Escalation::always ? in_double_double(s) : in_double(s);
   }
 
   double third_derivative_bound(const Estimate& e, const Interval& interval) const;
   double second_derivative_bound(const Estimate& e, const Interval& interval) const;
   double bent_by(const Estimate& e, const Interval& interval) const;
+  double least_slope(const Estimate& e, const Interval& interval) const;
+  double least_bend(const Estimate& e, const Interval& interval) const;
+  double most_bend(const Estimate& e, const Interval& interval) const;
   Shape shape_of(const Estimate& e, const Interval& interval) const;
   Shape classify(const Interval& interval, Estimate& e);
+  Shape classify_precisely(const Interval& interval, Estimate& e);
+  Shape classify_by_intervals(const Interval& interval, Estimate& e);
 
   int sign_at(double s);
   int side_before_root(const Interval& interval, const Estimate& e, double least_slope);
   int slope_sign_at(double s);
 
+  std::optional<Root> search_samples(const Interval& interval);
   std::optional<Root> search_interval(const Interval& interval);
   std::optional<Root> search_fold(const Interval& interval, const Estimate& e);
   std::optional<Root> search_start(const Interval& interval, const Estimate& e);
   std::optional<Root> search_flat_start(const Interval& interval);
   std::optional<Root> accept(double begin, double end, double start, int side,
                              double least_slope = 0);
-  std::optional<Root> accept(const DoubleDouble& begin, const DoubleDouble& end,
-                             const DoubleDouble& start, int side);
+  std::optional<Root> accept_precisely(const DoubleDouble& begin, const DoubleDouble& end,
+                                       const DoubleDouble& start, int side);
 
   template <class T>
   struct Refined {
@@ -100,11 +128,22 @@ class Search {
                   double uncertainty) const;  // 1 inside, -1 outside, 0 undecided
   double root_uncertainty(const Estimate& e, double s, double roundoff) const;
 
+  static constexpr bool escalates = escalation != Escalation::never;
+  static constexpr int last_depth = last_depth_of(escalation);
+
   const Pair& pair_;
   PairScale scale_;
+  const Accuracy& accuracy_;
   Frame<double> frame_;
   std::optional<Frame<DoubleDouble>> precise_;
   std::optional<Amplitude> amplitude_;
+  // With isolation by intervals: the frame, and what it says of the interval at hand, if that
+  // settled it.
+  struct Enclosure {
+    Range df, ddf;
+  };
+  std::optional<Frame<Range>> ranges_;
+  std::optional<Enclosure> enclosure_;
   // The sample in the middle of the interval at hand, where the root is looked for first.
   double middle_ = std::numeric_limits<double>::quiet_NaN();
   Sample<double> at_middle_;
@@ -116,9 +155,15 @@ class Search {
 
 // f is continued from the gap it had. In double, so far as that tells whether f leaves the touch on
 // its side.
-void Search::continue_from_touch() {
+template <Isolation isolation, Escalation escalation>
+void Search<isolation, escalation>::continue_from_touch() {
   just_collided_ = pair_.touch.collided;
   const Estimate start = in_double(0);
+  if constexpr (!escalates) {
+    frame_.offset = pair_.touch.gap - start.f;
+    if (just_collided_ && start.df * pair_.touch.side < 0) frame_.slope = -start.df;
+    return;
+  }
   if (just_collided_ && start.df * pair_.touch.side <= start.error_df) {
     const Frame<DoubleDouble>& frame = precise_frame();
     frame_.offset = to_double(frame.offset);
@@ -129,7 +174,8 @@ void Search::continue_from_touch() {
   }
 }
 
-const Frame<DoubleDouble>& Search::precise_frame() {
+template <Isolation isolation, Escalation escalation>
+const Frame<DoubleDouble>& Search<isolation, escalation>::precise_frame() {
   if (precise_) return *precise_;
   Frame<DoubleDouble>& frame = precise_.emplace(make_frame<DoubleDouble>(pair_, scale_));
   if (!pair_.touch.touching) return frame;
@@ -142,8 +188,9 @@ const Frame<DoubleDouble>& Search::precise_frame() {
   return frame;
 }
 
+template <Isolation isolation, Escalation escalation>
 template <class T>
-const Frame<T>& Search::frame() {
+const Frame<T>& Search<isolation, escalation>::frame() {
   if constexpr (std::is_same_v<T, double>) {
     return frame_;
   } else {
@@ -151,42 +198,89 @@ const Frame<T>& Search::frame() {
   }
 }
 
-Sample<double> Search::sample_at(double s) {
+template <Isolation isolation, Escalation escalation>
+Sample<double> Search<isolation, escalation>::sample_at(double s) {
   if (s == middle_) return at_middle_;
   ++counters_.evaluated;
   return evaluate(frame_, s);
 }
 
-Sample<DoubleDouble> Search::sample_at(const DoubleDouble& s) {
+template <Isolation isolation, Escalation escalation>
+Sample<DoubleDouble> Search<isolation, escalation>::sample_at(const DoubleDouble& s) {
   ++counters_.escalated;
   return evaluate(precise_frame(), s);
 }
 
+// f and its derivatives, without a look at their errors where double decides everything.
+template <Isolation isolation, Escalation escalation>
+template <class T>
+Estimate Search<isolation, escalation>::estimate_of(const T& s, const Sample<T>& sample) {
+  if constexpr (escalates) {
+    return estimate(frame<T>(), s, sample);
+  } else {
+    return {.f = to_double(sample.f),
+            .df = to_double(sample.df),
+            .ddf = to_double(sample.ddf),
+            .error_f = 0,
+            .error_df = 0,
+            .error_ddf = 0,
+            .distance = std::sqrt(to_double(dot(sample.r, sample.r)))};
+  }
+}
+
 // Whether the sharper bounds apply is a matter of the interval alone, not of what was searched
 // before.
-double Search::second_derivative_bound(const Estimate& e, const Interval& interval) const {
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::second_derivative_bound(const Estimate& e,
+                                                              const Interval& interval) const {
   const double w = frame_.w_sum, v = frame_.v_length;
   const double general = (2 * v + (e.distance + v * interval.half()) * w) * w;
-  if (interval.depth < sharpen_depth) return general;
+  if (!escalates || interval.depth < sharpen_depth) return general;
   return std::min(general, amplitude_->derivative_bound(2, interval.end));
 }
 
-double Search::third_derivative_bound(const Estimate& e, const Interval& interval) const {
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::third_derivative_bound(const Estimate& e,
+                                                             const Interval& interval) const {
   const double w = frame_.w_sum, v = frame_.v_length;
   const double general = (3 * v + (e.distance + v * interval.half()) * w) * w * w;
-  if (interval.depth < sharpen_depth) return general;
+  if (!escalates || interval.depth < sharpen_depth) return general;
   return std::min(general, amplitude_->derivative_bound(3, interval.end));
 }
 
 // How much f' can change between the middle of the interval, where e was taken, and its ends.
-double Search::bent_by(const Estimate& e, const Interval& interval) const {
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::bent_by(const Estimate& e, const Interval& interval) const {
   const double half = interval.half();
   const double ddf =
       std::abs(e.ddf) + e.error_ddf + 0.5 * half * third_derivative_bound(e, interval);
   return half * std::min(second_derivative_bound(e, interval), ddf) * roundup;
 }
 
-Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
+// |f'| is not below this on the interval, if its sign is the same everywhere.
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::least_slope(const Estimate& e,
+                                                  const Interval& interval) const {
+  if (enclosure_) return enclosure_->df.least();
+  return std::abs(e.df) - e.error_df - bent_by(e, interval);
+}
+
+// The same for |f''|.
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::least_bend(const Estimate& e,
+                                                 const Interval& interval) const {
+  if (enclosure_) return enclosure_->ddf.least();
+  return std::abs(e.ddf) - e.error_ddf - interval.half() * third_derivative_bound(e, interval);
+}
+
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::most_bend(const Estimate& e, const Interval& interval) const {
+  if (enclosure_) return enclosure_->ddf.most();
+  return std::abs(e.ddf) + e.error_ddf + interval.half() * third_derivative_bound(e, interval);
+}
+
+template <Isolation isolation, Escalation escalation>
+Shape Search<isolation, escalation>::shape_of(const Estimate& e, const Interval& interval) const {
   const double half = interval.half();
   const double m2 = second_derivative_bound(e, interval);
   const double m3 = third_derivative_bound(e, interval);
@@ -198,19 +292,22 @@ Shape Search::shape_of(const Estimate& e, const Interval& interval) const {
   if (std::abs(e.df) > bent_by(e, interval) + e.error_df) return Shape::monotone;
   if (std::abs(e.ddf) > half * m3 * roundup + e.error_ddf) return Shape::folded;
   // The terms of the errors in `change` shrink with the interval, f's own does not.
-  if (std::abs(e.f) + change <= 4 * e.error_f) return Shape::flat;
+  const double noise = escalates ? 4 * e.error_f : flat_in_double * e.distance;
+  if (std::abs(e.f) + change <= noise) return Shape::flat;
   return Shape::unknown;
 }
 
 // Classifies in double, then, when the error bounds rather than the bounds on derivatives prevent a
 // decision, in double-double. e is the estimate on which the decision rests.
-Shape Search::classify(const Interval& interval, Estimate& e) {
+template <Isolation isolation, Escalation escalation>
+Shape Search<isolation, escalation>::classify(const Interval& interval, Estimate& e) {
+  if constexpr (isolation == Isolation::intervals) return classify_by_intervals(interval, e);
   const double middle = interval.middle();
   at_middle_ = sample_at(middle);
   middle_ = middle;
-  e = estimate(frame_, middle, at_middle_);
-  Shape shape = shape_of(e, interval);
-  if (shape != Shape::unknown && shape != Shape::flat) return shape;
+  e = estimate_of(middle, at_middle_);
+  const Shape shape = shape_of(e, interval);
+  if (!escalates || (shape != Shape::unknown && shape != Shape::flat)) return shape;
   const double half = interval.half();
   const double m3 = third_derivative_bound(e, interval);
   const double curved = half * half * half * m3;
@@ -218,16 +315,62 @@ Shape Search::classify(const Interval& interval, Estimate& e) {
       e.error_ddf * half * half < 0x1p-6 * curved) {
     return Shape::unknown;
   }
-  e = in_double_double(middle);
+  return classify_precisely(interval, e);
+}
+
+template <Isolation isolation, Escalation escalation>
+Shape Search<isolation, escalation>::classify_precisely(const Interval& interval, Estimate& e) {
+  e = in_double_double(interval.middle());
   return shape_of(e, interval);
 }
 
+// Encloses f and its derivatives on the whole interval: as they come, and by expansion at the
+// middle.
+template <Isolation isolation, Escalation escalation>
+Shape Search<isolation, escalation>::classify_by_intervals(const Interval& interval, Estimate& e) {
+  enclosure_.reset();
+  if (!ranges_) ranges_ = enclose(precise_frame(), pair_);
+  counters_.evaluated += 2;
+  const Sample<Range> whole = evaluate(*ranges_, Range(interval.begin, interval.end));
+  const Sample<Range> middle = evaluate(*ranges_, Range(interval.middle()));
+  const double half = interval.half();
+  const Range way(-half, half), bent = Range(0, round_up(half * half)) * (whole.ddf * Range(0.5));
+  const Range ddf = whole.ddf, df = common(whole.df, middle.df + way * ddf);
+  const Range f = common(whole.f, middle.f + way * middle.df + bent);
+  const auto centre = [](const Range& a) { return a.lo + 0.5 * (a.hi - a.lo); };
+  const auto width = [](const Range& a) { return round_up(a.hi - a.lo); };
+  // The centre may lie beyond what is known of the whole interval, and then not have its sign.
+  const auto within = [&](const Range& a, const Range& known) {
+    return std::clamp(centre(a), known.lo, known.hi);
+  };
+  e = {.f = centre(middle.f),
+       .df = within(middle.df, df),
+       .ddf = within(middle.ddf, ddf),
+       .error_f = width(middle.f),
+       .error_df = width(middle.df),
+       .error_ddf = width(middle.ddf),
+       .distance = round_up(std::sqrt(dot(middle.r, middle.r).most()))};
+  const Shape shape = !f.has_zero()     ? Shape::free
+                      : !df.has_zero()  ? Shape::monotone
+                      : !ddf.has_zero() ? Shape::folded
+                                        : Shape::unknown;
+  if (shape != Shape::unknown) {
+    enclosure_ = {df, ddf};
+    return shape;
+  }
+  const bool by_rounding = width(middle.f) > 0x1p-6 * width(f) ||
+                           width(middle.df) > 0x1p-6 * width(df) ||
+                           width(middle.ddf) > 0x1p-6 * width(ddf);
+  return by_rounding ? classify_precisely(interval, e) : shape;
+}
+
 // Sign of f just after s.
-int Search::sign_at(double s) {
+template <Isolation isolation, Escalation escalation>
+int Search<isolation, escalation>::sign_at(double s) {
   if (s == 0 && pair_.touch.touching) return pair_.touch.side;
-  Estimate e = in_double(s);
+  Estimate e = decisive(s);
   if (std::abs(e.f) > e.error_f) return sign_of(e.f);
-  e = in_double_double(s);
+  if constexpr (escalation == Escalation::undecided) e = in_double_double(s);
   if (std::abs(e.f) > e.error_f) return sign_of(e.f);
   if (std::abs(e.df) > e.error_df) return sign_of(e.df);
   if (std::abs(e.ddf) > e.error_ddf) return sign_of(e.ddf);
@@ -236,7 +379,9 @@ int Search::sign_at(double s) {
 
 // The sign of f at the beginning of an interval on which |f'| is at least `least_slope`, when f has
 // a root there; else 0. The middle often tells both.
-int Search::side_before_root(const Interval& interval, const Estimate& e, double least_slope) {
+template <Isolation isolation, Escalation escalation>
+int Search<isolation, escalation>::side_before_root(const Interval& interval, const Estimate& e,
+                                                    double least_slope) {
   const int slope = sign_of(e.df);
   const bool carried = interval.begin == 0 && pair_.touch.touching;
   if (carried || !(std::abs(e.f) > e.error_f)) {
@@ -250,9 +395,10 @@ int Search::side_before_root(const Interval& interval, const Estimate& e, double
   return outer == (in_first_half ? -slope : slope) ? -slope : 0;
 }
 
-int Search::slope_sign_at(double s) {
-  Estimate e = in_double(s);
-  if (std::abs(e.df) <= e.error_df) e = in_double_double(s);
+template <Isolation isolation, Escalation escalation>
+int Search<isolation, escalation>::slope_sign_at(double s) {
+  Estimate e = decisive(s);
+  if (escalation == Escalation::undecided && std::abs(e.df) <= e.error_df) e = in_double_double(s);
   return std::abs(e.df) > e.error_df ? sign_of(e.df) : 0;
 }
 
@@ -260,17 +406,19 @@ int Search::slope_sign_at(double s) {
 // monotone, |f'| is at least `least_slope` between them, else that is 0. Stops where the rounding
 // error of T takes over, or, with nothing, as soon as the root is known to have an arm beyond a
 // tip.
+template <Isolation isolation, Escalation escalation>
 template <class T>
-std::optional<Search::Refined<T>> Search::refine(T begin, T end, T start, int side,
-                                                 double least_slope) {
-  constexpr double resolution = std::is_same_v<T, double> ? 0x1p-52 : 0x1p-98;
+auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, double least_slope)
+    -> std::optional<Refined<T>> {
+  constexpr bool in_double = std::is_same_v<T, double>;
+  const double share = in_double ? std::max(0x1p-52, accuracy_.root_tolerance) : 0x1p-98;
   std::optional<Refined<T>> out(std::in_place);
   T& s = out->root;
   s = start;
   for (int i = 0; i < 200; ++i) {
     out->near = s;
     const Sample<T>& sample = out->sample = sample_at(s);
-    const Estimate& e = out->estimate = estimate(frame<T>(), s, sample);
+    const Estimate& e = out->estimate = estimate_of(s, sample);
     if (e.f == 0) break;
     if (i == 1 && least_slope > 0) {
       if (arms_inside(s, sample, (std::abs(e.f) + e.error_f) / least_slope) < 0)
@@ -287,24 +435,34 @@ std::optional<Search::Refined<T>> Search::refine(T begin, T end, T start, int si
     const T target = within ? next : begin + (end - begin) * T(0.5);
     const double step = std::abs(to_double(target - s));
     s = target;
-    const double size = resolution * std::abs(to_double(s));
+    const double size = share * std::abs(to_double(s));
     if (step <= size || to_double(end - begin) <= size) break;
   }
   return out;
 }
 
-double Search::root_uncertainty(const Estimate& e, double s, double roundoff) const {
+template <Isolation isolation, Escalation escalation>
+double Search<isolation, escalation>::root_uncertainty(const Estimate& e, double s,
+                                                       double roundoff) const {
   const double slope = std::abs(e.df) - e.error_df;
   if (!(slope > 0)) return std::numeric_limits<double>::infinity();
   return (e.error_f + std::abs(e.f)) / slope + 4 * roundoff * std::abs(s);
 }
 
+template <Isolation isolation, Escalation escalation>
 template <class T>
-int Search::arms_inside(const T& s, const Sample<T>& sample, double uncertainty) const {
+int Search<isolation, escalation>::arms_inside(const T& s, const Sample<T>& sample,
+                                               double uncertainty) const {
   // |s12| < 1/2 as |c . x| < x . x / 2, c = u2 x r12: no division by what may be nearly 0. Near a
   // contact c is s12 x, so that every error below shrinks with |x|; near parallel directors that is
   // what tells contacts from the roots at which only x vanishes.
   const T xx = dot(sample.x, sample.x);
+  if constexpr (!escalates) {
+    const auto inside = [&](const Vec3<T>& other) {
+      return std::abs(to_double(dot(cross(other, sample.r), sample.x))) < 0.5 * to_double(xx);
+    };
+    return inside(sample.u[1]) && inside(sample.u[0]) ? 1 : -1;
+  }
   const double w = frame_.w_sum, v = frame_.v_norm;
   const double rounding = 16 * unit_roundoff<T>;
   const double eu = director_error(sample) + rounding;
@@ -329,20 +487,28 @@ int Search::arms_inside(const T& s, const Sample<T>& sample, double uncertainty)
 }
 
 // The root between begin and end, when it is a contact.
-std::optional<Root> Search::accept(double begin, double end, double start, int side,
-                                   double least_slope) {
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::accept(double begin, double end, double start,
+                                                          int side, double least_slope) {
   const auto refined = refine(begin, end, start, side, least_slope);
   if (!refined) return std::nullopt;
   const auto& [s, near, sample, e] = *refined;
   const double off = root_uncertainty(e, near, 0x1p-53);
   const int inside = std::isfinite(off) ? arms_inside(near, sample, off) : 0;
   if (inside < 0) return std::nullopt;
-  if (inside > 0 && off <= polish_above * s) return Root{s, off, side};
-  return accept(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(s), side);
+  if constexpr (!escalates) return Root{s, off, side};
+  const double enough = std::max(polish_above, accuracy_.root_tolerance);
+  const bool known = escalation == Escalation::undecided && inside > 0 && off <= enough * s;
+  if (known) return Root{s, off, side};
+  return accept_precisely(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(s), side);
 }
 
-std::optional<Root> Search::accept(const DoubleDouble& begin, const DoubleDouble& end,
-                                   const DoubleDouble& start, int side) {
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::accept_precisely(const DoubleDouble& begin,
+                                                                    const DoubleDouble& end,
+                                                                    const DoubleDouble& start,
+                                                                    int side) {
+  if constexpr (!escalates) return accept(begin.hi, end.hi, start.hi, side);
   const auto [s, near, sample, e] = *refine(begin, end, start, side, 0);
   const double off = root_uncertainty(e, to_double(near), 0x1p-102);
   // What double-double cannot tell from a tip or from parallel directors is no contact.
@@ -351,7 +517,9 @@ std::optional<Root> Search::accept(const DoubleDouble& begin, const DoubleDouble
 }
 
 // f'' keeps its sign on the interval.
-std::optional<Root> Search::search_fold(const Interval& interval, const Estimate& e) {
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& interval,
+                                                               const Estimate& e) {
   const int before = sign_at(interval.begin), after = sign_at(interval.end);
   const int bend = sign_of(e.ddf);
   if (before == 0 || after == 0) return std::nullopt;
@@ -377,15 +545,14 @@ std::optional<Root> Search::search_fold(const Interval& interval, const Estimate
     s = next;
     if (done) break;
   }
-  const double least_bend =
-      std::abs(e.ddf) - e.error_ddf - interval.half() * third_derivative_bound(e, interval);
+  const double bend_at_least = least_bend(e, interval);
   Estimate extreme = in_double(s);
   const auto clear = [&] {
     const double slope = std::abs(extreme.df) + extreme.error_df;
-    return std::abs(extreme.f) > extreme.error_f + slope * slope / least_bend * roundup;
+    return std::abs(extreme.f) > extreme.error_f + slope * slope / bend_at_least * roundup;
   };
   turn = s;
-  if (!clear()) {
+  if (escalates && !clear()) {
     for (int i = 0; i < 3; ++i) {
       const Sample<DoubleDouble> sample = sample_at(turn);
       turn = turn - sample.df / sample.ddf;
@@ -394,34 +561,33 @@ std::optional<Root> Search::search_fold(const Interval& interval, const Estimate
     if (!clear()) return std::nullopt;  // a touch, as far as double-double can tell
   }
   if (sign_of(extreme.f) == before) return std::nullopt;
-  if (auto first =
-          accept(DoubleDouble(interval.begin), turn, DoubleDouble(interval.begin), before)) {
-    return first;
-  }
-  return accept(turn, DoubleDouble(interval.end), DoubleDouble(interval.end), -before);
+  const DoubleDouble from = interval.begin, to = interval.end;
+  if (auto first = accept_precisely(from, turn, from, before)) return first;
+  return accept_precisely(turn, to, to, -before);
 }
 
 // The interval that begins where the pair has just collided: f(0) = 0 is known and f does not
 // approach there. Only called where f'' keeps its sign or f' does.
-std::optional<Root> Search::search_start(const Interval& interval, const Estimate& e) {
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::search_start(const Interval& interval,
+                                                                const Estimate& e) {
   const int side = pair_.touch.side, after = sign_at(interval.end);
   if (after == side || after == 0) return std::nullopt;
   if (sign_of(e.ddf) == side) return std::nullopt;
   // f rises from 0, bends back and has passed 0 by the end. Until half of the least time of return
   // it is surely above.
-  const double most_bend =
-      std::abs(e.ddf) + e.error_ddf + interval.half() * third_derivative_bound(e, interval);
   Estimate start = in_double(0);
-  if (!(start.df * side > 0x1p10 * start.error_df)) {
+  if (escalates && !(start.df * side > 0x1p10 * start.error_df)) {
     const Sample<DoubleDouble> sample = sample_at(DoubleDouble());
-    start = estimate(precise_frame(), DoubleDouble(), sample);
+    start = estimate_of(DoubleDouble(), sample);
     // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
     const double noise = std::sqrt(to_double(dot(sample.x, sample.x))) * velocity_noise *
                          (frame_.v_norm + frame_.w_sum);
     if (!(start.df * side > noise)) return Root{0.0, 0.0, side};
   }
+  if (!escalates && !(start.df * side > 0)) return Root{0.0, 0.0, side};
   const double slope = (start.df * side) * (1 - 0x1p-9);
-  const double lift = slope / most_bend;
+  const double lift = slope / most_bend(e, interval);
   // The parabola's return is a good start for short bounces.
   const double bend = -start.ddf * side;
   const double back = bend > 0 ? std::clamp(2 * slope / bend, lift, interval.end) : interval.end;
@@ -431,15 +597,38 @@ std::optional<Root> Search::search_start(const Interval& interval, const Estimat
 // The interval that begins at a touch, where f is not told from 0: f leaves it on one side, which
 // need not be the pair's. f' and f'' vanish too when the contact points of rough needles have come
 // to rest on each other.
-std::optional<Root> Search::search_flat_start(const Interval& interval) {
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::search_flat_start(const Interval& interval) {
   const int side = pair_.touch.side;
   if (side == 0 || sign_at(interval.end) != -side) return std::nullopt;
   return Root{0.0, 0.0, side};
 }
 
-std::optional<Root> Search::search_interval(const Interval& interval) {
+// Looks only at the signs at equal steps.
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::search_samples(const Interval& interval) {
+  const double length = interval.end - interval.begin;
+  const double steps = std::max(1.0, std::ceil(length / accuracy_.sampling_step));
+  double begin = interval.begin;
+  int before = sign_at(begin);
+  for (double n = 1; n <= steps; ++n) {
+    const double end = interval.begin + length * (n / steps);
+    const int after = sign_at(end);
+    if (before == -after && after != 0) {
+      const auto root = accept(begin, end, begin + 0.5 * (end - begin), before);
+      if (root) return root;
+    }
+    begin = end;
+    before = after;
+  }
+  return std::nullopt;
+}
+
+template <Isolation isolation, Escalation escalation>
+std::optional<Root> Search<isolation, escalation>::search_interval(const Interval& interval) {
   if (interval.end < first_ || interval.begin > last_) return std::nullopt;
-  if (interval.depth >= sharpen_depth && !amplitude_) {
+  if constexpr (isolation == Isolation::sampling) return search_samples(interval);
+  if (escalates && interval.depth >= sharpen_depth && !amplitude_) {
     amplitude_ = amplitude(precise_frame());
     const auto& [slow, fast] = *amplitude_;
     // Below the errors of f everywhere: every interval is flat, so the rest need not be searched.
@@ -461,10 +650,10 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
         // f leaves 0 and does not return, unless it approaches, which only rounding can claim.
         return sign_of(e.df) == pair_.touch.side ? std::nullopt : search_start(interval, e);
       } else {
-        const double least_slope = std::abs(e.df) - e.error_df - bent_by(e, interval);
-        const int before = side_before_root(interval, e, least_slope);
+        const double slope = least_slope(e, interval);
+        const int before = side_before_root(interval, e, slope);
         if (before == 0) return std::nullopt;
-        return accept(interval.begin, interval.end, interval.middle(), before, least_slope);
+        return accept(interval.begin, interval.end, interval.middle(), before, slope);
       }
     case Shape::folded:
       return starts ? search_start(interval, e) : search_fold(interval, e);
@@ -475,8 +664,7 @@ std::optional<Root> Search::search_interval(const Interval& interval) {
   if (interval.depth >= last_depth || middle == interval.begin || middle == interval.end) {
     const int before = sign_at(interval.begin), after = sign_at(interval.end);
     if (before == after || before == 0 || after == 0) return std::nullopt;
-    return accept(DoubleDouble(interval.begin), DoubleDouble(interval.end), DoubleDouble(middle),
-                  before);
+    return accept_precisely(interval.begin, interval.end, middle, before);
   }
   if (auto root = search_interval({interval.begin, middle, interval.depth + 1})) return root;
   return search_interval({middle, interval.end, interval.depth + 1});
@@ -507,7 +695,8 @@ Window sphere_window(const Vec3d& r, const Vec3d& v) {
   return {std::min(s1, s2), std::max(s1, s2)};
 }
 
-Contact Search::run(double from, double until) {
+template <Isolation isolation, Escalation escalation>
+Contact Search<isolation, escalation>::run(double from, double until) {
   const double end = until * scale_.per_time;
   // A root outside the window of the spheres has an arm beyond a tip.
   const Window window = sphere_window(frame_.r, frame_.v);
@@ -544,10 +733,24 @@ Contact Search::run(double from, double until) {
 
 }  // namespace
 
-Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters) {
+Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
+                      const Accuracy& accuracy) {
   const PairScale scale = scale_of(pair);
   if (!scale.moves) return {};
-  return Search(pair, scale, counters).run(from, until);
+  const auto by = [&]<Isolation isolation>() {
+    const auto with = [&]<Escalation escalation>() {
+      return Search<isolation, escalation>(pair, scale, accuracy, counters).run(from, until);
+    };
+    if (accuracy.escalation == Escalation::undecided) {
+      return with.template operator()<Escalation::undecided>();
+    }
+    return accuracy.escalation == Escalation::never
+               ? with.template operator()<Escalation::never>()
+               : with.template operator()<Escalation::always>();
+  };
+  if (accuracy.isolation == Isolation::bounds) return by.operator()<Isolation::bounds>();
+  return accuracy.isolation == Isolation::sampling ? by.operator()<Isolation::sampling>()
+                                                   : by.operator()<Isolation::intervals>();
 }
 
 ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed) {

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 
+#include "kernels/accuracy.h"
 #include "kernels/contact_function.h"
 
 namespace needlework::kernels {
@@ -36,7 +37,8 @@ struct Contact {
 
 /// The first contact with elapsed time in (0, until]. Intervals wholly before `from` may be
 /// skipped: the caller knows them to be free. `until` must be finite.
-Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters);
+Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
+                      const Accuracy& accuracy = standard_accuracy);
 
 /// The pair at the moment of contact.
 struct ContactGeometry {

@@ -20,7 +20,6 @@ using Names = std::vector<std::string>;
 
 const Names searches{"linked-cells", "capsules", "linked-lists", "all-pairs"};
 const Names queues{"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"};
-const Names accuracies{"standard"};
 const Names parallel_searches{"linked-cells", "capsules"};
 const Names parallel_queues{"cell-calendar"};
 
@@ -70,7 +69,6 @@ void choose_engine(Scene& scene, const EngineFlags& flags) {
   };
   require_value_offered("engine.search", engine.search, searches);
   require_value_offered("engine.queue", engine.queue, queues);
-  require_value_offered("engine.accuracy", engine.accuracy, accuracies);
 
   std::string isa_place = place_of(scene, "engine.isa", engine.isa);
   const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");

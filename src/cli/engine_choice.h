@@ -19,7 +19,7 @@ struct EngineFlags {
 std::vector<std::string> instruction_sets();
 
 /// Puts flags, then the environment (NEEDLEWORK_ISA where the scene says auto), into the scene and
-/// checks that search, queue, accuracy, threads and ISA are on offer. OMP_NUM_THREADS is a wish for
+/// checks that search, queue, threads and ISA are on offer. OMP_NUM_THREADS is a wish for
 /// at most so many threads; as the engine has one thread, every value of it is met by 1.
 /// Throws InputError naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene, const EngineFlags& flags);

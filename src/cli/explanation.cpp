@@ -10,6 +10,7 @@
 #include "src/cli/json_number.h"
 #include "src/cli/messages.h"
 #include "src/cli/resources.h"
+#include "src/engine/accuracy.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
@@ -96,7 +97,7 @@ std::string expected_text(const Explanation& e) {
 
 std::string engine_text(const Scene::Engine& engine, double density) {
   return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}",
-                     resolved_search(engine, density), resolved_queue(engine), engine.accuracy,
+                     resolved_search(engine, density), resolved_queue(engine), accuracy_name(engine),
                      engine.threads.value_or(1), engine.threads.value_or(1) == 1 ? "" : "s",
                      resolved_isa(engine));
 }
@@ -167,7 +168,7 @@ Json json_of(const Explanation& e) {
   }
   json["search"] = resolved_search(scene.engine, e.density);
   json["queue"] = resolved_queue(scene.engine);
-  json["accuracy"] = scene.engine.accuracy;
+  json["accuracy"] = accuracy_name(scene.engine);
   json["threads"] = scene.engine.threads.value_or(1);
   json["isa"] = resolved_isa(scene.engine);
   json["memory_bytes"] = number(e.memory);

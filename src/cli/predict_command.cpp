@@ -14,6 +14,7 @@
 
 #include "src/cli/exit_codes.h"
 #include "src/cli/pairs_file.h"
+#include "src/engine/accuracy.h"
 #include "src/error.h"
 #include "src/physics/predict.h"
 
@@ -24,7 +25,7 @@ using Json = nlohmann::ordered_json;  // keys in the order of the columns
 
 struct Options {
   std::string path;
-  std::string accuracy = "standard";
+  Scene::Engine engine;  ///< of which only what sets the accuracy is used
   bool json = false;
 };
 
@@ -33,13 +34,14 @@ struct Answer {
   FirstContact contact;
 };
 
-std::vector<Answer> solve(const std::vector<PairLine>& pairs, const std::string& path) {
+std::vector<Answer> solve(const std::vector<PairLine>& pairs, const Accuracy& accuracy,
+                          const std::string& path) {
   std::vector<Answer> answers;
   answers.reserve(pairs.size());
   for (const PairLine& pair : pairs) {
     try {
       answers.push_back(
-          {pair.id, predict(pair.first, pair.second, pair.horizon, pair.just_collided)});
+          {pair.id, predict(pair.first, pair.second, pair.horizon, pair.just_collided, accuracy)});
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: line {}: {}", path, pair.line, error.what()));
     }
@@ -86,11 +88,8 @@ std::string as_json(const std::vector<Answer>& answers) {
 }
 
 void run(const Options& options) {
-  if (options.accuracy != "standard") {
-    throw InputError(fmt::format("--accuracy {}: expected standard, the only level there is yet",
-                                 options.accuracy));
-  }
-  const std::vector<Answer> answers = solve(read_pairs(options.path), options.path);
+  const std::vector<Answer> answers =
+      solve(read_pairs(options.path), accuracy_of(options.engine), options.path);
   const std::string out = options.json ? as_json(answers) : as_lines(answers);
   std::fwrite(out.data(), 1, out.size(), stdout);  // main sees to failures
 }
@@ -105,9 +104,18 @@ void add_predict_command(CLI::App& app, int& exit_code) {
       ->add_option("PAIRS", options->path, "pairs of needles, one a line; - reads standard input")
       ->option_text("PAIRS.csv")
       ->required();
-  command->add_option("--accuracy", options->accuracy, "level of accuracy")
+  Scene::Engine& engine = options->engine;
+  command->add_option("--accuracy", engine.accuracy, "level of accuracy")
       ->check(CLI::IsMember({"fast", "standard", "rigorous"}))
       ->capture_default_str();
+  command->add_option("--isolation", engine.isolation, "how free times are told")
+      ->check(CLI::IsMember({"sampling", "bounds", "intervals"}));
+  command->add_option("--escalation", engine.escalation, "what goes to double-double")
+      ->check(CLI::IsMember({"never", "undecided", "always"}));
+  command->add_option("--root-tolerance", engine.root_tolerance, "of Newton's steps, relative")
+      ->check(CLI::Range(0.0, 1e-3));
+  command->add_option("--sampling-step", engine.sampling_step, "time between samples, scaled")
+      ->check(CLI::Range(1e-4, 0.5));
   command->add_flag("--json", options->json, "print one JSON object");
   command->footer(
       "A line of PAIRS.csv is id,family,horizon, then x,y,z of r1,u1,v1,w1,r2,u2,v2,w2, then "

@@ -7,6 +7,7 @@
 #include "src/cli/json_number.h"
 #include "src/cli/resources.h"
 #include "src/cli/scene_source.h"
+#include "src/engine/accuracy.h"
 #include "src/observe/forecast.h"
 
 namespace needlework::cli {
@@ -128,7 +129,7 @@ Json json_of(const Report& report) {
   json["isa"] = simulation.isa();
   json["search"] = simulation.search();
   json["queue"] = simulation.queue();
-  json["accuracy"] = scene.engine.accuracy;
+  json["accuracy"] = accuracy_name(scene.engine);
   json["effects"] = simulation.effects();
   json["tc_collisions"] = last.tc_collisions;
   json["trajectory_hash"] = simulation.trajectory_hash();

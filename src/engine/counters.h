@@ -34,11 +34,11 @@ struct Counters {
   }
 
   static constexpr std::uint64_t Counters::*members[] = {
-      &Counters::events,   &Counters::stale,    &Counters::crossings, &Counters::rebuilds,
-      &Counters::sorts,    &Counters::renewals, &Counters::searches,  &Counters::candidates,
-      &Counters::filtered, &Counters::isolated, &Counters::predicted, &Counters::touches,
-      &Counters::phases,   &Counters::redone,   &Counters::border,    &Counters::held,
-      &Counters::waited,   &Counters::foreign};
+      &Counters::events,    &Counters::stale,    &Counters::crossings, &Counters::rebuilds,
+      &Counters::sorts,     &Counters::renewals, &Counters::searches,  &Counters::candidates,
+      &Counters::filtered,  &Counters::isolated, &Counters::predicted, &Counters::evaluated,
+      &Counters::escalated, &Counters::touches,  &Counters::phases,    &Counters::redone,
+      &Counters::border,    &Counters::held,     &Counters::waited,    &Counters::foreign};
 };
 
 }  // namespace needlework

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "kernels/power_of_two.h"
+#include "src/engine/accuracy.h"
 #include "src/engine/space_order.h"
 #include "src/error.h"
 #include "src/observe/exact_sum.h"
@@ -89,6 +90,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
 Run::Run(const Scene& scene, Gas initial)
     : gas(std::move(initial)),
       restitution{scene.collisions.epsilon, scene.collisions.beta},
+      accuracy(accuracy_of(scene.engine)),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
   open_window();

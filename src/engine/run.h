@@ -47,6 +47,7 @@ class Run {
   Gas gas;
   Time now;
   Restitution restitution;
+  Accuracy accuracy;
   double mean_free_time = 0;
   double contact_time = 0;           ///< in force in this window
   double search_span = 0;            ///< how far ahead contacts are searched for [time]

@@ -2,6 +2,7 @@
 
 #include "src/calendar/all.h"
 #include "src/calendar/choice.h"
+#include "src/engine/accuracy.h"
 #include "src/engine/make_run_with.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
@@ -40,7 +41,7 @@ std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queu
 
 std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
-                          scene.engine.capsule_radius};
+                          scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter};
   const double volume = initial.box[0] * initial.box[1] * initial.box[2];
   const std::string search = scene.engine.search == "auto"
                                  ? auto_search(static_cast<double>(initial.size()) / volume)

@@ -290,7 +290,7 @@ template <class Search, class Queue, Effects effects>
 kernels::Contact Worker<Search, Queue, effects>::first_contact_of(const kernels::Pair& pair,
                                                                   double from, double to) {
   kernels::SearchCounters spent;
-  const kernels::Contact contact = first_contact(pair, from, to, spent);
+  const kernels::Contact contact = first_contact(pair, from, to, spent, run_.accuracy);
   tally_.counters.evaluated += spent.evaluated;
   tally_.counters.escalated += spent.escalated;
   return contact;

@@ -36,7 +36,7 @@ kernels::Flight flight_of(const FreeNeedle& needle) {
 }  // namespace
 
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
-                     bool just_collided) {
+                     bool just_collided, const Accuracy& accuracy) {
   const kernels::Flight a = flight_of(first), b = flight_of(second);
   kernels::Pair pair;
   pair.first = &a;
@@ -46,7 +46,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const kernels::Contact contact = kernels::first_contact(pair, 0, horizon, counters);
+  const kernels::Contact contact = kernels::first_contact(pair, 0, horizon, counters, accuracy);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   FirstContact out{std::numeric_limits<double>::infinity(), nan, nan, 0, 0};
   if (contact.found) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "kernels/accuracy.h"
+
 namespace needlework {
 
 /// A needle at time 0 for `predict`. L = 1.
@@ -26,6 +28,6 @@ struct FirstContact {
 /// has collided at time 0 and separates; that contact is not found again.
 /// Throws InputError for numbers that are not finite or a director that is 0.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
-                     bool just_collided);
+                     bool just_collided, const Accuracy& accuracy = standard_accuracy);
 
 }  // namespace needlework

@@ -34,8 +34,13 @@ struct Scene {
   struct Engine {
     std::string search = "auto";
     std::string queue = "auto";
-    std::string accuracy = "standard";
-    std::optional<int> threads;  ///< absent: OMP_NUM_THREADS, else 1
+    std::string accuracy = "standard";      ///< a level; what follows departs from it
+    std::optional<std::string> isolation;   ///< "sampling", "bounds" or "intervals"
+    std::optional<std::string> escalation;  ///< "never", "undecided" or "always"
+    std::optional<std::string> filter;      ///< "float" or "double"
+    std::optional<double> root_tolerance;   ///< see kernels/accuracy.h
+    std::optional<double> sampling_step;    ///< see kernels/accuracy.h
+    std::optional<int> threads;             ///< absent: OMP_NUM_THREADS, else 1
     std::string isa = "auto";
     std::optional<double> cell_side;       ///< least side of cells; absent: chosen [L]
     std::optional<double> capsule_radius;  ///< absent: chosen [L]

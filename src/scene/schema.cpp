@@ -167,6 +167,22 @@ constexpr SceneKey keys[] = {
      [](Scene& s, V v) {
        return store(s.engine.accuracy, one_of(v, {"fast", "standard", "rigorous"}));
      }},
+    {"engine", "isolation", R"("sampling", "bounds" or "intervals")",
+     [](Scene& s, V v) {
+       return store(s.engine.isolation, one_of(v, {"sampling", "bounds", "intervals"}));
+     }},
+    {"engine", "escalation", R"("never", "undecided" or "always")",
+     [](Scene& s, V v) {
+       return store(s.engine.escalation, one_of(v, {"never", "undecided", "always"}));
+     }},
+    {"engine", "filter", R"("float" or "double")",
+     [](Scene& s, V v) {
+       return store(s.engine.filter, one_of(v, {"float", "double"}));
+     }},
+    {"engine", "root_tolerance", "a number from 0 to 1e-3",
+     [](Scene& s, V v) { return store(s.engine.root_tolerance, number(v, 0, 1e-3)); }},
+    {"engine", "sampling_step", "a number from 1e-4 to 0.5",
+     [](Scene& s, V v) { return store(s.engine.sampling_step, number(v, 1e-4, 0.5)); }},
     {"engine", "threads", "a whole number in digits, from 1 to 1024",
      [](Scene& s, V v) { return store(s.engine.threads, whole_number(v, 1, most_threads)); }},
     {"engine", "isa", R"("auto", "scalar", "sse4", "avx2" or "avx512")",

@@ -121,10 +121,14 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
                        Hulls::Kind kind)
     : hulls_(std::make_shared<Hulls>(gas, setup, kind)),
       counters_(counters),
-      kernels_(kernels::near_kernels(setup.isa)) {}
+      kernels_(kernels::near_kernels(setup.isa)),
+      by_lanes_(setup.float_filter) {}
 
 NearSearch::NearSearch(const NearSearch& other, Counters& counters)
-    : hulls_(other.hulls_), counters_(counters), kernels_(other.kernels_) {}
+    : hulls_(other.hulls_),
+      counters_(counters),
+      kernels_(other.kernels_),
+      by_lanes_(other.by_lanes_) {}
 
 Time NearSearch::place(Needle i, Time now) {
   Hulls& hulls = *hulls_;
@@ -366,28 +370,32 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     prefetch(&hulls.gas.records[j]);
     candidates_.push_back({from, to, j, found.cell[k], {}});
   };
-  const PairColumns pairs = pair_columns(count);
-  const Record& record = hulls.gas.records[i];
-  const Needle just_hit =
-      record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
-  const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
-                      std::abs(seeker.motion.v[2]) + seeker.motion.omega;
-  const float parting = 0.25f / speed;
   constexpr double endless = std::numeric_limits<double>::infinity();
-  fill_pairs(seeker, hulls.motions.data(), views_.data(), found, count, pairs);
-  // A needle just hit is near for sure: this one looks from a little later on.
-  for (std::size_t k = 0; k < count; ++k) {
-    pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
-  }
-  counters_.isolated += kernels_.isolate(seeker, pairs, count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const float from = pairs.column[PairColumns::from][k];
-    const bool met = from <= seeker.ahead;
-    if (found.needle[k] == just_hit) {
-      propose(k, 0, met ? endless : parting / hulls.unit);
-    } else if (met) {
-      propose(k, from / hulls.unit, endless);
+  if (by_lanes_) {
+    const PairColumns pairs = pair_columns(count);
+    const Record& record = hulls.gas.records[i];
+    const Needle just_hit =
+        record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
+    const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
+                        std::abs(seeker.motion.v[2]) + seeker.motion.omega;
+    const float parting = 0.25f / speed;
+    fill_pairs(seeker, hulls.motions.data(), views_.data(), found, count, pairs);
+    // A needle just hit is near for sure: this one looks from a little later on.
+    for (std::size_t k = 0; k < count; ++k) {
+      pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
     }
+    counters_.isolated += kernels_.isolate(seeker, pairs, count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const float from = pairs.column[PairColumns::from][k];
+      const bool met = from <= seeker.ahead;
+      if (found.needle[k] == just_hit) {
+        propose(k, 0, met ? endless : parting / hulls.unit);
+      } else if (met) {
+        propose(k, from / hulls.unit, endless);
+      }
+    }
+  } else {
+    for (std::size_t k = 0; k < count; ++k) propose(k, 0, endless);
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });

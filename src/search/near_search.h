@@ -123,6 +123,7 @@ class NearSearch {
   std::shared_ptr<Hulls> hulls_;
   Counters& counters_;
   const kernels::NearKernels& kernels_;
+  bool by_lanes_;  ///< whether pairs are followed by lanes before they are proposed
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;

@@ -101,11 +101,6 @@ TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
   EXPECT_EQ(absent.out, "");
   EXPECT_TRUE(absent.complains("absent.csv: cannot be read: "));
   EXPECT_EQ(run("predict .").exit_code, 5);
-  EXPECT_EQ(run_on(meets, "--accuracy standard").exit_code, 0);
-  const Outcome fast = run_on(meets, "--accuracy fast");
-  EXPECT_EQ(fast.exit_code, 3);
-  EXPECT_TRUE(fast.complains("--accuracy fast: expected standard, the only level there is yet"));
-  EXPECT_EQ(run_on(meets, "--accuracy rigorous").exit_code, 3);
   EXPECT_EQ(run_on(meets, "--accuracy best").exit_code, 2);
   EXPECT_EQ(run("predict").exit_code, 2);
   EXPECT_EQ(run("predict pairs.csv", "", "/dev/full").exit_code, 5);

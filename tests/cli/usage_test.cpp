@@ -46,8 +46,6 @@ TEST_F(Usage, BadScenesExitWith3) {
 
 TEST_F(Usage, EnginesThatAreNotOnOfferExitWith3) {
   const std::pair<const char*, const char*> cases[] = {
-      {"--set engine.accuracy=fast",
-       "--set engine.accuracy=fast: expected one of auto, standard (all that this version offers)"},
       {"--threads 2 --set engine.queue=bucket", "--threads 2: expected 1 with search "},
       {"--set engine.threads=2 --set engine.search=all-pairs",
        "--set engine.threads=2: expected 1 with search "},
@@ -87,7 +85,6 @@ TEST_F(Usage, WhatThisMachineLacksIsNamedWithItsLine) {
   expect_refusal("[needles]\nbox = 1e4\ncount = 4_000_000_000\n[until]\ntime = 1\n",
                  "3: needles.count = 4_000_000_000: expected fewer: ");
   const std::string rest = "needles = {count = 5, box = 5}\nuntil.time = 1\n[engine]\n";
-  expect_refusal(rest + "accuracy = 'fast'\n", "4: engine.accuracy = 'fast': expected one of");
   expect_refusal(rest + "threads = 2\nqueue = 'bucket'\n",
                  "4: engine.threads = 2: expected 1 with search ");
 }

@@ -63,6 +63,11 @@ tc = 1e-3
 search = "capsules"
 queue = "bucket"
 accuracy = "rigorous"
+isolation = "sampling"
+escalation = "never"
+filter = "double"
+root_tolerance = 1e-9
+sampling_step = 0.125
 threads = 2
 isa = "avx2"
 cell_side = 2
@@ -93,6 +98,11 @@ events = true
   EXPECT_EQ(scene.engine.search, "capsules");
   EXPECT_EQ(scene.engine.queue, "bucket");
   EXPECT_EQ(scene.engine.accuracy, "rigorous");
+  EXPECT_EQ(scene.engine.isolation, "sampling");
+  EXPECT_EQ(scene.engine.escalation, "never");
+  EXPECT_EQ(scene.engine.filter, "double");
+  EXPECT_EQ(scene.engine.root_tolerance, 1e-9);
+  EXPECT_EQ(scene.engine.sampling_step, 0.125);
   EXPECT_EQ(scene.engine.threads, 2);
   EXPECT_EQ(scene.engine.isa, "avx2");
   EXPECT_EQ(scene.engine.cell_side, 2);
