@@ -457,15 +457,9 @@ int Search<isolation, escalation>::arms_inside(const T& s, const Sample<T>& samp
   // contact c is s12 x, so that every error below shrinks with |x|; near parallel directors that is
   // what tells contacts from the roots at which only x vanishes.
   const T xx = dot(sample.x, sample.x);
-  if constexpr (!escalates) {
-    const auto inside = [&](const Vec3<T>& other) {
-      return std::abs(to_double(dot(cross(other, sample.r), sample.x))) < 0.5 * to_double(xx);
-    };
-    return inside(sample.u[1]) && inside(sample.u[0]) ? 1 : -1;
-  }
   const double w = frame_.w_sum, v = frame_.v_norm;
-  const double rounding = 16 * unit_roundoff<T>;
-  const double eu = director_error(sample) + rounding;
+  const double rounding = escalates ? 16 * unit_roundoff<T> : 0;
+  const double eu = escalates ? director_error(sample) + rounding : 0;
   const double er = rounding * (frame_.r_norm + v * std::abs(to_double(s)));
   const double r = std::sqrt(to_double(dot(sample.r, sample.r))) + v * uncertainty;
   // How far x and c may be off, by rounding and over the uncertainty of the root.
@@ -494,9 +488,12 @@ std::optional<Root> Search<isolation, escalation>::accept(double begin, double e
   if (!refined) return std::nullopt;
   const auto& [s, near, sample, e] = *refined;
   const double off = root_uncertainty(e, near, 0x1p-53);
+  if constexpr (!escalates) {
+    if (arms_inside(near, sample, 0) < 0) return std::nullopt;
+    return Root{s, off, side};
+  }
   const int inside = std::isfinite(off) ? arms_inside(near, sample, off) : 0;
   if (inside < 0) return std::nullopt;
-  if constexpr (!escalates) return Root{s, off, side};
   const double enough = std::max(polish_above, accuracy_.root_tolerance);
   const bool known = escalation == Escalation::undecided && inside > 0 && off <= enough * s;
   if (known) return Root{s, off, side};
