@@ -32,7 +32,7 @@ struct Accuracy {
   double sampling_step = 0x1p-5;
 };
 
-inline constexpr Accuracy fast_accuracy{.escalation = Escalation::never, .root_tolerance = 0x1p-20};
+inline constexpr Accuracy fast_accuracy{.escalation = Escalation::never, .root_tolerance = 0x1p-36};
 inline constexpr Accuracy standard_accuracy{};
 inline constexpr Accuracy rigorous_accuracy{
     .isolation = Isolation::intervals, .escalation = Escalation::always, .float_filter = false};

@@ -26,8 +26,9 @@ constexpr double velocity_noise = 0x1p-46;
 // Segments farther apart do not touch, however small f is; far above what rounding does to them,
 // and below the margins of every filter.
 constexpr double touching = 0x1p-18;
-// Without error bounds, f is taken to vanish where it stays below this share of the distance.
-constexpr double flat_in_double = 0x1p-48;
+// Without error bounds, f is taken to be known up to this share of the distance, and to vanish
+// where it stays below eight times as much.
+constexpr double noise_in_double = 0x1p-51, flat_in_double = 0x1p-48;
 // Bounds computed with a few roundings are enlarged by this.
 constexpr double roundup = 1 + 0x1p-40;
 
@@ -425,7 +426,7 @@ auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, do
         return std::nullopt;
     }
     const T next = s - sample.f / sample.df;
-    const bool last = std::abs(e.f) <= e.error_f;
+    const bool last = std::abs(e.f) <= (escalates ? e.error_f : noise_in_double * e.distance);
     if (last) {
       if (to_double(next - begin) >= 0 && to_double(end - next) >= 0) s = next;
       break;

@@ -1,0 +1,220 @@
+// First contacts by several accuracies over one family of pairs, against the oracle: what each
+// costs, and how often and by how much it errs. bench/accuracy/study.py asks for what it needs.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/engine/accuracy.h"
+#include "src/error.h"
+#include "src/physics/predict.h"
+#include "tests/support/oracle.h"
+#include "tests/support/pair_families.h"
+#include "tests/support/pairs_csv.h"
+
+using namespace needlework;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A pair nearer to the other decision than so many units of its inputs' noise may be decided
+// either way: the oracle normalises directors in many digits, the engine in double.
+constexpr double few_units = 8;
+// Times that differ by more than this share belong to different contacts.
+constexpr double same_contact = 1e-5;
+constexpr std::size_t drawn_at_once = 64, batch = 64 * drawn_at_once;
+
+struct Errors {
+  std::uint64_t missed = 0, spurious = 0;
+};
+
+// What one accuracy has done so far.
+struct Subject {
+  std::string name;
+  Accuracy accuracy;
+  double cpu_s = 0;
+  std::uint64_t evaluations = 0, escalations = 0;
+  Errors clear, near;
+  std::vector<double> time_errors;  // |dt| / t of contacts that both found
+  std::vector<FirstContact> found;  // of the present batch
+};
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// "NAME" or "NAME,key=value,...": a level and its knobs.
+Subject subject_of(const std::string& text) {
+  Scene::Engine engine;
+  std::stringstream words(text);
+  std::getline(words, engine.accuracy, ',');
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::size_t equals = word.find('=');
+    const std::string key = word.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (key == "isolation") {
+      engine.isolation = value;
+    } else if (key == "escalation") {
+      engine.escalation = value;
+    } else if (key == "root_tolerance") {
+      engine.root_tolerance = std::strtod(value.c_str(), nullptr);
+    } else if (key == "sampling_step") {
+      engine.sampling_step = std::strtod(value.c_str(), nullptr);
+    } else {
+      throw InputError(
+          fmt::format("--accuracy {}: {}: expected isolation=, escalation=, "
+                      "root_tolerance= or sampling_step=",
+                      text, word));
+    }
+  }
+  Subject out;
+  out.name = text;
+  out.accuracy = accuracy_of(engine);
+  return out;
+}
+
+void solve(Subject& subject, const std::vector<test::NeedlePair>& pairs) {
+  subject.found.clear();
+  const double begin = cpu_seconds();
+  for (const test::NeedlePair& pair : pairs) {
+    subject.found.push_back(
+        predict(pair.first, pair.second, pair.horizon, pair.just_collided, subject.accuracy));
+  }
+  subject.cpu_s += cpu_seconds() - begin;
+}
+
+// Which error, if any: +1 a contact too many or too early, -1 one missed.
+int judge(const FirstContact& found, const test::OracleAnswer& truth) {
+  const double allowed = std::max(same_contact, 4 * truth.time_limit) * truth.time;
+  const bool contact = std::isfinite(found.time);
+  if (truth.contact && (!contact || found.time > truth.time + allowed)) return -1;
+  if (contact && (!truth.contact || found.time < truth.time - allowed)) return 1;
+  return 0;
+}
+
+double quantile(std::vector<double>& sorted, double q) {
+  if (sorted.empty()) return std::nan("");
+  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
+
+Json report(Subject& subject, double count) {
+  std::vector<double>& errors = subject.time_errors;
+  std::sort(errors.begin(), errors.end());
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  return {{"accuracy", subject.name},
+          {"ns_per_pair", 1e9 * subject.cpu_s / count},
+          {"evaluations", static_cast<double>(subject.evaluations) / count},
+          {"escalations", static_cast<double>(subject.escalations) / count},
+          {"missed", subject.clear.missed},
+          {"spurious", subject.clear.spurious},
+          {"near_missed", subject.near.missed},
+          {"near_spurious", subject.near.spurious},
+          {"time_error",
+           {{"median", number(quantile(errors, 0.5))},
+            {"q90", number(quantile(errors, 0.9))},
+            {"q99", number(quantile(errors, 0.99))},
+            {"max", number(quantile(errors, 1))}}}};
+}
+
+struct Options {
+  std::string family;
+  std::uint64_t count = 10000, seed = 1;
+  std::vector<std::string> accuracies{"fast", "standard", "rigorous"};
+  std::string errors_to;
+};
+
+// Pairs number first to first + count - 1 of the family, in parts that do not depend on how many
+// are asked for.
+std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, std::size_t count) {
+  std::vector<test::NeedlePair> out(count);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t begin = 0; begin < count; begin += drawn_at_once) {
+    const std::size_t size = std::min(drawn_at_once, count - begin);
+    const std::uint64_t seed = (options.seed << 40) + (first + begin) / drawn_at_once;
+    std::ranges::move(test::draw_pairs(options.family, size, seed), out.begin() + begin);
+  }
+  return out;
+}
+
+int run(const Options& options) {
+  std::vector<Subject> subjects;
+  for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
+  std::ofstream listed;
+  if (!options.errors_to.empty()) listed.open(options.errors_to);
+  std::uint64_t contacts = 0, near = 0;
+  for (std::uint64_t done = 0; done < options.count;) {
+    const std::size_t size = std::min<std::uint64_t>(batch, options.count - done);
+    const std::vector<test::NeedlePair> pairs = draw(options, done, size);
+    // One after the other on every batch, so that all see the same weather.
+    for (Subject& subject : subjects) solve(subject, pairs);
+    std::vector<test::OracleAnswer> truths(size);
+#pragma omp parallel for schedule(dynamic, 64)
+    for (std::size_t i = 0; i < size; ++i) {
+      const test::NeedlePair& pair = pairs[i];
+      truths[i] = test::first_contact(pair.first, pair.second, pair.horizon, pair.just_collided);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      const test::OracleAnswer& truth = truths[i];
+      contacts += truth.contact;
+      const bool close = truth.decision_margin < few_units;
+      near += close;
+      for (Subject& subject : subjects) {
+        const FirstContact& found = subject.found[i];
+        subject.evaluations += found.evaluations;
+        subject.escalations += found.escalations;
+        const int error = judge(found, truth);
+        Errors& errors = close ? subject.near : subject.clear;
+        errors.missed += error < 0;
+        errors.spurious += error > 0;
+        if (error == 0 && truth.contact) {
+          subject.time_errors.push_back(std::abs((found.time - truth.time) - truth.time_low) /
+                                        truth.time);
+        }
+        if (error != 0 && !close && listed.is_open()) {
+          listed << "# " << subject.name << (error < 0 ? " misses" : " invents") << '\n'
+                 << test::csv_line(done + i, pairs[i]) << '\n';
+        }
+      }
+    }
+    done += size;
+  }
+  Json results = Json::array();
+  for (Subject& subject : subjects) {
+    results.push_back(report(subject, static_cast<double>(options.count)));
+  }
+  const Json out{{"family", options.family}, {"pairs", options.count}, {"seed", options.seed},
+                 {"contacts", contacts},     {"near", near},           {"results", results}};
+  fmt::print("{}\n", out.dump());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("First contacts by several accuracies over one family of pairs, against the oracle");
+  app.add_option("FAMILY", options.family)->required();
+  app.add_option("--pairs", options.count)->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--accuracy", options.accuracies,
+                 "level[,key=value...]; several are compared on the same pairs");
+  app.add_option("--list", options.errors_to, "file for the pairs that one of them gets wrong");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
+}
