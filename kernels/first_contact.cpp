@@ -535,11 +535,11 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
   double begin = interval.begin, end = interval.end, s = interval.middle();
   for (int i = 0; i < 60; ++i) {
     const Estimate here = in_double(s);
+    if (escalates && std::abs(here.df) <= here.error_df) break;
     (sign_of(here.df) == -bend ? begin : end) = s;
     double next = s - here.df / here.ddf;
     if (!(next > begin && next < end)) next = begin + 0.5 * (end - begin);
-    const bool done =
-        std::abs(next - s) <= 0x1p-50 * std::abs(s) || std::abs(here.df) <= here.error_df;
+    const bool done = std::abs(next - s) <= 0x1p-50 * std::abs(s);
     s = next;
     if (done) break;
   }

@@ -132,6 +132,7 @@ struct Options {
   std::uint64_t count = 10000, seed = 1;
   std::vector<std::string> accuracies{"fast", "standard", "rigorous"};
   std::string errors_to;
+  bool list_families = false;
 };
 
 // Pairs number first to first + count - 1 of the family, in parts that do not depend on how many
@@ -148,6 +149,10 @@ std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, 
 }
 
 int run(const Options& options) {
+  if (options.list_families) {
+    for (const test::PairFamily& family : test::pair_families()) fmt::print("{}\n", family.name);
+    return 0;
+  }
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
@@ -204,7 +209,8 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("First contacts by several accuracies over one family of pairs, against the oracle");
-  app.add_option("FAMILY", options.family)->required();
+  app.add_option("FAMILY", options.family);
+  app.add_flag("--families", options.list_families, "print the names of the families");
   app.add_option("--pairs", options.count)->capture_default_str();
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_option("--accuracy", options.accuracies,

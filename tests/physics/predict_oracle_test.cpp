@@ -13,6 +13,7 @@
 #include <limits>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "src/physics/predict.h"
 #include "tests/support/oracle.h"
@@ -229,6 +230,48 @@ TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
   pair.second = {{0, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, -7, 0}};
   pair.horizon = 2;
   EXPECT_NEAR(engine(pair).time, 2.0 / 3, 1e-15);
+}
+
+/// Nearly parallel needles whose contact lies next to the root at which they are parallel: f bends
+/// back after less than rounding. Once lost, each by one way of isolation, as the extremum between
+/// the roots was left again after it had been found.
+TEST(PredictOracleByHand, ContactsNextToParallelRootsAreFound) {
+  std::vector<NeedlePair> pairs;
+  {
+    NeedlePair pair;
+    pair.first = {{0.76028624783941479, -1.2881550880225823, -0.97290818632293985},
+                  {0.60526147700926736, -0.76728320024726504, -0.21197885523531695},
+                  {0.33827075104151072, 0.32428408849111479, 0.57611953085290368},
+                  {3.2531747384999967, 2.4997958600708579, 0.24044841480595641}};
+    pair.second = {{0.11138612911848347, -0.96860231921524442, -0.23484534691722742},
+                   {-0.97342168058082024, -0.056360249108790152, 0.2219769224392632},
+                   {1.1956679396340297, -0.13093696528834445, -0.37476638651127409},
+                   {0.63837487203527821, -0.71193843646928423, 2.6186637185523844}};
+    pair.horizon = 1.4399485860383059;
+    pairs.push_back(pair);
+  }
+  {
+    NeedlePair pair;
+    pair.first = {{0.11831953933790701, 1.0520231748933462, -1.1799238098098361},
+                  {0.12770798565750385, 0.68087146056996994, 0.72118286486897254},
+                  {0.36194814415996207, -2.7851133181577961, 2.6601983792236381},
+                  {6.1938774822291238, 0.76916382222951929, -1.8229902231006394}};
+    pair.second = {{0.16077210855272084, 0.35187376024599798, -0.98191495509504378},
+                   {0.54205059395006183, 0.23415345937934426, -0.80706462632125753},
+                   {0.31584587571018113, -0.80744807983298594, 2.1475410479003312},
+                   {-4.7013830091126509, -2.696011103320024, -3.9397932645582951}};
+    pair.horizon = 0.37410360820777572;
+    pairs.push_back(pair);
+  }
+  for (const NeedlePair& pair : pairs) {
+    const OracleAnswer truth = oracle(pair);
+    ASSERT_TRUE(truth.contact);
+    for (const Accuracy& accuracy : {standard_accuracy, rigorous_accuracy}) {
+      const FirstContact found =
+          predict(pair.first, pair.second, pair.horizon, pair.just_collided, accuracy);
+      EXPECT_NEAR(found.time, truth.time, 1e-12 * truth.time);
+    }
+  }
 }
 
 /// The harness must be able to fail: an answer wrong by a little is caught.
