@@ -1,0 +1,133 @@
+// Accuracies as a user meets them: pairs/accuracy.csv holds pairs on which they differ.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/cli/program.h"
+
+namespace needlework::test {
+namespace {
+
+class Accuracy : public ProgramTest {
+ protected:
+  static inline const std::string pairs = NEEDLEWORK_SOURCE "/tests/cli/pairs/accuracy.csv";
+
+  /// Contact times by id.
+  std::vector<double> times(const std::string& flags) const {
+    const Outcome outcome = run("predict " + pairs + ' ' + flags);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::vector<double> out;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+      out.push_back(std::strtod(line.c_str() + line.find(',') + 1, nullptr));
+    }
+    return out;
+  }
+
+  /// What each pair shows, by id.
+  static std::vector<std::string> families() {
+    std::vector<std::string> out;
+    std::ifstream file(pairs);
+    for (std::string line; std::getline(file, line);) {
+      if (line.empty() || line[0] == '#') continue;
+      const std::size_t first = line.find(',') + 1;
+      out.push_back(line.substr(first, line.find(',', first) - first));
+    }
+    return out;
+  }
+};
+
+/// The same contact, or none for either.
+bool same_contact(double a, double b) {
+  return std::isinf(a) || std::isinf(b) ? a == b : std::abs(a - b) <= 1e-9 * a;
+}
+
+TEST_F(Accuracy, PairsTellTheLevelsApart) {
+  const auto standard = times("--accuracy standard"), rigorous = times("--accuracy rigorous");
+  const auto fast = times("--accuracy fast"), sampling = times("--isolation sampling");
+  const auto shows = families();
+  ASSERT_EQ(shows.size(), standard.size());
+  std::map<std::string, int> seen;
+  for (std::size_t i = 0; i < shows.size(); ++i) {
+    ++seen[shows[i]];
+    EXPECT_TRUE(same_contact(standard[i], rigorous[i])) << i;
+    if (shows[i] == "sampling") {
+      EXPECT_GT(sampling[i], standard[i] * (1 + 1e-9)) << i;
+    } else if (shows[i] == "fast") {
+      EXPECT_FALSE(same_contact(fast[i], standard[i])) << i;
+    } else {
+      EXPECT_NE(standard[i], rigorous[i]) << i;
+    }
+  }
+  EXPECT_GE(seen["sampling"], 5);
+  EXPECT_GE(seen["fast"], 10);
+  EXPECT_GE(seen["last-bits"], 3);
+}
+
+TEST_F(Accuracy, KnobsDepartFromTheLevel) {
+  EXPECT_EQ(times("--accuracy fast --escalation undecided --root-tolerance 0"),
+            times("--accuracy standard"));
+  EXPECT_EQ(times("--accuracy standard --isolation intervals --escalation always"),
+            times("--accuracy rigorous"));
+  const auto coarse = times("--isolation sampling --sampling-step 0.5");
+  const auto fine = times("--isolation sampling --sampling-step 1e-4");
+  const auto standard = times("");
+  const auto found = [&](const std::vector<double>& all) {
+    int count = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) count += same_contact(all[i], standard[i]);
+    return count;
+  };
+  EXPECT_GT(found(fine), found(coarse));
+}
+
+TEST_F(Accuracy, BadKnobsAreUsageErrors) {
+  for (const char* flags : {"--accuracy best", "--isolation none", "--escalation maybe",
+                            "--root-tolerance 0.1", "--sampling-step 0"}) {
+    EXPECT_EQ(run("predict " + pairs + ' ' + flags).exit_code, 2) << flags;
+  }
+}
+
+// A trajectory depends on the accuracy, and at equal accuracy on nothing else.
+TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
+  write("gas.toml", "needles = {count = 200, box = 6}\nuntil.collisions_per_needle = 4\n");
+  std::map<std::string, std::string> hashes;
+  for (const char* accuracy : {"fast", "standard", "rigorous"}) {
+    for (const char* how : {"--set engine.search=all-pairs", "--set engine.search=linked-cells",
+                            "--set engine.search=capsules", "--threads 2 --isa scalar"}) {
+      const Outcome outcome = run(
+          std::string("run gas.toml --json --quiet --set engine.accuracy=") + accuracy + ' ' + how);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      const auto report = outcome.json();
+      EXPECT_EQ(report.at("accuracy"), accuracy);
+      const std::string hash = report.at("trajectory_hash");
+      EXPECT_EQ(hashes.try_emplace(accuracy, hash).first->second, hash) << accuracy << how;
+    }
+  }
+  EXPECT_NE(hashes["fast"], hashes["standard"]);
+  EXPECT_NE(hashes["rigorous"], hashes["standard"]);
+  const Outcome knobs =
+      run("run gas.toml --json --quiet --set engine.isolation=sampling "
+          "--set engine.filter=double");
+  ASSERT_EQ(knobs.exit_code, 0) << knobs.err;
+  EXPECT_EQ(knobs.json().at("accuracy"), "standard, isolation sampling, filter double");
+}
+
+// The filter is no part of what a contact is.
+TEST_F(Accuracy, TheFilterChangesNoBit) {
+  write("gas.toml", "needles = {count = 300, box = 5}\nuntil.collisions_per_needle = 4\n");
+  const Outcome one = run("run gas.toml --json --quiet");
+  const Outcome two = run("run gas.toml --json --quiet --set engine.filter=double");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_EQ(one.json().at("trajectory_hash"), two.json().at("trajectory_hash"));
+  EXPECT_EQ(two.json().at("stats").at("isolated"), 0);
+}
+
+}  // namespace
+}  // namespace needlework::test

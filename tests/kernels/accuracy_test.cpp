@@ -1,0 +1,157 @@
+// The levels of accuracy, and what each promises.
+#include "kernels/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "kernels/first_contact.h"
+#include "tests/kernels/precise_contact.h"
+#include "tests/support/kernel_pair.h"
+#include "tests/support/pairs_csv.h"
+
+namespace needlework::kernels {
+namespace {
+
+using test::KernelPair;
+using test::NeedlePair;
+using test::Quad;
+
+#ifdef NDEBUG
+constexpr std::size_t count = 3000;
+#else
+constexpr std::size_t count = 100;
+#endif
+
+KernelPair held_pair(const NeedlePair& drawn) {
+  KernelPair pair = test::kernel_pair(drawn);
+  if (drawn.just_collided) {
+    const int side = side_after(pair.view());
+    pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
+  }
+  return pair;
+}
+
+Contact contact_of(const KernelPair& pair, double horizon, const Accuracy& accuracy) {
+  SearchCounters counters;
+  return first_contact(pair.view(), 0, horizon, counters, accuracy);
+}
+
+// The root of the records' own contact function next to this time, by Newton's iteration in 113
+// bits.
+Quad exact_time(const KernelPair& held, const DoubleDouble& near) {
+  const Pair pair = held.view();
+  const PairScale scale = scale_of(pair);
+  const Quad start = held.touch.touching ? test::precise_contact(pair, scale, Quad(0)).f : Quad(0);
+  Quad s = (Quad(near.hi) + Quad(near.lo)) * Quad(scale.per_time);
+  for (int i = 0; i < 4; ++i) {
+    const auto here = test::precise_contact(pair, scale, s);
+    s -= (here.f - start) / here.df;
+  }
+  return s * Quad(scale.per_velocity);
+}
+
+double units_off(const DoubleDouble& time, const Quad& exact) {
+  const double unit = std::nextafter(time.hi, 2 * time.hi) - time.hi;
+  return static_cast<double>(abs(Quad(time.hi) - exact) / Quad(unit));
+}
+
+class AccuracyLevels : public testing::TestWithParam<test::PairFamily> {};
+
+TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
+  double worst = 0, worst_standard = 0;
+  std::size_t contacts = 0;
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 41)) {
+    const KernelPair pair = held_pair(drawn);
+    const Contact rigorous = contact_of(pair, drawn.horizon, rigorous_accuracy);
+    const Contact standard = contact_of(pair, drawn.horizon, standard_accuracy);
+    ASSERT_EQ(rigorous.found, standard.found) << test::csv_line(0, drawn);
+    if (!rigorous.found || rigorous.unresolvable) continue;
+    ++contacts;
+    ASSERT_EQ(rigorous.side, standard.side);
+    const Quad exact = exact_time(pair, rigorous.elapsed);
+    worst = std::max(worst, units_off(rigorous.elapsed, exact));
+    worst_standard = std::max(worst_standard, units_off(standard.elapsed, exact));
+    ASSERT_LE(worst, 2) << test::csv_line(0, drawn);
+  }
+  std::printf("%-14.*s contacts %zu, units in the last place: rigorous %.2f, standard %.3g\n",
+              static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, worst,
+              worst_standard);
+  EXPECT_GT(contacts, count / 20);
+}
+
+// Isolation by intervals with the rest as in `standard`: the same contacts.
+TEST_P(AccuracyLevels, WaysOfIsolationFindTheSameContacts) {
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 42)) {
+    const KernelPair pair = held_pair(drawn);
+    const Contact one = contact_of(pair, drawn.horizon, standard_accuracy);
+    const Contact two = contact_of(pair, drawn.horizon, {.isolation = Isolation::intervals});
+    ASSERT_EQ(one.found, two.found) << test::csv_line(0, drawn);
+    if (!one.found) continue;
+    ASSERT_EQ(one.side, two.side);
+    ASSERT_NEAR(one.elapsed.hi, two.elapsed.hi, 1e-11 * one.elapsed.hi) << test::csv_line(0, drawn);
+  }
+}
+
+TEST_P(AccuracyLevels, NothingIsEscalatedWhereItNeverIs) {
+  SearchCounters counters;
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 43)) {
+    const KernelPair pair = held_pair(drawn);
+    first_contact(pair.view(), 0, drawn.horizon, counters, fast_accuracy);
+    first_contact(pair.view(), 0, drawn.horizon, counters,
+                  {.isolation = Isolation::sampling, .escalation = Escalation::never});
+  }
+  EXPECT_EQ(counters.escalated, 0u);
+  EXPECT_GT(counters.evaluated, 0u);
+}
+
+// The answer may not depend on from which time on the search looks.
+TEST_P(AccuracyLevels, SkippedTimeChangesNoBit) {
+  const Accuracy accuracies[] = {
+      fast_accuracy, rigorous_accuracy, {.isolation = Isolation::sampling}};
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 44)) {
+    const KernelPair pair = held_pair(drawn);
+    for (const Accuracy& accuracy : accuracies) {
+      const Contact whole = contact_of(pair, drawn.horizon, accuracy);
+      if (!whole.found || whole.unresolvable) continue;
+      SearchCounters counters;
+      const Contact late =
+          first_contact(pair.view(), 0.75 * whole.elapsed.hi, drawn.horizon, counters, accuracy);
+      ASSERT_TRUE(late.found) << test::csv_line(0, drawn);
+      ASSERT_EQ(late.elapsed, whole.elapsed) << test::csv_line(0, drawn);
+    }
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<test::PairFamily>& info) {
+  std::string text(info.param.name);
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, AccuracyLevels, testing::ValuesIn(test::pair_families()),
+                         test_name);
+
+TEST(Accuracy, AFinerRootToleranceGivesTimesCloser) {
+  double off[3] = {};
+  const double tolerance[3] = {1e-3, 1e-5, 0};
+  for (const NeedlePair& drawn : test::draw_pairs("thermal-k6", 10 * count, 45)) {
+    const KernelPair pair = held_pair(drawn);
+    const Contact truth = contact_of(pair, drawn.horizon, rigorous_accuracy);
+    if (!truth.found) continue;
+    for (int i = 0; i < 3; ++i) {
+      const Contact contact = contact_of(pair, drawn.horizon, {.root_tolerance = tolerance[i]});
+      ASSERT_TRUE(contact.found);
+      off[i] = std::max(off[i], std::abs(contact.elapsed.hi / truth.elapsed.hi - 1));
+    }
+  }
+  EXPECT_LT(off[2], 1e-12);
+  EXPECT_GT(off[1], 10 * off[2]);
+  EXPECT_GT(off[0], 10 * off[1]);
+  EXPECT_LT(off[0], 1e-3);
+}
+
+}  // namespace
+}  // namespace needlework::kernels

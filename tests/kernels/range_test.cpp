@@ -1,0 +1,115 @@
+// Interval arithmetic against many digits: what it says encloses what is true.
+#include "kernels/range.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/contact_function.h"
+#include "tests/kernels/precise_contact.h"
+#include "tests/support/kernel_pair.h"
+#include "tests/support/random.h"
+
+namespace needlework {
+namespace {
+
+using test::Quad;
+
+#ifdef NDEBUG
+constexpr int count = 200000;
+#else
+constexpr int count = 5000;
+#endif
+
+bool encloses(const Range& range, const Quad& value) {
+  return Quad(range.lo) <= value && value <= Quad(range.hi);
+}
+
+double number(test::Random& random) {
+  const double size = std::ldexp(random.uniform(1, 2), random.below(60) - 30);
+  return random.coin() ? size : -size;
+}
+
+Range range(test::Random& random) {
+  const double a = number(random);
+  const double b = random.coin() ? a + std::abs(a) * 0x1p-40 * random.uniform() : number(random);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+Quad inside(const Range& a, test::Random& random) {
+  const int which = random.below(4);
+  if (which == 0) return a.lo;
+  if (which == 1) return a.hi;
+  const Quad lo = a.lo, hi = a.hi;
+  return lo + (hi - lo) * Quad(random.uniform());
+}
+
+TEST(Range, OperationsEncloseTheResultOfAllNumbersInTheOperands) {
+  test::Random random(31);
+  for (int i = 0; i < count; ++i) {
+    const Range a = range(random), b = range(random);
+    const Quad x = inside(a, random), y = inside(b, random);
+    ASSERT_TRUE(encloses(a + b, x + y)) << a.lo << ' ' << a.hi << ' ' << b.lo << ' ' << b.hi;
+    ASSERT_TRUE(encloses(a - b, x - y)) << a.lo << ' ' << a.hi << ' ' << b.lo << ' ' << b.hi;
+    ASSERT_TRUE(encloses(a * b, x * y)) << a.lo << ' ' << a.hi << ' ' << b.lo << ' ' << b.hi;
+    ASSERT_TRUE(encloses(-a, -x));
+    ASSERT_LE(a.least(), abs(x));
+    ASSERT_GE(a.most(), abs(x));
+  }
+}
+
+// Not so wide that it says nothing: a few units in the last place.
+TEST(Range, OperationsOnNumbersAreTight) {
+  test::Random random(32);
+  for (int i = 0; i < count; ++i) {
+    const double a = number(random), b = number(random);
+    const Range sum = Range(a) + Range(b), product = Range(a) * Range(b);
+    EXPECT_LE(sum.hi - sum.lo, 4 * 0x1p-52 * std::abs(a + b));
+    EXPECT_LE(product.hi - product.lo, 4 * 0x1p-52 * std::abs(a * b));
+  }
+}
+
+TEST(Range, SineAndCosineEncloseThoseOfAllAngles) {
+  test::Random random(33);
+  for (int i = 0; i < count; ++i) {
+    const double middle = random.uniform(-20, 20) * (random.coin() ? 1 : 100);
+    const double half = random.coin() ? random.uniform(0, 2) : std::ldexp(1, -random.below(52));
+    // Now and then centred on an extremum.
+    const double at = random.coin() ? middle : std::round(middle / (M_PI / 2)) * (M_PI / 2);
+    const Range angle{at - half, at + half};
+    const SineCosine<Range> both = sine_cosine(angle);
+    for (int k = 0; k < 8; ++k) {
+      const Quad x = k == 0 ? Quad(at) : inside(angle, random);
+      ASSERT_TRUE(encloses(both.sine, sin(x))) << angle.lo << ' ' << angle.hi;
+      ASSERT_TRUE(encloses(both.cosine, cos(x))) << angle.lo << ' ' << angle.hi;
+    }
+    ASSERT_LE(both.sine.hi - both.sine.lo, 2 * half * (1 + 0x1p-40) + 0x1p-38);
+  }
+}
+
+// Over a stretch of time, of every family: f and its derivatives, all roundings included.
+TEST(Range, ContactFunctionsAreEnclosed) {
+  test::Random random(34);
+  for (const test::PairFamily& family : test::pair_families()) {
+    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, count / 2000, 35)) {
+      const test::KernelPair held = test::kernel_pair(drawn);
+      const kernels::Pair pair = held.view();
+      const kernels::PairScale scale = kernels::scale_of(pair);
+      const auto frame = kernels::enclose(kernels::make_frame<DoubleDouble>(pair, scale), pair);
+      const double end = drawn.horizon * scale.per_time;
+      for (int k = 0; k < 4; ++k) {
+        const double begin = end * random.uniform();
+        const Range time{begin, begin + std::ldexp(end, -random.below(50))};
+        const auto sample = kernels::evaluate(frame, time);
+        const auto truth = test::precise_contact(pair, scale, inside(time, random));
+        ASSERT_TRUE(encloses(sample.f, truth.f)) << family.name;
+        ASSERT_TRUE(encloses(sample.df, truth.df)) << family.name;
+        ASSERT_TRUE(encloses(sample.ddf, truth.ddf)) << family.name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace needlework
