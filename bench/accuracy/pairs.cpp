@@ -1,5 +1,5 @@
 // First contacts by several accuracies over one family of pairs, against the oracle: what each
-// costs, and how often and by how much it errs. bench/accuracy/study.py asks for what it needs.
+// costs, and how often and by how much it errs. bench/accuracy/accuracy.py asks for what it needs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

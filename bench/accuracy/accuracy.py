@@ -1,0 +1,332 @@
+#!/usr/bin/python3
+"""Measures what accuracy costs in time: cost against error, for each level and knob.
+
+    bench/accuracy/accuracy.py                    everything, about an hour
+    bench/accuracy/accuracy.py pairs tc           some parts
+    bench/accuracy/accuracy.py tables             no measuring: tables and pictures from the file
+
+Parts: pairs (first contacts against the oracle), cost, audit, drift, return, parting, rates, tc.
+README.md beside this file says what each measures. Writes accuracy.json, accuracy.md and
+accuracy.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
+"""
+
+import argparse
+import json
+import math
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "bench"))
+import study  # noqa: E402
+
+# name of a setting: what differs from the defaults, as keys of [engine]
+SETTINGS = {
+    "fast": {"accuracy": "fast"},
+    "standard": {},
+    "rigorous": {"accuracy": "rigorous"},
+    "sampling 1/4": {"isolation": "sampling", "sampling_step": 0.25},
+    "sampling 1/8": {"isolation": "sampling", "sampling_step": 0.125},
+    "sampling 1/32": {"isolation": "sampling", "sampling_step": 1 / 32},
+    "sampling 1/128": {"isolation": "sampling", "sampling_step": 1 / 128},
+    "intervals": {"isolation": "intervals"},
+    "never escalated": {"escalation": "never"},
+    "always escalated": {"escalation": "always"},
+    "filter double": {"filter": "double"},
+    "rigorous, filter float": {"accuracy": "rigorous", "filter": "float"},
+    "root 1e-3": {"root_tolerance": 1e-3},
+    "root 1e-5": {"root_tolerance": 1e-5},
+    "root 1e-7": {"root_tolerance": 1e-7},
+}
+# Elastic, at the densities of the paper: n L^3 = 0.72 and 11.6.
+GASES = {"dilute": 0.7234, "dense": 11.574}
+FAMILIES = ["thermal-k6", "parallel", "tip", "grazing", "just-collided", "fast-spin", "still",
+            "planar", "mixed-scales"]
+
+
+class Bench:
+    def __init__(self, build):
+        self.program = str(build / "needlework")
+        self.pairs_program = str(build / "bench_accuracy")
+        self.folder = Path(tempfile.mkdtemp(prefix="accuracy-"))
+
+    def scene(self, needles, density, until, **sections):
+        text = f"[needles]\ncount = {needles}\nbox = {max(2.01, (needles / density) ** (1 / 3))}\n"
+        text += f"seed = {sections.pop('seed', 1)}\n"
+        for section, keys in {"until": until, **sections}.items():
+            text += f"[{section}]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in keys.items())
+        file = self.folder / "scene.toml"
+        file.write_text(text)
+        return str(file)
+
+    def run(self, scene, out=None):
+        command = [self.program, "run", scene, "--json", "--quiet", "--threads", "1"]
+        if out:
+            command += ["--out", str(out), "--force"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            return {"error": done.stderr.strip().splitlines()[-1]}
+        return json.loads(done.stdout)
+
+
+def measure_pairs(bench, scale):
+    """Each family by each setting that can tell pairs apart: time, misses, errors of times."""
+    names = [n for n in SETTINGS if "filter" not in SETTINGS[n]]
+    texts = {n: ",".join([SETTINGS[n].get("accuracy", "standard")] + [
+        f"{k}={v}" for k, v in SETTINGS[n].items() if k != "accuracy"]) for n in names}
+    out = {}
+    for family in FAMILIES:
+        count = int(scale * (200_000 if family.startswith("thermal") else 20_000))
+        answer = json.loads(study.output_of([bench.pairs_program, family, "--pairs", str(count),
+                                             "--accuracy", *texts.values()]))
+        for name, result in zip(names, answer["results"]):
+            result["accuracy"] = name
+        out[family] = answer
+        print(family, flush=True)
+    return out
+
+
+def measure_cost(bench, scale):
+    """CPU time of the event loop per collision, best of interleaved repetitions."""
+    best = {}
+    for _ in range(3):
+        for gas, density in GASES.items():
+            for name, engine in SETTINGS.items():
+                slow = "rigorous" in name
+                scene = bench.scene(8000, density, {
+                    "collisions_per_needle": scale * (1 if slow else 6)}, engine=engine)
+                report = bench.run(scene)
+                figures = {"us": report["us_per_collision"], **{
+                    key: report["stats"][key] / report["collisions"]
+                    for key in ("predicted", "evaluated", "escalated")}}
+                old = best.get((gas, name))
+                if not old or figures["us"] < old["us"]:
+                    best[gas, name] = figures
+        print(flush=True, end=".")
+    print()
+    return [{"gas": g, "accuracy": n, **f} for (g, n), f in best.items()]
+
+
+def measure_audit(bench, scale):
+    """Every contact of a small gas, checked by the audit."""
+    out = []
+    for gas, density in GASES.items():
+        for name, engine in SETTINGS.items():
+            scene = bench.scene(400, density, {"collisions_per_needle": 40 * scale}, engine=engine)
+            done = subprocess.run([bench.program, "audit", scene, "--json", "--quiet"],
+                                  capture_output=True, text=True)
+            if done.returncode not in (0, 1):
+                out.append({"gas": gas, "accuracy": name, "error": done.stderr.strip()})
+                continue
+            report = json.loads(done.stdout)
+            out.append({"gas": gas, "accuracy": name, **{
+                k: report[k] for k in ("collisions", "checked", "missed", "spurious", "late",
+                                       "early", "wrong_order", "undecided") if k in report}})
+        print(gas, flush=True)
+    return out
+
+
+def measure_drift(bench, scale):
+    """Energy and momentum of elastic gases."""
+    out = []
+    for gas, density in GASES.items():
+        for name in ("fast", "standard", "rigorous"):
+            per_needle = (20 if name == "rigorous" else 400) * scale
+            report = bench.run(bench.scene(1000, density, {"collisions_per_needle": per_needle},
+                                           engine=SETTINGS[name]))
+            out.append({"gas": gas, "accuracy": name, "collisions": report["collisions"],
+                        "energy": abs(report["energy"] / report["energy_initial"] - 1),
+                        "momentum": max(abs(p) for p in report["momentum"]) / 1000})
+        print(gas, flush=True)
+    return out
+
+
+def reverse(source, target):
+    """The last frame of a file as a state that flies back."""
+    with h5py.File(source) as old, h5py.File(target, "w") as new:
+        needles, to = old["particles/needles"], new.create_group("particles/needles")
+        old.copy("h5md", new)
+        for key in ("position", "velocity", "orientation", "angular_velocity", "image"):
+            sign = -1 if key in ("velocity", "angular_velocity") else 1
+            group = to.create_group(key)
+            group["value"] = sign * needles[key]["value"][-1:]
+            group["step"], group["time"] = [0], [0.0]
+        old.copy(needles["box"], to, "box")
+        for key in ("value", "step", "time"):
+            path = f"particles/needles/box/edges/{key}"
+            if path in new:
+                last = new[path][-1:] if new[path].ndim and len(new[path]) > 3 else new[path][()]
+                del new[path]
+                new[path] = last
+
+
+def frames(file):
+    with h5py.File(file) as data:
+        group = data["particles/needles"]
+        box = numpy.asarray(group["box/edges"]["value"] if "value" in group["box/edges"]
+                            else group["box/edges"])
+        edges = box.reshape(-1, 3)[0] if box.ndim < 3 else numpy.diagonal(box[0])
+        return (group["position/value"][0], group["orientation/value"][0],
+                group["position/value"][-1], group["orientation/value"][-1], edges)
+
+
+def measure_return(bench, scale):
+    """Distance to the start after n collisions per needle, velocities reversed, and back."""
+    out = []
+    needles = 200
+    for gas, density in GASES.items():
+        for name in ("root 1e-3", "root 1e-7", "fast", "standard", "rigorous"):
+            for n in (0.5, 1, 2, 3, 4, 6, 8):
+                there, turned, back = (bench.folder / f"{f}.h5" for f in ("there", "turned", "back"))
+                probe = bench.run(bench.scene(needles, density, {"collisions_per_needle": n},
+                                              engine=SETTINGS[name]))
+                # Not at the collision, but halfway to the next.
+                turn = probe["time"] * (1 + 0.5 / probe["collisions"])
+                first = bench.run(bench.scene(needles, density, {"time": turn},
+                                              engine=SETTINGS[name]), there)
+                reverse(there, turned)
+                text = (f"[initial]\nfile = \"{turned}\"\n[until]\ntime = {turn!r}\n[engine]\n"
+                        + "".join(f"{k} = {json.dumps(v)}\n" for k, v in SETTINGS[name].items()))
+                file = bench.folder / "back.toml"
+                file.write_text(text)
+                second = bench.run(str(file), back)
+                r0, u0, _, _, edges = frames(there)
+                _, _, r1, u1, _ = frames(back)
+                way = r1 - r0
+                way -= edges * numpy.round(way / edges)
+                distance = math.sqrt(numpy.mean(numpy.sum(way ** 2, 1) + numpy.sum((u1 - u0) ** 2, 1)))
+                out.append({"gas": gas, "accuracy": name, "collisions_per_needle": n,
+                            "there": first["collisions"], "back": second["collisions"],
+                            "distance": distance})
+        print(gas, flush=True)
+    return out
+
+
+def measure_parting(bench, scale):
+    """The first collision whose pair differs from that of the rigorous run."""
+    out = []
+    for gas, density in GASES.items():
+        pairs = {}
+        for name, engine in SETTINGS.items():
+            if "filter" in engine or name == "intervals":
+                continue
+            file = bench.folder / "events.h5"
+            report = bench.run(bench.scene(1000, density, {"collisions_per_needle": 60},
+                                           engine=engine, output={"events": True}), file)
+            if "error" in report:
+                out.append({"gas": gas, "accuracy": name, **report})
+                continue
+            with h5py.File(file) as data:
+                pairs[name] = data["events/pair"][()]
+        truth = pairs.pop("rigorous")
+        for name, other in pairs.items():
+            size = min(len(truth), len(other))
+            differs = numpy.flatnonzero((truth[:size] != other[:size]).any(1))
+            first = int(differs[0]) if len(differs) else None
+            out.append({"gas": gas, "accuracy": name, "collision": first,
+                        "collisions_per_needle": None if first is None else 2 * first / 1000})
+        print(gas, flush=True)
+    return out
+
+
+def measure_rates(bench, scale):
+    """Collision rate against the exact one, and energy of a cooling gas against that at standard,
+    in standard errors."""
+    out = []
+    seeds = range(1, 9)
+    cooling = {"epsilon": 0.8, "tc_relative": 1e-4}
+    names = ["fast", "standard", "rigorous", "sampling 1/4", "sampling 1/8", "sampling 1/32",
+             "never escalated", "root 1e-3"]
+    for gas, density in GASES.items():
+        energies = {}
+        for name in names:
+            rates, energies[name], errors = [], [], set()
+            for seed in seeds:
+                per_needle = scale * (5 if name == "rigorous" else 40)
+                report = bench.run(bench.scene(1000, density, {"collisions_per_needle": per_needle},
+                                               engine=SETTINGS[name], seed=seed))
+                if "error" in report:
+                    errors.add(report["error"])
+                else:
+                    rates.append(report["collision_rate"] / report["collision_rate_exact"] - 1)
+                report = bench.run(bench.scene(
+                    1000, density, {"time": 60 / density}, engine=SETTINGS[name], seed=seed,
+                    collisions=cooling))
+                if "error" in report:
+                    errors.add(report["error"])
+                else:
+                    energies[name].append(report["energy"] / report["energy_initial"])
+            entry = {"gas": gas, "accuracy": name, "runs": len(rates), "errors": sorted(errors)}
+            if len(rates) > 1:
+                error = statistics.stdev(rates) / math.sqrt(len(rates))
+                entry |= {"rate_off": statistics.mean(rates), "rate_error": error}
+            if len(energies[name]) > 1:
+                entry |= {"cooling_runs": len(energies[name]),
+                          "energy_ratio": statistics.mean(energies[name]),
+                          "energy_error": statistics.stdev(energies[name])
+                          / math.sqrt(len(energies[name]))}
+            out.append(entry)
+            print(gas, name, flush=True)
+    return out
+
+
+def measure_tc(bench, scale):
+    """Cost, share of collisions by the t_c rule, and cooling curve against tc_relative."""
+    out = []
+    for epsilon in (0.9, 0.8, 0.5):
+        for tc in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
+            scene = bench.scene(2000, GASES["dilute"],
+                                {"energy_ratio": 1e-3, "collisions_per_needle": 400, "wall_s": 60},
+                                collisions={"epsilon": epsilon, "tc_relative": tc})
+            report = bench.run(scene)
+            entry = {"epsilon": epsilon, "tc_relative": tc}
+            if "error" in report:
+                entry |= report
+            else:
+                entry |= {"us": report["us_per_collision"], "stop": report["stop"],
+                          "collisions_per_needle": report["collisions_per_needle"],
+                          "share": report["tc_collisions"] / report["collisions"],
+                          "time": report["time"],
+                          "energy_ratio": report["energy"] / report["energy_initial"]}
+            out.append(entry)
+            print(epsilon, tc, flush=True)
+    return out
+
+
+PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit,
+         "drift": measure_drift, "return": measure_return, "parting": measure_parting,
+         "rates": measure_rates, "tc": measure_tc}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("parts", nargs="*", help=", ".join([*PARTS, "tables"]))
+    parser.add_argument("--build", type=Path, default=ROOT / "build/release")
+    parser.add_argument("--machine", help="its name among the results")
+    parser.add_argument("--scale", type=float, default=1, help="longer or shorter runs")
+    arguments = parser.parse_args()
+    parts = arguments.parts or list(PARTS)
+    folder = study.BENCH / "results" / (arguments.machine or study.machine_name(arguments.build))
+    file = folder / "accuracy.json"
+    data = json.loads(file.read_text()) if file.exists() else {}
+    bench = Bench(arguments.build)
+    for part in parts:
+        if part == "tables":
+            continue
+        if part not in PARTS:
+            parser.error(f"{part}: expected some of {', '.join([*PARTS, 'tables'])}")
+        data[part] = {"commit": study.commit(), "results": PARTS[part](bench, arguments.scale)}
+        study.write_json(file, data)
+    import tables
+    tables.write(data, SETTINGS, folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,243 @@
+"""Tables and pictures of the work-precision study, from its file alone."""
+
+import math
+
+FAMILY_NAMES = {"thermal-k6": "thermal"}
+
+
+def number(value, digits=2):
+    if value is None:
+        return "–"
+    if value == 0:
+        return "0"
+    if 0.01 <= abs(value) < 10000:
+        return f"{value:.{digits + 1}g}" if abs(value) < 100 else f"{value:.0f}"
+    return f"{value:.{digits - 1}e}"
+
+
+def row(*cells):
+    return "| " + " | ".join(str(c) for c in cells) + " |"
+
+
+def head(*names):
+    return [row(*names), row(*["---"] * len(names))]
+
+
+def by(results, *keys):
+    return {tuple(r[k] for k in keys): r for r in results}
+
+
+def summary(data, names):
+    """What do I pay, what do I get: one line for each setting."""
+    cost = by(data["cost"]["results"], "gas", "accuracy")
+    audit = by(data["audit"]["results"], "gas", "accuracy")
+    lines = head("accuracy", "us per collision dilute, dense", "over `standard`",
+                 "ns per thermal pair", "missed per 1e6 thermal pairs", "of 1e6 nearly parallel",
+                 "median, greatest error of a thermal time", "contacts missed in audited runs")
+    pairs = data["pairs"]["results"]
+    found = {f: by(p["results"], "accuracy") for f, p in pairs.items()}
+    for name in names:
+        us = [cost[gas, name]["us"] for gas in ("dilute", "dense")]
+        ratio = [cost[gas, name]["us"] / cost[gas, "standard"]["us"] for gas in ("dilute", "dense")]
+        audits = [audit.get((gas, name)) for gas in ("dilute", "dense")]
+        missed = ", ".join("fails" if a is None or "error" in a
+                           else f"{a['missed']} of {a['collisions']}" for a in audits)
+        cells = [f"`{name}`" if name in ("fast", "standard", "rigorous") else name,
+                 f"{us[0]:.1f}, {us[1]:.1f}", f"{ratio[0]:.2f}, {ratio[1]:.2f}"]
+        thermal = found["thermal-k6"].get((name,))
+        if thermal:
+            per_million = [1e6 * found[f][name,]["missed"] / pairs[f]["pairs"]
+                           for f in ("thermal-k6", "parallel")]
+            cells += [f"{thermal['ns_per_pair']:.0f}", *[number(m) for m in per_million],
+                      f"{number(thermal['time_error']['median'])}, "
+                      f"{number(thermal['time_error']['max'])}"]
+        else:
+            level = "rigorous" if "rigorous" in name else "standard"
+            cells += [f"as `{level}`", "", "", ""]
+        lines.append(row(*cells, missed))
+    return lines
+
+
+def pairs_table(data):
+    lines = []
+    for family, result in data["pairs"]["results"].items():
+        lines += [f"\n### {FAMILY_NAMES.get(family, family)}: {result['pairs']} pairs, "
+                  f"{result['contacts']} contacts, {result['near']} inside the condition limit\n"]
+        lines += head("accuracy", "ns per pair", "evaluations", "in double-double", "missed",
+                      "spurious", "inside the limit: missed, spurious",
+                      "error of times: median", "99 %", "greatest")
+        for r in result["results"]:
+            t = r["time_error"]
+            lines.append(row(r["accuracy"], f"{r['ns_per_pair']:.0f}", f"{r['evaluations']:.1f}",
+                             f"{r['escalations']:.2f}", r["missed"], r["spurious"],
+                             f"{r['near_missed']}, {r['near_spurious']}", number(t["median"]),
+                             number(t["q99"]), number(t["max"])))
+    return lines
+
+
+def audit_table(data):
+    lines = head("gas", "accuracy", "collisions", "flights checked", "missed", "spurious", "late",
+                 "early", "wrong order", "undecided")
+    for r in data["audit"]["results"]:
+        if "error" in r:
+            lines.append(row(r["gas"], r["accuracy"], "the run fails: " + r["error"],
+                             *[""] * 7))
+        else:
+            lines.append(row(r["gas"], r["accuracy"], r["collisions"], r["checked"], r["missed"],
+                             r["spurious"], r["late"], r["early"], r["wrong_order"],
+                             r["undecided"]))
+    return lines
+
+
+def drift_table(data):
+    lines = head("gas", "accuracy", "collisions", "energy off by", "per collision",
+                 "momentum off by, per needle")
+    for r in data["drift"]["results"]:
+        lines.append(row(r["gas"], r["accuracy"], r["collisions"], number(r["energy"]),
+                         number(r["energy"] / r["collisions"]), number(r["momentum"])))
+    return lines
+
+
+def return_table(data):
+    results = by(data["return"]["results"], "gas", "accuracy", "collisions_per_needle")
+    counts = sorted({k[2] for k in results})
+    lines = head("gas", "accuracy", *[f"{n:g}" for n in counts])
+    for gas, name in dict.fromkeys(k[:2] for k in results):
+        lines.append(row(gas, name, *[number(results[gas, name, n]["distance"]) for n in counts]))
+    return lines
+
+
+def parting_table(data):
+    lines = head("gas", "accuracy", "first collision of another pair", "collisions per needle then")
+    for r in data["parting"]["results"]:
+        if "error" in r:
+            lines.append(row(r["gas"], r["accuracy"], "the run fails: " + r["error"], ""))
+        else:
+            first = r["collision"]
+            lines.append(row(r["gas"], r["accuracy"], "none" if first is None else first,
+                             number(r["collisions_per_needle"])))
+    return lines
+
+
+def rates_table(data):
+    lines = head("gas", "accuracy", "runs", "collision rate off by", "in standard errors",
+                 "E/E(0) of the cooling gas", "from `standard`, in standard errors")
+    results = by(data["rates"]["results"], "gas", "accuracy")
+    for (gas, name), r in results.items():
+        cells = [gas, name, r["runs"]]
+        if "rate_off" in r:
+            cells += [f"{100 * r['rate_off']:+.2f} % ± {100 * r['rate_error']:.2f}",
+                      f"{r['rate_off'] / r['rate_error']:+.1f}"]
+        else:
+            cells += ["the runs fail", ""]
+        if "energy_ratio" in r:
+            other = results[gas, "standard"]
+            error = math.hypot(r["energy_error"], other["energy_error"])
+            off = (r["energy_ratio"] - other["energy_ratio"]) / error if error else 0
+            failed = r["runs"] - r["cooling_runs"]
+            cells += [f"{r['energy_ratio']:.4f} ± {r['energy_error']:.4f}"
+                      + (f" ({failed} failed)" if failed > 0 else ""), f"{off:+.1f}"]
+        else:
+            cells += ["the runs fail", ""]
+        lines.append(row(*cells))
+    return lines
+
+
+def tc_table(data):
+    lines = head("epsilon", "tc_relative", "us per collision", "share of t_c collisions",
+                 "collisions per needle to E/E(0) = 1e-3", "time", "")
+    for r in data["tc"]["results"]:
+        if "error" in r:
+            lines.append(row(r["epsilon"], number(r["tc_relative"]), "", "", "", "",
+                             "fails: " + r["error"]))
+            continue
+        reached = r["stop"] == "energy"
+        lines.append(row(r["epsilon"], number(r["tc_relative"]), f"{r['us']:.1f}",
+                         f"{100 * r['share']:.1f} %", f"{r['collisions_per_needle']:.1f}",
+                         f"{r['time']:.4g}",
+                         "" if reached else f"ended by {r['stop']} at {r['energy_ratio']:.2g}"))
+    return lines
+
+
+TABLES = [
+    ("audit", "Whole runs, audited", "Every flight of every pair of 400 needles.", audit_table),
+    ("drift", "Energy and momentum", "Elastic gases of 1000 needles.", drift_table),
+    ("return", "There and back",
+     "Root mean square distance of centres and directors of 200 needles from their start, after so "
+     "many collisions per needle, velocities reversed, and as long back. It grows with the gas's own "
+     "chaos from what one collision is off by.", return_table),
+    ("parting", "Where trajectories part",
+     "1000 needles, 60 collisions per needle, against `rigorous`.", parting_table),
+    ("rates", "What a user would notice",
+     "8 runs each of 1000 needles: the elastic collision rate against the exact one, and the energy "
+     "of a cooling gas (epsilon 0.8, tc_relative 1e-4).", rates_table),
+    ("tc", "Contact time", "2000 needles, n L^3 = 0.72, cooling to E/E(0) = 1e-3.", tc_table),
+]
+
+
+def write(data, settings, folder):
+    lines = ["# What accuracy costs in time", "",
+             "Made by `bench/accuracy/accuracy.py`; bench/accuracy/README.md says what is measured.", ""]
+    if {"cost", "audit", "pairs"} <= data.keys():
+        lines += ["![cost against error](accuracy.svg)", "", *summary(data, settings), ""]
+        draw(data, folder / "accuracy.svg")
+    for part, title, text, table in TABLES:
+        if part in data:
+            lines += [f"## {title}", "", text, "", *table(data), ""]
+    if "pairs" in data:
+        lines += ["## Families of pairs", *pairs_table(data), ""]
+    (folder / "accuracy.md").write_text("\n".join(lines))
+
+
+def draw(data, file):
+    import matplotlib
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+    matplotlib.rcParams["svg.hashsalt"] = "needlework"
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 4.2))
+    groups = {"levels": ["fast", "standard", "rigorous"],
+              "isolation by sampling": ["sampling 1/4", "sampling 1/8", "sampling 1/32",
+                                        "sampling 1/128"],
+              "root tolerance": ["root 1e-3", "root 1e-5", "root 1e-7"],
+              "isolation by intervals": ["intervals"],
+              "escalation": ["never escalated", "always escalated"]}
+    pairs = data["pairs"]["results"]
+    hard = [f for f in pairs if not f.startswith("thermal") and f != "grazing"]
+    thermal = by(pairs["thermal-k6"]["results"], "accuracy")
+    total = sum(pairs[f]["pairs"] for f in hard)
+    markers = "osD^v"
+
+    def label(axes, name, x, y):
+        short = name.removeprefix("sampling ").removeprefix("root ").removesuffix(" escalated")
+        axes.annotate(short, (x, y), fontsize=7, xytext=(3, 4), textcoords="offset points")
+
+    for marker, (group, names) in zip(markers, groups.items()):
+        points = [(thermal[n,]["ns_per_pair"], thermal[n,]["time_error"]["q99"], n)
+                  for n in names]
+        left.plot([p[0] for p in points], [p[1] for p in points], marker, label=group)
+        for x, y, n in points:
+            label(left, n, x, y)
+        points = []
+        for n in names:
+            results = [by(pairs[f]["results"], "accuracy")[n,] for f in hard]
+            ns = sum(r["ns_per_pair"] * pairs[f]["pairs"] for f, r in zip(hard, results)) / total
+            wrong = sum(r["missed"] + r["spurious"] for r in results) / total
+            points.append((ns, wrong, n))
+        floor = 0.3 / total
+        right.plot([p[0] for p in points], [max(p[1], floor) for p in points], marker)
+        for x, y, n in points:
+            if y > 0 or n in groups["levels"]:
+                label(right, n, x, max(y, floor))
+    right.axhline(0.3 / total, color="0.8", linewidth=0.8)
+    right.annotate("none", (right.get_xlim()[0], 0.3 / total), fontsize=7, color="0.5",
+                   xytext=(2, -9), textcoords="offset points")
+    for axes in (left, right):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    left.set_xlabel("ns per thermal pair")
+    left.set_ylabel("relative error of contact times (99 % are below)")
+    right.set_xlabel("ns per hard pair")
+    right.set_ylabel("share of hard pairs decided wrongly")
+    left.legend(frameon=False, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(file, metadata={"Date": None})
