@@ -5,7 +5,7 @@
     bench/accuracy/accuracy.py pairs tc           some parts
     bench/accuracy/accuracy.py tables             no measuring: tables and pictures from the file
 
-Parts: pairs (first contacts against the oracle), cost, audit, drift, return, parting, rates, tc.
+Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift, return, parting, rates, tc.
 README.md beside this file says what each measures. Writes accuracy.json, accuracy.md and
 accuracy.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
 """
@@ -128,6 +128,18 @@ def measure_audit(bench, scale):
             out.append({"gas": gas, "accuracy": name, **{
                 k: report[k] for k in ("collisions", "checked", "missed", "spurious", "late",
                                        "early", "wrong_order", "undecided") if k in report}})
+        print(gas, flush=True)
+    return out
+
+
+def measure_long_audit(bench, scale):
+    """A million collisions at `standard`, every flight of every pair checked."""
+    out = []
+    for gas, density in GASES.items():
+        scene = bench.scene(400, density, {"collisions_per_needle": 5000 * scale})
+        done = subprocess.run([bench.program, "audit", scene, "--json", "--quiet"],
+                              capture_output=True, text=True)
+        out.append({"gas": gas, "accuracy": "standard", **json.loads(done.stdout)})
         print(gas, flush=True)
     return out
 
@@ -299,7 +311,7 @@ def measure_tc(bench, scale):
     return out
 
 
-PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit,
+PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit, "long-audit": measure_long_audit,
          "drift": measure_drift, "return": measure_return, "parting": measure_parting,
          "rates": measure_rates, "tc": measure_tc}
 
