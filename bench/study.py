@@ -29,6 +29,7 @@ SCENES = {
     "isa": [],
     "density": [],
     "size": ["--repetitions", "3"],  # a baseline of 1e6 needles takes its time
+    "storage": ["--repetitions", "3"],
     "effects": [],
 }
 # Parts that have an executable of their own, with Google Benchmark.
@@ -107,7 +108,8 @@ def number(x):
 
 def engine_of(case):
     """What is special about a case: its name without scene, accuracy and threads."""
-    return "/".join(case["name"].split("/")[i] for i in (1, 2, 4))
+    words = case["name"].split("/")
+    return "/".join([words[1], words[2], words[4], *words[6:]])
 
 
 def case_table(results):
@@ -198,6 +200,7 @@ SECTIONS = [  # part, title, what makes its table
     ("searches", "Searches", case_table),
     ("density", "Density: us per collision of 10000 needles", density_table),
     ("size", "Size: us per collision", size_table),
+    ("storage", "Storage by place or by id", case_table),
     ("queues", "Queues", case_table),
     ("isa", "Instruction sets", case_table),
     ("effects", "Effects", case_table),

@@ -5,7 +5,8 @@
     bench/accuracy/accuracy.py pairs tc           some parts
     bench/accuracy/accuracy.py tables             no measuring: tables and pictures from the file
 
-Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift, return, parting, rates, tc.
+Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift,
+long-drift, return, parting, rates, tc.
 README.md beside this file says what each measures. Writes accuracy.json, accuracy.md and
 accuracy.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
 """
@@ -144,19 +145,23 @@ def measure_long_audit(bench, scale):
     return out
 
 
+def drift(bench, gas, name, per_needle):
+    report = bench.run(bench.scene(1000, GASES[gas], {"collisions_per_needle": per_needle},
+                                   engine=SETTINGS[name]))
+    return {"gas": gas, "accuracy": name, "collisions": report["collisions"],
+            "energy": abs(report["energy"] / report["energy_initial"] - 1),
+            "momentum": max(abs(p) for p in report["momentum"]) / 1000}
+
+
 def measure_drift(bench, scale):
     """Energy and momentum of elastic gases."""
-    out = []
-    for gas, density in GASES.items():
-        for name in ("fast", "standard", "rigorous"):
-            per_needle = (20 if name == "rigorous" else 400) * scale
-            report = bench.run(bench.scene(1000, density, {"collisions_per_needle": per_needle},
-                                           engine=SETTINGS[name]))
-            out.append({"gas": gas, "accuracy": name, "collisions": report["collisions"],
-                        "energy": abs(report["energy"] / report["energy_initial"] - 1),
-                        "momentum": max(abs(p) for p in report["momentum"]) / 1000})
-        print(gas, flush=True)
-    return out
+    return [drift(bench, gas, name, (20 if name == "rigorous" else 400) * scale)
+            for gas in GASES for name in ("fast", "standard", "rigorous")]
+
+
+def measure_long_drift(bench, scale):
+    """The same over 1e8 collisions."""
+    return [drift(bench, "dense", "standard", 200_000 * scale)]
 
 
 def reverse(source, target):
@@ -312,7 +317,8 @@ def measure_tc(bench, scale):
 
 
 PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit, "long-audit": measure_long_audit,
-         "drift": measure_drift, "return": measure_return, "parting": measure_parting,
+         "drift": measure_drift, "long-drift": measure_long_drift,
+         "return": measure_return, "parting": measure_parting,
          "rates": measure_rates, "tc": measure_tc}
 
 

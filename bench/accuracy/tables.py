@@ -99,10 +99,10 @@ def audit_table(data):
     return lines
 
 
-def drift_table(data):
+def drift_table(data, part="drift"):
     lines = head("gas", "accuracy", "collisions", "energy off by", "per collision",
                  "momentum off by, per needle")
-    for r in data["drift"]["results"]:
+    for r in data[part]["results"]:
         lines.append(row(r["gas"], r["accuracy"], r["collisions"], number(r["energy"]),
                          number(r["energy"] / r["collisions"]), number(r["momentum"])))
     return lines
@@ -174,6 +174,8 @@ TABLES = [
      "400 needles at `standard`, every flight of every pair.", long_audit_table),
     ("audit", "Whole runs, audited", "Every flight of every pair of 400 needles.", audit_table),
     ("drift", "Energy and momentum", "Elastic gases of 1000 needles.", drift_table),
+    ("long-drift", "1e8 collisions", "The same.",
+     lambda data: drift_table(data, "long-drift")),
     ("return", "There and back",
      "Root mean square distance of centres and directors of 200 needles from their start, after so "
      "many collisions per needle, velocities reversed, and as long back. It grows with the gas's own "

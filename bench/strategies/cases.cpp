@@ -18,7 +18,7 @@ struct GasScene {
 };
 
 struct Parts {
-  std::string search, queue, isa;
+  std::string search, queue, isa, storage = "sorted";
   bool operator==(const Parts&) const = default;
 };
 
@@ -45,6 +45,7 @@ Case make_case(const GasScene& gas, const Parts& parts) {
   out.scene.engine.search = parts.search;
   out.scene.engine.queue = parts.queue;
   out.scene.engine.isa = parts.isa;
+  out.scene.engine.storage = parts.storage;
   out.scene.engine.threads = 1;
   out.is_baseline = parts == baseline;
   return out;
@@ -113,6 +114,12 @@ std::vector<Case> by_size() {
   return product(gases, {searched_by("auto")});
 }
 
+// Needles drawn at random places, and so stored by id in no order at all.
+std::vector<Case> by_storage() {
+  return product({gas_of(10000, 0.72), gas_of(100000, 0.72), gas_of(1000000, 0.72)},
+                 {searched_by("auto"), {"auto", "auto", widest(), "by-id"}});
+}
+
 std::vector<Case> by_effects() {
   // Inelastic needles without the t_c rule would end in the collapse of a pair.
   const Scene::Collisions elastic, rough{.beta = 0, .tc = {}, .tc_relative = {}},
@@ -132,8 +139,9 @@ std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("au
 
 std::string Case::name() const {
   const Scene::Engine& engine = scene.engine;
-  return fmt::format("{}/{}/{}/{}/{}/threads:{}", scene_name, engine.search, engine.queue,
-                     engine.accuracy, engine.isa, engine.threads.value_or(1));
+  return fmt::format("{}/{}/{}/{}/{}/threads:{}{}", scene_name, engine.search, engine.queue,
+                     engine.accuracy, engine.isa, engine.threads.value_or(1),
+                     engine.storage == "sorted" ? "" : "/" + engine.storage);
 }
 
 const std::vector<Subset>& subsets() {
@@ -164,6 +172,7 @@ const std::vector<Subset>& subsets() {
        }},
       {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
       {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
+      {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
       {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
       {"smoke", "200 needles, over at once", by_smoke}};
   return all;

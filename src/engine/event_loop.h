@@ -153,7 +153,7 @@ bool EventLoop<Search, Queue, effects>::pass_window(Time next, const Limits& lim
   if (window_end_ > std::min(next, limits.time)) return false;
   now = window_end_;
   open_window();
-  if (tally.counters.crossings - sorted_at_ > 2 * gas.size()) sort_storage();
+  if (sorted && tally.counters.crossings - sorted_at_ > 2 * gas.size()) sort_storage();
   return true;
 }
 

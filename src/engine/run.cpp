@@ -91,6 +91,7 @@ Run::Run(const Scene& scene, Gas initial)
     : gas(std::move(initial)),
       restitution{scene.collisions.epsilon, scene.collisions.beta},
       accuracy(accuracy_of(scene.engine)),
+      sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
   open_window();
@@ -102,7 +103,7 @@ Run::Run(const Scene& scene, Gas initial)
   open_window();
   initial_energy = energy();
   // Before search and calendar take their memory, which would add to what sorting needs.
-  reorder(gas, order_in_space(gas, now));
+  if (sorted) reorder(gas, order_in_space(gas, now));
 }
 
 void Run::open_window() {

@@ -48,6 +48,7 @@ class Run {
   Time now;
   Restitution restitution;
   Accuracy accuracy;
+  bool sorted;  ///< whether needles are stored in the order of their places
   double mean_free_time = 0;
   double contact_time = 0;           ///< in force in this window
   double search_span = 0;            ///< how far ahead contacts are searched for [time]

@@ -44,6 +44,7 @@ struct Scene {
     std::string isa = "auto";
     std::optional<double> cell_side;       ///< least side of cells; absent: chosen [L]
     std::optional<double> capsule_radius;  ///< absent: chosen [L]
+    std::string storage = "sorted";  ///< "sorted" by place, or "by-id", to see what that gains
   };
   /// The first condition met ends the run; all count from the start of the run.
   struct Until {

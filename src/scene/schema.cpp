@@ -195,6 +195,11 @@ constexpr SceneKey keys[] = {
     {"engine", "capsule_radius", "a length from 1e-3 to 10",
      [](Scene& s, V v) { return store(s.engine.capsule_radius, number(v, 1e-3, 10)); }},
 
+    {"engine", "storage", R"("sorted" or "by-id")",
+     [](Scene& s, V v) {
+       return store(s.engine.storage, one_of(v, {"sorted", "by-id"}));
+     }},
+
     {"until", "time", "a time >= 0",
      [](Scene& s, V v) { return store(s.until.time, number(v, 0)); }},
     {"until", "collisions_per_needle", "a number >= 0",

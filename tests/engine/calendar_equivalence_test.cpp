@@ -1,5 +1,5 @@
 // Every calendar gives the same events, bit for bit, through sorting of the storage and a mean free
-// time that grows.
+// time that grows; and so does every order of storage.
 #include <gtest/gtest.h>
 
 #include "src/calendar/all.h"
@@ -23,6 +23,22 @@ TYPED_TEST(CalendarEquivalence, GivesTheEventsOfTheLazyHeap) {
     EXPECT_STREQ(Simulation(scene).queue().c_str(), TypeParam::name);
     EXPECT_EQ(test::record(scene, 1500).hash, plain.hash) << "epsilon " << epsilon;
   }
+}
+
+// The order in which needles are stored, and when it is made anew, is seen in no bit either.
+TEST(StorageEquivalence, OrderOfStorageChangesNothing) {
+  Scene scene = test::scene_of(300, 6, 4);
+  const test::Recorded sorted = test::record(scene, 3000);
+  scene.engine.storage = "by-id";
+  const test::Recorded by_id = test::record(scene, 3000);
+  EXPECT_EQ(by_id.hash, sorted.hash);
+  Simulation one(scene);
+  one.advance({.time = {}, .collisions_per_needle = 20, .energy_ratio = {}, .wall_s = {}});
+  EXPECT_EQ(one.counters().sorts, 0u);
+  scene.engine.storage = "sorted";
+  Simulation two(scene);
+  two.advance({.time = {}, .collisions_per_needle = 20, .energy_ratio = {}, .wall_s = {}});
+  EXPECT_GT(two.counters().sorts, 0u);
 }
 
 }  // namespace

@@ -110,6 +110,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       {"engine", "accuracy = true", accuracy},
       {"engine", "isolation = \"sample\"", R"(expected "sampling", "bounds" or "intervals")"},
       {"engine", "escalation = false", R"(expected "never", "undecided" or "always")"},
+      {"engine", "storage = \"random\"", R"(expected "sorted" or "by-id")"},
       {"engine", "filter = \"half\"", R"(expected "float" or "double")"},
       {"engine", "root_tolerance = 2e-3", "expected a number from 0 to 1e-3"},
       {"engine", "sampling_step = 0", "expected a number from 1e-4 to 0.5"},
@@ -179,7 +180,7 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
   const std::string of_needles = "expected one of count, box, k, seed";
   const std::string of_engine =
       "expected one of search, queue, accuracy, isolation, escalation, filter, root_tolerance, "
-      "sampling_step, threads, isa, cell_side, capsule_radius";
+      "sampling_step, threads, isa, cell_side, capsule_radius, storage";
   expect_messages({
       {"[needles]\ncuont = 100\n",
        "s.toml: line 2: needles.cuont = 100: " + of_needles + ", did you mean count?"},

@@ -72,6 +72,7 @@ threads = 2
 isa = "avx2"
 cell_side = 2
 capsule_radius = 0.25
+storage = "by-id"
 [until]
 time = 1e6
 collisions_per_needle = 600
@@ -107,6 +108,7 @@ events = true
   EXPECT_EQ(scene.engine.isa, "avx2");
   EXPECT_EQ(scene.engine.cell_side, 2);
   EXPECT_EQ(scene.engine.capsule_radius, 0.25);
+  EXPECT_EQ(scene.engine.storage, "by-id");
   EXPECT_EQ(scene.until.time, 1e6);
   EXPECT_EQ(scene.until.collisions_per_needle, 600);
   EXPECT_EQ(scene.until.energy_ratio, 1e-11);
