@@ -28,14 +28,23 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
                    ": expected " + std::to_string(expected));
 }
 
-// Sum over needles of a term that is never negative.
-template <class Term>
-double sum_of(const Gas& gas, Term&& term) {
-  double largest = 0;
-  for (const Record& record : gas.records) largest = std::max(largest, std::abs(term(record)));
-  ExactSum sum(largest);
-  for (const Record& record : gas.records) sum.add(term(record));
-  return sum.value();
+// Sums over needles of terms, exactly: the sums of all terms(record), an array.
+template <class Terms>
+auto sums_of(const Gas& gas, Terms&& terms) {
+  decltype(terms(gas.records[0])) largest{}, out;
+  for (const Record& record : gas.records) {
+    const auto term = terms(record);
+    for (std::size_t n = 0; n < term.size(); ++n) {
+      largest[n] = std::max(largest[n], std::abs(term[n]));
+    }
+  }
+  std::vector<ExactSum> sums(largest.begin(), largest.end());
+  for (const Record& record : gas.records) {
+    const auto term = terms(record);
+    for (std::size_t n = 0; n < term.size(); ++n) sums[n].add(term[n]);
+  }
+  for (std::size_t n = 0; n < out.size(); ++n) out[n] = sums[n].value();
+  return out;
 }
 
 }  // namespace
@@ -148,8 +157,9 @@ bool Run::nothing_can_happen() const {
 void Run::sum_energies(Totals& out) const {
   if (gas.size() == 0) return;
   const double count = static_cast<double>(gas.size());
-  const double v2 = sum_of(gas, [](const Record& a) { return dot(a.flight.v, a.flight.v); });
-  const double w2 = sum_of(gas, [](const Record& a) { return dot(a.flight.w, a.flight.w); });
+  const auto [v2, w2] = sums_of(gas, [](const Record& a) {
+    return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
+  });
   out.t_tr = v2 / (3 * count);
   out.t_rot = w2 / (4 * gas.k * count);
   out.energy = 1.5 * out.t_tr + out.t_rot;
@@ -162,9 +172,7 @@ Totals Run::totals() const {
   out.tc_collisions = tally.tc_collisions;
   if (gas.size() == 0) return out;
   sum_energies(out);
-  out.momentum = {sum_of(gas, [](const Record& a) { return a.flight.v.x; }),
-                  sum_of(gas, [](const Record& a) { return a.flight.v.y; }),
-                  sum_of(gas, [](const Record& a) { return a.flight.v.z; })};
+  out.momentum = sums_of(gas, [](const Record& a) { return array(a.flight.v); });
   return out;
 }
 
