@@ -32,25 +32,39 @@ inline bool near(const CellBox& a, const CellBox& b, const CellCounts& cells,
   return true;
 }
 
-/// Whether visit(index) holds for any cell of the box; asks no more of them once it does.
+/// Whether visit(first, end) holds for any row of cells of the box, with indices from `first` to
+/// before `end`; asks no more of them once it does. A row over the border of the grid is two.
 template <class Visit>
-bool any_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
+bool any_row_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
+  const std::int32_t length = box.more[0] + 1;
+  const std::int32_t ahead = std::min(length, cells[0] - box.low[0]);
   CellCounts at;
   at[2] = box.low[2];
   for (std::int32_t z = 0; z <= box.more[2]; ++z) {
     at[1] = box.low[1];
     for (std::int32_t y = 0; y <= box.more[1]; ++y) {
-      const std::size_t row = (static_cast<std::size_t>(at[2]) * cells[1] + at[1]) * cells[0];
-      at[0] = box.low[0];
-      for (std::int32_t x = 0; x <= box.more[0]; ++x) {
-        if (visit(static_cast<std::uint32_t>(row + at[0]))) return true;
-        if (++at[0] == cells[0]) at[0] = 0;
+      const auto row = static_cast<std::uint32_t>((at[2] * cells[1] + at[1]) * cells[0]);
+      const std::uint32_t first = row + static_cast<std::uint32_t>(box.low[0]);
+      if (visit(first, first + static_cast<std::uint32_t>(ahead))) return true;
+      if (ahead < length && visit(row, row + static_cast<std::uint32_t>(length - ahead))) {
+        return true;
       }
       if (++at[1] == cells[1]) at[1] = 0;
     }
     if (++at[2] == cells[2]) at[2] = 0;
   }
   return false;
+}
+
+/// Whether visit(index) holds for any cell of the box; asks no more of them once it does.
+template <class Visit>
+bool any_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
+  return any_row_in(box, cells, [&](std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t cell = first; cell < end; ++cell) {
+      if (visit(cell)) return true;
+    }
+    return false;
+  });
 }
 
 /// Cells along each axis that cover a distance [L] from anywhere in a cell.
@@ -85,14 +99,14 @@ inline CellBox cells_around(const CellGrid& grid, const Vec3d& r, double distanc
 class CellBall {
  public:
   CellBall(const CellGrid& grid, double distance)
-      : cells_(grid.counts()), reach_(cells_within(grid, distance)) {
-    const auto gap = [&](std::int32_t cells, int axis) {
-      return std::max(0, std::abs(cells) - 1) * grid.sides()[axis];
-    };
+      : cells_(grid.counts()),
+        sides_(grid.sides()),
+        distance_(distance),
+        reach_(cells_within(grid, distance)) {
     for (std::int32_t z = -reach_[2]; z <= reach_[2]; ++z) {
       for (std::int32_t y = -reach_[1]; y <= reach_[1]; ++y) {
         std::int32_t x = -1;
-        while (x < reach_[0] && std::hypot(gap(x + 1, 0), gap(y, 1), gap(z, 2)) < distance) ++x;
+        while (x < reach_[0] && comes_near({x + 1, y, z})) ++x;
         if (x >= 0) rows_.push_back({{-x, y, z}, std::min(2 * x, cells_[0] - 1)});
       }
     }
@@ -101,15 +115,25 @@ class CellBall {
   /// None is farther along an axis.
   const CellCounts& reach() const { return reach_; }
 
-  /// Whether visit(index) holds for any cell of the ball around this one.
+  /// Whether a cell is of the ball around another.
+  bool holds(const CellCounts& centre, const CellCounts& cell) const {
+    CellCounts steps;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int32_t ahead = std::abs(cell[axis] - centre[axis]);
+      steps[axis] = std::min(ahead, cells_[axis] - ahead);
+    }
+    return comes_near(steps);
+  }
+
+  /// Whether visit(first, end) holds for any row of cells of the ball around this one, as above.
   template <class Visit>
-  bool any(const CellCounts& centre, Visit&& visit) const {
+  bool any_row(const CellCounts& centre, Visit&& visit) const {
     for (const Row& row : rows_) {
       CellBox box{centre, {row.more, 0, 0}};
       for (int axis = 0; axis < 3; ++axis) {
         box.low[axis] = wrapped(centre[axis] + row.first[axis], cells_[axis]);
       }
-      if (any_in(box, cells_, visit)) return true;
+      if (any_row_in(box, cells_, visit)) return true;
     }
     return false;
   }
@@ -121,11 +145,23 @@ class CellBall {
     std::int32_t more;
   };
 
+  // Whether cells so many steps apart along the axes come nearer than the distance.
+  bool comes_near(const CellCounts& steps) const {
+    double squares = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double gap = std::max(0, std::abs(steps[axis]) - 1) * sides_[axis];
+      squares += gap * gap;
+    }
+    return squares < distance_ * distance_;
+  }
   static std::int32_t wrapped(std::int32_t cell, std::int32_t count) {
     return cell < 0 ? cell + count : cell >= count ? cell - count : cell;
   }
 
-  CellCounts cells_, reach_;
+  CellCounts cells_;
+  std::array<double, 3> sides_;
+  double distance_;
+  CellCounts reach_;
   std::vector<Row> rows_;
 };
 

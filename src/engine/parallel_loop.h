@@ -353,8 +353,10 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
     const Block earlier = earlier_around(me, block, block, key);
     if (earlier != nobody) return give_up(earlier);
     if (!claim(Claims::owner, cell_of(block))) return Outcome::again;
-    // Somebody may have written to the block just before.
-    if (queue_.clock_of(block) != key) return give_up(nobody);
+    // Somebody may have written to the block, or to others of the zone near it, just before.
+    if (queue_.clock_of(block) != key || me.has_mail.load(std::memory_order_acquire)) {
+      return give_up(nobody);
+    }
   }
   const Event event = queue_.top_of(block);
   me.worker.bring_near(queue_.soon(me.zone));
@@ -495,16 +497,20 @@ auto ParallelLoop<Search, effects>::earlier_around(const Hand& me, Block centre,
   look_away();
   for (const Held& held : me.held) {
     const bool before = held.key < key || (held.key == key && held.block < block);
-    if (before && near(cell_of(held.block), cell_of(centre), cells_, reach_.reach()))
-      return held.block;
+    if (before && reach_.holds(places_[centre], places_[held.block])) return held.block;
   }
   Block found = nobody;
   if (ours_[centre] && queue_.zone_of(centre) == me.zone) return found;
-  reach_.any(places_[centre], [&](Block b) {
-    const TimeKey clock = queue_.clock_of(b);
-    if (clock > key || (clock == key && b >= block)) return false;
-    found = b;
-    return true;
+  reach_.any_row(places_[centre], [&](Block first, Block last) {
+    // Zones are boxes.
+    if (queue_.zone_of(first) == me.zone && queue_.zone_of(last - 1) == me.zone) return false;
+    for (Block b = first; b < last; ++b) {
+      const TimeKey clock = queue_.clock_of(b);
+      if (clock > key || (clock == key && b >= block)) continue;
+      found = b;
+      return true;
+    }
+    return false;
   });
   return found;
 }

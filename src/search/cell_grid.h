@@ -52,6 +52,7 @@ class CellGrid {
 
   std::int32_t wrap(std::int32_t c, int axis) const {
     const std::int32_t n = count_[axis];
+    if (0 <= c && c < n) return c;  // a division takes long
     const std::int32_t m = c % n;
     return m < 0 ? m + n : m;
   }

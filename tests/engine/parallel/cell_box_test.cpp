@@ -131,8 +131,8 @@ TEST(CellBall, HoldsTheCellsThatComeNearer) {
       CellCounts centre;
       for (int axis = 0; axis < 3; ++axis) centre[axis] = random.below(cells[axis]);
       std::set<std::uint32_t> seen;
-      ball.any(centre, [&](std::uint32_t cell) {
-        seen.insert(cell);
+      ball.any_row(centre, [&](std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t cell = first; cell < end; ++cell) seen.insert(cell);
         return false;
       });
       for (std::uint32_t cell = 0; cell < of.size(); ++cell) {
@@ -147,6 +147,7 @@ TEST(CellBall, HoldsTheCellsThatComeNearer) {
           if (seen.contains(cell)) EXPECT_LE(steps, ball.reach()[axis]);
         }
         EXPECT_EQ(seen.contains(cell), squares < distance * distance) << cell << " of " << distance;
+        EXPECT_EQ(ball.holds(centre, place), seen.contains(cell));
       }
     }
   }
