@@ -10,6 +10,7 @@
 
 #include "src/calendar/event_table.h"
 #include "src/calendar/winner_tree.h"
+#include "src/prefetch.h"
 
 namespace needlework {
 
@@ -132,6 +133,12 @@ class CellCalendar {
       content.next = i;
     }
     changed.push_back(block);
+  }
+  /// Brings what a change of needle i, or of one in block b, will read near.
+  void bring_near(Needle i) const { prefetch(&places_[i]); }
+  void bring_keys_near(Block b) const {
+    const Entry* keys = blocks_[b].keys.data();
+    for (std::size_t line = 0; line < 3; ++line) prefetch(keys + line * 64 / sizeof(Entry));
   }
   /// The clock that a block has come to.
   TimeKey key_of_next(Block b) const {

@@ -10,6 +10,7 @@
 
 #include "src/calendar/event_table.h"
 #include "src/engine/cell_box.h"
+#include "src/prefetch.h"
 
 namespace needlework {
 
@@ -32,6 +33,12 @@ class DoneLog {
   void clear() {
     std::fill(latest_.begin(), latest_.end(), TimeKey{0});
     for (std::vector<Done>& events : done_) events.clear();
+  }
+  /// Brings what add() will need near.
+  void bring_near(const Vec3d& r) const {
+    const std::size_t cell = grid_.index_of(grid_.cell_of(r));
+    prefetch(&done_[cell]);
+    prefetch(&latest_[cell]);
   }
   void add(const Done& done) {
     const std::size_t cell = grid_.index_of(grid_.cell_of(done.r));

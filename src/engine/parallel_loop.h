@@ -360,6 +360,11 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   }
   const Event event = queue_.top_of(block);
   me.worker.bring_near(queue_.soon(me.zone));
+  if (event.is_contact()) {
+    queue_.bring_near(event.partner);
+    me.worker.bring_near(event.partner);
+  }
+  queue_.bring_keys_near(block);
   bool stale = false, near_partner = false;
   if (event.is_contact()) {
     // A partner that is no longer near has had another collision.
@@ -374,15 +379,18 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
       }
       if (!claim(Claims::partner, there)) return Outcome::again;
       if (queue_.block_of(event.partner) != other) return give_up(nobody);
+      queue_.bring_keys_near(other);
       stale = me.worker.is_stale(event);
     }
   }
   const bool collides = event.is_contact() && !stale;
   const Done owner = take(event.owner, event, key);
+  done_.bring_near(owner.r);
   if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
   Done partner;
   if (collides) {
     partner = take(event.partner, event, key);
+    done_.bring_near(partner.r);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
   } else if (stale && near_partner && gas.records[event.partner].time > event.time) {
     // It may have happened, had it had its turn.
