@@ -186,8 +186,15 @@ void Audit::check_order(const Instant& now, const Collision& collision) {
       now,
       {collision.first, collision.second, collision.shift[0], collision.shift[1],
        collision.shift[2]}};
-  const bool in_order = collision.first < collision.second && (!last_ || *last_ < key);
-  if (!in_order) {
+  // A collision may give rise to another at the same instant, with lower ids.
+  const auto just_had = [&](std::uint32_t id) {
+    const Index i = index_of(id);
+    return has_collided_[i] && needles_[i].record.time == now;
+  };
+  const bool follows =
+      !last_ || *last_ < key ||
+      (last_->first == now && (just_had(collision.first) || just_had(collision.second)));
+  if (!(collision.first < collision.second && follows)) {
     report(Kind::wrong_order, index_of(collision.first), index_of(collision.second), now);
   }
 }
