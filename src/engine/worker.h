@@ -189,8 +189,8 @@ void Worker<Search, Queue, effects>::collide(const Event& event) {
   if constexpr (effects.contact_time) run_.last_collision[a] = run_.last_collision[b] = now;
   const Shift shift = event.shift + wraps_b - wraps_a;
   const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};
-  gas_.records[a].touches.push_back({b, shift, touch});
-  gas_.records[b].touches.push_back({a, -shift, touch});
+  gas_.records[a].touches.push_back({b, gas_.records[b].serial, shift, touch});
+  gas_.records[b].touches.push_back({a, gas_.records[a].serial, -shift, touch});
 
   tally_.energy += run_.in_quanta(impact.energy_change);
   ++tally_.collisions;
@@ -327,11 +327,17 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
     touch.side = due.side;  // a contact that is due now and has not happened yet
   } else {
     touch.gap = gap_at(before, gas_.clock.exact_difference(now, start));
-    touch.side = touch.gap > 0 ? 1 : touch.gap < 0 ? -1 : side_after(before);
+    touch.side = touch.gap > 0 ? 1 : touch.gap < 0 ? -1 : 0;
+    // On the contact itself: one just had, at this very instant, or a touch.
+    const bool just_had = before.touch.touching && elapsed == 0;
+    if (touch.side == 0) touch.side = just_had ? before.touch.side : side_after(before);
   }
-  Record& later = gas_.records[a].time >= gas_.records[b].time ? gas_.records[a] : gas_.records[b];
-  const bool is_first = &later == &gas_.records[a];
-  later.touches.push_back({is_first ? b : a, is_first ? shift : -shift, touch});
+  Record &mine = gas_.records[a], &other = gas_.records[b];
+  if (mine.time >= other.time) {
+    mine.touches.push_back({b, other.serial, shift, touch});
+  } else {
+    other.touches.push_back({a, mine.serial, -shift, touch});
+  }
 }
 
 // Three needles or more can collapse too, by hitting each other in turn. When that has come to

@@ -9,10 +9,14 @@
 namespace needlework {
 namespace {
 
-// What the record of one needle says of touching the other, if it does.
-const kernels::Touch* find_touch(const Record& record, Needle partner, const Shift& shift) {
+// What the record of one needle says of touching the other with its record, if it does.
+const kernels::Touch* find_touch(const Record& record, Needle partner, const Record& other,
+                                 const Shift& shift) {
   for (const TouchEntry& entry : record.touches) {
-    if (entry.partner == partner && same(entry.shift, shift)) return &entry.touch;
+    if (entry.partner == partner && entry.partner_serial == other.serial &&
+        same(entry.shift, shift)) {
+      return &entry.touch;
+    }
   }
   return nullptr;
 }
@@ -35,8 +39,8 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   pair.touch_within = gas.touch_tolerance();
   // The later record knows the touch; of two records made at one time, either may.
   const kernels::Touch* touch = nullptr;
-  if (record_a.time == start) touch = find_touch(record_a, b, shift);
-  if (!touch && record_b.time == start) touch = find_touch(record_b, a, -shift);
+  if (record_a.time == start) touch = find_touch(record_a, b, record_b, shift);
+  if (!touch && record_b.time == start) touch = find_touch(record_b, a, record_a, -shift);
   if (touch) pair.touch = *touch;
   return pair;
 }

@@ -26,9 +26,11 @@ inline Shift operator-(const Shift& a, const Shift& b) {
 }
 inline Shift operator+(const Shift& a, const Shift& b) { return a - (-b); }
 
-/// A needle that this one touches to within rounding.
+/// A needle that this one touches to within rounding. The partner may get a new record at the same
+/// instant; then this says nothing any more.
 struct TouchEntry {
   Needle partner;
+  std::uint32_t partner_serial;
   Shift shift;  ///< added to the partner's recorded centre
   kernels::Touch touch;
 };

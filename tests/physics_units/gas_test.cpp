@@ -181,7 +181,7 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   const Shift shift{0, 1, -1};
   const kernels::Touch of_a{.touching = true, .collided = true, .side = 1, .gap = 0};
   const kernels::Touch of_b{.touching = true, .collided = false, .side = -1, .gap = -1e-15};
-  a.touches = {{2, shift, of_b}, {1, shift, of_a}};
+  a.touches = {{2, 0, shift, of_b}, {1, b.serial, shift, of_a}};
   const auto touch = [&](const Shift& at) { return make_pair(gas, 0, a, 1, b, at).touch; };
   a.time = {3, 0};
   b.time = {2, 0};
@@ -191,18 +191,20 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   EXPECT_FALSE(touch(-shift).touching) << "the opposite image";
   b.time = {3, 1e-9};
   EXPECT_FALSE(touch(shift).touching) << "the other record is later";
-  b.touches = {{0, -shift, of_b}};
+  b.touches = {{0, a.serial, -shift, of_b}};
   EXPECT_EQ(touch(shift).gap, -1e-15);
   EXPECT_EQ(touch(shift).side, -1);
-  b.touches = {{0, shift, of_b}};
+  b.touches = {{0, a.serial, shift, of_b}};
   EXPECT_FALSE(touch(shift).touching) << "the shift is of the partner";
   // Records of one time: either may know.
   b.time = a.time;
   EXPECT_EQ(touch(shift).side, 1);
   a.touches.clear();
   EXPECT_FALSE(touch(shift).touching);
-  b.touches = {{0, -shift, of_b}};
+  b.touches = {{0, a.serial, -shift, of_b}};
   EXPECT_EQ(touch(shift).side, -1);
+  ++a.serial;
+  EXPECT_FALSE(touch(shift).touching) << "made anew at the same time";
 }
 
 TEST(Shift, AddsAndSubtracts) {

@@ -314,8 +314,8 @@ void GasDrive::bounce(Needle i, double epsilon) {
   const Shift wrapped = shift + wraps_b - wraps_a;
   const kernels::Touch touch{
       .touching = true, .collided = true, .side = next->contact.side, .gap = 0};
-  gas_.records[a].touches.push_back({b, wrapped, touch});
-  gas_.records[b].touches.push_back({a, -wrapped, touch});
+  gas_.records[a].touches.push_back({b, gas_.records[b].serial, wrapped, touch});
+  gas_.records[b].touches.push_back({a, gas_.records[a].serial, -wrapped, touch});
   ++bounces_;
   place_everywhere(a);
   place_everywhere(b);
