@@ -262,7 +262,8 @@ kernels::Contact Worker<Search, Queue, effects>::predict(Needle a, Needle b, con
   if (until < start) return {};
   // Rounded outwards; the times themselves are compared exactly.
   double from = std::max(0.0, (gas_.clock.difference(now, start) + from_now) * (1 - 0x1p-50));
-  const double to = gas_.clock.difference(until, start) * (1 + 0x1p-50);
+  // A little later may be the same time on the clock, where the ids decide.
+  const double to = (gas_.clock.difference(until, start) + gas_.clock.resolution()) * (1 + 0x1p-50);
   kernels::Pair pair = make_pair(gas_, a, first, b, second, shift);
   // Both partners of a collision search the pair, with records made now.
   const bool shared = pair.touch.collided && first.time == second.time;
@@ -321,8 +322,9 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
   const Time start = Gas::start_of(*first, *second);
   const double elapsed = gas_.clock.difference(now, start);
   kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
-  const kernels::Contact due =
-      first_contact_of(before, elapsed * (1 - 0x1p-50), elapsed * (1 + 0x1p-50));
+  const double tick = gas_.clock.resolution();
+  const kernels::Contact due = first_contact_of(
+      before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50), (elapsed + tick) * (1 + 0x1p-50));
   if (due.found && gas_.clock.add(start, due.elapsed.hi) <= now) {
     touch.side = due.side;  // a contact that is due now and has not happened yet
   } else {
