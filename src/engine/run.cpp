@@ -190,9 +190,9 @@ State Run::state() const {
     std::array<double, 3> r = array(centre_after(flight, elapsed));
     Shift image = gas.images[i];
     for (int axis = 0; axis < 3; ++axis) {
-      const double boxes = std::floor(r[axis] / gas.box[axis]);
-      r[axis] -= boxes * gas.box[axis];
-      image[axis] += static_cast<std::int32_t>(boxes);
+      const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+      r[axis] = wrapped.place;
+      image[axis] += wrapped.boxes;
     }
     out.position.push_back(r);
     out.image.push_back(image);

@@ -53,6 +53,21 @@ Time renewal_time(const Clock& clock, const Record& record) {
   return clock.add(record.time, times_power_of_two(1.0, 10 - exponent_of(speed)));
 }
 
+Wrapped wrap(double x, double box) {
+  double boxes = std::floor(x / box);
+  const auto place = [&] { return to_double(DoubleDouble(x) - two_prod(boxes, box)); };
+  double out = boxes == 0 ? x : place();
+  if (out < 0) {  // x / box has been rounded up
+    boxes -= 1;
+    out = place();
+  }
+  if (out >= box) {  // less below a border than numbers near it can tell
+    boxes += 1;
+    out = 0;
+  }
+  return {out, static_cast<std::int32_t>(boxes)};
+}
+
 Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
                    const Vec3d& angular_velocity) {
   Record& record = gas.records[i];
@@ -61,10 +76,9 @@ Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Ve
   double r[3] = {centre.x, centre.y, centre.z};
   Shift wraps{};
   for (int axis = 0; axis < 3; ++axis) {
-    const double box = gas.box[axis];
-    const double boxes = std::floor(r[axis] / box);
-    if (boxes != 0) r[axis] = to_double(DoubleDouble(r[axis]) - two_prod(boxes, box));
-    wraps[axis] = static_cast<std::int32_t>(boxes);
+    const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+    r[axis] = wrapped.place;
+    wraps[axis] = wrapped.boxes;
     gas.images[i][axis] += wraps[axis];
   }
   record.flight.r = {r[0], r[1], r[2]};

@@ -73,6 +73,13 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
 /// Time after which a record is made anew: 2^10 needle lengths or radians of flight.
 Time renewal_time(const Clock& clock, const Record& record);
 
+/// A coordinate in [0, box), and the boxes taken off for that.
+struct Wrapped {
+  double place;
+  std::int32_t boxes;
+};
+Wrapped wrap(double x, double box);
+
 /// Makes the record of needle i anew at `now` from its free flight (or from `director`), with new
 /// velocities: centre wrapped into the box, director normalised, w made normal to it, touches
 /// cleared. Returns the boxes by which the centre was wrapped.

@@ -207,6 +207,22 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   EXPECT_FALSE(touch(shift).touching) << "made anew at the same time";
 }
 
+TEST(Wrap, IsInTheBoxToTheLastBit) {
+  for (const double box : {8.0, 5.0, 2.01, 10.1}) {
+    for (const double boxes : {-500.0, -1.0, 0.0, 1.0, 3.0, 497.0}) {
+      const double border = boxes * box;
+      for (const double x : {border, std::nextafter(border, 1e4), std::nextafter(border, -1e4),
+                             border - 5e-324, border - 1e-20, border + 1e-20}) {
+        const Wrapped wrapped = wrap(x, box);
+        EXPECT_GE(wrapped.place, 0) << x;
+        EXPECT_LT(wrapped.place, box) << x;
+        const Wide moved = Wide(box) * wrapped.boxes + wrapped.place - x;
+        EXPECT_LE(abs(moved), box * 0x1p-53) << x;
+      }
+    }
+  }
+}
+
 TEST(Shift, AddsAndSubtracts) {
   const Shift a{1, -2, 3}, b{10, 20, -30};
   EXPECT_EQ(a + b, (Shift{11, 18, -27}));
