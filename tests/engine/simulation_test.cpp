@@ -113,37 +113,6 @@ TEST(Simulation, KeepsElasticEnergyAndMomentum) {
   }
 }
 
-TEST(Simulation, RunsWithNoneOneAndRestingNeedles) {
-  for (const std::uint64_t count : {0u, 1u}) {
-    const Scene scene = test::scene_of(count, 3);
-    Simulation simulation(scene);
-    EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::nothing_can_happen);
-    EXPECT_EQ(simulation.advance(until_time(1e6)), Stop::time);
-    EXPECT_EQ(simulation.time(), 1e6);
-    EXPECT_EQ(simulation.state().size(), count);
-  }
-  Scene resting = test::scene_of(50, 3);
-  resting.initial.t_tr = resting.initial.t_rot = 0;
-  Simulation simulation(resting);
-  EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::nothing_can_happen);
-  EXPECT_EQ(simulation.advance(until_time(1e15)), Stop::time);
-  EXPECT_EQ(simulation.totals().energy, 0);
-}
-
-TEST(Simulation, LetsNeedlesCollideThatOnlyRotateOrDoNotRotate) {
-  Scene turning = test::scene_of(200, 4);
-  turning.initial.t_tr = 0;
-  Scene flying = test::scene_of(200, 4);
-  flying.initial.t_rot = 0;
-  for (const Scene& scene : {turning, flying}) {
-    Simulation simulation(scene);
-    const double energy = simulation.totals().energy;
-    EXPECT_EQ(simulation.advance(until_collisions(20)), Stop::collisions);
-    EXPECT_NEAR(simulation.totals().energy, energy, 1e-12 * energy);
-    EXPECT_NEAR(simulation.totals().t_tr / simulation.totals().t_rot, 1, 0.4);
-  }
-}
-
 TEST(Simulation, StopsWhenInterrupted) {
   const Scene scene = test::scene_of(200, 5);
   Simulation simulation(scene);

@@ -1,0 +1,288 @@
+// Scenes whose needles are in hard places: at borders, in the least box, all at one point, in one
+// plane, or meeting at one instant.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "tests/hard_cases/hard_scene.h"
+#include "tests/support/quad_gas.h"
+#include "tests/support/random.h"
+
+namespace needlework::test {
+namespace {
+
+#ifdef NDEBUG
+constexpr int thin = 1;
+#else
+constexpr int thin = 10;
+#endif
+
+using Three = std::array<double, 3>;
+
+constexpr std::uint64_t seed = 4711;
+
+Scene elastic(double k = 6) {
+  Scene scene = scene_of(0, 3);
+  scene.needles.k = k;
+  return scene;
+}
+
+Scene cooling(double epsilon = 0.8) {
+  Scene scene = scene_of(0, 3);
+  scene.collisions.epsilon = epsilon;
+  scene.collisions.tc_relative = 1e-3;
+  return scene;
+}
+
+Three perpendicular(const Three& w, const Three& u) { return w - dot(w, u) * u; }
+
+TEST(LeastBox, KeepsEveryCollision) {
+  for (const std::uint64_t count : {2u, 3u, 60u, 300u}) {
+    for (const Three& box : {Three{2.01, 2.01, 2.01}, Three{2.01, 2.01, 40}, Three{30, 2.01, 3}}) {
+      for (const bool cools : {false, true}) {
+        Scene scene = cools ? cooling() : elastic();
+        scene.needles.count = count;
+        scene.needles.box = box;
+        SCOPED_TRACE(name_of(scene));
+        const double collisions = (count < 10 ? 60 : 150) / thin;
+        const HardRun run =
+            run_hard(scene, until_collisions(2 * collisions / static_cast<double>(count)),
+                     {.everywhere = count > 3});
+        EXPECT_EQ(run.collisions.size(), static_cast<std::size_t>(collisions));
+      }
+    }
+  }
+}
+
+// In the least box needle 1 is near to needle 0 on both sides: their collisions alternate between
+// two images.
+TEST(LeastBox, TwoNeedlesMeetThroughTwoImages) {
+  State state = empty_state({2.01, 2.01, 2.01});
+  add_needle(state, {0.5, 1, 1}, {0, 1, 0}, {0.5, 0, 0}, {0, 0, 0});
+  add_needle(state, {1.505, 1, 1}, {0, 0, 1}, {-0.5, 0, 0}, {0, 0, 0});
+  // Bouncing centre on centre they exchange velocities and meet on the other side.
+  const HardRun run = run_hard(elastic(), state, until_time(50.0 / thin));
+  ASSERT_EQ(run.collisions.size(), thin == 1 ? 25u : 3u);
+  for (std::size_t n = 1; n < run.collisions.size(); ++n) {
+    const auto &a = run.collisions[n - 1], &b = run.collisions[n];
+    EXPECT_NEAR(b.time - a.time, 2.01, 1e-12);
+    EXPECT_NE(a.normal_velocity > 0, b.normal_velocity > 0);
+  }
+  // And in general.
+  Scene scene = elastic();
+  scene.needles.count = 2;
+  scene.needles.box = {2.01, 2.01, 2.01};
+  const HardRun any = run_hard(scene, until_collisions(1000.0 / thin), {.everywhere = false});
+  int other_image = 0;
+  for (std::size_t n = 1; n < any.collisions.size(); ++n) {
+    const auto &a = any.collisions[n - 1], &b = any.collisions[n];
+    int moved = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved += a.shift[axis] != b.shift[axis] && b.time - a.time < 0.5;
+    }
+    other_image += moved > 0;
+  }
+  EXPECT_GT(other_image, 10 / thin);
+}
+
+// Centres on borders of box and cells, to the last bit on either side, moving along the border,
+// towards it, or at rest. Boxes of 8 have cells of 1 and 2 among those that the searches use.
+TEST(Borders, AreDecidedToTheLastBit) {
+  Random random(seed);
+  for (const double side : {8.0, 5.0, 2.01}) {
+    std::vector<double> places;
+    for (const double x :
+         {0.0, 0.25 * side, 0.5 * side, 0.75 * side, side, -side, 2 * side, 1.0, 2.0}) {
+      places.push_back(x);
+      places.push_back(std::nextafter(x, 100));
+      places.push_back(std::nextafter(x, -100));
+    }
+    for (const double tiny : {-1e-20, 1e-20, -5e-324, 5e-324, -1e-300, -1e-16})
+      places.push_back(tiny);
+    for (const int motion : {0, 1, 2}) {
+      State state = empty_state({side, side, side});
+      const int count = static_cast<int>(places.size()) * 2;
+      for (int n = 0; n < count; ++n) {
+        const auto place = [&] {
+          return places[static_cast<std::size_t>(random.below(static_cast<int>(places.size())))];
+        };
+        Three r = {place(), place(), place()};
+        r[static_cast<std::size_t>(n % 3)] = places[static_cast<std::size_t>(n / 2)];
+        const Three u = random.direction();
+        Three v = random.normal_vector(1);
+        // Along an axis of the grid, on its lines.
+        if (motion == 1) v[static_cast<std::size_t>(n % 3)] = 0;
+        if (motion == 2) v = {0, 0, 0};
+        add_needle(state, r, u, v, perpendicular(random.normal_vector(3.4), u));
+      }
+      SCOPED_TRACE("side " + std::to_string(side) + ", motion " + std::to_string(motion));
+      const HardRun run =
+          run_hard(elastic(), state, until_collisions(4.0 / thin), {.undecided = 300});
+      EXPECT_GT(run.collisions.size(), 10u / thin);
+    }
+  }
+}
+
+// Whether no pair has come through each other between two states that are close in time: where the
+// lines meet on both needles in both, and cross at an angle, the side is the same.
+void expect_same_sides(const State& before, const State& after) {
+  int pairs = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    for (std::size_t j = i + 1; j < before.size(); ++j) {
+      const auto standing = [&](const State& s) {
+        const auto state = [&](std::size_t n) {
+          return read({s.position[n], s.orientation[n], s.velocity[n], s.angular_velocity[n]});
+        };
+        return PairState{state(i), state(j)};
+      };
+      const PairState was = standing(before), is = standing(after);
+      const auto clear = [](const PairState& p) {
+        const auto s = arms(p);
+        return norm(cross(p.first.orientation, p.second.orientation)) > 0.1 && abs(s[0]) < 0.49 &&
+               abs(s[1]) < 0.49 && abs(slopes(p).f) > 1e-12;
+      };
+      if (!clear(was) || !clear(is)) continue;
+      ++pairs;
+      EXPECT_EQ(slopes(was).f > 0, slopes(is).f > 0) << "needles " << i << " and " << j;
+    }
+  }
+  EXPECT_GT(pairs, 2);
+}
+
+// Needles that do not rotate, whose contact points all come to one point at one time.
+TEST(ManyThroughOnePoint, KeepTheirSidesWhenTheyMeetAtOneInstant) {
+  for (const int count : {3, 8, 20}) {
+    for (const bool cools : {false, true}) {
+      SCOPED_TRACE(std::to_string(count) + " needles" + (cools ? ", cooling" : ""));
+      Random random(seed + static_cast<std::uint64_t>(count));
+      State state = empty_state({6, 6, 6});
+      for (int n = 0; n < count; ++n) {
+        const Three u = random.direction(), v = random.normal_vector(0.7);
+        const Three r = Three{3, 3, 3} - random.uniform(-0.45, 0.45) * u - v;
+        add_needle(state, r, u, v, {0, 0, 0});
+      }
+      // What happens within rounding of one place and time is more than the audit can follow.
+      const Scene scene = cools ? cooling() : elastic();
+      const Watch watch{.everywhere = thin == 1, .undecided = 6, .audited = count == 3};
+      const HardRun before = run_hard(scene, state, until_time(0.999), watch);
+      const HardRun after = run_hard(scene, state, until_time(1.001), watch);
+      EXPECT_GE(after.collisions.size(),
+                before.collisions.size() + static_cast<std::size_t>(count) - 1);
+      expect_same_sides(before.end, after.end);
+    }
+  }
+}
+
+// They start there: every pair touches at time 0, to within rounding.
+TEST(ManyThroughOnePoint, MayStartThere) {
+  for (const int count : {2, 3, 8, 20}) {
+    for (const double spin : {0.0, 3.0}) {
+      SCOPED_TRACE(std::to_string(count) + " needles, spin " + std::to_string(spin));
+      Random random(seed + static_cast<std::uint64_t>(count));
+      State state = empty_state({6, 6, 6});
+      for (int n = 0; n < count; ++n) {
+        const Three u = random.direction();
+        add_needle(state, Three{3, 3, 3} - random.uniform(-0.45, 0.45) * u, u,
+                   random.normal_vector(0.7), perpendicular(random.normal_vector(spin), u));
+      }
+      const HardRun soon = run_hard(elastic(), state, until_time(1e-9), {.audited = false});
+      const HardRun later = run_hard(elastic(), state, until_time(1e-3), {.audited = false});
+      EXPECT_FALSE(later.failed()) << later.failure;
+      if (count > 3) expect_same_sides(soon.end, later.end);
+    }
+  }
+}
+
+// Copies of one small gas, apart by powers of two: all its events happen at the same time, bit for
+// bit, in each copy, and are ordered by the needles' ids.
+TEST(SimultaneousEvents, OfEqualCopiesAreOrderedById) {
+  Random random(seed);
+  State one = empty_state({32, 32, 4});
+  for (int n = 0; n < 6; ++n) {
+    // On a grid of 2^-20, so that moving by whole numbers rounds nothing, for centres only move
+    // when the time comes.
+    const auto grid = [&](double low, double high) {
+      return std::ldexp(std::round(std::ldexp(random.uniform(low, high), 20)), -20);
+    };
+    const Three u = random.direction();
+    add_needle(one, {grid(1.7, 2.3), grid(1.7, 2.3), grid(1.7, 2.3)}, u,
+               {grid(-1, 1), grid(-1, 1), grid(-1, 1)}, perpendicular(random.normal_vector(3), u));
+  }
+  State state = empty_state(one.box);
+  for (const double x : {0.0, 8.0, 16.0, 24.0}) {
+    for (const double y : {0.0, 8.0, 16.0, 24.0}) {
+      for (std::size_t n = 0; n < one.size(); ++n) {
+        add_needle(state, one.position[n] + Three{x, y, 0}, one.orientation[n], one.velocity[n],
+                   one.angular_velocity[n]);
+      }
+    }
+  }
+  const HardRun run = run_hard(elastic(), state, until_time(0.5));
+  std::size_t equal = 0;
+  for (std::size_t n = 1; n < run.collisions.size(); ++n) {
+    const Collision &a = run.collisions[n - 1], &b = run.collisions[n];
+    if (a.epoch != b.epoch || a.offset != b.offset) continue;
+    ++equal;
+    EXPECT_LT(std::pair(a.first, a.second), std::pair(b.first, b.second));
+  }
+  // The first collision of each copy at least: later ones round elsewhere.
+  EXPECT_GE(equal, 15u) << run.collisions.size();
+}
+
+// A needle struck from both sides at the same instant, by mirror images.
+TEST(SimultaneousEvents, OnOneNeedleFromBothSides) {
+  for (const double arm : {0.0, 0.25, 0.4375}) {
+    State state = empty_state({4, 4, 4});
+    add_needle(state, {2, 2, 2}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0});
+    add_needle(state, {2 + arm, 2, 3}, {0, 1, 0}, {0, 0, -1}, {0, 0, 0});
+    add_needle(state, {2 + arm, 2, 1}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0});
+    SCOPED_TRACE("arm " + std::to_string(arm));
+    for (const bool cools : {false, true}) {
+      const HardRun run =
+          run_hard(cools ? cooling() : elastic(), state, until_time(1.9), {.undecided = 5});
+      ASSERT_GE(run.collisions.size(), 2u);
+      EXPECT_EQ(run.collisions[0].time, 1);
+      EXPECT_EQ(run.collisions[1].time, 1);
+    }
+  }
+}
+
+TEST(OnePlane, AndParallelNeedlesNeverMeet) {
+  Random random(seed);
+  for (const int axis : {0, 1, 2}) {
+    for (const bool parallel : {false, true}) {
+      State state = empty_state({5, 5, 5});
+      const auto x = static_cast<std::size_t>((axis + 1) % 3),
+                 y = static_cast<std::size_t>((axis + 2) % 3);
+      for (int n = 0; n < 60; ++n) {
+        Three r{}, u{}, v{}, w{};
+        r[static_cast<std::size_t>(axis)] = parallel ? random.uniform(0, 5) : 2.7;
+        r[x] = random.uniform(0, 5);
+        r[y] = random.uniform(0, 5);
+        const double angle = parallel ? 0 : random.uniform(0, 6);
+        u[x] = std::cos(angle);
+        u[y] = std::sin(angle);
+        v[x] = random.normal();
+        v[y] = random.normal();
+        if (parallel) v[static_cast<std::size_t>(axis)] = random.normal();
+        // Parallel ones turn together, or not at all.
+        w[static_cast<std::size_t>(axis)] =
+            parallel ? (axis == 1 ? 1.5 : 0) : 3.4 * random.normal();
+        add_needle(state, r, u, v, w);
+      }
+      SCOPED_TRACE("axis " + std::to_string(axis) + (parallel ? ", parallel" : ""));
+      const HardRun run = run_hard(elastic(), state, until_time(10.0 / thin), {.audited = false});
+      EXPECT_EQ(run.collisions.size(), 0u);
+      EXPECT_EQ(run.stop, Stop::time);
+      std::printf("evaluated %g, escalated %g per prediction of %zu\n",
+                  double(run.counters.evaluated) / double(run.counters.predicted),
+                  double(run.counters.escalated) / double(run.counters.predicted),
+                  size_t(run.counters.predicted));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace needlework::test
