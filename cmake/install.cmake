@@ -5,14 +5,18 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# In the tree headers include each other as "src/..."; installed, as "needlework/...".
-set(needlework_public_headers error.h engine/counters.h engine/simulation.h io/h5md.h physics/predict.h
-                              scene/parse.h scene/scene.h theory/theory.h)
+# In the tree headers include each other as "src/..." or "kernels/..."; installed, as
+# "needlework/..." or "needlework/kernels/...".
+set(needlework_public_headers kernels/accuracy.h src/error.h src/engine/counters.h src/engine/simulation.h
+                              src/io/h5md.h src/physics/predict.h src/scene/parse.h src/scene/scene.h
+                              src/theory/theory.h)
 foreach(header IN LISTS needlework_public_headers)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${header})
-  file(READ src/${header} text)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  file(READ ${header} text)
   string(REPLACE "#include \"src/" "#include \"needlework/" text "${text}")
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/needlework/${header} CONTENT "${text}" @ONLY)
+  string(REPLACE "#include \"kernels/" "#include \"needlework/kernels/" text "${text}")
+  string(REGEX REPLACE "^src/" "" installed ${header})
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/needlework/${installed} CONTENT "${text}" @ONLY)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/include/needlework TYPE INCLUDE)
 

@@ -34,9 +34,14 @@ int main() {
   const double expected = 50 * 2.5 - lost;
   std::printf("%llu collisions, energy %.15g, expected %.15g\n",
               static_cast<unsigned long long>(seen), 50 * totals.energy, expected);
+  const needlework::FreeNeedle first{{.25, -.125, -.5}, {1, 0, 0}, {0, 0, .75}, {0, 0, 0}};
+  const needlework::FreeNeedle second{{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}};
+  const double time =
+      needlework::predict(first, second, 2, false, needlework::rigorous_accuracy).time;
+
   const bool right =
-      stop == needlework::Stop::collisions && seen == 50 && totals.collisions == 50 && lost > 0 &&
-      std::abs(50 * totals.energy - expected) < 1e-10 && simulation.state().size() == 50 &&
-      needlework::theory::collision_rate(0.4, {1, 1}, 6) > 0;
+      std::abs(time - 2. / 3) < 1e-15 && stop == needlework::Stop::collisions && seen == 50 &&
+      totals.collisions == 50 && lost > 0 && std::abs(50 * totals.energy - expected) < 1e-10 &&
+      simulation.state().size() == 50 && needlework::theory::collision_rate(0.4, {1, 1}, 6) > 0;
   return right ? 0 : 1;
 }
