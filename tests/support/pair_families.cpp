@@ -69,11 +69,26 @@ NeedlePair draw_tip(Random& random) {
   return pair;
 }
 
-NeedlePair draw_grazing(Random& random) {
+NeedlePair draw_tip_to_tip(Random& random) {
+  std::array<double, 2> arms;
+  bool inside = true;
+  for (double& arm : arms) {
+    const double offset = random.log_uniform(1e-13, 1e-2);
+    const bool out = random.below(4) == 0;
+    inside &= !out;
+    arm = (random.coin() ? 1 : -1) * (out ? 0.5 + offset : 0.5 - offset);
+  }
+  const PairState state = draw_contact(random, {.arms = arms, .spin = {rod_spin, rod_spin}});
+  NeedlePair pair = before(state, random, 1);
+  if (!inside) pair.contact_time.reset();
+  return pair;
+}
+
+NeedlePair grazing(Random& random, double low, double high) {
   PairState state = draw_contact(
       random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
   const Real sine = norm(cross(state.first.orientation, state.second.orientation));
-  const double apart = random.log_uniform(1e-10, 1e-2);
+  const double apart = random.log_uniform(low, high);
   const bool miss = random.coin();
   // f = f2 ((t - t*)^2 - apart^2 / 4) / 2, or with a plus: no velocity along f, and a gap.
   push(state, -slopes(state).f1 / sine);
@@ -88,6 +103,9 @@ NeedlePair draw_grazing(Random& random) {
   }
   return pair;
 }
+
+NeedlePair draw_grazing(Random& random) { return grazing(random, 1e-10, 1e-2); }
+NeedlePair draw_grazing_to_rounding(Random& random) { return grazing(random, 1e-12, 1e-10); }
 
 NeedlePair draw_just_collided(Random& random) {
   PairState state = draw_contact(
@@ -210,6 +228,8 @@ const std::vector<PairFamily>& pair_families() {
       {"slow", false, false, draw_slow},
       {"planar", false, false, draw_planar},
       {"mixed-scales", false, false, draw_mixed_scales},
+      {"tip-to-tip", false, false, draw_tip_to_tip},
+      {"grazing-to-rounding", false, true, draw_grazing_to_rounding},
   };
   return families;
 }

@@ -41,6 +41,8 @@ struct PairFamily {
 /// - slow: velocities times 2^-600 or 10^-x;  planar: w1 parallel to w2 and normal to both
 /// directors
 /// - mixed-scales: |w| about 1e6 |v|, and the reverse
+/// - tip-to-tip: both arms 10^-x inside or outside a tip, x in 2 .. 13
+/// - grazing-to-rounding: as grazing, x in 10 .. 12
 const std::vector<PairFamily>& pair_families();
 
 /// `count` pairs, the same for equal `seed` on every machine. Throws std::invalid_argument for a
