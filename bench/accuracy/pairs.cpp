@@ -26,9 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A pair nearer to the other decision than so many units of its inputs' noise may be decided
-// either way: the oracle normalises directors in many digits, the engine in double.
-constexpr double few_units = 8;
 // Times that differ by more than this share belong to different contacts.
 constexpr double same_contact = 1e-5;
 constexpr std::size_t drawn_at_once = 64, batch = 64 * drawn_at_once;
@@ -148,6 +145,13 @@ std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, 
   return out;
 }
 
+double least_margin_of(const std::string& name) {
+  for (const test::PairFamily& family : test::pair_families()) {
+    if (family.name == name) return family.least_margin();
+  }
+  throw InputError(fmt::format("FAMILY {}: expected one that --families prints", name));
+}
+
 int run(const Options& options) {
   if (options.list_families) {
     for (const test::PairFamily& family : test::pair_families()) fmt::print("{}\n", family.name);
@@ -157,6 +161,7 @@ int run(const Options& options) {
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
   if (!options.errors_to.empty()) listed.open(options.errors_to);
+  const double least_margin = least_margin_of(options.family);
   std::uint64_t contacts = 0, near = 0;
   for (std::uint64_t done = 0; done < options.count;) {
     const std::size_t size = std::min<std::uint64_t>(batch, options.count - done);
@@ -172,7 +177,7 @@ int run(const Options& options) {
     for (std::size_t i = 0; i < size; ++i) {
       const test::OracleAnswer& truth = truths[i];
       contacts += truth.contact;
-      const bool close = truth.decision_margin < few_units;
+      const bool close = truth.decision_margin < least_margin;
       near += close;
       for (Subject& subject : subjects) {
         const FirstContact& found = subject.found[i];

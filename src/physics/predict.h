@@ -17,7 +17,9 @@ struct FreeNeedle {
 };
 
 struct FirstContact {
-  double time;                ///< infinity when there is no contact in (0, horizon]
+  /// Infinity when there is no contact in (0, horizon]; 0 when a pair that has just collided comes
+  /// back sooner than velocities in double can tell.
+  double time;
   double arm_first;           ///< s12 [L], NaN without contact
   double arm_second;          ///< s21 [L]
   std::uint64_t evaluations;  ///< of the contact function in double

@@ -40,29 +40,35 @@ Contact contact_of(const KernelPair& pair, double horizon, const Accuracy& accur
 }
 
 // The root of the records' own contact function next to this time, by Newton's iteration in 113
-// bits.
-Quad exact_time(const KernelPair& held, const DoubleDouble& near) {
+// bits; and by how much the noise of double-double may move it.
+struct ExactTime {
+  Quad time, noise;
+};
+ExactTime exact_time(const KernelPair& held, const DoubleDouble& near) {
   const Pair pair = held.view();
   const PairScale scale = scale_of(pair);
   const Quad start = held.touch.touching ? test::precise_contact(pair, scale, Quad(0)).f : Quad(0);
   Quad s = (Quad(near.hi) + Quad(near.lo)) * Quad(scale.per_time);
+  Quad slope;
   for (int i = 0; i < 4; ++i) {
     const auto here = test::precise_contact(pair, scale, s);
+    slope = abs(here.df);
     s -= (here.f - start) / here.df;
   }
-  return s * Quad(scale.per_velocity);
+  const Quad unit = scale.per_velocity;
+  return {s * unit, Quad(0x1p-94) / slope * unit};
 }
 
-double units_off(const DoubleDouble& time, const Quad& exact) {
+double units_off(const DoubleDouble& time, const ExactTime& exact) {
   const double unit = std::nextafter(time.hi, 2 * time.hi) - time.hi;
-  return static_cast<double>(abs(Quad(time.hi) - exact) / Quad(unit));
+  return static_cast<double>(abs(Quad(time.hi) - exact.time) / Quad(unit));
 }
 
 class AccuracyLevels : public testing::TestWithParam<test::PairFamily> {};
 
 TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
   double worst = 0, worst_standard = 0;
-  std::size_t contacts = 0;
+  std::size_t contacts = 0, in_noise = 0;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 41)) {
     const KernelPair pair = held_pair(drawn);
     const Contact rigorous = contact_of(pair, drawn.horizon, rigorous_accuracy);
@@ -71,15 +77,25 @@ TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
     if (!rigorous.found || rigorous.unresolvable) continue;
     ++contacts;
     ASSERT_EQ(rigorous.side, standard.side);
-    const Quad exact = exact_time(pair, rigorous.elapsed);
+    const ExactTime exact = exact_time(pair, rigorous.elapsed);
+    // Returns within 1e-8 of a length lie so near to the touch before that this is all there is.
+    if (exact.noise > Quad(0x1p-54) * exact.time) {
+      ++in_noise;
+      continue;
+    }
     worst = std::max(worst, units_off(rigorous.elapsed, exact));
     worst_standard = std::max(worst_standard, units_off(standard.elapsed, exact));
     ASSERT_LE(worst, 2) << test::csv_line(0, drawn);
   }
-  std::printf("%-14.*s contacts %zu, units in the last place: rigorous %.2f, standard %.3g\n",
-              static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, worst,
-              worst_standard);
+  std::printf(
+      "%-14.*s contacts %zu, %zu more in the noise of double-double, units in the last place: "
+      "rigorous %.2f, standard %.3g\n",
+      static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, in_noise, worst,
+      worst_standard);
   EXPECT_GT(contacts, count / 20);
+  if (!GetParam().made_of_limits) {
+    EXPECT_LE(in_noise, count / 100);
+  }
 }
 
 // Isolation by intervals with the rest as in `standard`: the same contacts.

@@ -47,17 +47,20 @@ NeedlePair thermal(Random& random, double k) {
 NeedlePair draw_rods(Random& random) { return thermal(random, 6); }
 NeedlePair draw_dumbbells(Random& random) { return thermal(random, 2); }
 
-NeedlePair draw_parallel(Random& random) {
+NeedlePair parallel(Random& random, double least, double most) {
   // Slow rotation keeps the pair nearly parallel all the time, fast one leads through it.
   const double spin = random.coin() ? rod_spin : random.log_uniform(1e-4, 1);
-  const PairState state = draw_contact(random, {.angle_sine = random.log_uniform(1e-7, 1e-1),
+  const PairState state = draw_contact(random, {.angle_sine = random.log_uniform(least, most),
                                                 .arms = {any_arm(random), any_arm(random)},
                                                 .spin = {spin, spin}});
   return before(state, random, 1);
 }
 
-NeedlePair draw_tip(Random& random) {
-  const double offset = random.log_uniform(1e-13, 1e-3);
+NeedlePair draw_parallel(Random& random) { return parallel(random, 1e-7, 1e-1); }
+NeedlePair draw_parallel_to_rounding(Random& random) { return parallel(random, 1e-16, 1e-7); }
+
+NeedlePair tip(Random& random, double least, double most) {
+  const double offset = random.log_uniform(least, most);
   const bool outside = random.coin();
   const double tip = (random.coin() ? 1 : -1) * (outside ? 0.5 + offset : 0.5 - offset);
   const double other = any_arm(random);
@@ -68,6 +71,8 @@ NeedlePair draw_tip(Random& random) {
   if (outside) pair.contact_time.reset();
   return pair;
 }
+NeedlePair draw_tip(Random& random) { return tip(random, 1e-13, 1e-3); }
+NeedlePair draw_tip_to_rounding(Random& random) { return tip(random, 1e-16, 1e-13); }
 
 NeedlePair draw_tip_to_tip(Random& random) {
   std::array<double, 2> arms;
@@ -107,11 +112,11 @@ NeedlePair grazing(Random& random, double low, double high) {
 NeedlePair draw_grazing(Random& random) { return grazing(random, 1e-10, 1e-2); }
 NeedlePair draw_grazing_to_rounding(Random& random) { return grazing(random, 1e-12, 1e-10); }
 
-NeedlePair draw_just_collided(Random& random) {
+NeedlePair just_collided(Random& random, double soonest, double latest) {
   PairState state = draw_contact(
       random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
   const bool comes_back = random.below(4) > 0;
-  const double after = random.log_uniform(1e-6, 1);
+  const double after = random.log_uniform(soonest, latest);
   if (comes_back) {
     // f1 + f2 after / 2 = 0; both are linear in the normal velocity.
     PairState other = state;
@@ -128,6 +133,8 @@ NeedlePair draw_just_collided(Random& random) {
   if (comes_back) pair.contact_time = after;
   return pair;
 }
+NeedlePair draw_just_collided(Random& random) { return just_collided(random, 1e-6, 1); }
+NeedlePair draw_back_to_rounding(Random& random) { return just_collided(random, 1e-12, 1e-6); }
 
 NeedlePair draw_fast_spin(Random& random) {
   const double fast = random.log_uniform(1, 1e4);
@@ -228,6 +235,9 @@ const std::vector<PairFamily>& pair_families() {
       {"slow", false, false, draw_slow},
       {"planar", false, false, draw_planar},
       {"mixed-scales", false, false, draw_mixed_scales},
+      {"parallel-to-rounding", false, true, draw_parallel_to_rounding},
+      {"tip-to-rounding", false, true, draw_tip_to_rounding},
+      {"back-to-rounding", false, true, draw_back_to_rounding},
       {"tip-to-tip", false, false, draw_tip_to_tip},
       {"grazing-to-rounding", false, true, draw_grazing_to_rounding},
   };

@@ -30,6 +30,11 @@ struct PairFamily {
   bool thermal;  ///< drawn from equilibrium
   bool made_of_limits;
   NeedlePair (*draw)(Random&);
+
+  /// Decisions nearer than this to the other one, in units of the inputs' noise, may fall either
+  /// way: directors are normalised in double by the engine, and by the oracle in many digits. Far
+  /// in the limits, near parallel to 1e-13, double-double does not tell all that is left.
+  double least_margin() const { return made_of_limits ? 32 : 8; }
 };
 
 /// - thermal-k6, thermal-k2: T = 1, bounding spheres meet, weighted by flux; horizon past the exit
@@ -43,6 +48,8 @@ struct PairFamily {
 /// - mixed-scales: |w| about 1e6 |v|, and the reverse
 /// - tip-to-tip: both arms 10^-x inside or outside a tip, x in 2 .. 13
 /// - grazing-to-rounding: as grazing, x in 10 .. 12
+/// - parallel-to-rounding: angles 1e-16 .. 1e-7;  tip-to-rounding: x in 13 .. 16
+/// - back-to-rounding: as just-collided, back after 1e-12 .. 1e-6
 const std::vector<PairFamily>& pair_families();
 
 /// `count` pairs, the same for equal `seed` on every machine. Throws std::invalid_argument for a
