@@ -15,9 +15,10 @@ enum class Isolation {
 
 /// What goes to double-double arithmetic.
 enum class Escalation {
-  never,      ///< nothing: double decides everything, without a look at its errors
+  never,      ///< nothing, but what isolation by intervals starts from: double decides everything,
+              ///< without a look at its errors
   undecided,  ///< what the error bounds of double leave open
-  always,     ///< the sign at every end of a stretch, and every root
+  always,     ///< every sign at an end of a stretch that is asked for, and every root
 };
 
 struct Accuracy {

@@ -28,9 +28,6 @@ Vec3dd separation(const Pair& pair) {
   return out;
 }
 
-// Upper bounds stay upper bounds through the few roundings of their use.
-constexpr double roundup = 1 + 0x1p-40;
-
 template <class T>
 void set_norms(Frame<T>& frame) {
   const Vec3d v{to_double(frame.v.x), to_double(frame.v.y), to_double(frame.v.z)};
@@ -147,7 +144,7 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
   }
   // What continues from a touch is a difference of numbers up to |r|, or |v| + |r| w.
   const double r = frame.r_norm + far;
-  out.offset = range_of(frame.offset, share * r);
+  out.offset = range_of(frame.offset, share * r + frame.offset_error);
   out.slope = range_of(frame.slope, share * (frame.v_norm + r * frame.w_sum));
   set_norms(out);
   return out;

@@ -70,6 +70,9 @@ struct PairScale {
 };
 PairScale scale_of(const Pair& pair);
 
+/// Bounds computed with a few roundings are enlarged by this.
+inline constexpr double roundup = 1 + 0x1p-40;
+
 template <class T>
 inline constexpr double unit_roundoff = 0x1p-53;
 template <>

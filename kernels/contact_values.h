@@ -13,8 +13,6 @@
 
 namespace needlework::kernels {
 
-/// Bounds computed with a few roundings are enlarged by this.
-inline constexpr double roundup = 1 + 0x1p-40;
 /// Without error bounds, f is taken to be known up to this share of the distance.
 inline constexpr double noise_in_double = 0x1p-51;
 
@@ -112,6 +110,8 @@ const Frame<DoubleDouble>& ContactValues<escalation>::precise_frame() {
   if (!pair_.touch.touching) return frame;
   ++counters_.escalated;
   const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
+  // The older record of a pair that only touches may have turned far, and its phase with it.
+  if (!pair_.touch.collided) frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
   frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
   // A just-collided pair does not approach; what rounding of the velocities says otherwise is
   // taken off.
@@ -184,7 +184,8 @@ double ContactValues<escalation>::root_uncertainty(const Estimate& e, double s,
                                                    double roundoff) const {
   const double slope = std::abs(e.df) - e.error_df;
   if (!(slope > 0)) return std::numeric_limits<double>::infinity();
-  return (e.error_f + std::abs(e.f)) / slope + 4 * roundoff * std::abs(s);
+  // Twice as far, where f bends so much that its slope at the root is half of that here.
+  return 2 * (e.error_f + std::abs(e.f)) / slope + 4 * roundoff * std::abs(s);
 }
 
 template <Escalation escalation>

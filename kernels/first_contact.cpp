@@ -13,7 +13,7 @@ namespace {
 constexpr double grid = 0.5;
 // Roots whose double value may be off by more than this share of the time since s = 0 are refined
 // in double-double.
-constexpr double polish_above = 0x1p-40;
+constexpr double polish_above = 0x1p-39;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
 // Segments farther apart do not touch, however small f is; far above what rounding does to them,
@@ -21,7 +21,6 @@ constexpr double velocity_noise = 0x1p-46;
 constexpr double touching = 0x1p-18;
 struct Root {
   DoubleDouble s;
-  double uncertainty;
   int side;  // sign of f before
 };
 
@@ -135,14 +134,18 @@ std::optional<Root> Search<isolation, escalation>::accept(double begin, double e
   const auto& [s, near, sample, e] = *refined;
   const double off = values_.root_uncertainty(e, near, 0x1p-53);
   if constexpr (!escalates) {
-    if (values_.arms_inside(near, sample, 0) < 0) return std::nullopt;
-    return Root{s, off, side};
+    // Where the last step was more than rounding, the arms are those after it.
+    const bool moved = std::abs(s - near) > 0x1p-50 * s;
+    const int inside = moved ? values_.arms_inside(s, values_.sample_at(s), 0)
+                             : values_.arms_inside(near, sample, 0);
+    if (inside < 0) return std::nullopt;
+    return Root{s, side};
   }
   const int inside = std::isfinite(off) ? values_.arms_inside(near, sample, off) : 0;
   if (inside < 0) return std::nullopt;
   const double enough = std::max(polish_above, accuracy_.root_tolerance);
   const bool known = escalation == Escalation::undecided && inside > 0 && off <= enough * s;
-  if (known) return Root{s, off, side};
+  if (known) return Root{s, side};
   return accept_precisely(DoubleDouble(begin), DoubleDouble(end), DoubleDouble(s), side);
 }
 
@@ -156,7 +159,7 @@ std::optional<Root> Search<isolation, escalation>::accept_precisely(const Double
   const double off = values_.root_uncertainty(e, to_double(near), 0x1p-102);
   // What double-double cannot tell from a tip or from parallel directors is no contact.
   if (!std::isfinite(off) || values_.arms_inside(near, sample, off) <= 0) return std::nullopt;
-  return Root{s, off, side};
+  return Root{s, side};
 }
 
 // f'' keeps its sign on the interval.
@@ -177,7 +180,6 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
     return std::nullopt;
   }
   // The extremum: Newton's iteration on f'.
-  DoubleDouble turn = interval.middle();
   double begin = interval.begin, end = interval.end, s = interval.middle();
   for (int i = 0; i < 60; ++i) {
     const Estimate here = values_.in_double(s);
@@ -195,7 +197,7 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
     const double slope = std::abs(extreme.df) + extreme.error_df;
     return std::abs(extreme.f) > extreme.error_f + slope * slope / bend_at_least * roundup;
   };
-  turn = s;
+  DoubleDouble turn = s;
   if (escalates && !clear()) {
     for (int i = 0; i < 3; ++i) {
       const Sample<DoubleDouble> sample = values_.sample_at(turn);
@@ -227,9 +229,9 @@ std::optional<Root> Search<isolation, escalation>::search_start(const Interval& 
     // Velocities in double leave f' uncertain by a few roundings of |u1 x u2| times the speeds.
     const double noise = std::sqrt(to_double(dot(sample.x, sample.x))) * velocity_noise *
                          (values_.frame().v_norm + values_.frame().w_sum);
-    if (!(start.df * side > noise)) return Root{0.0, 0.0, side};
+    if (!(start.df * side > noise)) return Root{0.0, side};
   }
-  if (!escalates && !(start.df * side > 0)) return Root{0.0, 0.0, side};
+  if (!escalates && !(start.df * side > 0)) return Root{0.0, side};
   const double slope = (start.df * side) * (1 - 0x1p-9);
   const double lift = slope / stretches_.most_bend(e, interval);
   // The parabola's return is a good start for short bounces.
@@ -245,7 +247,7 @@ template <Isolation isolation, Escalation escalation>
 std::optional<Root> Search<isolation, escalation>::search_flat_start(const Interval& interval) {
   const int side = values_.pair().touch.side;
   if (side == 0 || values_.sign_at(interval.end) != -side) return std::nullopt;
-  return Root{0.0, 0.0, side};
+  return Root{0.0, side};
 }
 
 // Looks only at the signs at equal steps.

@@ -23,8 +23,6 @@ struct Range {
   /// The largest and the least magnitude in it.
   double most() const { return std::max(std::abs(lo), std::abs(hi)); }
   double least() const { return has_zero() ? 0 : std::min(std::abs(lo), std::abs(hi)); }
-  /// Of all its numbers; 0 when it has zero.
-  int sign() const { return (lo > 0) - (hi < 0); }
 };
 
 /// What is surely not above, or below, a result of one rounding.

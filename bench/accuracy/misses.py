@@ -64,8 +64,10 @@ def add_portion(done, family, options):
         sums[key] += result[key]
     worst = result["time_error"]["max"]
     sums["worst_time_error"] = max(sums["worst_time_error"], worst or 0)
-    wrong = sums["missed"]
-    sums["missed_below"] = 3 / sums["pairs"] if wrong == 0 else upper_limit(wrong) / sums["pairs"]
+    clear = sums["pairs"] - sums["near"]
+    for kind in ("missed", "spurious"):
+        wrong = sums[kind]
+        sums[f"{kind}_below"] = (upper_limit(wrong) if wrong else 3) / clear
 
 
 def upper_limit(count):

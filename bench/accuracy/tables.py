@@ -58,6 +58,42 @@ def summary(data, names):
     return lines
 
 
+# Lines of the table in the main README, and what they are.
+BRIEF = {
+    "fast": "double decides everything",
+    "standard": "error bounds; double-double where they leave a decision open",
+    "rigorous": "interval arithmetic, times to half a unit; float for hulls only",
+    "rigorous, filter float": "the same behind filters in float",
+    "sampling 1/4": "signs at equal steps, coarse",
+    "sampling 1/32": "fine",
+    "root 1e-3": "contact times to a coarse tolerance",
+}
+
+
+def brief(data):
+    """What do I pay, what do I get, in short."""
+    cost = by(data["cost"]["results"], "gas", "accuracy")
+    audit = by(data["audit"]["results"], "gas", "accuracy")
+    pairs = data["pairs"]["results"]
+    families = [f for f in pairs if not f.startswith("thermal") and f != "grazing"]
+    lines = head("accuracy", "what it is", "dilute", "dense", "wrong, of 1e6 thermal pairs",
+                 "wrong, of 1e6 hard pairs", "99 % of times within", "missed in runs")
+    for name, what in BRIEF.items():
+        us = [f"{cost[gas, name]['us']:.1f}" for gas in ("dilute", "dense")]
+        of_pairs = "rigorous" if name.startswith("rigorous") else name
+        found = {f: by(p["results"], "accuracy")[of_pairs,] for f, p in pairs.items()}
+        thermal = found["thermal-k6"]
+        wrong = [1e6 * sum(found[f]["missed"] + found[f]["spurious"] for f in group)
+                 / sum(pairs[f]["pairs"] for f in group)
+                 for group in (["thermal-k6"], families)]
+        both = [audit[gas, name] for gas in ("dilute", "dense")]
+        missed = f"{sum(a['missed'] for a in both)} of {sum(a['collisions'] for a in both)}"
+        label = f"`{name}`" if name in ("fast", "standard", "rigorous") else name
+        lines.append(row(label, what, *us, *[number(w) for w in wrong],
+                         number(thermal["time_error"]["q99"]), missed))
+    return lines
+
+
 def pairs_table(data):
     lines = []
     for family, result in data["pairs"]["results"].items():
@@ -223,7 +259,8 @@ def draw(data, file):
 
     def label(axes, name, x, y):
         short = name.removeprefix("sampling ").removeprefix("root ").removesuffix(" escalated")
-        axes.annotate(short, (x, y), fontsize=7, xytext=(3, 4), textcoords="offset points")
+        axes.annotate(short, (x, y), fontsize=7, textcoords="offset points",
+                      xytext=(3, -10 if name.endswith("escalated") else 4))
 
     for marker, (group, names) in zip(markers, groups.items()):
         points = [(thermal[n,]["ns_per_pair"], thermal[n,]["time_error"]["q99"], n)
@@ -243,8 +280,8 @@ def draw(data, file):
             if y > 0 or n in groups["levels"]:
                 label(right, n, x, max(y, floor))
     right.axhline(0.3 / total, color="0.8", linewidth=0.8)
-    right.annotate("none", (right.get_xlim()[0], 0.3 / total), fontsize=7, color="0.5",
-                   xytext=(2, -9), textcoords="offset points")
+    right.annotate("none", (0.01, 0.3 / total), xycoords=("axes fraction", "data"), fontsize=7,
+                   color="0.5", xytext=(0, 3), textcoords="offset points")
     for axes in (left, right):
         axes.set_xscale("log")
         axes.set_yscale("log")

@@ -30,10 +30,10 @@ DENSE = 12 / 20000 ** (1 / 3)
 STRONG = {
     "dilute": (10000, 24.0, 10),
     "dense": (20000, 12.0, 5),
-    "dilute-1e5": (100000, DILUTE * 1e5 ** (1 / 3), 1.0),
-    "dilute-1e6": (1000000, DILUTE * 1e6 ** (1 / 3), 0.3),
+    "dilute-1e5": (100000, DILUTE * 1e5 ** (1 / 3), 4),
+    "dilute-1e6": (1000000, DILUTE * 1e6 ** (1 / 3), 1.5),
 }
-WEAK = {"weak": (100000, DILUTE, 1.0)}  # needles for each thread
+WEAK = {"weak": (100000, DILUTE, 4)}  # needles for each thread
 
 
 def scene(needles, box, collisions):

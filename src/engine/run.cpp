@@ -192,7 +192,7 @@ State Run::state() const {
     for (int axis = 0; axis < 3; ++axis) {
       const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
       r[axis] = wrapped.place;
-      image[axis] += wrapped.boxes;
+      image[axis] = add_boxes(image[axis], wrapped.boxes);
     }
     out.position.push_back(r);
     out.image.push_back(image);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/power_of_two.h"
 #include "src/physics/director.h"
@@ -65,7 +66,13 @@ Wrapped wrap(double x, double box) {
     boxes += 1;
     out = 0;
   }
-  return {out, static_cast<std::int32_t>(boxes)};
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  return {out, static_cast<std::int32_t>(std::clamp(boxes, -most, most))};
+}
+
+std::int32_t add_boxes(std::int32_t a, std::int32_t b) {
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::clamp(std::int64_t{a} + b, -most, most));
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
@@ -79,7 +86,7 @@ Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Ve
     const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
     r[axis] = wrapped.place;
     wraps[axis] = wrapped.boxes;
-    gas.images[i][axis] += wraps[axis];
+    gas.images[i][axis] = add_boxes(gas.images[i][axis], wraps[axis]);
   }
   record.flight.r = {r[0], r[1], r[2]};
   record.flight.u = normalised(director);

@@ -73,12 +73,14 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
 /// Time after which a record is made anew: 2^10 needle lengths or radians of flight.
 Time renewal_time(const Clock& clock, const Record& record);
 
-/// A coordinate in [0, box), and the boxes taken off for that.
+/// A coordinate in [0, box), and the boxes taken off for that, as far as they can be counted.
 struct Wrapped {
   double place;
   std::int32_t boxes;
 };
 Wrapped wrap(double x, double box);
+/// Their sum, or the last number there is.
+std::int32_t add_boxes(std::int32_t a, std::int32_t b);
 
 /// Makes the record of needle i anew at `now` from its free flight (or from `director`), with new
 /// velocities: centre wrapped into the box, director normalised, w made normal to it, touches

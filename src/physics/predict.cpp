@@ -11,10 +11,17 @@
 namespace needlework {
 namespace {
 
-Vec3d read(const std::array<double, 3>& a, const char* what) {
+// Squares of places must not overflow; velocities are scaled first.
+constexpr double farthest = 1e150;
+
+Vec3d read(const std::array<double, 3>& a, const char* what,
+           double most = std::numeric_limits<double>::max()) {
   for (double x : a) {
     if (!std::isfinite(x)) {
       throw InputError(std::string(what) + " = " + std::to_string(x) + ": expected finite numbers");
+    }
+    if (!(std::abs(x) <= most)) {
+      throw InputError(std::string(what) + ": expected at most 1e150 in magnitude");
     }
   }
   return {a[0], a[1], a[2]};
@@ -22,7 +29,7 @@ Vec3d read(const std::array<double, 3>& a, const char* what) {
 
 kernels::Flight flight_of(const FreeNeedle& needle) {
   kernels::Flight out;
-  out.r = read(needle.position, "position");
+  out.r = read(needle.position, "position", farthest);
   out.v = read(needle.velocity, "velocity");
   const Vec3d u = read(needle.orientation, "orientation");
   const Vec3d w = read(needle.angular_velocity, "angular velocity");

@@ -28,7 +28,7 @@ struct FirstContact {
 
 /// The first contact of two needles in (0, horizon], no periodic images. `just_collided`: the pair
 /// has collided at time 0 and separates; that contact is not found again.
-/// Throws InputError for numbers that are not finite or a director that is 0.
+/// Throws InputError for numbers that are not finite, a place beyond 1e150 or a director that is 0.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 
