@@ -6,8 +6,8 @@
 // since the later of the two records. Everything is scaled by a power of two so that
 // |v12| + |w1| + |w2| is about 1: no tolerance below refers to a unit of time.
 //
-// One template serves double, double-double and intervals; each value of the former two comes with a
-// bound on its rounding error, the rounding of its inputs to T included, relative to the records
+// One template serves double, double-double and intervals; each value of the former two comes with
+// a bound on its rounding error, the rounding of its inputs to T included, relative to the records
 // taken as exact numbers.
 #pragma once
 

@@ -97,9 +97,9 @@ std::string expected_text(const Explanation& e) {
 
 std::string engine_text(const Scene::Engine& engine, double density) {
   return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}",
-                     resolved_search(engine, density), resolved_queue(engine), accuracy_name(engine),
-                     engine.threads.value_or(1), engine.threads.value_or(1) == 1 ? "" : "s",
-                     resolved_isa(engine));
+                     resolved_search(engine, density), resolved_queue(engine),
+                     accuracy_name(engine), engine.threads.value_or(1),
+                     engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
 }
 
 std::string output_text(const Scene::Output& output) {
