@@ -220,6 +220,36 @@ TEST(Oracle, AgreesWithItselfAtAHundredDigits) {
   }
 }
 
+TEST(Oracle, DoublesSettleOnlyWhatIsClear) {
+  for (const PairFamily& family : pair_families()) {
+    SCOPED_TRACE(family.name);
+    int settled = 0;
+    constexpr int count = 2000;
+    for (const NeedlePair& pair : draw_pairs(family.name, count, 11)) {
+      SCOPED_TRACE(csv_line(0, pair));
+      const OracleAnswer quick = ask(pair, {.digits = Digits::fewest});
+      const OracleAnswer full = ask(pair);
+      ASSERT_EQ(quick.contact, full.contact);
+      if (quick.digits > std::numeric_limits<double>::digits10) {
+        ASSERT_EQ(quick.time, full.time);
+        ASSERT_EQ(quick.decision_margin, full.decision_margin);
+        continue;
+      }
+      ++settled;
+      if (full.contact) {
+        const double turned =
+            (norm(pair.first.angular_velocity) + norm(pair.second.angular_velocity)) * full.time;
+        ASSERT_NEAR(quick.time / full.time, 1, 100 * (1 + turned) * full.time_limit + 1e-15);
+      }
+      // A margin found in double is off by some units itself.
+      ASSERT_GT(full.decision_margin, margin_cap / 2);
+    }
+    if (family.thermal) {
+      EXPECT_GT(settled, 0.99 * count);
+    }
+  }
+}
+
 TEST(Oracle, BuiltContactsAreFoundOrComeLater) {
   for (const PairFamily& family : pair_families()) {
     if (family.name == "grazing") continue;  // built to second order only

@@ -1,5 +1,6 @@
 #include "tests/support/oracle.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <stdexcept>
@@ -35,8 +36,24 @@ Result solve(const FreeNeedle& first, const FreeNeedle& second, double horizon, 
   return {answer, search.undecided()};
 }
 
+/// No square and no product of three of its numbers leaves the range of doubles.
+bool tame(const FreeNeedle& needle) {
+  return std::ranges::all_of(
+      std::initializer_list<const std::array<double, 3>*>{
+          &needle.position, &needle.orientation, &needle.velocity, &needle.angular_velocity},
+      [](const auto* vector) {
+        double most = 0;
+        for (const double value : *vector) most = std::max(most, std::abs(value));
+        return most == 0 || (most > 0x1p-100 && most < 0x1p100);
+      });
+}
+
 OracleAnswer solve(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                    bool just_collided, KnownRoot known_root, Digits digits) {
+  if (digits == Digits::fewest && tame(first) && tame(second)) {
+    const Result result = solve<double>(first, second, horizon, just_collided, known_root);
+    if (!result.undecided && result.answer.decision_margin >= margin_cap) return result.answer;
+  }
   if (digits != Digits::hundred) {
     Result result = solve<Quad>(first, second, horizon, just_collided, known_root);
     if (!result.undecided || digits == Digits::quad) {

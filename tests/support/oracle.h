@@ -28,11 +28,14 @@ enum class KnownRoot {
                ///< skipped
 };
 
-enum class Digits { automatic, quad, hundred };
+/// automatic: quad, and a hundred decimals for what quad leaves open. fewest: double first, where
+/// every decision lies margin_cap units of noise or more from its opposite; then the time is
+/// a rounded one, wrong by up to 100 (1 + W t) time_limit, W the sum of both |w|.
+enum class Digits { automatic, quad, hundred, fewest };
 
 struct OracleOptions {
   KnownRoot known_root = KnownRoot::at_zero;
-  Digits digits = Digits::automatic;  ///< automatic: quad, and a hundred for what quad leaves open
+  Digits digits = Digits::automatic;
 };
 
 /// Margins are cut off here: beyond, nothing is near.

@@ -30,9 +30,10 @@ struct Noise {
   std::array<double, 2> moments_outside;
 };
 
-/// `residual`: |f(0)| of a pair that has just collided. f1, f2: derivatives of f at t.
+/// `residual`: |f(0)| of a pair that has just collided. f1, f2: derivatives of f at t. `reach`: the
+/// arms asked for are those up to so much before or after t.
 inline Noise noise_at(const Motion<double>& motion, const Geometry<double>& g, double t, double f1,
-                      double f2, double residual) {
+                      double f2, double residual, double reach = 0) {
   const double u = unit_roundoff<double>();
   const double distance = norm(motion.separation), speed = norm(motion.velocity);
   const double dr = u * (distance + 2 * speed * t);
@@ -57,11 +58,11 @@ inline Noise noise_at(const Motion<double>& motion, const Geometry<double>& g, d
       over(dr + std::abs(noise.arms[0]) * du[0] + std::abs(noise.arms[1]) * du[1], sine);
   for (int i = 0; i < 2; ++i) {
     const double rate = std::abs(g.arm_rate[i]);
-    noise.arms_inputs[i] = direct + rate * noise.shift_inputs;
+    noise.arms_inputs[i] = direct + rate * (noise.shift_inputs + reach);
     noise.arms_evaluation[i] = direct + rate * noise.shift_evaluation + 4 * over(u, sine);
     const double moment = norm(cross(g.u[1 - i], g.separation));
     const double moment_noise =
-        dr + 2 * (du[0] + du[1]) + (speed + 2 * motion.total_spin()) * noise.shift_inputs;
+        dr + 2 * (du[0] + du[1]) + (speed + 2 * motion.total_spin()) * (noise.shift_inputs + reach);
     noise.moments_outside[i] = (moment - sine / 2) / moment_noise;
   }
   return noise;

@@ -87,10 +87,10 @@ Geometry<double> OracleSearch<Real>::rounded(const Geometry<Real>& g) const {
 }
 
 template <class Real>
-Noise OracleSearch<Real>::noise(const Geometry<Real>& g, const Real& t, double f1,
-                                double f2) const {
+Noise OracleSearch<Real>::noise(const Geometry<Real>& g, const Real& t, double f1, double f2,
+                                double reach) const {
   const double time = std::abs(static_cast<double>(t));
-  return noise_at(coarse_motion_, rounded(g), time, f1, f2, residual_);
+  return noise_at(coarse_motion_, rounded(g), time, f1, f2, residual_, reach);
 }
 
 /// True when x = u1 x u2 may vanish within `radius` of the root, so that the root may be one of x
@@ -103,7 +103,7 @@ bool OracleSearch<Real>::judge_parallel(const Geometry<Real>& g, const Real& rad
   if (sine > 4 * tiny) return false;
   parallel_ = true;
   const Real apart = norm(cross(g.u[0], g.separation));
-  if (apart > sine + 4 * tiny) {
+  if (apart > sine + 4 * tiny && !std::is_same_v<Real, double>) {
     const double noise = unit_roundoff<double>() * 4 * (1 + norm(coarse_motion_.separation));
     near_decision(over(static_cast<double>(apart), noise));
   } else {
@@ -126,6 +126,10 @@ void OracleSearch<Real>::judge_root(const Real& t) {
   if (judge_parallel(g, radius)) return;
 
   const double f1 = static_cast<double>(value.f1), f2 = static_cast<double>(value.f2);
+  // In double, f' must be large enough for `radius`.
+  if (std::is_same_v<Real, double> && f1 * f1 < 16 * std::abs(f2) * static_cast<double>(error)) {
+    open_question();
+  }
   const Noise here = noise(g, t, f1, f2);
   const double time = static_cast<double>(t), last = static_cast<double>(horizon_);
   Conditions conditions;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tests/support/oracle_noise.h"
@@ -52,13 +54,22 @@ class OracleSearch {
   void judge_root(const Real& t);
   bool judge_parallel(const Geometry<Real>& g, const Real& radius);
   Geometry<double> rounded(const Geometry<Real>& g) const;
-  Noise noise(const Geometry<Real>& g, const Real& t, double f1, double f2) const;
+  Noise noise(const Geometry<Real>& g, const Real& t, double f1, double f2, double reach = 0) const;
+  /// How much of |f| is sure.
+  double certain(const Real& t, const Real& f) const {
+    using std::abs;
+    return std::max(0.0, static_cast<double>(Real(abs(f) - curve_.noise(0, t))));
+  }
   void near_decision(double margin) {
     answer_.decision_margin = std::min(answer_.decision_margin, margin);
   }
   void open_question() {
     undecided_ = true;
     near_decision(0);
+  }
+  /// Doubles only settle what is far from everything: more digits will be asked.
+  bool given_up() const {
+    return std::is_same_v<Real, double> && (undecided_ || answer_.decision_margin < margin_cap);
   }
 
   Motion<Real> motion_;
@@ -116,7 +127,7 @@ OracleAnswer OracleSearch<Real>::run() {
 }
 
 /// Contacts need |r12| < 1. The window is a little wider, so that a root at its end has a change of
-/// sign around it.
+/// sign around it. The width hides the rounding, in double for needles less than 2^9 apart.
 template <class Real>
 bool OracleSearch<Real>::set_window() {
   using std::max;
@@ -129,6 +140,7 @@ bool OracleSearch<Real>::set_window() {
   const Real gap = dot(motion_.separation, motion_.separation) - reach * reach;
   begin_ = 0;
   end_ = horizon_;
+  if (std::is_same_v<Real, double> && gap > (1 << 18)) open_question();
   if (vv > 0) {
     const Real discriminant = rv * rv - vv * gap;
     if (discriminant < 0) return false;
@@ -151,6 +163,7 @@ bool OracleSearch<Real>::start_after_collision() {
   using std::abs;
   const auto start = curve_(Real(0));
   residual_ = std::abs(static_cast<double>(start.f));
+  if (std::is_same_v<Real, double>) residual_ += static_cast<double>(curve_.noise(0, Real(0)));
   const Geometry<double> g = at(coarse_motion_, 0.0);
   const double u = unit_roundoff<double>();
   const double slope_noise =
@@ -192,7 +205,7 @@ void OracleSearch<Real>::look_at_ends() {
     const Noise here =
         noise(at(motion_, t), t, static_cast<double>(value.f1), static_cast<double>(value.f2));
     Conditions conditions;
-    conditions.add(false, over(static_cast<double>(value.f), here.inputs));
+    conditions.add(false, over(certain(t, value.f), here.inputs));
     conditions.add_arms(here);
     near_decision(conditions.margin());
   };
@@ -235,6 +248,10 @@ typename OracleSearch<Real>::Piece OracleSearch<Real>::classify(const Real& begi
   ++answer_.evaluations;
   const Piece piece = classify(coarse_, t, width);
   if (piece != Piece::unclear) return piece;
+  if (std::is_same_v<Real, double>) {
+    open_question();
+    return piece;
+  }
   ++answer_.precise;
   return classify(curve_, middle, half);
 }
@@ -246,7 +263,7 @@ void OracleSearch<Real>::search() {
   using std::max;
   std::vector<std::pair<Real, Real>> pieces = {{begin_, end_}};
   const Real finest = ldexp(Real(1), 24 - std::numeric_limits<Real>::digits);
-  while (!pieces.empty() && !found_) {
+  while (!pieces.empty() && !found_ && !given_up()) {
     const auto [begin, end] = pieces.back();
     pieces.pop_back();
     const Piece piece = classify(begin, end);
@@ -281,6 +298,7 @@ int OracleSearch<Real>::sign(const Real& t) {
       coarse_.noise(0, rounded) + (std::abs(coarse.f1) + coarse_.noise(1, rounded)) *
                                       std::abs(rounded) * unit_roundoff<double>() * 2;
   if (std::abs(coarse.f) > noise) return coarse.f > 0 ? 1 : -1;
+  if (std::is_same_v<Real, double>) open_question();
   ++answer_.precise;
   return resolve(t, curve_(t)) < 0 ? -1 : 1;
 }
@@ -320,17 +338,17 @@ void OracleSearch<Real>::on_dip(const Real& begin, const Real& end, int side) {
     if (!found_) on_root(t, end, -side);
     return;
   }
+  if (there == 0 && std::is_same_v<Real, double>) open_question();
   // No change of sign, or an exact touch, which is none either. Would it be one for other inputs?
   if (t <= 0 || t > horizon_) return;
   const double f2 = static_cast<double>(value.f2);
-  Noise here = noise(at(motion_, t), t, 0, f2);
-  const double depth = std::abs(static_cast<double>(value.f));
-  const double reach = std::sqrt(over(2 * (depth + margin_cap * here.inputs), f2));
-  const Geometry<double> g = rounded(at(motion_, t));
-  for (int i = 0; i < 2; ++i) here.arms_inputs[i] += std::abs(g.arm_rate[i]) * reach;
+  const Geometry<Real> g = at(motion_, t);
+  const double inputs = noise(g, t, 0, f2).inputs;
+  const double depth = certain(t, value.f);
+  const double reach = std::sqrt(over(2 * (depth + margin_cap * inputs), f2));
   Conditions conditions;
-  conditions.add(false, over(depth, here.inputs));
-  conditions.add_arms(here);
+  conditions.add(false, over(depth, inputs));
+  conditions.add_arms(noise(g, t, 0, f2, reach));
   if (there == 0 && conditions.margin() < 1) {
     open_question();
   } else {

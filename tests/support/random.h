@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "tests/support/real.h"
 #include "tests/support/vector.h"
@@ -10,7 +11,7 @@
 namespace needlework::test {
 
 /// splitmix64 (Steele, Lea, Flood 2014). Only IEEE arithmetic and correctly rounded functions are
-/// used on top of it; the logarithm is taken in many digits and rounded.
+/// used on top of it; the logarithm is taken in enough digits to round it.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -60,7 +61,16 @@ class Random {
   }
 
  private:
-  static double logarithm(double x) { return static_cast<double>(log(Quad(x))); }
+  static double logarithm(double x) {
+    // 64 bits say how to round to 53 in all but a few of a thousand cases.
+    using Extended = long double;
+    if constexpr (std::numeric_limits<Extended>::digits == 64) {
+      const Extended value = std::log(Extended(x)), error = 0x1p-61L * std::abs(value);
+      const auto low = static_cast<double>(value - error);
+      if (low == static_cast<double>(value + error)) return low;
+    }
+    return static_cast<double>(log(Quad(x)));
+  }
 
   std::uint64_t state_;
 };
