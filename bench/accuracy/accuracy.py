@@ -7,8 +7,8 @@
 
 Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift,
 long-drift, return, parting, rates, tc.
-README.md beside this file says what each measures. Writes accuracy.json, accuracy.md and
-accuracy.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
+README.md beside this file says what each measures. Writes accuracy.json, accuracy.md,
+accuracy.svg and tc.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
 """
 
 import argparse
@@ -256,18 +256,60 @@ def measure_parting(bench, scale):
     return out
 
 
+def cooling_curves(bench, scenes):
+    """Of each run log10(E/E(0)) at the same times, 10 per decade, up to where the first of them
+    ended; the reports of all; and the errors of those that failed."""
+    curves, reports, errors = [], [], set()
+    for scene in scenes:
+        file = bench.folder / "curve.h5"
+        report = bench.run(scene, file, may_fail=True)
+        if "error" in report:
+            errors.add(report["error"])
+            continue
+        with h5py.File(file) as data:
+            times, energy = data["series/energy/time"][()], data["series/energy/value"][()]
+        late = times > 0
+        curves.append((numpy.log10(times[late]), numpy.log10(energy[late] / energy[0])))
+        reports.append(report)
+    if not curves:
+        return [], [], reports, errors
+    begin = max(t[0] for t, _ in curves)
+    end = min(t[-1] for t, _ in curves)
+    grid = numpy.arange(math.ceil(10 * begin), math.floor(10 * end) + 1) / 10
+    return grid, numpy.array([numpy.interp(grid, t, e) for t, e in curves]), reports, errors
+
+
+def apart(grid, curves, other_grid, other_curves):
+    """Where two sets of cooling curves differ most, in standard errors of the difference of means:
+    by how many, and by how much there, as a share of E."""
+    _, here, there = numpy.intersect1d(numpy.rint(10 * numpy.asarray(grid)),
+                                       numpy.rint(10 * numpy.asarray(other_grid)),
+                                       return_indices=True)
+    if not len(here):
+        return {}
+    a, b = curves[:, here], other_curves[:, there]
+    off = a.mean(0) - b.mean(0)
+    error = numpy.sqrt(a.var(0, ddof=1) / len(a) + b.var(0, ddof=1) / len(b))
+    known = error > 0
+    if not known.any():
+        return {"curve_off": 0.0, "curve_errors": 0.0}
+    worst = numpy.flatnonzero(known)[numpy.argmax(abs(off[known]) / error[known])]
+    return {"curve_off": float(10 ** off[worst] - 1),
+            "curve_errors": float(off[worst] / error[worst])}
+
+
 def measure_rates(bench, scale):
-    """Collision rate against the exact one, and energy of a cooling gas against that at standard,
-    in standard errors."""
+    """Collision rate against the exact one, and the cooling curve against that at standard, in
+    standard errors."""
     out = []
     seeds = range(1, 9)
     cooling = {"epsilon": 0.8, "tc_relative": 1e-4}
     names = ["fast", "standard", "rigorous", "sampling 1/4", "sampling 1/8", "sampling 1/32",
              "never escalated", "root 1e-3"]
     for gas, density in GASES.items():
-        energies = {}
-        for name in names:
-            rates, energies[name], errors = [], [], set()
+        standard = None
+        for name in ["standard", *(n for n in names if n != "standard")]:
+            rates, errors = [], set()
             for seed in seeds:
                 per_needle = scale * (5 if name == "rigorous" else 40)
                 report = bench.run(bench.scene(1000, density, {"collisions_per_needle": per_needle},
@@ -276,52 +318,65 @@ def measure_rates(bench, scale):
                     errors.add(report["error"])
                 else:
                     rates.append(report["collision_rate"] / report["collision_rate_exact"] - 1)
-                report = bench.run(bench.scene(
-                    1000, density, {"time": 60 / density}, engine=SETTINGS[name], seed=seed,
-                    collisions=cooling), may_fail=True)
-                if "error" in report:
-                    errors.add(report["error"])
-                else:
-                    energies[name].append(report["energy"] / report["energy_initial"])
-            entry = {"gas": gas, "accuracy": name, "runs": len(rates), "errors": sorted(errors)}
+            grid, curves, reports, failures = cooling_curves(bench, (
+                bench.scene(1000, density, {"time": 60 / density}, engine=SETTINGS[name], seed=seed,
+                            collisions=cooling) for seed in seeds))
+            entry = {"gas": gas, "accuracy": name, "runs": len(rates),
+                     "errors": sorted(errors | failures), "cooling_runs": len(reports)}
             if len(rates) > 1:
                 error = statistics.stdev(rates) / math.sqrt(len(rates))
                 entry |= {"rate_off": statistics.mean(rates), "rate_error": error}
-            if len(energies[name]) > 1:
-                entry |= {"cooling_runs": len(energies[name]),
-                          "energy_ratio": statistics.mean(energies[name]),
-                          "energy_error": statistics.stdev(energies[name])
-                          / math.sqrt(len(energies[name]))}
+            if len(reports) > 1:
+                ratios = [r["energy"] / r["energy_initial"] for r in reports]
+                entry |= {"energy_ratio": statistics.mean(ratios),
+                          "energy_error": statistics.stdev(ratios) / math.sqrt(len(ratios))}
+                standard = standard or (grid, curves)
+                entry |= apart(grid, curves, *standard)
             out.append(entry)
             print(gas, name, flush=True)
     return out
 
 
 def measure_tc(bench, scale):
-    """Cost, share of collisions by the t_c rule, and cooling curve against tc_relative."""
+    """Cost, share of collisions by the t_c rule, and cooling curve against tc_relative; the curves
+    are compared with that of the least tc_relative that gets to the end."""
     out = []
     for epsilon in (0.9, 0.8, 0.5):
-        for tc in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
-            scene = bench.scene(2000, GASES["dilute"],
-                                {"energy_ratio": 1e-3, "collisions_per_needle": 400, "wall_s": 60},
-                                collisions={"epsilon": epsilon, "tc_relative": tc})
-            report = bench.run(scene, may_fail=True)
-            entry = {"epsilon": epsilon, "tc_relative": tc}
-            if "error" in report:
-                entry |= report
-            else:
-                entry |= {"us": report["us_per_collision"], "stop": report["stop"],
-                          "collisions_per_needle": report["collisions_per_needle"],
-                          "share": report["tc_collisions"] / report["collisions"],
-                          "time": report["time"],
-                          "energy_ratio": report["energy"] / report["energy_initial"]}
+        reference = None
+        for tc in (1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1):
+            grid, curves, reports, errors = cooling_curves(bench, (
+                bench.scene(1000, GASES["dilute"],
+                            {"energy_ratio": 1e-3, "collisions_per_needle": 400 * scale,
+                             "wall_s": 60}, seed=seed,
+                            collisions={"epsilon": epsilon, "tc_relative": tc})
+                for seed in range(1, 5)))
+            entry = {"epsilon": epsilon, "tc_relative": tc, "runs": len(reports),
+                     "errors": sorted(errors)}
+            if len(reports) > 1:
+                if not reference and all(r["stop"] == "energy" for r in reports):
+                    reference = (grid, curves)
+                    entry["reference"] = True
+                entry |= {"stop": sorted({r["stop"] for r in reports}),
+                          "share": statistics.mean(r["tc_collisions"] / r["collisions"]
+                                                   for r in reports),
+                          **{key: statistics.mean(r[key] for r in reports) for key in
+                             ("us_per_collision", "collisions_per_needle", "time")},
+                          "energy_ratio": statistics.mean(r["energy"] / r["energy_initial"]
+                                                          for r in reports),
+                          "log10_time": [round(float(t), 4) for t in grid],
+                          "log10_energy": [round(float(e), 4) for e in curves.mean(0)]}
+                entry["_curves"] = (grid, curves)
             out.append(entry)
             print(epsilon, tc, flush=True)
+        for entry in out:
+            curves = entry.pop("_curves", None)
+            if curves and reference and "reference" not in entry:
+                entry |= apart(*curves, *reference)
     return out
 
 
-PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit, "long-audit": measure_long_audit,
-         "drift": measure_drift, "long-drift": measure_long_drift,
+PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit,
+         "long-audit": measure_long_audit, "drift": measure_drift, "long-drift": measure_long_drift,
          "return": measure_return, "parting": measure_parting,
          "rates": measure_rates, "tc": measure_tc}
 
