@@ -10,6 +10,7 @@
 
 #include "src/calendar/event_table.h"
 #include "src/calendar/winner_tree.h"
+#include "src/large_array.h"
 #include "src/prefetch.h"
 
 namespace needlework {
@@ -249,7 +250,7 @@ class CellCalendar {
   }
 
   EventTable events_;
-  std::vector<Place> places_;
+  LargeArray<Place> places_;
   std::vector<Content> blocks_;
   std::vector<ClockCell> clocks_;
   std::vector<Owner> owners_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/calendar/event.h"
+#include "src/large_array.h"
 
 namespace needlework {
 
@@ -53,7 +54,7 @@ class EventTable {
     Event event;
   };
 
-  std::vector<Slot> slots_;
+  LargeArray<Slot> slots_;
   Clock clock_;
 };
 

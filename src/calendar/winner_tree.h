@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/calendar/event_table.h"
+#include "src/large_array.h"
 
 namespace needlework {
 
@@ -137,7 +138,7 @@ class WinnerTree {
   }
 
   std::vector<std::size_t> first_;     ///< line of each round
-  std::vector<KeyLine> lines_;         ///< the matches, round by round
+  LargeArray<KeyLine> lines_;          ///< the matches, round by round
   std::vector<std::uint32_t> winner_;  ///< of each match
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/contact_function.h"
+#include "src/large_array.h"
 #include "src/physics/clock.h"
 
 namespace needlework {
@@ -50,9 +51,9 @@ static_assert(sizeof(Record) == 192);
 
 /// All needles. Contacts are pure functions of two records and a shift, made here.
 struct Gas {
-  std::vector<Record> records;
+  LargeArray<Record> records;
   std::vector<std::uint32_t> ids;
-  std::vector<Shift> images;  ///< boxes that the recorded centre has been wrapped by
+  LargeArray<Shift> images;  ///< boxes that the recorded centre has been wrapped by
   Clock clock;
   std::array<double, 3> box{};
   double k = 6;

@@ -18,12 +18,12 @@ inline std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
 
 /// Puts values into the new order, in place: a second copy of all records would be the most memory
 /// that a run ever needs.
-template <class T>
-void permute(std::vector<T>& values, const std::vector<Needle>& order) {
+template <class Values>
+void permute(Values& values, const std::vector<Needle>& order) {
   std::vector<bool> placed(values.size());
   for (std::size_t start = 0; start < values.size(); ++start) {
     if (placed[start]) continue;
-    T first = std::move(values[start]);
+    typename Values::value_type first = std::move(values[start]);
     std::size_t n = start;
     for (; order[n] != start; n = order[n]) {
       values[n] = std::move(values[order[n]]);

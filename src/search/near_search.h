@@ -22,6 +22,7 @@
 
 #include "kernels/near_needles.h"
 #include "src/engine/counters.h"
+#include "src/large_array.h"
 #include "src/physics/gas.h"
 #include "src/prefetch.h"
 #include "src/search/cell_grid.h"
@@ -60,10 +61,10 @@ struct Hulls {
   float margin = 0;  ///< of lengths, see kernels::Seeker [L]
   double unit = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
   Time base;         ///< from which times in blocks and motions count
-  std::vector<Place> places;
-  std::vector<kernels::Motion> motions;
-  std::vector<kernels::Block> blocks;  ///< first those of the cells, then those chained to them
-  std::vector<kernels::BlockLink> links;
+  LargeArray<Place> places;
+  LargeArray<kernels::Motion> motions;
+  LargeArray<kernels::Block> blocks;  ///< first those of the cells, then those chained to them
+  LargeArray<kernels::BlockLink> links;
   std::vector<std::uint32_t> free_blocks;
   std::mutex chaining;  ///< held while blocks are taken from or given to the free ones
   std::atomic<std::size_t> longest_chain = 1;  ///< blocks of one cell that there have ever been
