@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "src/cli/exit_codes.h"
 #include "src/cli/json_number.h"
 #include "src/cli/messages.h"
+#include "src/cli/number_in.h"
 #include "src/cli/output_path.h"
 #include "src/cli/progress.h"
 #include "src/cli/resources.h"
@@ -20,6 +22,7 @@
 #include "src/engine/simulation.h"
 #include "src/error.h"
 #include "src/observe/completion.h"
+#include "src/scene/check.h"
 
 namespace needlework::cli {
 namespace {
@@ -123,8 +126,11 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
                   tally.collisions, duration_text(outcome.clock.wall()));
   for (const audit::Kind kind : audit::kinds) {
-    text += fmt::format("{:12} {:8}   at most {:.2g} of all collisions (95 %)\n", audit::name(kind),
-                        tally.count(kind), tally.bound95(kind));
+    const double bound = tally.bound95(kind);
+    text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), tally.count(kind),
+                        std::isnan(bound)
+                            ? "no bound, as there was nothing to check"
+                            : fmt::format("at most {:.2g} of all collisions (95 %)", bound));
   }
   text += fmt::format("{:12} {:8}   rounding decides\n", "undecided", tally.undecided);
   for (const audit::Difference& difference : tally.listed) {
@@ -153,6 +159,7 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
 int run_audit(const AuditArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
+  for (const std::string& warning : warnings(scene)) print_warning(warning);
   if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
   audit::Audit audit(simulation.state(), setup_of(scene, arguments, simulation.epoch_length()));
@@ -178,6 +185,12 @@ int run_audit(const AuditArguments& arguments) {
     }
   }
   const audit::Tally tally = audit.checkpoint().tally;
+  if (arguments.share < 1 && tally.contacts == 0) {
+    print_warning(
+        fmt::format("--share {:g}: none of the {} collisions is one of the pairs chosen: expected "
+                    "a larger share",
+                    arguments.share, tally.collisions));
+  }
   if (arguments.json) {
     fmt::print("{}\n", json_of(tally, arguments, outcome).dump(2));
   } else if (!arguments.quiet) {
@@ -195,8 +208,10 @@ void add_audit_command(CLI::App& app, int& exit_code) {
   add_scene_arguments(*command, arguments->scene);
   command->add_option("--share", arguments->share, "share of all pairs to check")
       ->option_text("P")
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--seed", arguments->seed, "says which pairs these are")->option_text("N");
+      ->check(number_in(0, 1));
+  command->add_option("--seed", arguments->seed, "says which pairs these are")
+      ->option_text("N")
+      ->check(number_in(0, 0x1p64));
   command->add_option("--state", arguments->state, "where an interrupted audit goes on from")
       ->option_text("FILE");
   command->add_flag("--json", arguments->json, "print the result as one JSON object");

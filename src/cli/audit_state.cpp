@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "src/error.h"
 
@@ -41,6 +42,9 @@ audit::Checkpoint checkpoint_of(const json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
   audit::Tally& tally = out.tally;
+  for (const char* key : {"collisions", "contacts", "checked", "escalated", "undecided"}) {
+    if (!from.at(key).is_number_unsigned()) throw std::out_of_range(key);
+  }
   from.at("collisions").get_to(tally.collisions);
   from.at("contacts").get_to(tally.contacts);
   from.at("checked").get_to(tally.checked);

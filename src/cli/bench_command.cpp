@@ -14,6 +14,7 @@
 #include "bench/strategies/compare.h"
 #include "bench/strategies/results.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/number_in.h"
 #include "src/cli/output_path.h"
 #include "src/cli/resources.h"
 #include "src/cli/version.h"
@@ -188,7 +189,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--min-time", arguments->min_time,
                    "least CPU time of a case in each repetition [s]")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(number_in(0, 3600))
       ->capture_default_str();
   command
       ->add_option("--json", arguments->json_file,

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <system_error>
@@ -121,7 +122,9 @@ std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
   bool header_allowed = true;
   std::string text;
   for (std::size_t number = 1; std::getline(in, text); ++number) {
-    const std::string_view line = trimmed(text);
+    std::string_view line = trimmed(text);
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (number == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(3);
     if (line.empty() || line.front() == '#') continue;
     const Line fields{name, number, split(line)};
     const bool header =
@@ -137,6 +140,9 @@ std::vector<PairLine> read_pairs(const std::string& path) {
   if (path == "-") return read_pairs(std::cin, "stdin");
   std::ifstream file(path);
   if (!file) throw IoError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (std::filesystem::is_directory(path)) {
+    throw IoError(fmt::format("{}: cannot be read: Is a directory", path));
+  }
   return read_pairs(file, path);
 }
 

@@ -13,10 +13,13 @@
 #include <vector>
 
 #include "src/cli/exit_codes.h"
+#include "src/cli/messages.h"
+#include "src/cli/number_in.h"
 #include "src/cli/pairs_file.h"
 #include "src/engine/accuracy.h"
 #include "src/error.h"
 #include "src/physics/predict.h"
+#include "src/scene/check.h"
 
 namespace needlework::cli {
 namespace {
@@ -88,8 +91,10 @@ std::string as_json(const std::vector<Answer>& answers) {
 }
 
 void run(const Options& options) {
-  const std::vector<Answer> answers =
-      solve(read_pairs(options.path), accuracy_of(options.engine), options.path);
+  for (const std::string& warning : accuracy_warnings(options.engine)) print_warning(warning);
+  const std::vector<PairLine> pairs = read_pairs(options.path);
+  if (pairs.empty()) print_warning(options.path + ": there are no pairs in it");
+  const std::vector<Answer> answers = solve(pairs, accuracy_of(options.engine), options.path);
   const std::string out = options.json ? as_json(answers) : as_lines(answers);
   std::fwrite(out.data(), 1, out.size(), stdout);  // main sees to failures
 }
@@ -113,9 +118,9 @@ void add_predict_command(CLI::App& app, int& exit_code) {
   command->add_option("--escalation", engine.escalation, "what goes to double-double")
       ->check(CLI::IsMember({"never", "undecided", "always"}));
   command->add_option("--root-tolerance", engine.root_tolerance, "of Newton's steps, relative")
-      ->check(CLI::Range(0.0, 1e-3));
+      ->check(number_in(0, 1e-3));
   command->add_option("--sampling-step", engine.sampling_step, "time between samples, scaled")
-      ->check(CLI::Range(1e-4, 0.5));
+      ->check(number_in(1e-4, 0.5));
   command->add_flag("--json", options->json, "print one JSON object");
   command->footer(
       "A line of PAIRS.csv is id,family,horizon, then x,y,z of r1,u1,v1,w1,r2,u2,v2,w2, then "

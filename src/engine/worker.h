@@ -369,7 +369,9 @@ void Worker<Search, Queue, effects>::report_collapse(const Event& event) const {
   const double gap =
       gap_at(pair, gas_.clock.exact_difference(event.time, start)) / contact.sin_angle;
   const std::string advice =
-      run_.restitution.epsilon == 0
+      run_.accuracy.root_tolerance > 0x1p-30
+          ? "engine.root_tolerance is so coarse that needles may stand beyond their contact"
+      : run_.restitution.epsilon == 0
           ? "with collisions.epsilon = 0 there is no rebound, and no contact time can help"
           : "set collisions.tc_relative, to 1e-3 say, so that they slide along each other";
   char numbers[160];

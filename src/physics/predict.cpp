@@ -1,8 +1,10 @@
 #include "src/physics/predict.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "kernels/first_contact.h"
 #include "src/error.h"
@@ -11,17 +13,17 @@
 namespace needlework {
 namespace {
 
-// Squares of places must not overflow; velocities are scaled first.
-constexpr double farthest = 1e150;
+// Squares of places must not overflow, nor differences of velocities; these are scaled first.
+constexpr double farthest = 1e150, fastest = 1e300;
 
-Vec3d read(const std::array<double, 3>& a, const char* what,
-           double most = std::numeric_limits<double>::max()) {
+// The search takes some microseconds for each radian by which the needles turn near each other.
+constexpr double most_turned = 0x1p22;
+
+Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
   for (double x : a) {
-    if (!std::isfinite(x)) {
-      throw InputError(std::string(what) + " = " + std::to_string(x) + ": expected finite numbers");
-    }
     if (!(std::abs(x) <= most)) {
-      throw InputError(std::string(what) + ": expected at most 1e150 in magnitude");
+      throw InputError(fmt::format("{} component = {:g}: expected a number of at most {:g} in size",
+                                   what, x, most));
     }
   }
   return {a[0], a[1], a[2]};
@@ -30,14 +32,33 @@ Vec3d read(const std::array<double, 3>& a, const char* what,
 kernels::Flight flight_of(const FreeNeedle& needle) {
   kernels::Flight out;
   out.r = read(needle.position, "position", farthest);
-  out.v = read(needle.velocity, "velocity");
-  const Vec3d u = read(needle.orientation, "orientation");
-  const Vec3d w = read(needle.angular_velocity, "angular velocity");
+  out.v = read(needle.velocity, "velocity", fastest);
+  const Vec3d u = read(needle.orientation, "orientation", std::numeric_limits<double>::max());
+  const Vec3d w = read(needle.angular_velocity, "angular velocity", fastest);
   if (u == Vec3d{}) throw InputError("orientation = 0: expected a direction");
   out.u = normalised(u);
   out.w = project_out(w, out.u);
   set_rotation(out);
   return out;
+}
+
+// When bounding spheres overlap, from 0 on, with room for rounding; at infinity if they never do.
+struct Window {
+  double enter, exit;
+};
+Window near_window(const kernels::Flight& a, const kernels::Flight& b) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Vec3d r = a.r - b.r, v = a.v - b.v;
+  const double reach = 1 + 0x1p-20 + 0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
+  const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (scale == 0) return {dot(r, r) <= reach * reach ? 0 : infinity, infinity};
+  const Vec3d d = v * (1 / scale);
+  const double dd = dot(d, d), nearest = -dot(r, d) / dd;
+  const Vec3d gap = r + d * nearest;
+  const double left = reach * reach - dot(gap, gap);
+  if (!(left >= 0)) return {infinity, infinity};
+  const double half = std::sqrt(left / dd);
+  return {std::max(0.0, nearest - half) / scale, std::max(0.0, nearest + half) / scale};
 }
 
 }  // namespace
@@ -53,7 +74,10 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const kernels::Contact contact = kernels::first_contact(pair, 0, horizon, counters, accuracy);
+  const Window near = near_window(a, b);
+  const double end = near.enter + most_turned / (a.omega + b.omega);
+  const kernels::Contact contact =
+      kernels::first_contact(pair, 0, std::min(horizon, end), counters, accuracy);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   FirstContact out{std::numeric_limits<double>::infinity(), nan, nan, 0, 0};
   if (contact.found) {
@@ -61,6 +85,11 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     out.time = contact.elapsed.hi;
     out.arm_first = geometry.arm_first;
     out.arm_second = geometry.arm_second;
+  } else if (std::min(horizon, near.exit) > end) {
+    throw InputError(
+        fmt::format("no contact by time {:g}, after which the needles have turned by {:g} radians "
+                    "near each other: expected a horizon that ends before",
+                    end, most_turned));
   }
   out.evaluations = counters.evaluated;
   out.escalations = counters.escalated;

@@ -28,7 +28,8 @@ struct FirstContact {
 
 /// The first contact of two needles in (0, horizon], no periodic images. `just_collided`: the pair
 /// has collided at time 0 and separates; that contact is not found again.
-/// Throws InputError for numbers that are not finite, a place beyond 1e150 or a director that is 0.
+/// Throws InputError for places beyond 1e150, velocities beyond 1e300, a director that is 0, and
+/// for needles that turn by more than 2^22 radians near each other without a contact.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 

@@ -66,6 +66,29 @@ std::vector<std::string> output_warnings(const Scene& scene) {
 
 }  // namespace
 
+std::vector<std::string> accuracy_warnings(const Scene::Engine& engine) {
+  std::vector<std::string> list;
+  const bool rigorous = engine.accuracy == "rigorous";
+  const bool sampled = engine.isolation == "sampling";
+  if (engine.sampling_step && !sampled)
+    list.push_back(
+        fmt::format("engine.sampling_step = {}: has no effect without engine.isolation = sampling",
+                    *engine.sampling_step));
+  if (engine.root_tolerance && engine.escalation.value_or(rigorous ? "always" : "") == "always")
+    list.push_back(fmt::format(
+        "engine.root_tolerance = {}: has no effect where every root is refined in double-double",
+        *engine.root_tolerance));
+  if (engine.filter && (engine.search == "linked-lists" || engine.search == "all-pairs"))
+    list.push_back(fmt::format("engine.filter = {}: has no effect on engine.search = {}",
+                               *engine.filter, engine.search));
+  if (rigorous && (sampled || engine.isolation == "bounds" ||
+                   (engine.escalation && *engine.escalation != "always")))
+    list.push_back(fmt::format(
+        "engine.accuracy = rigorous: engine.{} takes away what makes it so",
+        engine.isolation && engine.isolation != "intervals" ? "isolation" : "escalation"));
+  return list;
+}
+
 std::vector<std::string> warnings(const Scene& scene) {
   std::vector<std::string> list;
   const auto add = [&](std::vector<std::string> more) {
@@ -80,6 +103,7 @@ std::vector<std::string> warnings(const Scene& scene) {
   add(collision_warnings(scene.collisions));
   add(until_warnings(scene));
   add(output_warnings(scene));
+  add(accuracy_warnings(scene.engine));
   return list;
 }
 

@@ -14,6 +14,8 @@ namespace needlework {
 /// inelastic gas without the t_c rule, end conditions that cannot be met, output that goes nowhere.
 /// Overrides and flags must have been applied.
 std::vector<std::string> warnings(const Scene& scene);
+/// Those of the accuracy: keys without effect beside the others.
+std::vector<std::string> accuracy_warnings(const Scene::Engine& engine);
 
 /// How messages name a key of the scene: the place where it was given, or "KEY = VALUE" where that
 /// is unknown.

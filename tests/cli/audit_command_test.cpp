@@ -59,6 +59,8 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
   const json none = run("audit small.toml --json --share 0").json();
   EXPECT_EQ(none["checked"], 0);
   EXPECT_TRUE(none["bound95"]["missed"].is_null());
+  const Outcome nothing = run("audit small.toml --quiet --share 0");
+  EXPECT_TRUE(nothing.complains("expected a larger share"));
 }
 
 TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
@@ -101,6 +103,8 @@ TEST_F(AuditCommand, NamesWhatIsWrongInItsInput) {
   EXPECT_EQ(run("audit small.toml --set needles.box=2").exit_code, 3);
   EXPECT_EQ(run("audit none.toml").exit_code, 5);
   EXPECT_EQ(run("audit small.toml --share 2").exit_code, 2);
+  EXPECT_EQ(run("audit small.toml --share nan").exit_code, 2);
+  EXPECT_EQ(run("audit small.toml --seed -1").exit_code, 2);
   EXPECT_EQ(run("audit small.toml --set initial.t_tr=0 --set initial.t_rot=0").exit_code, 3);
 }
 

@@ -95,6 +95,32 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
       cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, found 27"));
 }
 
+// Numbers that are finite, but for which nothing can be told in a finite time.
+TEST_F(PredictCommand, RefusesWhatWouldTakeForEver) {
+  const auto line = [](const char* horizon, const char* v, const char* w) {
+    return std::string("1,,") + horizon + ",.25,-.125,-.5,1,0,0,0,0," + v + ",0,0," + w +
+           ",0,0,0,0,3,0,0,0,-" + v + ",0,0,0,0\n";
+  };
+  EXPECT_TRUE(run_on(line("1", "1e308", "0")).complains("pairs.csv: line 1: velocity"));
+  EXPECT_EQ(run_on(line("1", "1e300", "0")).exit_code, 0);
+  EXPECT_EQ(run_on(line("1e-290", "1", "1e299")).exit_code, 3);
+  const Outcome turning = run_on(line("1e9", "0", "1e3"), "--accuracy fast");
+  EXPECT_EQ(turning.exit_code, 3);
+  EXPECT_TRUE(turning.complains("line 1: no contact by time 4194.3"));
+  // Far apart, or soon apart again, needles may turn as they like.
+  EXPECT_EQ(run_on("1,,1e300,5,0,0,1,0,0,0,1,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,0,0").exit_code, 0);
+  EXPECT_EQ(run_on(line("1e9", "1", "1e3")).exit_code, 0);
+}
+
+TEST_F(PredictCommand, SaysSoWhereThereIsNothingToDo) {
+  const Outcome nothing = run_on("\xEF\xBB\xBFid,family,horizon\n");
+  EXPECT_EQ(nothing.exit_code, 0);
+  EXPECT_EQ(nothing.err, "needlework: warning: pairs.csv: there are no pairs in it\n");
+  EXPECT_EQ(run_on(meets, "--sampling-step nan").exit_code, 2);
+  EXPECT_EQ(run_on(meets, "--root-tolerance nan").exit_code, 2);
+  EXPECT_TRUE(run_on(meets, "--sampling-step 0.1").complains("engine.sampling_step"));
+}
+
 TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
   const Outcome absent = run("predict absent.csv");
   EXPECT_EQ(absent.exit_code, 5);

@@ -64,6 +64,21 @@ TEST(Warning, IsGivenForStillnessAndOddMassDistributions) {
   EXPECT_EQ(warned_of("until.time = 1\nneedles.k = 1"), Keys{"needles.k"});
 }
 
+TEST(Warning, IsGivenForKnobsOfAccuracyWithoutEffect) {
+  const auto warned = [](const std::string& engine) {
+    return warned_of("until.time = 1\n[engine]\n" + engine);
+  };
+  EXPECT_EQ(warned("accuracy = 'fast'\nroot_tolerance = 1e-9\nfilter = 'double'"), Keys{});
+  EXPECT_EQ(warned("isolation = 'sampling'\nsampling_step = 0.1"), Keys{});
+  EXPECT_EQ(warned("accuracy = 'rigorous'\nfilter = 'float'"), Keys{});
+  EXPECT_EQ(warned("sampling_step = 0.1"), Keys{"engine.sampling_step"});
+  EXPECT_EQ(warned("escalation = 'always'\nroot_tolerance = 1e-9"), Keys{"engine.root_tolerance"});
+  EXPECT_EQ(warned("accuracy = 'rigorous'\nroot_tolerance = 1e-9"), Keys{"engine.root_tolerance"});
+  EXPECT_EQ(warned("search = 'linked-lists'\nfilter = 'double'"), Keys{"engine.filter"});
+  EXPECT_EQ(warned("accuracy = 'rigorous'\nisolation = 'bounds'"), Keys{"engine.accuracy"});
+  EXPECT_EQ(warned("accuracy = 'rigorous'\nescalation = 'never'"), Keys{"engine.accuracy"});
+}
+
 TEST(Warning, IsGivenForOutputThatIsLost) {
   EXPECT_EQ(warned_of("until.time = 1\noutput.events = true"), Keys{"output.events"});
   EXPECT_EQ(warned_of("until.time = 1\noutput.frames = 2"), Keys{"output.frames"});
