@@ -29,6 +29,11 @@ def main():
     parser.add_argument("--thermal", type=float, default=5e8, help="pairs of each thermal family")
     parser.add_argument("--hard", type=float, default=1e7, help="pairs of each hard family")
     options = parser.parse_args()
+    if not (options.thermal > 0 and options.hard > 0):
+        parser.error("--thermal, --hard: expected a number of pairs above 0")
+    if not pathlib.Path(options.program).is_file():
+        parser.error(f"--program {options.program}: expected bench_accuracy, built with "
+                     "NEEDLEWORK_BENCH=ON and tests")
     known = subprocess.run([options.program, "--families"], capture_output=True, text=True,
                            check=True).stdout.split()
     families = options.families or known

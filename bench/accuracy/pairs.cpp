@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -53,6 +54,17 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+double number(const std::string& text, const std::string& word, double least, double most) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !(least <= value && value <= most)) {
+    throw InputError(
+        fmt::format("--accuracy: {}: expected a number from {:g} to {:g}", word, least, most));
+  }
+  return value;
+}
+
 // "NAME" or "NAME,key=value,...": a level and its knobs.
 Subject subject_of(const std::string& text) {
   Scene::Engine engine;
@@ -67,9 +79,9 @@ Subject subject_of(const std::string& text) {
     } else if (key == "escalation") {
       engine.escalation = value;
     } else if (key == "root_tolerance") {
-      engine.root_tolerance = std::strtod(value.c_str(), nullptr);
+      engine.root_tolerance = number(value, word, 0, 1e-3);
     } else if (key == "sampling_step") {
-      engine.sampling_step = std::strtod(value.c_str(), nullptr);
+      engine.sampling_step = number(value, word, 1e-4, 0.5);
     } else {
       throw InputError(
           fmt::format("--accuracy {}: {}: expected isolation=, escalation=, "
@@ -186,7 +198,10 @@ int run(const Options& options) {
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
-  if (!options.errors_to.empty()) listed.open(options.errors_to);
+  if (!options.errors_to.empty()) {
+    listed.open(options.errors_to);
+    if (!listed) throw InputError("--list " + options.errors_to + ": cannot be written");
+  }
   const double least_margin = least_margin_of(options.family);
   std::uint64_t contacts = 0, near = 0;
   for (std::uint64_t done = 0; done < options.count;) {

@@ -36,21 +36,30 @@ Result solve(const FreeNeedle& first, const FreeNeedle& second, double horizon, 
   return {answer, search.undecided()};
 }
 
-/// No square and no product of three of its numbers leaves the range of doubles.
-bool tame(const FreeNeedle& needle) {
-  return std::ranges::all_of(
-      std::initializer_list<const std::array<double, 3>*>{
-          &needle.position, &needle.orientation, &needle.velocity, &needle.angular_velocity},
-      [](const auto* vector) {
-        double most = 0;
-        for (const double value : *vector) most = std::max(most, std::abs(value));
-        return most == 0 || (most > 0x1p-100 && most < 0x1p100);
-      });
+/// Whether doubles can be trusted with a pair: no square and no product of three of its numbers
+/// leaves their range, and what is projected out of the angular velocities is no more than these.
+bool is_tame(const FreeNeedle& first, const FreeNeedle& second, double horizon) {
+  const auto in_range = [](const Vec<double>& a) {
+    const double most = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+    return most == 0 || (most > 0x1p-100 && most < 0x1p100);
+  };
+  const auto is_normal = [](const FreeNeedle& needle) {
+    const Vec<double>&u = needle.orientation, &w = needle.angular_velocity;
+    const double along = dot(u, w);
+    return 2 * along * along <= dot(u, u) * dot(w, w);
+  };
+  bool tame = horizon < 0x1p100 && in_range(first.position - second.position) &&
+              in_range(first.velocity - second.velocity);
+  for (const FreeNeedle* needle : {&first, &second}) {
+    tame = tame && in_range(needle->orientation) && in_range(needle->angular_velocity) &&
+           is_normal(*needle);
+  }
+  return tame;
 }
 
 OracleAnswer solve(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                    bool just_collided, KnownRoot known_root, Digits digits) {
-  if (digits == Digits::fewest && tame(first) && tame(second)) {
+  if (digits == Digits::fewest && is_tame(first, second, horizon)) {
     const Result result = solve<double>(first, second, horizon, just_collided, known_root);
     if (!result.undecided && result.answer.decision_margin >= margin_cap) return result.answer;
   }

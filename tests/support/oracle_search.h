@@ -189,7 +189,7 @@ bool OracleSearch<Real>::start_after_collision() {
         first * first / 6 * std::max<Real>(curve_.bound(3, Real(0)), curve_.bound(3, first));
     const Real lead = slope ? abs(start.f1) : abs(start.f2) * first / 2;
     const Real rest = slope ? abs(start.f2) * first / 2 + third : third;
-    if (lead > rest * (1 + Real(1) / 1024)) break;
+    if (lead > rest * (1 + Real(1) / 16)) break;
     first /= 2;
   }
   begin_ = first;
