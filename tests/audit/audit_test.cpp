@@ -249,6 +249,27 @@ TEST_F(FalseReport, OfTheOrderIsSeen) {
   EXPECT_EQ(count(Kind::wrong_order), 1u);
 }
 
+// At one instant ids decide, but a collision may bring about another one of its own needles.
+TEST_F(FalseReport, OfTheOrderAtOneInstantIsSeen) {
+  victim().first = 30;
+  victim().second = 40;
+  const std::uint64_t before = count(Kind::wrong_order);
+  const auto wrong_with_next = [&](std::uint32_t first, std::uint32_t second) {
+    const std::vector<Collision> kept = run.collisions;
+    Collision next = victim();
+    next.first = first;
+    next.second = second;
+    run.collisions.insert(run.collisions.begin() + static_cast<std::ptrdiff_t>(n) + 1, next);
+    const std::uint64_t found = count(Kind::wrong_order);
+    run.collisions = kept;
+    return found - before;
+  };
+  EXPECT_EQ(wrong_with_next(31, 41), 0u);
+  EXPECT_EQ(wrong_with_next(10, 20), 1u);
+  EXPECT_EQ(wrong_with_next(10, 30), 0u);
+  EXPECT_EQ(wrong_with_next(10, 40), 0u);
+}
+
 TEST_F(FalseReport, OfTheOrderWithinAPairIsSeen) {
   std::swap(victim().first, victim().second);
   std::swap(victim().after[0], victim().after[1]);

@@ -11,6 +11,9 @@
 namespace needlework::test {
 namespace {
 
+// Runs of more collisions are not made at `rigorous` too, which would take minutes.
+constexpr std::size_t most_rigorous = 2000;
+
 bool is_finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
@@ -192,6 +195,16 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
     expect_same(truth, run_once(scene, state, until, nullptr), choice.name());
   }
   scene.engine = {};
+  scene.engine.threads = 1;
+  if (watch.audited && truth.collisions.size() <= most_rigorous) {
+    SCOPED_TRACE("rigorous");
+    scene.engine.accuracy = "rigorous";
+    const HardRun rigorous = run_once(scene, state, until, &watch);
+    expect_sound(rigorous, scene);
+    expect_clean(rigorous.tally, watch);
+    EXPECT_EQ(rigorous.failed(), truth.failed());
+    scene.engine = {};
+  }
   scene.engine.threads = 2;
   for (const char* search : {"linked-cells", "capsules"}) {
     scene.engine.search = search;

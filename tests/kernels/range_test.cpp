@@ -93,7 +93,16 @@ TEST(Range, ContactFunctionsAreEnclosed) {
   test::Random random(34);
   for (const test::PairFamily& family : test::pair_families()) {
     for (const test::NeedlePair& drawn : test::draw_pairs(family.name, count / 2000, 35)) {
-      const test::KernelPair held = test::kernel_pair(drawn);
+      test::KernelPair held = test::kernel_pair(drawn);
+      // Records made some time before, and a partner seen through the border of the box.
+      if (random.coin()) {
+        DoubleDouble& elapsed = random.coin() ? held.elapsed_first : held.elapsed_second;
+        elapsed = two_prod(drawn.horizon, random.log_uniform(1e-12, 10));
+      }
+      if (random.coin()) {
+        const auto boxes = [&] { return two_prod(random.below(3) - 1, random.uniform(2, 9)); };
+        held.shift = {boxes(), boxes(), boxes()};
+      }
       const kernels::Pair pair = held.view();
       const kernels::PairScale scale = kernels::scale_of(pair);
       const auto frame = kernels::enclose(kernels::make_frame<DoubleDouble>(pair, scale), pair);
@@ -107,6 +116,34 @@ TEST(Range, ContactFunctionsAreEnclosed) {
         ASSERT_TRUE(encloses(sample.df, truth.df)) << family.name;
         ASSERT_TRUE(encloses(sample.ddf, truth.ddf)) << family.name;
       }
+    }
+  }
+}
+
+// A contact function that goes on from a touch is f with another start; what it starts from is
+// enclosed too.
+TEST(Range, ContinuationsFromATouchAreEnclosed) {
+  test::Random random(36);
+  for (const test::PairFamily& family : test::pair_families()) {
+    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, count / 2000, 37)) {
+      test::KernelPair held = test::kernel_pair(drawn);
+      const kernels::Pair pair = held.view();
+      const kernels::PairScale scale = kernels::scale_of(pair);
+      auto frame = kernels::make_frame<DoubleDouble>(pair, scale);
+      const auto start = test::precise_contact(pair, scale, Quad(0));
+      const double gap = 1e-13 * random.normal(), bend = 1e-12 * random.normal();
+      frame.offset = DoubleDouble(gap) - kernels::evaluate(frame, DoubleDouble(0.0)).f;
+      frame.slope = DoubleDouble(bend);
+      const auto wide = kernels::enclose(frame, pair);
+      const double end = drawn.horizon * scale.per_time;
+      const double begin = end * random.uniform();
+      const Range time{begin, begin + std::ldexp(end, -random.below(50))};
+      const auto sample = kernels::evaluate(wide, time);
+      const Quad at = inside(time, random);
+      const auto truth = test::precise_contact(pair, scale, at);
+      ASSERT_TRUE(encloses(sample.f, truth.f - start.f + Quad(gap) + Quad(bend) * at))
+          << family.name;
+      ASSERT_TRUE(encloses(sample.df, truth.df + Quad(bend))) << family.name;
     }
   }
 }
