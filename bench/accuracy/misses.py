@@ -48,6 +48,7 @@ def main():
     asked = {family: options.thermal if family in THERMAL else options.hard for family in families}
     done = counts.setdefault("families", {})
     # Whoever has the least of what is asked of it is next, so that stopping leaves all balanced.
+    keep(options.file, counts)
     while True:
         shares = {f: done.get(f, {"pairs": 0})["pairs"] / asked[f] for f in families}
         family = min(families, key=lambda f: shares[f])
@@ -89,6 +90,20 @@ def keep(path, counts):
     fresh = path.with_suffix(".new")
     fresh.write_text(json.dumps(counts, indent=1) + "\n")
     fresh.replace(path)
+    path.with_suffix(".md").write_text(table(counts))
+
+
+def table(counts):
+    rows = [["family", "pairs", "contacts", "missed", "spurious", "missed at most, 95 %",
+             "inside the condition limit", "of these missed, spurious", "greatest error of a time"]]
+    rows.append(["---"] * len(rows[0]))
+    for family, s in counts["families"].items():
+        rows.append([family, f"{s['pairs']:.3g}", s["contacts"], s["missed"], s["spurious"],
+                     f"{s['missed_below']:.1g}", s["near"],
+                     f"{s['near_missed']}, {s['near_spurious']}", f"{s['worst_time_error']:.1e}"])
+    text = "".join("| " + " | ".join(str(cell) for cell in row) + " |\n" for row in rows)
+    return (f"# First contacts missed by `{counts['accuracy']}`\n\n"
+            f"Made by `bench/accuracy/misses.py`; commit {counts['commit']}.\n\n{text}")
 
 
 if __name__ == "__main__":

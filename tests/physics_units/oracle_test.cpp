@@ -250,6 +250,24 @@ TEST(Oracle, DoublesSettleOnlyWhatIsClear) {
   }
 }
 
+// Found among ten million: next to a parallel root arms change so fast that a root in double tells
+// nothing of them.
+TEST(Oracle, DoublesLeaveArmsNextToAParallelRootToMoreDigits) {
+  NeedlePair pair;
+  pair.first = {{-1.3737114472236875, -2.0194753677257364, -0.38186888999200702},
+                {-0.99251771350766238, 0.030898154796689937, -0.11812659481963214},
+                {1.1014638937548424, 1.0554476917085001, -0.42615407670483402},
+                {0.003386548425402616, -0.01794000565229879, -0.033146831816666028}};
+  pair.second = {{0.030002275034505369, -0.10842579895420341, -1.6835998295758594},
+                 {-0.98366014375974398, 0.075277004310513929, -0.16354233152488279},
+                 {-1.1962923490196586, -0.88881185153030196, 0.82068083272508496},
+                 {0.00010338179923683588, 0.030247545690538953, 0.013300850315312758}};
+  pair.horizon = 1.4788885894496069;
+  const OracleAnswer answer = ask(pair, {.digits = Digits::fewest});
+  EXPECT_TRUE(answer.contact);
+  EXPECT_GT(answer.digits, std::numeric_limits<double>::digits10);
+}
+
 TEST(Oracle, BuiltContactsAreFoundOrComeLater) {
   for (const PairFamily& family : pair_families()) {
     if (family.name == "grazing") continue;  // built to second order only

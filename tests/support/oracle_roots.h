@@ -100,7 +100,8 @@ bool OracleSearch<Real>::judge_parallel(const Geometry<Real>& g, const Real& rad
   using std::sqrt;
   const Real tiny = motion_.total_spin() * radius + 256 * unit_roundoff<Real>();
   const Real sine = sqrt(g.xx);
-  if (sine > 4 * tiny) return false;
+  // Doubles settle only where the arms hardly change over the root's uncertainty.
+  if (sine > (std::is_same_v<Real, double> ? 4096 : 4) * tiny) return false;
   parallel_ = true;
   const Real apart = norm(cross(g.u[0], g.separation));
   if (apart > sine + 4 * tiny && !std::is_same_v<Real, double>) {
