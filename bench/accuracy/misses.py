@@ -47,8 +47,8 @@ def main():
                                                capture_output=True, text=True).stdout.strip())
     asked = {family: options.thermal if family in THERMAL else options.hard for family in families}
     done = counts.setdefault("families", {})
+    keep(options.file, counts)  # where nothing is left to count, the table anew
     # Whoever has the least of what is asked of it is next, so that stopping leaves all balanced.
-    keep(options.file, counts)
     while True:
         shares = {f: done.get(f, {"pairs": 0})["pairs"] / asked[f] for f in families}
         family = min(families, key=lambda f: shares[f])
