@@ -11,8 +11,10 @@
 // taken as exact numbers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "kernels/double_double.h"
 #include "kernels/range.h"
@@ -111,6 +113,17 @@ struct Sample {
   double phase;  ///< sum of both phase angles, for the error bounds
 };
 
+/// u1 x u2. What double cannot decide is mostly about directors that are nearly parallel, where the
+/// product loses all digits that they share; (u1 - u2) x (u1 + u2) / 2 loses none.
+template <class T>
+Vec3<T> director_product(const Vec3<T>& u1, const Vec3<T>& u2) {
+  if constexpr (std::is_same_v<T, DoubleDouble>) {
+    return cross(u1 - u2, (u1 + u2) * T(0.5));
+  } else {
+    return cross(u1, u2);
+  }
+}
+
 template <class T>
 Sample<T> evaluate(const Frame<T>& frame, const T& s) {
   Sample<T> out;
@@ -125,7 +138,7 @@ Sample<T> evaluate(const Frame<T>& frame, const T& s) {
   }
   out.phase = phase;
   out.r = frame.r + frame.v * s;
-  out.x = cross(out.u[0], out.u[1]);
+  out.x = director_product(out.u[0], out.u[1]);
   out.dx = cross(d[0], out.u[1]) + cross(out.u[0], d[1]);
   const Vec3<T> rate_product = cross(d[0], d[1]);
   const T w2 = frame.omega[0] * frame.omega[0] + frame.omega[1] * frame.omega[1];
@@ -154,15 +167,31 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   const double rounding = 16 * unit_roundoff<T>;
   const double r = frame.r_norm + frame.v_norm * std::abs(to_double(s));
   const double w = frame.w_sum;
+  const double offset =
+      std::abs(to_double(frame.offset)) + std::abs(to_double(frame.slope) * to_double(s));
   Estimate out;
   out.f = to_double(sample.f);
   out.df = to_double(sample.df);
   out.ddf = to_double(sample.ddf);
   out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));
-  // |x| <= 1, so that f is off by what r is, and by |r| times what x and their product are.
-  out.error_f = rounding * (r + std::abs(to_double(frame.offset)) +
-                            std::abs(to_double(frame.slope) * to_double(s))) +
-                (out.distance + rounding * r) * (eu + rounding) + frame.offset_error;
+  if constexpr (std::is_same_v<T, DoubleDouble>) {
+    // f is off by |x| times what r is, by |u2 x r| and |u1 x r| times what the directors are, and
+    // by |r| times the rounding of x, whose factors are as exact as the directors. All of that
+    // shrinks where the needles come to lie along one line, and f with it, to second order.
+    const Vec3d centres = to_double(sample.r);
+    const auto arm = [&](const Vec3<T>& u) {
+      const Vec3d c = cross(to_double(u), centres);
+      return std::sqrt(dot(c, c)) + 0x1p-50 * out.distance;
+    };
+    const double x = std::sqrt(to_double(dot(sample.x, sample.x))) * roundup + 4 * eu;
+    out.error_f = rounding * ((r + out.distance) * x + offset) +
+                  eu * (std::max(arm(sample.u[0]), arm(sample.u[1])) * roundup) +
+                  frame.offset_error;
+  } else {
+    // |x| <= 1, so that f is off by what r is, and by |r| times what x and their product are.
+    out.error_f = rounding * (r + offset) + (out.distance + rounding * r) * (eu + rounding) +
+                  frame.offset_error;
+  }
   out.error_df = 2 * (frame.v_norm + r * w) * (eu + rounding);
   out.error_ddf = 3 * (2 * frame.v_norm + r * w) * w * (eu + rounding);
   return out;

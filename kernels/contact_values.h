@@ -110,8 +110,7 @@ const Frame<DoubleDouble>& ContactValues<escalation>::precise_frame() {
   if (!pair_.touch.touching) return frame;
   ++counters_.escalated;
   const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
-  // The older record of a pair that only touches may have turned far, and its phase with it.
-  if (!pair_.touch.collided) frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
+  frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
   frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
   // A just-collided pair does not approach; what rounding of the velocities says otherwise is
   // taken off.

@@ -182,10 +182,9 @@ std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, 
   return out;
 }
 
-double least_margin_of(const std::string& name) {
-  for (const test::PairFamily& family : test::pair_families()) {
-    if (family.name == name) return family.least_margin();
-  }
+void expect_family(const std::string& name) {
+  const auto& families = test::pair_families();
+  if (std::ranges::find(families, name, &test::PairFamily::name) != families.end()) return;
   throw InputError(fmt::format("FAMILY {}: expected one that --families prints", name));
 }
 
@@ -194,6 +193,7 @@ int run(const Options& options) {
     for (const test::PairFamily& family : test::pair_families()) fmt::print("{}\n", family.name);
     return 0;
   }
+  expect_family(options.family);
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
@@ -201,7 +201,6 @@ int run(const Options& options) {
     listed.open(options.errors_to);
     if (!listed) throw InputError("--list " + options.errors_to + ": cannot be written");
   }
-  const double least_margin = least_margin_of(options.family);
   std::uint64_t contacts = 0, near = 0;
   for (std::uint64_t done = 0; done < options.count;) {
     const std::size_t size = std::min<std::uint64_t>(batch, options.count - done);
@@ -220,7 +219,7 @@ int run(const Options& options) {
                                  test::csv_line(done + i, pairs[i]));
       }
       contacts += truth.contact;
-      const bool close = truth.decision_margin < least_margin;
+      const bool close = truth.decision_margin < test::least_margin;
       near += close;
       for (Subject& subject : subjects) {
         const FirstContact& found = subject.found[i];

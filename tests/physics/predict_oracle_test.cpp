@@ -1,10 +1,10 @@
 // `predict` against the oracle, over thermal pairs and all hard families.
 //
-// Law: a decision must be right when it is at least the family's `least_margin` units of the
-// inputs' noise away from the other one; a time is right within 1e-12 relative or four times the
-// pair's condition limit; an arm within 1e-9 or four times its limit (all defined at OracleAnswer).
-// Pairs nearer to the other decision are counted and printed; outside of families made of them they
-// are rare.
+// Law: a decision must be right when it is at least `least_margin` units of the inputs' noise away
+// from the other one; a time is right within 1e-12 relative or four times the pair's condition
+// limit; an arm within 1e-9 or four times its limit (all defined at OracleAnswer). Pairs nearer to
+// the other decision are counted and printed; outside of families made of them they are rare, and
+// few of them come out differently.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ struct Report {
     complaints += text + csv_line(id, pair) + '\n';
   }
 
-  void check(std::size_t id, const NeedlePair& pair, double least_margin) {
+  void check(std::size_t id, const NeedlePair& pair) {
     const FirstContact found = engine(pair);
     const OracleAnswer truth = oracle(pair);
     ++pairs;
@@ -153,20 +153,22 @@ TEST_P(PredictOracle, AgreesOnEveryPair) {
   const PairFamily& family = GetParam();
   const auto pairs = draw_pairs(family.name, family.thermal ? thermal_count : hard_count, seed);
   Report report;
-  for (std::size_t i = 0; i < pairs.size(); ++i) report.check(i, pairs[i], family.least_margin());
+  for (std::size_t i = 0; i < pairs.size(); ++i) report.check(i, pairs[i]);
   report.print(family.name);
   report.expect_clean();
   if (!family.made_of_limits) {
     EXPECT_LT(static_cast<double>(report.near), 0.01 * static_cast<double>(report.pairs));
   }
+  // Few lie so near that the roundings of the records themselves decide: a family that arithmetic
+  // gives up on, rather than the numbers, would show here.
+  EXPECT_LE(static_cast<double>(report.near_differs), 2 + 0.05 * static_cast<double>(report.near));
 }
 
 TEST_P(PredictOracle, AgreesOnTheMotionRunBackwards) {
   const PairFamily& family = GetParam();
   const auto pairs = draw_pairs(family.name, symmetry_count, seed + 1);
   Report report;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    report.check(i, reversed(pairs[i]), family.least_margin());
+  for (std::size_t i = 0; i < pairs.size(); ++i) report.check(i, reversed(pairs[i]));
   report.print(family.name);
   report.expect_clean();
 }

@@ -23,6 +23,10 @@ struct NeedlePair {
   std::optional<double> contact_time;
 };
 
+/// Decisions nearer than this to the other one, in units of the inputs' noise, may fall either way:
+/// directors are normalised in double by the engine, and by the oracle in many digits.
+inline constexpr double least_margin = 8;
+
 /// A family of pairs. `made_of_limits`: most pairs lie where rounding the inputs may flip the
 /// decision, on purpose.
 struct PairFamily {
@@ -30,11 +34,6 @@ struct PairFamily {
   bool thermal;  ///< drawn from equilibrium
   bool made_of_limits;
   NeedlePair (*draw)(Random&);
-
-  /// Decisions nearer than this to the other one, in units of the inputs' noise, may fall either
-  /// way: directors are normalised in double by the engine, and by the oracle in many digits. Far
-  /// in the limits, near parallel to 1e-13, double-double does not tell all that is left.
-  double least_margin() const { return made_of_limits ? 32 : 8; }
 };
 
 /// - thermal-k6, thermal-k2: T = 1, bounding spheres meet, weighted by flux; horizon past the exit
