@@ -30,6 +30,7 @@ SCENES = {
     "density": [],
     "size": ["--repetitions", "3"],  # a baseline of 1e6 needles takes its time
     "storage": ["--repetitions", "3"],
+    "hulls": ["--repetitions", "3"],
     "effects": [],
 }
 # Parts that have an executable of their own, with Google Benchmark.
@@ -171,6 +172,23 @@ def size_table(results):
     return text
 
 
+def hull_table(results):
+    """Sizes of hulls by hand, beside the one that the search chooses."""
+    scenes = {}
+    for case in results["cases"]:
+        if not case["baseline"]:
+            scenes.setdefault(case["scene"], []).append(case)
+    rows = []
+    for scene, cases in scenes.items():
+        us = [case["best_us_per_collision"] for case in cases]
+        chosen = next(case["best_us_per_collision"] for case in cases
+                      if not re.search("/(side|radius):", case["name"]))
+        rows.append([scene, cases[0]["search"], *map(number, us),
+                     f"{100 * (chosen / min(us) - 1):.0f} %"])
+    return table(["scene", "search", "half of it", "0.7", "0.85", "as chosen", "1.2", "1.4",
+                  "twice", "chosen over best"], rows)
+
+
 def kernel_table(results):
     best = results["best"]
     lanes = [name for name in best if name.count("/") == 2]
@@ -201,6 +219,7 @@ SECTIONS = [  # part, title, what makes its table
     ("density", "Density: us per collision of 10000 needles", density_table),
     ("size", "Size: us per collision", size_table),
     ("storage", "Storage by place or by id", case_table),
+    ("hulls", "Sides of cells and radii of capsules: us per collision", hull_table),
     ("queues", "Queues", case_table),
     ("isa", "Instruction sets", case_table),
     ("effects", "Effects", case_table),

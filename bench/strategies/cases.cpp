@@ -6,6 +6,7 @@
 
 #include "src/cli/engine_choice.h"
 #include "src/error.h"
+#include "src/search/choice.h"
 
 namespace needlework::bench {
 namespace {
@@ -15,10 +16,12 @@ struct GasScene {
   std::uint64_t needles;
   double box;
   Scene::Collisions collisions = {};
+  double k = 6;
 };
 
 struct Parts {
   std::string search, queue, isa, storage = "sorted";
+  double hull = 1;  ///< size of cells or capsules, in units of what `auto` chooses
   bool operator==(const Parts&) const = default;
 };
 
@@ -41,12 +44,19 @@ Case make_case(const GasScene& gas, const Parts& parts) {
   out.scene_name = gas.name;
   out.scene.needles.count = gas.needles;
   out.scene.needles.box = {gas.box, gas.box, gas.box};
+  out.scene.needles.k = gas.k;
   out.scene.collisions = gas.collisions;
   out.scene.engine.search = parts.search;
   out.scene.engine.queue = parts.queue;
   out.scene.engine.isa = parts.isa;
   out.scene.engine.storage = parts.storage;
   out.scene.engine.threads = 1;
+  const double density = static_cast<double>(gas.needles) / std::pow(gas.box, 3);
+  if (parts.search == "linked-cells" && parts.hull != 1) {
+    out.scene.engine.cell_side = parts.hull * auto_cell_side(density);
+  } else if (parts.hull != 1) {
+    out.scene.engine.capsule_radius = parts.hull * auto_capsule_radius(density);
+  }
   out.is_baseline = parts == baseline;
   return out;
 }
@@ -120,6 +130,25 @@ std::vector<Case> by_storage() {
                  {searched_by("auto"), {"auto", "auto", widest(), "by-id"}});
 }
 
+// Sizes by hand around those chosen, for rods and for masses at the tips and at the centre.
+std::vector<Case> by_hulls() {
+  std::vector<Case> out;
+  for (const double k : {2.0, 6.0, 100.0}) {
+    for (const double density : {0.1, 0.72, 11.6, 50.0}) {
+      GasScene gas = gas_of(8000, density);
+      gas.k = k;
+      gas.name += fmt::format(",k={}", k);
+      std::vector<Parts> sizes;
+      for (const double hull : {0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0}) {
+        sizes.push_back(searched_by(auto_search(density)));
+        sizes.back().hull = hull;
+      }
+      for (Case& one : product({gas}, sizes)) out.push_back(std::move(one));
+    }
+  }
+  return out;
+}
+
 std::vector<Case> by_effects() {
   // Inelastic needles without the t_c rule would end in the collapse of a pair.
   const Scene::Collisions elastic, rough{.beta = 0, .tc = {}, .tc_relative = {}},
@@ -139,9 +168,13 @@ std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("au
 
 std::string Case::name() const {
   const Scene::Engine& engine = scene.engine;
-  return fmt::format("{}/{}/{}/{}/{}/threads:{}{}", scene_name, engine.search, engine.queue,
-                     engine.accuracy, engine.isa, engine.threads.value_or(1),
-                     engine.storage == "sorted" ? "" : "/" + engine.storage);
+  std::string name =
+      fmt::format("{}/{}/{}/{}/{}/threads:{}", scene_name, engine.search, engine.queue,
+                  engine.accuracy, engine.isa, engine.threads.value_or(1));
+  if (engine.storage != "sorted") name += "/" + engine.storage;
+  if (engine.cell_side) name += fmt::format("/side:{:.3g}", *engine.cell_side);
+  if (engine.capsule_radius) name += fmt::format("/radius:{:.3g}", *engine.capsule_radius);
+  return name;
 }
 
 const std::vector<Subset>& subsets() {
@@ -173,6 +206,8 @@ const std::vector<Subset>& subsets() {
       {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
       {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
       {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
+      {"hulls", "8000 needles, k = 2, 6, 100: cells and capsules smaller and larger than chosen",
+       by_hulls},
       {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
       {"smoke", "200 needles, over at once", by_smoke}};
   return all;

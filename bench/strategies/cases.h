@@ -14,7 +14,7 @@ struct Case {
   Scene scene;
   bool is_baseline = false;
 
-  /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for.
+  /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for, and what else is.
   std::string name() const;
 };
 

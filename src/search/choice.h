@@ -1,11 +1,30 @@
-// What `auto` stands for.
+// What `auto` stands for: by the number of needles per L^3 alone. Counters could say no more:
+// `needlework bench hulls` has the best sizes by hand, from masses at the tips to ones at the
+// centre.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 namespace needlework {
 
-/// The cheaper search at this number of needles per L^3.
+/// The cheaper search.
 inline const char* auto_search(double density) {
   return density < 2.5 ? "linked-cells" : "capsules";
+}
+
+/// Radius of capsules [L]: larger ones have more neighbours, smaller ones are left sooner.
+inline double auto_capsule_radius(double density) {
+  return std::clamp(0.6 / std::cbrt(density * density), 0.02, 1.0);
+}
+
+/// Side of the cells of capsules [L], of about 12 needles, which fill the lanes.
+inline double auto_side_for_capsules(double density) { return std::cbrt(12 / density); }
+
+/// Side of linked cells [L], of about 8 needles. In a dilute gas it pays to look through more, as
+/// needles cross many cells from one collision to the next.
+inline double auto_cell_side(double density) {
+  return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
 }
 
 }  // namespace needlework

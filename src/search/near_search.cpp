@@ -7,6 +7,7 @@
 #include "kernels/four.h"
 #include "kernels/power_of_two.h"
 #include "src/physics/permutation.h"
+#include "src/search/choice.h"
 
 namespace needlework {
 namespace {
@@ -34,20 +35,6 @@ void store(float (&to)[3], const Vec3d& a) {
 
 double density_of(const Gas& gas) {
   return static_cast<double>(gas.size()) / (gas.box[0] * gas.box[1] * gas.box[2]);
-}
-
-// The least time per collision at densities 3 to 50, k = 6: larger capsules have more
-// neighbours, smaller ones are left sooner.
-double choose_radius(const Gas& gas) {
-  return std::clamp(0.6 / std::cbrt(density_of(gas) * density_of(gas)), 0.02, 1.0);
-}
-
-// Cells of about 8 or 12 needles fill the lanes. In a dilute gas it pays to look through more, as
-// needles cross many cells from one collision to the next.
-double choose_side(const Gas& gas, Hulls::Kind kind) {
-  const double density = density_of(gas);
-  if (kind == Hulls::Kind::capsule) return std::cbrt(12 / density);
-  return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
 }
 
 // Fills in the pairs of the seeker with what it has found, four at once: most of the work is to
@@ -100,8 +87,13 @@ void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
 Hulls::Hulls(const Gas& all, const SearchSetup& setup, Kind which)
     : gas(all),
       kind(which),
-      radius(kind == Kind::cell ? 0 : setup.capsule_radius.value_or(choose_radius(gas))),
-      grid(gas.box, setup.cell_side.value_or(choose_side(gas, kind)), gas.size()),
+      radius(kind == Kind::cell
+                 ? 0
+                 : setup.capsule_radius.value_or(auto_capsule_radius(density_of(gas)))),
+      grid(gas.box,
+           setup.cell_side.value_or(kind == Kind::cell ? auto_cell_side(density_of(gas))
+                                                       : auto_side_for_capsules(density_of(gas))),
+           gas.size()),
       places(gas.size()),
       motions(gas.size()) {
   // With room for all that may ever be chained, as only full blocks have others after them: threads

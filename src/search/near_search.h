@@ -94,6 +94,7 @@ class NearSearch {
     }
   }
 
+  const Hulls& hulls() const { return *hulls_; }
   const CellGrid& grid() const { return hulls_->grid; }
   /// The cell in which needle i has been placed, in the frame of its record.
   const Cell& cell_of(Needle i) const { return hulls_->places[i].cell; }

@@ -1,0 +1,257 @@
+// Hulls by themselves, without the filters behind them, which would hide what no contact needs: a
+// needle stays in its hull for as long as that says, and all needles whose hulls come near are
+// found. How near and how long is tight, so that neither holds because hulls are too large.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <set>
+#include <string>
+
+#include "kernels/closest_approach.h"
+#include "src/search/near_search.h"
+#include "tests/search/gas_drive.h"
+#include "tests/support/kernel_pair.h"
+
+namespace needlework::test {
+
+// Of shifts.
+using needlework::operator-;
+using needlework::operator+;
+
+namespace {
+
+constexpr std::uint64_t seed = 77;
+#ifdef NDEBUG
+constexpr int steps = 400;
+#else
+constexpr int steps = 100;
+#endif
+
+struct Setting {
+  const char* name;
+  Needle needles;
+  std::array<double, 3> box;
+  Speeds speeds;
+  SearchSetup setup;
+};
+
+void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
+
+SearchSetup sized(std::optional<double> cell_side, std::optional<double> capsule_radius) {
+  return {.cell_side = cell_side, .capsule_radius = capsule_radius, .float_filter = false};
+}
+
+const Setting settings[] = {
+    {"dilute", 120, {6, 6, 6}, {}, sized({}, {})},
+    {"dense", 400, {3, 3, 3}, {}, sized({}, {})},
+    {"least_box", 30, {2.01, 2.01, 2.01}, {}, sized({}, 0.3)},
+    {"slab", 200, {9, 2.5, 4}, {.fast = 30, .slow = 1e-3}, sized(1.3, 0.15)},
+    {"small_cells", 200, {5, 5, 5}, {}, sized(0.3, 0.05)},
+    {"large_capsules", 60, {4, 4, 4}, {}, sized(3, 1)},
+    {"swift", 150, {5, 5, 5}, {.sigma = 1e6}, sized({}, {})},
+};
+
+struct Segment {
+  Vec3d r, u;
+};
+
+Segment needle_at(const Gas& gas, Needle i, Time t) {
+  const Record& record = gas.records[i];
+  const double elapsed = gas.clock.difference(t, record.time);
+  return {centre_after(record.flight, elapsed), director_after(record.flight, elapsed)};
+}
+
+double distance(const Vec3d& point, const Segment& axis) {
+  const Vec3d d = point - axis.r;
+  const Vec3d off = d - axis.u * std::clamp(dot(d, axis.u) / dot(axis.u, axis.u), -0.5, 0.5);
+  return std::sqrt(dot(off, off));
+}
+
+double distance(const Segment& a, const Segment& b) {
+  const Vec3d x = cross(a.u, b.u);
+  return std::sqrt(kernels::segment_distance_squared(a.r - b.r, a.u, b.u, x, dot(x, x)));
+}
+
+// The least distance of two centres in the next `span`.
+double least_distance(const Vec3d& r, const Vec3d& v, double span) {
+  const double vv = dot(v, v);
+  const double t = vv > 0 ? std::clamp(-dot(r, v) / vv, 0.0, span) : 0;
+  const Vec3d d = r + v * t;
+  return std::sqrt(dot(d, d));
+}
+
+// A search in a gas whose needles are placed when their times come.
+template <class Search>
+struct Moving {
+  Moving(const Setting& setting, Random& draws)
+      : random(draws),
+        gas(random_gas(draws, setting.needles, setting.box, setting.speeds)),
+        search(gas, counters, setting.setup),
+        until(gas.size()) {
+    for (Needle i = 0; i < gas.size(); ++i) until[i] = search.place(i, now);
+  }
+
+  void advance(double dt) {
+    const Time end = gas.clock.add(now, dt);
+    for (;;) {
+      const auto next = std::min_element(until.begin(), until.end());
+      if (*next > end) break;
+      now = *next;
+      place(static_cast<Needle>(next - until.begin()));
+    }
+    now = end;
+  }
+  void place(Needle i) { until[i] = search.place(i, now); }
+  Needle any() { return static_cast<Needle>(random.below(static_cast<int>(gas.size()))); }
+  double left(Needle i) const { return std::min(gas.clock.difference(until[i], now), 1e3); }
+
+  Segment hull(Needle i) const {
+    const Hulls& hulls = search.hulls();
+    const Hulls::Place& place = hulls.places[i];
+    const kernels::Block& block = hulls.blocks[place.block];
+    EXPECT_EQ(block.needle[place.lane], i);
+    const auto column = [&](int c) { return double{block.column[c][place.lane]}; };
+    using B = kernels::Block;
+    return {hulls.grid.corner(place.cell) + Vec3d{column(B::x), column(B::y), column(B::z)},
+            {column(B::a_x), column(B::a_y), column(B::a_z)}};
+  }
+
+  std::set<Candidate> found(Needle i, double ahead) {
+    std::set<Candidate> out;
+    search.find(i, now, ahead, [&](Needle j, const Shift& shift, double, double) {
+      EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
+      return ahead;
+    });
+    return out;
+  }
+
+  template <class Visit>
+  void for_each_image(Needle i, Visit&& visit) const {
+    const Vec3d mine = needle_at(gas, i, now).r;
+    for (Needle j = 0; j < gas.size(); ++j) {
+      if (j == i) continue;
+      const Vec3d d = mine - needle_at(gas, j, now).r;
+      const auto nearest = [&](double a, int axis) {
+        return static_cast<std::int32_t>(std::round(a / gas.box[axis]));
+      };
+      for (std::int32_t z = -2; z <= 2; ++z) {
+        for (std::int32_t y = -2; y <= 2; ++y) {
+          for (std::int32_t x = -2; x <= 2; ++x) {
+            const Shift shift{nearest(d.x, 0) + x, nearest(d.y, 1) + y, nearest(d.z, 2) + z};
+            visit(j, shift,
+                  Vec3d{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]});
+          }
+        }
+      }
+    }
+  }
+
+  Random& random;
+  Gas gas;
+  Counters counters;
+  Search search;
+  std::vector<Time> until;
+  Time now;
+};
+
+// How far a needle is out of the middle of its hull, as a share of what it may be.
+double share_of_hull(const Moving<Capsules>& moving, Needle i, Time t) {
+  const Segment needle = needle_at(moving.gas, i, t), hull = moving.hull(i);
+  const double off = std::max(distance(needle.r + needle.u * 0.5, hull),
+                              distance(needle.r - needle.u * 0.5, hull));
+  return (off - moving.search.hulls().margin) / moving.search.radius();
+}
+double share_of_hull(const Moving<LinkedCells>& moving, Needle i, Time t) {
+  const Hulls& hulls = moving.search.hulls();
+  const Vec3d r = needle_at(moving.gas, i, t).r - hulls.grid.corner(hulls.places[i].cell);
+  const auto sides = hulls.grid.sides();
+  double share = 0;
+  const double at[3] = {r.x, r.y, r.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = 0.5 * sides[axis];
+    share = std::max(share, (std::abs(at[axis] - half) - hulls.margin) / (half + hulls.overlap));
+  }
+  return share;
+}
+
+template <class Search>
+void expect_held(const Setting& setting, double fullest) {
+  Random random(seed);
+  Moving<Search> moving(setting, random);
+  const double step = 0.1 / setting.speeds.sigma;
+  double most = 0;
+  for (int n = 0; n < steps; ++n) {
+    moving.advance(step * random.uniform());
+    for (int k = 0; k < 20; ++k) {
+      const Needle i = moving.any();
+      if (k % 2 == 0) moving.place(i);
+      for (const double part : {0.0, random.uniform(), 1.0}) {
+        const Time t = moving.gas.clock.add(moving.now, part * moving.left(i));
+        const double share = share_of_hull(moving, i, std::min(t, moving.until[i]));
+        ASSERT_LE(share, 1) << "needle " << i << " has left its hull, step " << n;
+        most = std::max(most, share);
+      }
+    }
+  }
+  EXPECT_GT(most, fullest);
+}
+
+// Of each pair: how near its hulls are, and within what they have to be found.
+struct Nearness {
+  double here, within;
+};
+Nearness nearness(const Moving<Capsules>& moving, Needle i, Needle j, const Vec3d& image, double) {
+  Segment other = moving.hull(j);
+  other.r += image;
+  return {distance(moving.hull(i), other), 2 * moving.search.radius()};
+}
+// What comes near after one of the two has been placed anew is found then.
+Nearness nearness(const Moving<LinkedCells>& moving, Needle i, Needle j, const Vec3d& image,
+                  double ahead) {
+  const Vec3d r =
+      needle_at(moving.gas, i, moving.now).r - (needle_at(moving.gas, j, moving.now).r + image);
+  const Vec3d v = moving.gas.records[i].flight.v - moving.gas.records[j].flight.v;
+  return {least_distance(r, v, std::min(ahead, moving.left(j))), 1};
+}
+
+template <class Search>
+void expect_found(const Setting& setting) {
+  Random random(seed + 1);
+  Moving<Search> moving(setting, random);
+  const double step = 0.1 / setting.speeds.sigma;
+  long near = 0, spare = 0;
+  for (int n = 0; n < steps; ++n) {
+    moving.advance(step * random.uniform());
+    const Needle i = moving.any();
+    moving.place(i);
+    const double ahead = moving.left(i) * (random.coin() ? 1 : random.uniform());
+    const std::set<Candidate> found = moving.found(i, ahead);
+    moving.for_each_image(i, [&](Needle j, const Shift& shift, const Vec3d& image) {
+      const Nearness pair = nearness(moving, i, j, image, ahead);
+      const bool proposed = found.contains({j, shift});
+      near += pair.here < pair.within;
+      spare += proposed && pair.here > 1.01 * pair.within + 8 * moving.search.hulls().margin;
+      ASSERT_TRUE(proposed || pair.here >= pair.within)
+          << "needles " << i << " and " << j << " at " << pair.here << ", step " << n;
+    });
+  }
+  EXPECT_GT(near, steps / 4);
+  // Linked cells do not look at when the other one will be placed anew.
+  if (std::is_same_v<Search, Capsules>) EXPECT_EQ(spare, 0);
+  EXPECT_LT(spare, near);
+}
+
+class HullsOf : public testing::TestWithParam<Setting> {};
+
+TEST_P(HullsOf, CellsHoldTheirNeedles) { expect_held<LinkedCells>(GetParam(), 0.999); }
+TEST_P(HullsOf, CapsulesHoldTheirNeedles) { expect_held<Capsules>(GetParam(), 0.9); }
+TEST_P(HullsOf, CellsFindAllThatComeNear) { expect_found<LinkedCells>(GetParam()); }
+TEST_P(HullsOf, CapsulesFindAllThatComeNear) { expect_found<Capsules>(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Settings, HullsOf, testing::ValuesIn(settings),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+}  // namespace
+}  // namespace needlework::test
