@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "src/engine/accuracy.h"
 #include "src/error.h"
 #include "src/scene/check.h"
 
@@ -25,7 +26,8 @@ io::Writer open_output(const Simulation& simulation, const Scene& scene, bool fo
     return io::Writer(file, force, scene,
                       io::RunInfo{.isa = simulation.isa(),
                                   .threads = scene.engine.threads.value_or(1),
-                                  .epoch_length = simulation.epoch_length()});
+                                  .epoch_length = simulation.epoch_length(),
+                                  .accuracy = accuracy_name(scene.engine)});
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
                               error.what()));

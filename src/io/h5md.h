@@ -34,9 +34,10 @@ namespace needlework::io {
 
 /// What a file says about its run besides the scene.
 struct RunInfo {
-  std::string isa;          ///< name of the instruction set in use, never "auto"
-  int threads = 1;          ///< threads in use
-  double epoch_length = 0;  ///< of the epochs in /events [time]
+  std::string isa;                    ///< name of the instruction set in use, never "auto"
+  int threads = 1;                    ///< threads in use
+  double epoch_length = 0;            ///< of the epochs in /events [time]
+  std::string accuracy = "standard";  ///< level in use, with those knobs that are set
 };
 
 /// Writes one run to one file. All that was written before the last flush() survives the death of

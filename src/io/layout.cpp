@@ -126,6 +126,7 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   keep("version", std::string(NEEDLEWORK_VERSION));
   keep("seed", scene.needles.seed);
   keep("isa", run.isa);
+  keep("accuracy", run.accuracy);
   keep("threads", static_cast<std::int32_t>(run.threads));
   keep("epoch_length", run.epoch_length);
   keep("k", scene.needles.k);

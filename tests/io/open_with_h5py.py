@@ -46,6 +46,7 @@ def check_parameters(file):
     assert text(parameters["scene"]) == "[needles]\ncount = 5\n# é\n"
     assert text(parameters["title"]) == "sample"
     assert text(parameters["isa"]) == "avx2"
+    assert text(parameters["accuracy"]) == "rigorous"
     assert text(parameters["version"]) == text(file["h5md/creator"].attrs["version"])
     assert parameters["seed"] == 18446744073709551615
     assert parameters["threads"] == 2

@@ -73,7 +73,7 @@ Collision make_collision(int event) {
 }
 
 io::Writer write_all(const std::string& path) {
-  io::Writer writer(path, false, make_scene(needles), {"avx2", 2, 0.5});
+  io::Writer writer(path, false, make_scene(needles), {"avx2", 2, 0.5, "rigorous"});
   for (int sample = 0; sample < samples; ++sample) writer.write_series(make_totals(sample));
   for (int frame = 0; frame < frames; ++frame) {
     writer.write_frame(make_totals(frame), make_state(needles, frame));
