@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/kernels/neighbourhood.h"
+#include "src/search/choice.h"
 
 namespace needlework::bench {
 namespace {
@@ -72,7 +73,7 @@ void filter(benchmark::State& state, const std::string& name, Isa isa, const Nei
 
 void overlapping(benchmark::State& state, Isa isa, double density) {
   const Neighbourhoods gas(density, Neighbourhoods::Columns::directors, searches);
-  const auto radius = static_cast<float>(capsule_radius(density));
+  const auto radius = static_cast<float>(auto_capsule_radius(density));
   filter(state, "overlapping", isa, gas,
          [&](const NearKernels& kernels, const Neighbourhood& one, const Found& found) {
            return kernels.overlapping(gas.around(one), one.seeker, radius, found);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/engine/simulation.h"
+#include "src/search/choice.h"
 
 namespace needlework::bench {
 namespace {
@@ -79,7 +80,6 @@ Seeker seeker_of(const Motion& motion, double ahead, std::uint32_t needle) {
 
 // A needle of T = 1 and k = 6 collides n sqrt(pi) 1.2 times in a unit of time, nearly.
 double time_ahead(double density) { return 1 / (2.1 * density); }
-double capsule_radius(double density) { return 0.4 * std::pow(density, -2.0 / 3); }
 
 namespace {
 
@@ -116,7 +116,9 @@ std::vector<NearPair> near_pairs(double density, std::size_t count) {
 Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t count) {
   double box = 0;
   const std::vector<Flight> needles = draw(density, box);
-  const int cells = std::max(1, static_cast<int>(box / std::cbrt(8 / density)));
+  const double least_side =
+      columns == Columns::directors ? auto_side_for_capsules(density) : auto_cell_side(density);
+  const int cells = std::max(1, static_cast<int>(box / least_side));
   const double side = box / cells;
   const auto cell_of = [&](const Vec3d& r, int axis) {
     const double c = std::floor(component(r, axis) / side);
@@ -153,7 +155,7 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
 
   const bool capsules = columns == Columns::directors;
   const double ahead = time_ahead(density);
-  const double reach = capsules ? 0.5 + 2 * capsule_radius(density) : 1;
+  const double reach = capsules ? 0.5 + 2 * auto_capsule_radius(density) : 1;
   for (std::uint32_t i = 0; i < count && i < needles.size(); ++i) {
     const Flight& needle = needles[i];
     const Vec3d corner = corner_of(needle.r);

@@ -18,8 +18,6 @@ inline constexpr GasName gases[] = {{"dilute", 0.72}, {"dense", 11.6}};
 
 /// The mean free time at this density and T = 1, about; how far searches look ahead.
 double time_ahead(double density);
-/// Of capsules, as the engine has them [L].
-double capsule_radius(double density);
 
 /// Two needles whose bounding spheres meet within the time ahead.
 struct NearPair {
@@ -42,8 +40,9 @@ struct Neighbourhood {
   std::size_t needles = 0;  ///< in these cells
 };
 
-/// Cells of a gas, about 8 needles each, and neighbourhoods of `count` of its needles. The columns
-/// a of the blocks are directors (for overlapping) or velocities (for approaching).
+/// Cells of a gas, of the sides that the searches choose, and neighbourhoods of `count` of its
+/// needles. The columns a of the blocks are directors (for overlapping) or velocities (for
+/// approaching).
 struct Neighbourhoods {
   enum class Columns { directors, velocities };
   Neighbourhoods(double density, Columns columns, std::size_t count);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -96,8 +97,13 @@ void choose_engine(Scene& scene, const EngineFlags& flags) {
                     threads_place, engine.search, engine.queue, list(parallel_searches),
                     list(parallel_queues)));
   }
+  const int most = omp_get_thread_limit();
+  if (engine.threads && *engine.threads > most) {
+    throw InputError(fmt::format(
+        "{}: expected at most {}, which is all that OMP_THREAD_LIMIT leaves", threads_place, most));
+  }
   // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
-  if (!engine.threads) engine.threads = parallel ? threads_of_environment() : 1;
+  if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
 }
 
 std::string resolved_search(const Scene::Engine& engine, double density) {

@@ -23,7 +23,7 @@ struct Counters {
   // Of several threads; see parallel_loop.h.
   std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
   std::uint64_t redone = 0;   ///< of these, done again by one thread
-  std::uint64_t border = 0;   ///< events that might read what another thread writes
+  std::uint64_t border = 0;   ///< tries of events that might read what another thread writes
   std::uint64_t held = 0;     ///< times that an event had to wait for others near it
   std::uint64_t waited = 0;   ///< turns in which a thread had no event that it might do
   std::uint64_t foreign = 0;  ///< blocks of other threads written to

@@ -173,6 +173,10 @@ TEST_F(RunCommand, TakesTheEnvironmentLast) {
   EXPECT_EQ(result("small.toml", "OMP_NUM_THREADS=many")["threads"], 1);
   EXPECT_EQ(result("small.toml --set engine.threads=1", "OMP_NUM_THREADS=3")["threads"], 1);
   EXPECT_EQ(result("small.toml --set engine.queue=bucket", "OMP_NUM_THREADS=3")["threads"], 1);
+  EXPECT_EQ(result("small.toml", "OMP_THREAD_LIMIT=2 OMP_NUM_THREADS=3")["threads"], 2);
+  const Outcome limited = run("run small.toml --threads 3", "OMP_THREAD_LIMIT=2");
+  EXPECT_EQ(limited.exit_code, 3);
+  EXPECT_TRUE(limited.complains("--threads 3: expected at most 2")) << limited.err;
   EXPECT_EQ(run("run small.toml", "NEEDLEWORK_ISA=bogus").exit_code, 3);
   EXPECT_EQ(result("small.toml", "NEEDLEWORK_ISA=scalar")["isa"], "scalar");
   EXPECT_EQ(result("small.toml --isa scalar", "NEEDLEWORK_ISA=bogus")["isa"], "scalar");

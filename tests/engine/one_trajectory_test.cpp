@@ -1,0 +1,76 @@
+// There is one trajectory of a scene: of every search with every queue on every instruction set, on
+// several threads, and by every compiler and build, as its hash is written down here.
+#include <gtest/gtest.h>
+
+#include "kernels/isa.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+Scene cooling_scene() {
+  Scene scene = test::scene_of(200, 6, 7);
+  scene.collisions.epsilon = 0.8;
+  scene.collisions.beta = -0.5;
+  scene.collisions.tc_relative = 1e-3;
+  return scene;
+}
+
+constexpr const char* hash = "7990716f874e7baff4b419efd7d5aee8";
+constexpr double collisions_per_needle = 6;
+
+std::string hash_of(const Scene& scene) {
+  Simulation simulation(scene);
+  simulation.advance(test::until_collisions(collisions_per_needle));
+  return simulation.trajectory_hash();
+}
+
+TEST(OneTrajectory, OfEverySearchQueueAndInstructionSet) {
+  Scene scene = cooling_scene();
+  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+    for (const char* queue :
+         {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
+      for (const kernels::Isa isa : kernels::available()) {
+        scene.engine.search = search;
+        scene.engine.queue = queue;
+        scene.engine.isa = kernels::name_of(isa);
+        ASSERT_EQ(hash_of(scene), hash) << search << ", " << queue << ", " << scene.engine.isa;
+      }
+    }
+  }
+}
+
+TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
+  Scene scene = cooling_scene();
+  for (const char* search : {"linked-cells", "capsules"}) {
+    for (const kernels::Isa isa : kernels::available()) {
+      for (const int threads : {2, 3}) {
+        scene.engine.search = search;
+        scene.engine.isa = kernels::name_of(isa);
+        scene.engine.threads = threads;
+        ASSERT_EQ(hash_of(scene), hash) << search << ", " << scene.engine.isa << ", " << threads;
+      }
+    }
+  }
+}
+
+// The kernels asked for are those in use: the wider the vectors, the fewer steps by lanes.
+TEST(OneTrajectory, IsFollowedInFewerStepsByWiderVectors) {
+  Scene scene = cooling_scene();
+  std::uint64_t before = 0;
+  for (const kernels::Isa isa : kernels::available()) {
+    scene.engine.isa = kernels::name_of(isa);
+    Simulation simulation(scene);
+    simulation.advance(test::until_collisions(collisions_per_needle));
+    const std::uint64_t steps = simulation.counters().isolated;
+    EXPECT_GT(steps, 0u);
+    if (before > 0) {
+      EXPECT_LT(static_cast<double>(steps), 0.9 * static_cast<double>(before));
+    }
+    before = steps;
+    EXPECT_EQ(simulation.isa(), scene.engine.isa);
+  }
+}
+
+}  // namespace
+}  // namespace needlework
