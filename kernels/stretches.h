@@ -42,6 +42,8 @@ class Stretches {
   // From this depth on, bounds are sharpened by the coefficients of f: costly, but the only way
   // when f is small everywhere, as for needles in nearly one plane.
   static constexpr int sharpen_depth = 3;
+  // From this depth on, stretches that intervals leave open are looked at by those bounds too.
+  static constexpr int forget_depth = 6;
   // Without error bounds, f is taken to vanish where it stays below this share of the distance.
   static constexpr double flat_in_double = 8 * noise_in_double;
   static constexpr bool escalates = ContactValues<escalation>::escalates;
@@ -215,7 +217,9 @@ Shape Stretches<isolation, escalation>::classify_by_intervals(const Interval& in
   const bool by_rounding = width(middle.f) > 0x1p-6 * width(f) ||
                            width(middle.df) > 0x1p-6 * width(df) ||
                            width(middle.ddf) > 0x1p-6 * width(ddf);
-  return by_rounding ? classify_precisely(interval, e) : shape;
+  // Intervals forget that f is small everywhere, as it is for needles in nearly one plane.
+  const bool forgotten = interval.depth >= forget_depth;
+  return by_rounding || forgotten ? classify_precisely(interval, e) : shape;
 }
 
 }  // namespace needlework::kernels

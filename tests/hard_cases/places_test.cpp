@@ -280,6 +280,14 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
                   double(run.counters.evaluated) / double(run.counters.predicted),
                   double(run.counters.escalated) / double(run.counters.predicted),
                   size_t(run.counters.predicted));
+      // Nor do intervals, which forget that f is small everywhere, cut time to dust.
+      Scene scene = elastic();
+      scene.needles.count = state.size();
+      scene.engine.accuracy = "rigorous";
+      Simulation rigorous(scene, state);
+      EXPECT_EQ(rigorous.advance(until_time(1.0 / thin)), Stop::time);
+      EXPECT_EQ(rigorous.totals().collisions, 0u);
+      EXPECT_LT(double(rigorous.counters().evaluated), 1e4 * double(rigorous.counters().predicted));
     }
   }
 }
