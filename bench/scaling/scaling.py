@@ -79,7 +79,7 @@ def measure(program, names, most, repetitions):
                             "collisions_per_s": rate, "us_per_collision": 1e6 / rate,
                             "cpu_us_per_collision": run["us_per_collision"],
                             "hash": run["trajectory_hash"], "queue": run["queue"],
-                            "search": run["search"], "events": run["events"],
+                            "search": run["search"], "events": run["events"], "wall_s": run["wall_s"],
                             "stats": run["stats"]})
             print(f"{name:11} {kind:9} {n:2}  {1e6 / rate:7.3f} us per collision", flush=True)
         if not weak and len({r["hash"] for r in results if r["scene"] == name}) > 1:
@@ -89,8 +89,8 @@ def measure(program, names, most, repetitions):
 
 def table(data):
     rows = ["| scene | needles | threads | us per collision | speed-up | efficiency | of runs apart |"
-            " border tries per event | turns waited per event | phases undone |",
-            "|---|---|---|---|---|---|---|---|---|---|"]
+            " border tries per event | events per turn | time blocked | phases undone |",
+            "|---|---|---|---|---|---|---|---|---|---|---|"]
     by = {(r["scene"], r["kind"], r["threads"]): r for r in data["results"]}
     for (name, kind, n), r in by.items():
         if kind == "apart":
@@ -103,10 +103,11 @@ def table(data):
             s = r["stats"]
             cells += [f"{gain:.2f}", f"{gain / n:.2f}", f"{r['collisions_per_s'] / apart:.2f}",
                       f"{s['border'] / r['events']:.2f}",
-                      f"{s['waited'] / r['events']:.1f}",
+                      f"{r['events'] / s['turns']:.1f}",
+                      f"{100 * s['blocked_s'] / (n * r['wall_s']):.0f} %",
                       f"{s['redone']} of {s['phases']}"]
         else:
-            cells += ["1", "1"] + [""] * 4
+            cells += ["1", "1"] + [""] * 5
         rows.append("| " + " | ".join(cells) + " |")
     return "\n".join(rows)
 

@@ -38,6 +38,8 @@ Json stats_of(const Counters& counters) {
           {"border", counters.border},
           {"held", counters.held},
           {"waited", counters.waited},
+          {"turns", counters.turns},
+          {"blocked_s", 1e-9 * static_cast<double>(counters.blocked)},
           {"foreign", counters.foreign}};
 }
 

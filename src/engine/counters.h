@@ -27,6 +27,8 @@ struct Counters {
   std::uint64_t held = 0;     ///< times that an event had to wait for others near it
   std::uint64_t waited = 0;   ///< turns in which a thread had no event that it might do
   std::uint64_t foreign = 0;  ///< blocks of other threads written to
+  std::uint64_t turns = 0;    ///< rows of events that a thread did until it was blocked
+  std::uint64_t blocked = 0;  ///< time that threads were blocked, by all of them [ns]
 
   Counters& operator+=(const Counters& other) {
     for (const auto member : members) this->*member += other.*member;
@@ -38,7 +40,8 @@ struct Counters {
       &Counters::sorts,     &Counters::renewals, &Counters::searches,  &Counters::candidates,
       &Counters::filtered,  &Counters::isolated, &Counters::predicted, &Counters::evaluated,
       &Counters::escalated, &Counters::touches,  &Counters::phases,    &Counters::redone,
-      &Counters::border,    &Counters::held,     &Counters::waited,    &Counters::foreign};
+      &Counters::border,    &Counters::held,     &Counters::waited,    &Counters::foreign,
+      &Counters::turns,     &Counters::blocked};
 };
 
 }  // namespace needlework

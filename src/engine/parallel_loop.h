@@ -313,6 +313,15 @@ void ParallelLoop<Search, effects>::report() {
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
   Patience patience(spins_);
+  Blockings blockings;
+  const auto go_on = [&] {
+    patience.reset();
+    blockings.end(me.tally.counters.turns, me.tally.counters.blocked);
+  };
+  const auto wait = [&] {
+    blockings.begin();
+    patience.wait();
+  };
   while (!amiss_.load(std::memory_order_relaxed)) {
     if (me.has_mail.load(std::memory_order_acquire)) read_mail(me);
     release_held(me);
@@ -324,17 +333,19 @@ void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
     };
     if (key < end && (me.held.size() < most_held || before_all())) {
       const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
-      if (outcome == Outcome::done) patience.reset();
-      if (outcome == Outcome::again) patience.wait();
+      if (outcome == Outcome::done) go_on();
+      if (outcome == Outcome::again) wait();
       continue;
     }
     if (me.held.empty()) {
-      if (rest(me)) return;
+      blockings.begin();
+      if (rest(me)) break;
       continue;
     }
     ++me.tally.counters.waited;
-    patience.wait();
+    wait();
   }
+  go_on();
 }
 
 // Does the next event of a block, unless it has to wait.

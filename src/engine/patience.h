@@ -1,6 +1,7 @@
 // How a thread waits for another.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <thread>
 
@@ -29,6 +30,28 @@ class Patience {
  private:
   int spins_;
   int turns_ = 0;
+};
+
+/// Counts the times that a thread is blocked, and for how long.
+class Blockings {
+ public:
+  void begin() {
+    if (!blocked_) since_ = Clock::now();
+    blocked_ = true;
+  }
+  void end(std::uint64_t& count, std::uint64_t& nanoseconds) {
+    if (!blocked_) return;
+    blocked_ = false;
+    ++count;
+    const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - since_);
+    nanoseconds += static_cast<std::uint64_t>(time.count());
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool blocked_ = false;
+  Clock::time_point since_;
 };
 
 /// Called where a thread looks at how far others are, or tells them how far it is. In a build with
