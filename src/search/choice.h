@@ -1,6 +1,5 @@
-// What `auto` stands for: by the number of needles per L^3 alone. Counters could say no more:
-// `needlework bench hulls` has the best sizes by hand, from masses at the tips to ones at the
-// centre.
+// What `auto` stands for: by the number of needles per L^3 alone. `needlework bench hulls` compares
+// that with sizes by hand, from masses at the tips to ones at the centre.
 #pragma once
 
 #include <algorithm>
