@@ -69,8 +69,13 @@ class Stretches {
 
 template <Isolation isolation, Escalation escalation>
 bool Stretches<isolation, escalation>::vanishes(int depth) {
-  if (escalates && depth >= sharpen_depth && !amplitude_) {
-    amplitude_ = amplitude(values_.precise_frame());
+  if (depth >= sharpen_depth && !amplitude_) {
+    // In double the coefficients of an f that is small everywhere would be nothing but rounding.
+    if constexpr (escalates) {
+      amplitude_ = amplitude(values_.precise_frame());
+    } else {
+      amplitude_ = amplitude(make_frame<DoubleDouble>(values_.pair(), values_.scale()));
+    }
     const auto& [slow, fast] = *amplitude_;
     // Below the errors of f everywhere: every interval is flat, so the rest need not be searched.
     const Frame<double>& frame = values_.frame();
@@ -87,7 +92,7 @@ double Stretches<isolation, escalation>::second_derivative_bound(const Estimate&
                                                                  const Interval& interval) const {
   const double w = values_.frame().w_sum, v = values_.frame().v_length;
   const double general = (2 * v + (e.distance + v * interval.half()) * w) * w;
-  if (!escalates || interval.depth < sharpen_depth) return general;
+  if (interval.depth < sharpen_depth) return general;
   return std::min(general, amplitude_->derivative_bound(2, interval.end));
 }
 
@@ -96,7 +101,7 @@ double Stretches<isolation, escalation>::third_derivative_bound(const Estimate& 
                                                                 const Interval& interval) const {
   const double w = values_.frame().w_sum, v = values_.frame().v_length;
   const double general = (3 * v + (e.distance + v * interval.half()) * w) * w * w;
-  if (!escalates || interval.depth < sharpen_depth) return general;
+  if (interval.depth < sharpen_depth) return general;
   return std::min(general, amplitude_->derivative_bound(3, interval.end));
 }
 
