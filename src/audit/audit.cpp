@@ -166,7 +166,7 @@ void Audit::follow(Index a, Index b, const Instant& now, const Collision& collis
             collision.shift[2]}};
 }
 
-void Audit::finish(double time) {
+bool Audit::finish(double time, const std::function<bool()>& stop) {
   if (resumed_) {
     throw InputError("the run ended after " + std::to_string(tally_.collisions) +
                      " collisions: expected at least the " +
@@ -174,11 +174,21 @@ void Audit::finish(double time) {
   }
   const double epochs = time / setup_.epoch_length;
   const Instant end{static_cast<std::int64_t>(std::floor(epochs)), epochs - std::floor(epochs)};
+  Checkpoint before = checkpoint();
+  bool stopped = false;
   slack_ = 0x1p-51 * epochs;
-  for (Index i = 0; i < needles_.size(); ++i) {
-    for (Index j = i + 1; j < needles_.size(); ++j) check_flight(i, j, end);
+  for (Index i = 0; i < needles_.size() && !stopped; ++i) {
+    for (Index j = i + 1; j < needles_.size() && !stopped; ++j) {
+      check_flight(i, j, end);
+      stopped = stop && stop();
+    }
   }
   slack_ = 0;
+  if (stopped) {
+    tally_ = std::move(before.tally);
+    touches_ = std::move(before.touches);
+  }
+  return !stopped;
 }
 
 void Audit::check_order(const Instant& now, const Collision& collision) {

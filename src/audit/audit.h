@@ -85,8 +85,9 @@ class Audit {
 
   /// The next collision. Throws InputError when an audit is resumed with collisions of another run.
   void add(const Collision& collision);
-  /// The run has ended; checks the last flights.
-  void finish(double time);
+  /// The run has ended; checks the last flights, unless `stop` says so between two of them: then
+  /// false, and all is as before.
+  bool finish(double time, const std::function<bool()>& stop = {});
 
   const Tally& tally() const { return tally_; }
 

@@ -9,6 +9,15 @@ namespace {
 /// Half a unit in the last place of 1.
 constexpr double half_unit = 0x1p-53;
 
+template <class Number>
+Vector<Number> separation(const Flight<Number>& first, const Flight<Number>& second,
+                          const Number& t1, const Number& t2, const Vector<double>& shift,
+                          const std::array<double, 3>& box) {
+  Vector<Number> r = first.r - second.r;
+  for (int axis = 0; axis < 3; ++axis) r[axis] = r[axis] - Number(shift[axis]) * Number(box[axis]);
+  return r + (first.v * t1 - second.v * t2);
+}
+
 template <class Real>
 Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& second,
                 const std::array<Ball<Real>, 2>& delay, const Vector<double>& shift,
@@ -16,9 +25,7 @@ Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& secon
   using Number = Ball<Real>;
   const Number t1 = delay[0] + Number(s), t2 = delay[1] + Number(s);
   const Pose<Number> a = first.at(t1), b = second.at(t2);
-  Vector<Number> r = first.r - second.r;
-  for (int axis = 0; axis < 3; ++axis) r[axis] = r[axis] - Number(shift[axis]) * Number(box[axis]);
-  r = r + (first.v * t1 - second.v * t2);
+  const Vector<Number> r = separation(first, second, t1, t2, shift, box);
   const Vector<Number> x = cross(a.u, b.u);
   const Vector<Number> dx = cross(a.du, b.u) + cross(a.u, b.du);
   const Number f = dot(r, x) - Number(offset);
@@ -68,7 +75,7 @@ Sample Pair::sample(double s) const {
   return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, offset_, s);
 }
 
-Sample Pair::precise(double s) {
+const Pair::Precise& Pair::in_quad() {
   if (!precise_) {
     const Instant begin = std::max(first_.record.time, second_.record.time);
     precise_.emplace(Precise{
@@ -76,8 +83,52 @@ Sample Pair::precise(double s) {
         Flight<Ball<Quad>>(second_.record),
         {elapsed<Quad>(first_.record.time, begin), elapsed<Quad>(second_.record.time, begin)}});
   }
-  return evaluate(precise_->first, precise_->second, precise_->delay, shift_, space_.box, offset_,
-                  s);
+  return *precise_;
+}
+
+Sample Pair::precise(double s) {
+  const auto& [first, second, delay] = in_quad();
+  return evaluate(first, second, delay, shift_, space_.box, offset_, s);
+}
+
+// f is the sum of (r12(0) + v12 s) . (a x b) c1(s) c2(s): a is the first needle's director in its
+// record when c1 is the cosine of its angle since then, and the direction that it turns to when c1
+// is the sine; b and c2 are the second's.
+void Pair::find_coefficients() {
+  if (coefficients_) return;
+  const auto& [first, second, delay] = in_quad();
+  const auto r = separation(first, second, delay[0], delay[1], shift_, space_.box);
+  const auto v = first.v - second.v;
+  const std::array a = {first.u, first.side}, b = {second.u, second.side};
+  coefficients_.emplace();
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const auto x = cross(a[i], b[j]);
+      (*coefficients_)[i][j] = {upper(dot(r, x)), upper(dot(v, x))};
+    }
+  }
+}
+
+double Pair::bend(double begin, double end, double distance) const {
+  const double general = (2 * speed_ + distance * spin_) * spin_;
+  if (!coefficients_) return general * upward;
+  const double latest = std::max(std::abs(begin), std::abs(end));
+  // Bounds on cosine and sine, and on their derivatives.
+  const auto [w1, w2] = omega_;
+  const double sine1 = std::min(1.0, w1 * (upper(delay_[0]) + latest));
+  const double sine2 = std::min(1.0, w2 * (upper(delay_[1]) + latest));
+  const std::array size1 = {1.0, sine1}, size2 = {1.0, sine2};
+  const std::array rate1 = {w1 * sine1, w1}, rate2 = {w2 * sine2, w2};
+  double special = 0;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const auto& [constant, linear] = (*coefficients_)[i][j];
+      const double curved = (w1 * w1 + w2 * w2) * size1[i] * size2[j] + 2 * rate1[i] * rate2[j];
+      const double sloped = rate1[i] * size2[j] + size1[i] * rate2[j];
+      special += (constant + linear * latest) * curved + 2 * linear * sloped;
+    }
+  }
+  return std::min(general * upward, special * (1 + 0x1p-40));
 }
 
 Pair::Uncertainty Pair::uncertainty(double s) const {

@@ -72,6 +72,10 @@ class Pair {
   double speed() const { return speed_; }  ///< |v12|, not below
   double spin() const { return spin_; }    ///< |w1| + |w2|, not below
   double rate() const { return speed_ + spin_; }
+  /// Bound on |f''| from `begin` to `end`, where |r12| is at most `distance`. [L / time^2]
+  double bend(double begin, double end, double distance) const;
+  /// Sharpens that bound for needles in nearly one plane; takes 113 bits.
+  void find_coefficients();
   /// Bound on how fast `moment` i and |r12| at most `distance` can change. [L / time]
   double moment_rate(int i, double distance) const { return speed_ + omega_[1 - i] * distance; }
 
@@ -95,6 +99,7 @@ class Pair {
     Flight<Ball<Quad>> first, second;
     std::array<Ball<Quad>, 2> delay;
   };
+  const Precise& in_quad();
 
   const Needle& first_;
   const Needle& second_;
@@ -107,6 +112,12 @@ class Pair {
   double distance_ = 0;  ///< |r12| at s = 0, not below
   double offset_ = 0;    ///< f(0) of a pair that has collided there
   std::optional<Precise> precise_;
+  // Of f, as a sum over products of one of {cosine, sine} of each needle's angle since its record.
+  struct Coefficient {
+    double constant, linear;  ///< in time; not below their sizes
+  };
+  using Coefficients = std::array<std::array<Coefficient, 2>, 2>;
+  std::optional<Coefficients> coefficients_;
 };
 
 }  // namespace needlework::audit

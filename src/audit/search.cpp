@@ -6,8 +6,10 @@
 namespace needlework::audit {
 namespace {
 
-/// Stretches after which the rest counts as doubtful: needles that stay in one plane but for
-/// little more than rounding.
+/// Stretches of a flight after which f is taken to be small everywhere, as it is for needles in
+/// nearly one plane, and bounded by its coefficients.
+constexpr int patience = 32;
+/// Stretches of a flight after which the rest counts as doubtful.
 constexpr int most_stretches = 10000;
 /// Bounds made of a few doubles are enlarged by this.
 constexpr double enlarged = 1 + 0x1p-40;
@@ -17,15 +19,14 @@ int sign_of(double a) { return (a > 0) - (a < 0); }
 }  // namespace
 
 // Bound on |f''| over the stretch.
-double Search::bend(const Sample& sample, double half) const {
-  const double w = pair_.spin(), v = pair_.speed();
-  return (2 * v + (sample.distance + v * half) * w) * w * enlarged;
+double Search::bend(const Sample& sample, double s, double half) const {
+  return pair_.bend(s - half, s + half, sample.distance + pair_.speed() * half) * enlarged;
 }
 
 // No contact in the stretch: f keeps its sign, or a contact point stays off its needle.
 bool Search::is_free(const Sample& e, double s, double half) const {
   const double change =
-      ((std::abs(e.df) + e.df_error) + 0.5 * bend(e, half) * half) * half * enlarged;
+      ((std::abs(e.df) + e.df_error) + 0.5 * bend(e, s, half) * half) * half * enlarged;
   if (std::abs(e.f) > e.f_error + change + 2 * pair_.limit(e, s, half)) return true;
   const double reach = e.distance + pair_.speed() * half;
   const double half_sine = 0.5 * (e.sine + pair_.spin() * half);
@@ -39,18 +40,18 @@ bool Search::is_free(const Sample& e, double s, double half) const {
 
 // All of the stretch lies within the condition limit.
 bool Search::is_noise(const Sample& e, double s, double half) const {
-  const double change = (std::abs(e.df) + 0.5 * bend(e, half) * half) * half;
+  const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
   return std::abs(e.f) + change <= 2 * pair_.limit(e, s);
 }
 
-bool Search::is_monotone(const Sample& e, double half) const {
-  return std::abs(e.df) > e.df_error + bend(e, half) * half * enlarged;
+bool Search::is_monotone(const Sample& e, double s, double half) const {
+  return std::abs(e.df) > e.df_error + bend(e, s, half) * half * enlarged;
 }
 
 // In the arithmetic that the size of what is looked for asks for.
 Sample Search::sample_of(double s, double half) {
   const Sample e = pair_.sample(s);
-  const double change = (std::abs(e.df) + 0.5 * bend(e, half) * half) * half;
+  const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
   const double enough = 0.125 * std::max(std::abs(e.f), change);
   return e.f_error > enough + pair_.limit(e, s) ? pair_.precise(s) : e;
 }
@@ -91,9 +92,9 @@ std::optional<Finding> Search::leave_start(double to, double& left) {
   const int side = pair_.start().side;
   const Sample e = pair_.precise(0);
   const double slope = std::max(0.0, std::abs(e.df) - e.df_error);
-  const double curvature = bend(e, 0.5);
+  const double soon = 0.5 / pair_.rate(), curvature = bend(e, 0, soon);
   // Until then f' keeps its sign and half its size.
-  left = std::min({to, 0.5 / pair_.rate(), slope / (2 * curvature)});
+  left = std::min({to, soon, slope / (2 * curvature)});
   const bool monotone = left > 0 && sign(left) != 0;
   if (!monotone) {
     left = std::min(to, std::max(left, 0x1p-60 / pair_.rate()));
@@ -156,7 +157,8 @@ double Search::cut(const Stretch& stretch) {
 
 std::optional<Finding> Search::next(double from, double to) {
   stretches_.assign(1, {from, to});
-  for (int count = 0; !stretches_.empty(); ++count) {
+  for (; !stretches_.empty(); ++looked_at_) {
+    if (looked_at_ == patience) pair_.find_coefficients();
     const Stretch stretch = stretches_.back();
     stretches_.pop_back();
     const double half = 0.5 * (stretch.end - stretch.begin), middle = stretch.begin + half;
@@ -166,8 +168,8 @@ std::optional<Finding> Search::next(double from, double to) {
     if (is_noise(e, middle, half) || finest) {
       return Finding{false, stretch.begin, stretch.end, sign(stretch.begin)};
     }
-    if (count >= most_stretches) return Finding{false, stretch.begin, to, sign(stretch.begin)};
-    if (is_monotone(e, half)) {
+    if (looked_at_ >= most_stretches) return Finding{false, stretch.begin, to, sign(stretch.begin)};
+    if (is_monotone(e, middle, half)) {
       const int before = sign(stretch.begin), after = sign(stretch.end);
       if (before != 0 && before == after) continue;
       if (before != 0 && after == -before) {

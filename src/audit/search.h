@@ -36,14 +36,16 @@ class Search {
   /// 1 yes, -1 no, 0 within the condition limit.
   int on_needles(double begin, double end);
 
+  int looked_at() const { return looked_at_; }  ///< stretches, so far
+
  private:
   struct Stretch {
     double begin, end;
   };
-  double bend(const Sample& sample, double half) const;
+  double bend(const Sample& sample, double s, double half) const;
   bool is_free(const Sample& sample, double s, double half) const;
   bool is_noise(const Sample& sample, double s, double half) const;
-  bool is_monotone(const Sample& sample, double half) const;
+  bool is_monotone(const Sample& sample, double s, double half) const;
   Sample sample_of(double s, double half);
   std::optional<Finding> leave_start(double to, double& left);
   std::optional<Finding> cross(const Stretch& stretch, int side);
@@ -51,6 +53,7 @@ class Search {
 
   Pair& pair_;
   std::vector<Stretch> stretches_;
+  int looked_at_ = 0;
 };
 
 }  // namespace needlework::audit

@@ -332,6 +332,27 @@ TEST(Audit, GoesOnWhereItWasInterrupted) {
   }
 }
 
+TEST(Audit, StoppedWhileItChecksTheLastFlightsIsAsBefore) {
+  Scene scene = gas(50, 5);
+  scene.collisions.epsilon = 0.7;
+  scene.collisions.tc_relative = 1e-3;
+  const EngineRun run(scene, 100);
+  audit::Audit audit(run.initial, run.setup);
+  for (const Collision& collision : run.collisions) audit.add(collision);
+  const std::string before = text_of(audit.tally());
+  const std::size_t touches = audit.checkpoint().touches.size();
+  EXPECT_GT(touches, 0u);
+  for (const int most : {1, 500}) {
+    int flights = 0;
+    EXPECT_FALSE(audit.finish(run.end, [&] { return ++flights == most; }));
+    EXPECT_EQ(flights, most);
+    EXPECT_EQ(text_of(audit.tally()), before);
+    EXPECT_EQ(audit.checkpoint().touches.size(), touches);
+  }
+  EXPECT_TRUE(audit.finish(run.end, [] { return false; }));
+  EXPECT_EQ(text_of(audit.tally()), text_of(run.audited()));
+}
+
 TEST(Audit, RefusesToGoOnWithAnotherRun) {
   const EngineRun run(gas(30, 1), 20);
   audit::Audit first(run.initial, run.setup);

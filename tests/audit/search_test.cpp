@@ -14,6 +14,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"
+#include "tests/support/random.h"
 
 namespace needlework::test {
 
@@ -50,6 +51,7 @@ class SearchOracle : public testing::TestWithParam<PairFamily> {};
 
 TEST_P(SearchOracle, FindsTheSameContacts) {
   std::size_t contacts = 0, doubtful = 0, near = 0, escalated = 0;
+  int longest = 0;
   for (const NeedlePair& drawn : draw_pairs(GetParam().name, count, seed)) {
     const NeedlePair pair = in_own_time(drawn);
     const OracleAnswer truth =
@@ -65,6 +67,7 @@ TEST_P(SearchOracle, FindsTheSameContacts) {
     audit::Search search(flown);
     const auto found = search.first(0, pair.horizon);
     contacts += truth.contact;
+    longest = std::max(longest, search.looked_at());
     doubtful += found && !found->certain;
     escalated += flown.needed_quad();
     if (truth.decision_margin < 1) continue;
@@ -89,12 +92,79 @@ TEST_P(SearchOracle, FindsTheSameContacts) {
     }
     if (HasFailure()) break;
   }
-  std::printf("%-14.*s contacts %zu, doubtful %zu, near %zu, with 113 bits %zu\n",
+  std::printf("%-14.*s contacts %zu, doubtful %zu, near %zu, with 113 bits %zu, stretches %d\n",
               static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, doubtful,
-              near, escalated);
+              near, escalated, longest);
   if (GetParam().thermal) {
     EXPECT_EQ(doubtful, 0u);
   }
+}
+
+// Two needles that fly and turn in one plane, but for `off` times a generic motion.
+std::pair<audit::Needle, audit::Needle> nearly_in_one_plane(Random& random, double off) {
+  const auto unit = [&](const Vec<double>& a) { return 1 / std::sqrt(dot(a, a)) * a; };
+  const Vec<double> e1 = random.direction();
+  const Vec<double> e2 = unit(cross(e1, random.direction())), normal = cross(e1, e2);
+  const auto draw = [&] {
+    const auto near_plane = [&](double size) {
+      const double a = size * random.normal(), b = size * random.normal();
+      return a * e1 + b * e2 + off * random.normal_vector(size);
+    };
+    const double spin = random.coin() ? 3 * random.normal() : 0;
+    const Vec<double> r = near_plane(0.3), u = unit(near_plane(1)), v = near_plane(1);
+    const Vec<double> w = spin * normal + off * random.normal_vector(1);
+    return audit::Needle({{}, {r}, {v}, {u}, {w}});
+  };
+  const audit::Needle first = draw();
+  return {first, draw()};
+}
+
+// |f'(b) - f'(a)| <= max |f''| (b - a), from 0 to any time; much sharper by the coefficients when
+// the needles lie in nearly one plane.
+TEST(Bend, BoundsTheSecondDerivative) {
+  Random random(seed);
+  double tightest = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const double off = std::pow(10, random.uniform(-18, 0));
+    const auto [first, second] = nearly_in_one_plane(random, off);
+    const audit::Space space{{64, 64, 64}};
+    audit::Pair pair(first, second, {}, space, {});
+    const double end = random.uniform(0, 4);
+    const double distance = pair.sample(0).distance + pair.speed() * end;
+    const double general = pair.bend(0, end, distance);
+    pair.find_coefficients();
+    const double bend = pair.bend(0, end, distance);
+    EXPECT_LE(bend, general);
+    EXPECT_LE(bend, 1e3 * (off + 0x1p-50) * (1 + general));
+    const double a = random.uniform(0, end), b = std::min(end, a + random.uniform(0, 0.1));
+    const audit::Sample at_a = pair.precise(a), at_b = pair.precise(b);
+    const double change = std::abs(at_b.df - at_a.df) - (at_a.df_error + at_b.df_error);
+    EXPECT_LE(change, bend * (b - a)) << "off by " << off;
+    if (bend < general && b > a) tightest = std::max(tightest, change / (bend * (b - a)));
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(tightest, 0.3);  // or the bound is worth nothing
+}
+
+// Whatever the plane, f is told from noise, or said to be noise, in few stretches: halving by the
+// general bound on f'' would take 1e7.
+TEST(Search, OfNeedlesInOnePlaneEndsSoon) {
+  Random random(seed);
+  constexpr int pairs = 1000;
+  int all = 0, longest = 0;
+  for (int n = 0; n < pairs; ++n) {
+    const auto [first, second] = nearly_in_one_plane(random, std::pow(10, random.uniform(-18, -8)));
+    const audit::Space space{{64, 64, 64}};
+    audit::Pair pair(first, second, {}, space, {});
+    audit::Search search(pair);
+    for (auto found = search.first(0, 2); found && found->end < 2;) {
+      found = search.next(found->end, 2);
+    }
+    all += search.looked_at();
+    longest = std::max(longest, search.looked_at());
+  }
+  std::printf("stretches %g a pair, at most %d\n", double(all) / pairs, longest);
+  EXPECT_LT(all, 150 * pairs);
 }
 
 std::string test_name(const testing::TestParamInfo<PairFamily>& info) {

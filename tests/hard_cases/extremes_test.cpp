@@ -267,7 +267,7 @@ TEST(Subnormal, ComponentsChangeNothing) {
       state.angular_velocity[i][other] = random.normal();
     }
   }
-  const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.audited = false});
+  const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.undecided = 500});
   EXPECT_EQ(run.stop, Stop::collisions);
   // Directors given by subnormal numbers alone.
   for (auto& u : state.orientation) {

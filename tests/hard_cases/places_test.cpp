@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "src/error.h"
 #include "tests/hard_cases/hard_scene.h"
 #include "tests/support/quad_gas.h"
 #include "tests/support/random.h"
@@ -273,7 +274,7 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
         add_needle(state, r, u, v, w);
       }
       SCOPED_TRACE("axis " + std::to_string(axis) + (parallel ? ", parallel" : ""));
-      const HardRun run = run_hard(elastic(), state, until_time(10.0 / thin), {.audited = false});
+      const HardRun run = run_hard(elastic(), state, until_time(4.0 / thin), {.undecided = 1000});
       EXPECT_EQ(run.collisions.size(), 0u);
       EXPECT_EQ(run.stop, Stop::time);
       std::printf("evaluated %g, escalated %g per prediction of %zu\n",
@@ -290,6 +291,59 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
       EXPECT_LT(double(rigorous.counters().evaluated), 1e4 * double(rigorous.counters().predicted));
     }
   }
+}
+
+// Needles in one plane that no axis is normal to, but for rounding.
+State one_tilted_plane(Random& random) {
+  const Three e1 = random.direction();
+  Three e2 = perpendicular(random.direction(), e1);
+  e2 = 1 / std::sqrt(dot(e2, e2)) * e2;
+  const Three normal = cross(e1, e2);
+  const auto in_plane = [&](double a, double b) { return a * e1 + b * e2; };
+  State state = empty_state({5, 5, 5});
+  for (int n = 0; n < 30; ++n) {
+    const double x = random.uniform(-1.5, 1.5), y = random.uniform(-1.5, 1.5);
+    const double angle = random.uniform(0, 6);
+    add_needle(state, Three{2.5, 2.5, 2.5} + in_plane(x, y),
+               in_plane(std::cos(angle), std::sin(angle)),
+               in_plane(random.normal(), random.normal()), 3.4 * random.normal() * normal);
+  }
+  return state;
+}
+
+// Rounding takes them out of their plane, so that some meet, and part again as slowly as rounding
+// has it, if at all.
+TEST(OnePlane, TiltedGoesOnOrSaysWhyNot) {
+  Random random(seed);
+  std::uint64_t met = 0, stopped = 0;
+  for (int tilt = 0; tilt < 4; ++tilt) {
+    SCOPED_TRACE(tilt);
+    const State state = one_tilted_plane(random);
+    Scene scene = elastic();
+    const HardRun run = run_hard(scene, state, until_time(1.0 / thin), {.undecided = 200});
+    std::printf("%zu collisions, %g of %g flights undecided; %s\n", run.collisions.size(),
+                double(run.tally.undecided), double(run.tally.checked), run.failure.c_str());
+    EXPECT_TRUE(run.stop == Stop::time || run.failure.starts_with("collapse of needles"));
+    scene.needles.count = state.size();
+    scene.collisions.tc_relative = 1e-3;
+    for (const std::string level : {"fast", "standard", "rigorous"}) {
+      SCOPED_TRACE(level);
+      scene.engine.accuracy = level;
+      Simulation simulation(scene, state);
+      try {
+        EXPECT_EQ(simulation.advance(until_time(1.0 / thin)), Stop::time);
+      } catch (const InvalidStateError& error) {
+        EXPECT_NE(std::string(error.what()).find("meet by rounding alone"), std::string::npos);
+        ++stopped;
+      }
+      const Counters counters = simulation.counters();
+      met += simulation.totals().collisions;
+      // No stretch of time is cut to dust.
+      EXPECT_LT(double(counters.evaluated),
+                (level == "rigorous" ? 1e4 : 500) * double(counters.predicted));
+    }
+  }
+  std::printf("%d collisions, %d runs stopped\n", int(met), int(stopped));
 }
 
 }  // namespace
