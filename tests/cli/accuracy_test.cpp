@@ -1,16 +1,19 @@
 // Accuracies as a user meets them: pairs/accuracy.csv holds pairs on which they differ.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/cli/program.h"
+#include "tests/support/oracle.h"
 
 namespace needlework::test {
 namespace {
@@ -21,7 +24,7 @@ class Accuracy : public ProgramTest {
 
   /// Contact times by id.
   std::vector<double> times(const std::string& flags) const {
-    const Outcome outcome = run("predict " + pairs + ' ' + flags);
+    const needlework::Outcome outcome = run("predict " + pairs + ' ' + flags);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::vector<double> out;
     std::istringstream lines(outcome.out);
@@ -31,14 +34,34 @@ class Accuracy : public ProgramTest {
     return out;
   }
 
-  /// What each pair shows, by id.
-  static std::vector<std::string> families() {
-    std::vector<std::string> out;
+  struct Shown {
+    std::string what;     ///< that the pair shows
+    OracleAnswer answer;  ///< of the oracle
+  };
+  /// By id.
+  static std::vector<Shown> shown() {
+    std::vector<Shown> out;
     std::ifstream file(pairs);
     for (std::string line; std::getline(file, line);) {
       if (line.empty() || line[0] == '#') continue;
-      const std::size_t first = line.find(',') + 1;
-      out.push_back(line.substr(first, line.find(',', first) - first));
+      std::istringstream fields(line);
+      std::string id, what, field;
+      std::getline(std::getline(fields, id, ','), what, ',');
+      std::vector<double> numbers;
+      while (std::getline(fields, field, ',')) numbers.push_back(std::stod(field));
+      if (numbers.size() != 26) throw std::runtime_error("expected 28 columns: " + line);
+      const auto three = [&](std::size_t at) {
+        return std::array{numbers[at], numbers[at + 1], numbers[at + 2]};
+      };
+      const auto needle = [&](std::size_t at) {
+        FreeNeedle out;
+        out.position = three(at);
+        out.orientation = three(at + 3);
+        out.velocity = three(at + 6);
+        out.angular_velocity = three(at + 9);
+        return out;
+      };
+      out.push_back({what, first_contact(needle(1), needle(13), numbers[0], numbers[25] != 0)});
     }
     return out;
   }
@@ -52,18 +75,25 @@ bool same_contact(double a, double b) {
 TEST_F(Accuracy, PairsTellTheLevelsApart) {
   const auto standard = times("--accuracy standard"), rigorous = times("--accuracy rigorous");
   const auto fast = times("--accuracy fast"), sampling = times("--isolation sampling");
-  const auto shows = families();
-  ASSERT_EQ(shows.size(), standard.size());
+  const auto pairs = shown();
+  ASSERT_EQ(pairs.size(), standard.size());
   std::map<std::string, int> seen;
-  for (std::size_t i = 0; i < shows.size(); ++i) {
-    ++seen[shows[i]];
-    EXPECT_TRUE(same_contact(standard[i], rigorous[i])) << i;
-    if (shows[i] == "sampling") {
-      EXPECT_GT(sampling[i], standard[i] * (1 + 1e-9)) << i;
-    } else if (shows[i] == "fast") {
-      EXPECT_FALSE(same_contact(fast[i], standard[i])) << i;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [what, truth] = pairs[i];
+    SCOPED_TRACE("pair " + std::to_string(i));
+    ++seen[what];
+    // Not so near to the other decision that rounding its numbers could flip it.
+    EXPECT_GT(truth.decision_margin, 8);
+    EXPECT_TRUE(same_contact(standard[i], truth.time)) << standard[i] << ' ' << truth.time;
+    EXPECT_TRUE(same_contact(rigorous[i], truth.time)) << rigorous[i] << ' ' << truth.time;
+    if (what == "sampling") {
+      EXPECT_GT(sampling[i], truth.time * (1 + 1e-9));
+    } else if (what == "fast") {
+      EXPECT_FALSE(same_contact(fast[i], truth.time));
     } else {
-      EXPECT_NE(standard[i], rigorous[i]) << i;
+      // The engine makes directors unit vectors in double, the oracle with all digits.
+      EXPECT_LE(std::abs(rigorous[i] - truth.time), std::nextafter(truth.time, 9) - truth.time);
+      EXPECT_GT(std::abs(standard[i] - truth.time), std::abs(rigorous[i] - truth.time));
     }
   }
   EXPECT_GE(seen["sampling"], 5);
@@ -101,7 +131,7 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
   for (const char* accuracy : {"fast", "standard", "rigorous"}) {
     for (const char* how : {"--set engine.search=all-pairs", "--set engine.search=linked-cells",
                             "--set engine.search=capsules", "--threads 2 --isa scalar"}) {
-      const Outcome outcome = run(
+      const needlework::Outcome outcome = run(
           std::string("run gas.toml --json --quiet --set engine.accuracy=") + accuracy + ' ' + how);
       ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
       const auto report = outcome.json();
@@ -112,7 +142,7 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
   }
   EXPECT_NE(hashes["fast"], hashes["standard"]);
   EXPECT_NE(hashes["rigorous"], hashes["standard"]);
-  const Outcome knobs =
+  const needlework::Outcome knobs =
       run("run gas.toml --json --quiet --set engine.isolation=sampling "
           "--set engine.filter=double");
   ASSERT_EQ(knobs.exit_code, 0) << knobs.err;
@@ -122,8 +152,8 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
 // The filter is no part of what a contact is.
 TEST_F(Accuracy, TheFilterChangesNoBit) {
   write("gas.toml", "needles = {count = 300, box = 5}\nuntil.collisions_per_needle = 4\n");
-  const Outcome one = run("run gas.toml --json --quiet");
-  const Outcome two = run("run gas.toml --json --quiet --set engine.filter=double");
+  const needlework::Outcome one = run("run gas.toml --json --quiet");
+  const needlework::Outcome two = run("run gas.toml --json --quiet --set engine.filter=double");
   ASSERT_EQ(two.exit_code, 0) << two.err;
   EXPECT_EQ(one.json().at("trajectory_hash"), two.json().at("trajectory_hash"));
   EXPECT_EQ(two.json().at("stats").at("isolated"), 0);
