@@ -48,8 +48,6 @@ SETTINGS = {
 }
 # Elastic, at the densities of the paper: n L^3 = 0.72 and 11.6.
 GASES = {"dilute": 0.7234, "dense": 11.574}
-FAMILIES = ["thermal-k6", "parallel", "tip", "grazing", "just-collided", "fast-spin", "still",
-            "planar", "mixed-scales"]
 
 
 class Bench:
@@ -85,7 +83,7 @@ def measure_pairs(bench, scale):
     texts = {n: ",".join([SETTINGS[n].get("accuracy", "standard")] + [
         f"{k}={v}" for k, v in SETTINGS[n].items() if k != "accuracy"]) for n in names}
     out = {}
-    for family in FAMILIES:
+    for family in study.output_of([bench.pairs_program, "--families"]).split():
         count = int(scale * (200_000 if family.startswith("thermal") else 20_000))
         answer = json.loads(study.output_of([bench.pairs_program, family, "--pairs", str(count),
                                              "--accuracy", *texts.values()]))
