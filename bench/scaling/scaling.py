@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Measures how a run gains from threads, and what limits it.
 
-    bench/scaling/scaling.py                 all scenes on 1 to all cores, 10 minutes on two
+    bench/scaling/scaling.py                 all scenes on 1 to all cores, 15 minutes on two
     bench/scaling/scaling.py dilute weak     some of them
     bench/scaling/scaling.py tables          no measuring: table and picture anew from the file
 
 Repetitions of all settings are interleaved, and the best of each is taken: wall time of the event
 loop per collision. "alone" is one thread with whatever search and queue is best for one; "apart" is
 as many runs of that as there are threads, at once, and their collisions together: what the cores
-can give. Writes scaling.json, scaling.md and scaling.svg to bench/results/MACHINE-ISA/.
+can give; "crowded" has four threads for each core. "ensemble" is `needlework sweep` on twelve
+members. Writes scaling.json, scaling.md and scaling.svg to bench/results/MACHINE-ISA/.
 """
 
 import argparse
@@ -17,6 +18,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -34,6 +36,12 @@ STRONG = {
     "dilute-1e6": (1000000, DILUTE * 1e6 ** (1 / 3), 1.5),
 }
 WEAK = {"weak": (100000, DILUTE, 4)}  # needles for each thread
+CROWDED = ["dilute", "dense"]
+ENSEMBLE = {"ensemble": (2000, 14.0, 40)}  # each member
+SCENES = STRONG | WEAK | ENSEMBLE
+GRID = """scene = "member.toml"
+seeds = { first = 1, count = 12 }
+"""
 
 
 def scene(needles, box, collisions):
@@ -53,14 +61,47 @@ def end(process):
     return json.loads(out)
 
 
+def sweep(program, name, folder, threads):
+    """Twelve runs, so many at a time, as if they were one."""
+    needles, box, collisions = ENSEMBLE[name]
+    (folder / "member.toml").write_text(scene(needles, box, collisions))
+    (folder / "grid.toml").write_text(GRID)
+    with tempfile.TemporaryDirectory() as out:
+        begin = time.perf_counter()
+        report = json.loads(study.output_of(
+            [program, "sweep", folder / "grid.toml", "--out", out, "--threads", str(threads),
+             "--json", "--quiet"]))
+        wall = time.perf_counter() - begin
+    point, = report["points"]
+    return {"scene": name, "kind": "together" if threads > 1 else "alone", "threads": threads,
+            "needles": needles, "wall_s": wall,
+            "collisions_per_s": len(point["seeds"]) * point["results"]["collisions"]["mean"] / wall}
+
+
+def measure_ensemble(program, name, counts, repetitions):
+    with tempfile.TemporaryDirectory() as folder:
+        runs = [sweep(program, name, Path(folder), n) for _ in range(repetitions) for n in counts]
+    results = [max((r for r in runs if r["threads"] == n), key=lambda r: r["collisions_per_s"])
+               for n in counts]
+    for r in results:
+        r["us_per_collision"] = 1e6 / r["collisions_per_s"]
+        print(f"{name:11} {r['kind']:9} {r['threads']:2}  {r['us_per_collision']:7.3f} us per collision",
+              flush=True)
+    return results
+
+
 def measure(program, names, most, repetitions):
     results = []
+    counts = sorted({1, most} | {n for n in (2, 3, 4, 6, 8, 12, 16, 24, 32) if n <= most})
     for name in names:
+        if name in ENSEMBLE:
+            results += measure_ensemble(program, name, counts, repetitions)
+            continue
         weak = name in WEAK
-        needles, box, collisions = (WEAK if weak else STRONG)[name]
-        counts = sorted({1, most} | {n for n in (2, 3, 4, 6, 8, 12, 16, 24, 32) if n <= most})
+        needles, box, collisions = SCENES[name]
         settings = [("alone", 1)] + [("together", n) for n in counts if n > 1]
         settings += [("apart", n) for n in counts if n > 1]
+        settings += [("crowded", 4 * most)] * (name in CROWDED)
         best = {}
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(repetitions):
@@ -98,7 +139,9 @@ def table(data):
         one = by[name, "alone", 1]
         gain = r["collisions_per_s"] / one["collisions_per_s"]
         cells = [name, f"{r['needles']}", f"{n}", f"{r['us_per_collision']:.2f}"]
-        if kind == "together":
+        if kind == "crowded" or (kind == "together" and name in ENSEMBLE):
+            cells += [f"{gain:.2f}", f"{gain / n:.2f}"] + [""] * 5
+        elif kind == "together":
             apart = by[name, "apart", n]["collisions_per_s"]
             s = r["stats"]
             cells += [f"{gain:.2f}", f"{gain / n:.2f}", f"{r['collisions_per_s'] / apart:.2f}",
@@ -121,10 +164,10 @@ def draw(data, file):
     by = {}
     for r in data["results"]:
         by.setdefault(r["scene"], {})[r["kind"], r["threads"]] = r["collisions_per_s"]
-    most = max(r["threads"] for r in data["results"])
+    most = max(r["threads"] for r in data["results"] if r["kind"] == "together")
     for name, rates in by.items():
         points = [(n, rate / rates["alone", 1]) for (kind, n), rate in sorted(rates.items())
-                  if kind != "apart"]
+                  if kind in ("alone", "together")]
         axes.plot(*zip(*points), "o-", label=name)
     axes.plot([1, most], [1, most], color="0.7", linestyle="--", label="ideal")
     axes.set_xticks(range(1, most + 1) if most < 9 else [1, 2, 4, 8, 16, 32])
@@ -138,24 +181,24 @@ def draw(data, file):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", help=", ".join([*STRONG, *WEAK, "tables"]))
+    parser.add_argument("scenes", nargs="*", help=", ".join([*SCENES, "tables"]))
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
     parser.add_argument("--machine", help="its name among the results")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--repetitions", type=int, default=5)
     arguments = parser.parse_args()
-    names = arguments.scenes or [*STRONG, *WEAK]
+    names = arguments.scenes or list(SCENES)
     folder = study.BENCH / "results" / (arguments.machine or study.machine_name(arguments.build))
     file = folder / "scaling.json"
     if names != ["tables"]:
         for name in names:
-            if name not in STRONG and name not in WEAK:
-                parser.error(f"{name}: expected some of {', '.join([*STRONG, *WEAK, 'tables'])}")
+            if name not in SCENES:
+                parser.error(f"{name}: expected some of {', '.join([*SCENES, 'tables'])}")
         new = measure(arguments.build / "needlework", names, arguments.threads,
                       arguments.repetitions)
         old = json.loads(file.read_text())["results"] if file.exists() else []
         kept = [r for r in old if r["scene"] not in names]
-        order = [*STRONG, *WEAK]
+        order = list(SCENES)
         study.write_json(file, {"commit": study.commit(), "results": sorted(
             kept + new, key=lambda r: order.index(r["scene"]))})
     data = json.loads(file.read_text())

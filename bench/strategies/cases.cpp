@@ -140,7 +140,7 @@ std::vector<Case> by_hulls() {
       gas.name += fmt::format(",k={}", k);
       std::vector<Parts> sizes;
       for (const double hull : {0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0}) {
-        sizes.push_back(searched_by(auto_search(density)));
+        sizes.push_back(searched_by(chosen_search("auto", density)));
         sizes.back().hull = hull;
       }
       for (Case& one : product({gas}, sizes)) out.push_back(std::move(one));

@@ -1,11 +1,16 @@
 // What `auto` stands for.
 #pragma once
 
+#include <string>
+
 namespace needlework {
 
-/// For one thread, the calendar that is among the fastest at any number of needles (bench/queues),
-/// the rest being equal: at 1e3 to 1e6 needles it takes a few per cent of an event's time. For
-/// several, the one that they can share.
-inline const char* auto_queue(int threads) { return threads > 1 ? "cell-calendar" : "tournament"; }
+/// The calendar asked for by name. By `auto`: for one thread, one that is near the fastest at any
+/// number of needles (bench/queues), where all take a few per cent of an event's time, and needs no
+/// width to be tuned; for several, the one that they can share.
+inline std::string chosen_calendar(const std::string& asked, int threads) {
+  if (asked != "auto") return asked;
+  return threads > 1 ? "cell-calendar" : "tournament";
+}
 
 }  // namespace needlework

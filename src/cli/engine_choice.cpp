@@ -9,18 +9,14 @@
 #include <vector>
 
 #include "kernels/isa.h"
-#include "src/calendar/choice.h"
 #include "src/error.h"
 #include "src/scene/check.h"
-#include "src/search/choice.h"
 
 namespace needlework::cli {
 namespace {
 
 using Names = std::vector<std::string>;
 
-const Names searches{"linked-cells", "capsules", "linked-lists", "all-pairs"};
-const Names queues{"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"};
 const Names parallel_searches{"linked-cells", "capsules"};
 const Names parallel_queues{"cell-calendar"};
 
@@ -29,12 +25,6 @@ bool contains(const Names& names, const std::string& name) {
 }
 
 std::string list(const Names& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-void require_offered(const std::string& value, const std::string& place, const Names& offered) {
-  if (value == "auto" || contains(offered, value)) return;
-  throw InputError(fmt::format("{}: expected one of auto, {} (all that this version offers)", place,
-                               list(offered)));
-}
 
 void require_instruction_set(const std::string& isa, const std::string& place) {
   const Names names = instruction_sets();
@@ -64,13 +54,6 @@ std::vector<std::string> instruction_sets() {
 
 void choose_engine(Scene& scene, const EngineFlags& flags) {
   Scene::Engine& engine = scene.engine;
-  const auto require_value_offered = [&](const char* key, const std::string& value,
-                                         const Names& offered) {
-    require_offered(value, place_of(scene, key, value), offered);
-  };
-  require_value_offered("engine.search", engine.search, searches);
-  require_value_offered("engine.queue", engine.queue, queues);
-
   std::string isa_place = place_of(scene, "engine.isa", engine.isa);
   const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
   if (flags.isa) {
@@ -106,12 +89,6 @@ void choose_engine(Scene& scene, const EngineFlags& flags) {
   if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
 }
 
-std::string resolved_search(const Scene::Engine& engine, double density) {
-  return engine.search == "auto" ? auto_search(density) : engine.search;
-}
-std::string resolved_queue(const Scene::Engine& engine) {
-  return engine.queue == "auto" ? auto_queue(engine.threads.value_or(1)) : engine.queue;
-}
 std::string resolved_isa(const Scene::Engine& engine) {
   return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
 }

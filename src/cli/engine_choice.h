@@ -19,14 +19,12 @@ struct EngineFlags {
 std::vector<std::string> instruction_sets();
 
 /// Puts flags, then the environment (NEEDLEWORK_ISA where the scene says auto), into the scene and
-/// checks that search, queue, threads and ISA are on offer. OMP_NUM_THREADS is a wish for
-/// at most so many threads; as the engine has one thread, every value of it is met by 1.
+/// checks that threads and instruction set are on offer. OMP_NUM_THREADS is a wish for at most so
+/// many threads, where the scene does not say how many; a search or queue for one thread takes one.
 /// Throws InputError naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene, const EngineFlags& flags);
 
-/// The names that `auto` stands for.
-std::string resolved_search(const Scene::Engine& engine, double density);
-std::string resolved_queue(const Scene::Engine& engine);
+/// The name that `auto` stands for.
 std::string resolved_isa(const Scene::Engine& engine);
 
 }  // namespace needlework::cli

@@ -10,6 +10,7 @@
 #include "src/cli/resources.h"
 #include "src/error.h"
 #include "src/scene/check.h"
+#include "src/search/choice.h"
 
 namespace needlework::cli {
 namespace {
@@ -32,7 +33,7 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
   // Fits to n L^3 = 0.01 to 50 at N = 1e4. The number of candidates grows with the density, or with
   // the number of needles, unless filtered by lanes. On the long way to the next collision of a
   // dilute gas a needle leaves cells, whose side is about L or takes in some needles.
-  const std::string search = resolved_search(scene.engine, density);
+  const std::string search = chosen_search(scene.engine.search, density);
   const double count = static_cast<double>(scene.needles.count);
   if (density == 0) return 0;  // nothing to collide with
   if (search == "all-pairs") return 40e-6 + 0.042e-6 * count;

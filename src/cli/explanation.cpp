@@ -6,12 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "src/calendar/choice.h"
 #include "src/cli/estimates.h"
 #include "src/cli/json_number.h"
 #include "src/cli/messages.h"
 #include "src/cli/resources.h"
 #include "src/engine/accuracy.h"
 #include "src/scene/check.h"
+#include "src/search/choice.h"
 
 namespace needlework::cli {
 namespace {
@@ -96,10 +98,10 @@ std::string expected_text(const Explanation& e) {
 }
 
 std::string engine_text(const Scene::Engine& engine, double density) {
-  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}",
-                     resolved_search(engine, density), resolved_queue(engine),
-                     accuracy_name(engine), engine.threads.value_or(1),
-                     engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
+  return fmt::format(
+      "search {}, queue {}, accuracy {}, {} thread{}, {}", chosen_search(engine.search, density),
+      chosen_calendar(engine.queue, engine.threads.value_or(1)), accuracy_name(engine),
+      engine.threads.value_or(1), engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
 }
 
 std::string output_text(const Scene::Output& output) {
@@ -166,8 +168,8 @@ Json json_of(const Explanation& e) {
                         {"energy_ratio", number(e.expected->energy_ratio)},
                         {"wall_s", number(e.seconds)}};
   }
-  json["search"] = resolved_search(scene.engine, e.density);
-  json["queue"] = resolved_queue(scene.engine);
+  json["search"] = chosen_search(scene.engine.search, e.density);
+  json["queue"] = chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1));
   json["accuracy"] = accuracy_name(scene.engine);
   json["threads"] = scene.engine.threads.value_or(1);
   json["isa"] = resolved_isa(scene.engine);

@@ -43,12 +43,9 @@ std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter};
   const double volume = initial.box[0] * initial.box[1] * initial.box[2];
-  const std::string search = scene.engine.search == "auto"
-                                 ? auto_search(static_cast<double>(initial.size()) / volume)
-                                 : scene.engine.search;
-  const std::string queue = scene.engine.queue == "auto"
-                                ? auto_queue(scene.engine.threads.value_or(1))
-                                : scene.engine.queue;
+  const std::string search =
+      chosen_search(scene.engine.search, static_cast<double>(initial.size()) / volume);
+  const std::string queue = chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1));
   return with_queue(AllCalendars<CalendarList>(), queue, scene, std::move(initial), search, setup);
 }
 

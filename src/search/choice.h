@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace needlework {
 
-/// The cheaper search.
-inline const char* auto_search(double density) {
+/// The search asked for by name; by `auto`, the cheaper one.
+inline std::string chosen_search(const std::string& asked, double density) {
+  if (asked != "auto") return asked;
   return density < 2.5 ? "linked-cells" : "capsules";
 }
 

@@ -1,4 +1,6 @@
 // What `needlework run` computes, prints and keeps.
+#include <sched.h>
+
 #include <cmath>
 #include <set>
 
@@ -264,6 +266,34 @@ TEST_F(RunCommand, GivesOneTrajectoryOnAnyNumberOfThreads) {
     EXPECT_GT(several["stats"]["phases"], 0);
     for (const char* key : {"trajectory_hash", "collisions", "energy", "momentum", "time"}) {
       EXPECT_EQ(several[key], one[key]) << key;
+    }
+  }
+}
+
+// A word for the shell that leaves the program one of the processors that this one may use.
+std::string on_one_processor() {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  sched_getaffinity(0, sizeof allowed, &allowed);
+  int first = 0;
+  while (first < CPU_SETSIZE && !CPU_ISSET(first, &allowed)) ++first;
+  return "taskset -c " + std::to_string(first);
+}
+
+// Where the runtime and the system put the threads changes no bit, and those that share a processor
+// get on: who waits soon yields.
+TEST_F(RunCommand, RunsWhereverItsThreadsAreBound) {
+  const std::string gas = "small.toml --set needles.count=1000 --set needles.box=9 --threads ";
+  const json one = result(gas + '1');
+  for (const std::string& before :
+       {on_one_processor(), "OMP_PROC_BIND=true " + on_one_processor(),
+        std::string("OMP_PROC_BIND=close OMP_PLACES=cores"), std::string("OMP_PROC_BIND=spread"),
+        std::string("OMP_PROC_BIND=primary"), std::string("OMP_WAIT_POLICY=active")}) {
+    for (const char* threads : {"2", "5"}) {
+      SCOPED_TRACE(before);
+      const json several = result(gas + threads, before);
+      EXPECT_EQ(several["threads"], std::stoi(threads));
+      EXPECT_EQ(several["trajectory_hash"], one["trajectory_hash"]);
     }
   }
 }

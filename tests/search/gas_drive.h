@@ -78,7 +78,6 @@ class GasDrive {
   /// Needle i is placed and searches: each search proposes all contacts that come in time, none
   /// later than it is, and nothing twice.
   void check(Needle i);
-  void check_any() { check(static_cast<Needle>(random_.below(static_cast<int>(gas_.size())))); }
   void check_all();
   /// Lets time pass until shortly before the next contact of i, if there is one, and checks both
   /// needles: then even the hulls that last least last to the contact.

@@ -239,7 +239,9 @@ void expect_found(const Setting& setting) {
   }
   EXPECT_GT(near, steps / 4);
   // Linked cells do not look at when the other one will be placed anew.
-  if (std::is_same_v<Search, Capsules>) EXPECT_EQ(spare, 0);
+  if (std::is_same_v<Search, Capsules>) {
+    EXPECT_EQ(spare, 0);
+  }
   EXPECT_LT(spare, near);
 }
 

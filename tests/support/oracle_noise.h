@@ -91,8 +91,6 @@ class Conditions {
     }
   }
 
-  bool all_hold() const { return all_hold_; }
-
   /// If all hold, the weakest can break it; if not, all the broken ones have to be mended.
   double margin() const { return std::min(all_hold_ ? least_held_ : most_broken_, margin_cap); }
 
