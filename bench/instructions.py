@@ -5,6 +5,7 @@ guard    compares the engine with the committed figures of instructions.json and
          grown by more than 3 %; --update writes them anew.
 effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
          README.md.
+baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
 between their ends, so that set-up drops out. Valgrind 3.19 does not know AVX-512, hence avx2.
@@ -31,6 +32,7 @@ TOLERANCE = 0.03
 NEEDLES = 2000
 SHORT, LONG = 1.0, 3.0  # collisions per needle
 DENSITIES = {"dilute": 10000 / 24**3, "dense": 20000 / 12**3}  # of the paper's scenes
+CELL_SIDES = {0.1: (1.0, 1.36), DENSITIES["dilute"]: (1.17, 1.4), DENSITIES["dense"]: (1.15, 1.3)}
 SKIPPED = 77  # exit code that ctest takes for a skipped test
 
 # Not in equilibrium, or the program would compare each collision's time with theory.
@@ -221,10 +223,25 @@ def effects(program, out):
     return 0
 
 
+def baseline(program):
+    classical = ["engine.search=linked-lists", "engine.queue=indexed-heap"]
+
+    def count(density, side):
+        sides = [f"engine.cell_side={side}"] if side else []
+        return Measured(program, density, "scalar",
+                        PLAIN + classical + sides).instructions_per_collision
+
+    jobs = {(density, side): count(density, side) for density, sides in CELL_SIDES.items()
+            for side in [None, *sides]}
+    for (density, side), (figure, _) in measure_all(jobs).items():
+        print(f"n L^3 = {density:5.2f}, cells of {side or 'its own choice':14}  {figure:.0f}")
+    return 0
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["guard", "effects"])
+    parser.add_argument("what", choices=["guard", "effects", "baseline"])
     parser.add_argument("--program", default=str(BENCH.parent / "build/release/needlework"))
     parser.add_argument("--update", action="store_true",
                         help="guard: write the figures instead of comparing with them")
@@ -234,6 +251,8 @@ def main():
     try:
         if arguments.what == "guard":
             return guard(arguments.program, arguments.update)
+        if arguments.what == "baseline":
+            return baseline(arguments.program)
         return effects(arguments.program, arguments.out)
     except (Failure, OSError, subprocess.CalledProcessError) as error:
         print(f"instructions.py: {error}", file=sys.stderr)
