@@ -29,6 +29,7 @@ SCENES = {
     "isa": [],
     "density": [],
     "size": ["--repetitions", "3"],  # a baseline of 1e6 needles takes its time
+    "matrix": ["--repetitions", "2", "--min-time", "0.5"],
     "storage": ["--repetitions", "3"],
     "hulls": ["--repetitions", "3"],
     "effects": [],
@@ -189,6 +190,24 @@ def hull_table(results):
                   "twice", "chosen over best"], rows)
 
 
+def matrix_table(results):
+    """One line for each gas and search: every queue, and those that `auto` takes over the best."""
+    scenes = {}
+    for case in results["cases"]:
+        scenes.setdefault(case["scene"], []).append(case)
+    rows, queues = [], []
+    for scene, cases in scenes.items():
+        us = {tuple(case["name"].split("/")[1:3]): case["best_us_per_collision"] for case in cases
+              if not case["baseline"]}
+        baseline = next(case["best_us_per_collision"] for case in cases if case["baseline"])
+        queues = list(dict.fromkeys(queue for _, queue in us))
+        for search in dict.fromkeys(search for search, _ in us):
+            over = us[search, "tournament"] / min(us.values()) - 1
+            rows.append([scene, search, *(number(us[search, queue]) for queue in queues),
+                         f"{100 * over:+.0f} %", number(baseline)])
+    return table(["scene", "search", *queues, "tournament over the best of both", "baseline"], rows)
+
+
 def kernel_table(results):
     best = results["best"]
     lanes = [name for name in best if name.count("/") == 2]
@@ -218,6 +237,7 @@ SECTIONS = [  # part, title, what makes its table
     ("searches", "Searches", case_table),
     ("density", "Density: us per collision of 10000 needles", density_table),
     ("size", "Size: us per collision", size_table),
+    ("matrix", "Every search by every queue: us per collision", matrix_table),
     ("storage", "Storage by place or by id", case_table),
     ("hulls", "Sides of cells and radii of capsules: us per collision", hull_table),
     ("queues", "Queues", case_table),

@@ -124,6 +124,23 @@ std::vector<Case> by_size() {
   return product(gases, {searched_by("auto")});
 }
 
+// Every search by lanes with every queue.
+std::vector<Case> by_all() {
+  std::vector<GasScene> gases;
+  for (const std::uint64_t needles : {1000, 10000, 100000}) {
+    for (const double density : {0.1, 0.72, 11.6, 50.0}) gases.push_back(gas_of(needles, density));
+  }
+  for (const double density : {0.72, 11.6}) gases.push_back(gas_of(1000000, density));
+  std::vector<Parts> parts;
+  for (const std::string& search : fast_searches) {
+    for (Parts one : all_queues()) {
+      one.search = search;
+      parts.push_back(one);
+    }
+  }
+  return product(gases, parts);
+}
+
 // Needles drawn at random places, and so stored by id in no order at all.
 std::vector<Case> by_storage() {
   return product({gas_of(10000, 0.72), gas_of(100000, 0.72), gas_of(1000000, 0.72)},
@@ -205,6 +222,8 @@ const std::vector<Subset>& subsets() {
        }},
       {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
       {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
+      {"matrix", "1000 to 1000000 needles at n L^3 = 0.1 to 50: each search by each queue; an hour",
+       by_all},
       {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
       {"hulls", "8000 needles, k = 2, 6, 100: cells and capsules smaller and larger than chosen",
        by_hulls},
