@@ -15,8 +15,8 @@ enum class Isolation {
 
 /// What goes to double-double arithmetic.
 enum class Escalation {
-  never,      ///< nothing, but what isolation by intervals starts from: double decides everything,
-              ///< without a look at its errors
+  never,      ///< no value of f, which double decides without a look at its errors; bounds on its
+              ///< derivatives may start from coefficients in double-double
   undecided,  ///< what the error bounds of double leave open
   always,     ///< every sign at an end of a stretch that is asked for, and every root
 };

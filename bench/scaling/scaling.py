@@ -164,7 +164,7 @@ def draw(data, file):
     by = {}
     for r in data["results"]:
         by.setdefault(r["scene"], {})[r["kind"], r["threads"]] = r["collisions_per_s"]
-    most = max(r["threads"] for r in data["results"] if r["kind"] == "together")
+    most = max((r["threads"] for r in data["results"] if r["kind"] == "together"), default=1)
     for name, rates in by.items():
         points = [(n, rate / rates["alone", 1]) for (kind, n), rate in sorted(rates.items())
                   if kind in ("alone", "together")]

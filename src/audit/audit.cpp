@@ -18,6 +18,9 @@ constexpr double relative_tolerance = 1e-12;
 /// A collision before its contact is early; without a contact in this share of the time in which
 /// the pair changes, there is none.
 constexpr double early_reach = 0x1p-10;
+/// Needles that touch for longer than this share of that time, as far as rounding goes, may have
+/// come through each other in it.
+constexpr double longest_touch = 0x1p-10;
 
 Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
 
@@ -179,8 +182,8 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   slack_ = 0x1p-51 * epochs;
   for (Index i = 0; i < needles_.size() && !stopped; ++i) {
     for (Index j = i + 1; j < needles_.size() && !stopped; ++j) {
-      check_flight(i, j, end);
       stopped = stop && stop();
+      if (!stopped) check_flight(i, j, end);
     }
   }
   slack_ = 0;
@@ -326,12 +329,9 @@ void Audit::check_apart(const Flown& flown) {
     // What follows now may come first: the contact is due in the flight to come.
     const double early = finding->certain ? tolerance(pair, finding->end) : 0;
     if (to_the_end && finding->end >= duration - early) {
-      if (finding->side != 0) {
-        keep_touch(flown, Start::touching, finding->side);
-      } else {
-        undecided = true;
-      }
-      return settle(pair, undecided);
+      if (finding->side != 0) keep_touch(flown, Start::touching, finding->side);
+      const bool brief = (finding->end - finding->begin) * pair.rate() < longest_touch;
+      return settle(pair, undecided || finding->side == 0 || !brief);
     }
     if (finding->certain) {
       report(Kind::missed, flown.first, flown.second, begin_of(flown.first, flown.second),

@@ -168,7 +168,7 @@ std::optional<Finding> Search::next(double from, double to) {
     if (is_noise(e, middle, half) || finest) {
       return Finding{false, stretch.begin, stretch.end, sign(stretch.begin)};
     }
-    if (looked_at_ >= most_stretches) return Finding{false, stretch.begin, to, sign(stretch.begin)};
+    if (looked_at_ >= most_stretches) return Finding{false, stretch.begin, to, 0};
     if (is_monotone(e, middle, half)) {
       const int before = sign(stretch.begin), after = sign(stretch.end);
       if (before != 0 && before == after) continue;

@@ -18,7 +18,7 @@ namespace needlework::audit {
 struct Finding {
   bool certain = false;  ///< f changes sign, with both contact points on the needles; or may do so
   double begin = 0, end = 0;
-  int side = 0;  ///< sign of f before; 0 when not certain
+  int side = 0;  ///< sign of f before; 0 when that is open, or what has become of it
 };
 
 class Search {

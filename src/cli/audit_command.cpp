@@ -62,18 +62,18 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   Outcome outcome;
   outcome.clock.start();
   const double begin = seconds_since_launch();
-  const auto elapsed_now = [&] { return seconds_since_launch() - begin; };
-  const auto is_stopped = [&] {
-    const bool by_signal = SignalGuard::received();
-    if (!by_signal && !(scene.until.wall_s && elapsed_now() >= *scene.until.wall_s)) return false;
-    outcome.stop = by_signal ? Stop::interrupted : Stop::wall_time;
-    return true;
-  };
   const Totals initial = simulation.totals();
   try {
     for (;;) {
-      if (is_stopped()) break;
-      const double elapsed = elapsed_now();
+      const double elapsed = seconds_since_launch() - begin;
+      if (SignalGuard::received()) {
+        outcome.stop = Stop::interrupted;
+        break;
+      }
+      if (scene.until.wall_s && elapsed >= *scene.until.wall_s) {
+        outcome.stop = Stop::wall_time;
+        break;
+      }
       if (progress.is_due(elapsed)) {
         const Totals now = simulation.totals();
         progress.show(elapsed,
@@ -86,7 +86,11 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
       outcome.stop = simulation.advance(until);
       if (outcome.is_complete()) break;
     }
-    if (outcome.is_complete()) audit.finish(simulation.time(), is_stopped);
+    // until.wall_s is not looked at here, or an audit that goes on with these flights alone might
+    // never come to their end.
+    if (outcome.is_complete() && !audit.finish(simulation.time(), SignalGuard::received)) {
+      outcome.stop = Stop::interrupted;
+    }
   } catch (const InvalidStateError& error) {
     outcome.failure = error.what();
   }

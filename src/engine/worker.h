@@ -374,7 +374,7 @@ void Worker<Search, Queue, effects>::report_collapse(const Event& event) const {
       : run_.restitution.epsilon == 0
           ? "with collisions.epsilon = 0 there is no rebound, and no contact time can help"
       : effects.contact_time
-          ? "no contact time helps needles that meet by rounding alone, as in one plane"
+          ? "a longer contact time helps, unless they meet by rounding alone, as in one plane"
           : "set collisions.tc_relative, to 1e-3 say, so that they slide along each other";
   char numbers[160];
   std::snprintf(numbers, sizeof numbers, " at time %.17g, gap %.3g, back after %.3g",

@@ -343,9 +343,9 @@ TEST(Audit, StoppedWhileItChecksTheLastFlightsIsAsBefore) {
   const std::size_t touches = audit.checkpoint().touches.size();
   EXPECT_GT(touches, 0u);
   for (const int most : {1, 500}) {
-    int flights = 0;
-    EXPECT_FALSE(audit.finish(run.end, [&] { return ++flights == most; }));
-    EXPECT_EQ(flights, most);
+    int asked = 0;
+    EXPECT_FALSE(audit.finish(run.end, [&] { return ++asked == most; }));
+    EXPECT_EQ(asked, most);
     EXPECT_EQ(text_of(audit.tally()), before);
     EXPECT_EQ(audit.checkpoint().touches.size(), touches);
   }

@@ -75,11 +75,11 @@ bool same_contact(double a, double b) {
 TEST_F(Accuracy, PairsTellTheLevelsApart) {
   const auto standard = times("--accuracy standard"), rigorous = times("--accuracy rigorous");
   const auto fast = times("--accuracy fast"), sampling = times("--isolation sampling");
-  const auto pairs = shown();
-  ASSERT_EQ(pairs.size(), standard.size());
+  const auto all = shown();
+  ASSERT_EQ(all.size(), standard.size());
   std::map<std::string, int> seen;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [what, truth] = pairs[i];
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [what, truth] = all[i];
     SCOPED_TRACE("pair " + std::to_string(i));
     ++seen[what];
     // Not so near to the other decision that rounding its numbers could flip it.

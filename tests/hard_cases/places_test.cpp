@@ -344,6 +344,8 @@ TEST(OnePlane, TiltedGoesOnOrSaysWhyNot) {
     }
   }
   std::printf("%d collisions, %d runs stopped\n", int(met), int(stopped));
+  EXPECT_GT(met, 0u);
+  EXPECT_GT(stopped, 0u);
 }
 
 }  // namespace
