@@ -5,8 +5,9 @@
     bench/scaling/scaling.py dilute weak     some of them
     bench/scaling/scaling.py tables          no measuring: table and picture anew from the file
 
-Repetitions of all settings are interleaved, and the best of each is taken: wall time of the event
-loop per collision. "alone" is one thread with whatever search and queue is best for one; "apart" is
+Repetitions of all settings are interleaved. Of the wall time of the event loop per collision the
+best is told, of speed-ups the median: each is over the run by one thread in the same repetition, so
+that a machine which changes its speed does so for both. "alone" is one thread with whatever search and queue is best for one; "apart" is
 as many runs of that as there are threads, at once, and their collisions together: what the cores
 can give; "crowded" has four threads for each core. "ensemble" is `needlework sweep` on twelve
 members. Writes scaling.json, scaling.md and scaling.svg to bench/results/MACHINE-ISA/.
@@ -15,6 +16,7 @@ members. Writes scaling.json, scaling.md and scaling.svg to bench/results/MACHIN
 import argparse
 import json
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -78,13 +80,20 @@ def sweep(program, name, folder, threads):
             "collisions_per_s": len(point["seeds"]) * point["results"]["collisions"]["mean"] / wall}
 
 
+def gain(rates, other_rates):
+    """The median quotient of repetitions."""
+    return statistics.median(a / b for a, b in zip(rates, other_rates))
+
+
 def measure_ensemble(program, name, counts, repetitions):
     with tempfile.TemporaryDirectory() as folder:
         runs = [sweep(program, name, Path(folder), n) for _ in range(repetitions) for n in counts]
     results = [max((r for r in runs if r["threads"] == n), key=lambda r: r["collisions_per_s"])
                for n in counts]
+    rates = {n: [r["collisions_per_s"] for r in runs if r["threads"] == n] for n in counts}
     for r in results:
         r["us_per_collision"] = 1e6 / r["collisions_per_s"]
+        r["speed_up"] = gain(rates[r["threads"]], rates[1])
         print(f"{name:11} {r['kind']:9} {r['threads']:2}  {r['us_per_collision']:7.3f} us per collision",
               flush=True)
     return results
@@ -102,7 +111,7 @@ def measure(program, names, most, repetitions):
         settings = [("alone", 1)] + [("together", n) for n in counts if n > 1]
         settings += [("apart", n) for n in counts if n > 1]
         settings += [("crowded", 4 * most)] * (name in CROWDED)
-        best = {}
+        best, rates = {}, {}
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(repetitions):
                 for kind, n in settings:
@@ -113,11 +122,13 @@ def measure(program, names, most, repetitions):
                     runs = [end(p) for p in [start(program, file, 1 if kind == "apart" else n)
                                              for _ in range(n if kind == "apart" else 1)]]
                     rate = sum(r["collisions"] / r["wall_s"] for r in runs)
+                    rates.setdefault((kind, n), []).append(rate)
                     if rate > best.get((kind, n), (0, None))[0]:
                         best[kind, n] = rate, runs[0]
         for (kind, n), (rate, run) in best.items():
             results.append({"scene": name, "kind": kind, "threads": n, "needles": run["needles"],
                             "collisions_per_s": rate, "us_per_collision": 1e6 / rate,
+                            "speed_up": gain(rates[kind, n], rates["alone", 1]),
                             "cpu_us_per_collision": run["us_per_collision"],
                             "hash": run["trajectory_hash"], "queue": run["queue"],
                             "search": run["search"], "events": run["events"], "wall_s": run["wall_s"],
@@ -136,15 +147,13 @@ def table(data):
     for (name, kind, n), r in by.items():
         if kind == "apart":
             continue
-        one = by[name, "alone", 1]
-        gain = r["collisions_per_s"] / one["collisions_per_s"]
         cells = [name, f"{r['needles']}", f"{n}", f"{r['us_per_collision']:.2f}"]
         if kind == "crowded" or (kind == "together" and name in ENSEMBLE):
-            cells += [f"{gain:.2f}", f"{gain / n:.2f}"] + [""] * 5
+            cells += [f"{r['speed_up']:.2f}", f"{r['speed_up'] / n:.2f}"] + [""] * 5
         elif kind == "together":
-            apart = by[name, "apart", n]["collisions_per_s"]
+            apart = by[name, "apart", n]["speed_up"]
             s = r["stats"]
-            cells += [f"{gain:.2f}", f"{gain / n:.2f}", f"{r['collisions_per_s'] / apart:.2f}",
+            cells += [f"{r['speed_up']:.2f}", f"{r['speed_up'] / n:.2f}", f"{r['speed_up'] / apart:.2f}",
                       f"{s['border'] / r['events']:.2f}",
                       f"{r['events'] / s['turns']:.1f}",
                       f"{100 * s['blocked_s'] / (n * r['wall_s']):.0f} %",
@@ -163,10 +172,10 @@ def draw(data, file):
     figure, axes = plt.subplots(figsize=(5.2, 4))
     by = {}
     for r in data["results"]:
-        by.setdefault(r["scene"], {})[r["kind"], r["threads"]] = r["collisions_per_s"]
+        by.setdefault(r["scene"], {})[r["kind"], r["threads"]] = r["speed_up"]
     most = max((r["threads"] for r in data["results"] if r["kind"] == "together"), default=1)
-    for name, rates in by.items():
-        points = [(n, rate / rates["alone", 1]) for (kind, n), rate in sorted(rates.items())
+    for name, gains in by.items():
+        points = [(n, gain) for (kind, n), gain in sorted(gains.items())
                   if kind in ("alone", "together")]
         axes.plot(*zip(*points), "o-", label=name)
     axes.plot([1, most], [1, most], color="0.7", linestyle="--", label="ideal")

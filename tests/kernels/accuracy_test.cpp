@@ -85,7 +85,9 @@ TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
     const ExactTime exact = exact_time(pair, rigorous.elapsed);
     // Returns within 1e-8 of a length lie so near to the touch before that this is all there is.
     // Nothing else does.
-    if (!pair.touch.touching) ASSERT_LE(exact.noise, Quad(0x1p-54) * exact.time);
+    if (!pair.touch.touching) {
+      ASSERT_LE(exact.noise, Quad(0x1p-54) * exact.time);
+    }
     if (exact.noise > Quad(0x1p-54) * exact.time) {
       ++in_noise;
       continue;
