@@ -3,7 +3,8 @@
 
 The oracle settles in double what is far from every limit, and the rest in many digits; one pair in
 128 is settled both ways. Takes up where it was stopped: what has been counted stays in the file,
-and a family that has fewer pairs than asked for goes on with others. Stop it at any time (Ctrl-C).
+and a family that has fewer pairs than asked for goes on with others. Stop it at any time (Ctrl-C). Exits
+with 1 when a contact was missed or invented outside of the condition limit.
 
     bench/accuracy/misses.py --file FILE --thermal 5e8 --hard 1e7     # 1 + 3 hours on one core
 """
@@ -13,6 +14,7 @@ import json
 import math
 import pathlib
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 THERMAL = ["thermal-k6", "thermal-k2"]
@@ -58,6 +60,10 @@ def main():
         if commit not in done[family].setdefault("commits", []):
             done[family]["commits"].append(commit)
         keep(options.file, counts)
+    wrong = [f for f in families if done[f]["missed"] or done[f]["spurious"]]
+    if wrong:
+        print(f"missed or invented: {', '.join(wrong)}; see {options.file.with_suffix('.md')}")
+    return 1 if wrong else 0
 
 
 def add_portion(done, family, options):
@@ -113,6 +119,6 @@ def table(counts):
 
 if __name__ == "__main__":
     try:
-        main()
+        sys.exit(main())
     except KeyboardInterrupt:
-        pass
+        sys.exit(130)
