@@ -312,6 +312,26 @@ TEST(ContactTime, OfAnAbsoluteKindIsChecked) {
   EXPECT_GT(run.audited().count(Kind::wrong_rule), 0u);
 }
 
+// One needle spins above another, so fast that the search gives up: of what then came nothing is
+// known, also when the flight ends with it.
+TEST(Audit, SaysWhenItGaveUp) {
+  State state;
+  state.box = {8, 8, 8};
+  state.id = {0, 1};
+  state.position = {{4, 4, 4}, {4, 4, 4.4}};
+  state.orientation = {{0.8, 0, 0.6}, {0, 1, 0}};
+  state.velocity = {{0, 0, 0}, {0, 0, 0}};
+  state.angular_velocity = {{0, 0, 0}, {0, 0, 1}};
+  for (const double spin : {1.0, 1e5}) {
+    state.angular_velocity[1][2] = spin;
+    audit::Audit audit(state, setup_of(test::scene_of(2, 8), 1));
+    audit.finish(1);
+    EXPECT_TRUE(audit.tally().clean());
+    EXPECT_EQ(audit.tally().checked, 1u);
+    EXPECT_EQ(audit.tally().undecided, spin > 1 ? 1u : 0u);
+  }
+}
+
 // --- Interruption.
 
 TEST(Audit, GoesOnWhereItWasInterrupted) {
