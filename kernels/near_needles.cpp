@@ -39,9 +39,10 @@ namespace scalar {
 
 namespace {
 
-#define NEEDLEWORK_NEAR_KERNELS(isa, name)                                                 \
-  constexpr NearKernels isa##_kernels = {Isa::isa, name::lanes_at_once, name::overlapping, \
-                                         name::approaching, name::isolate}
+#define NEEDLEWORK_NEAR_KERNELS(isa, name)                          \
+  constexpr NearKernels isa##_kernels = {                           \
+      Isa::isa,          name::lanes_at_once,    name::overlapping, \
+      name::approaching, name::contact_function, name::isolate}
 
 NEEDLEWORK_NEAR_KERNELS(scalar, scalar);
 #if HWY_TARGETS & HWY_SSE4

@@ -103,6 +103,21 @@ struct PairColumns {
   float* column[columns];
 };
 
+/// The contact function of pairs, in columns with room for one block more than there are pairs.
+struct ContactColumns {
+  enum Column {
+    f,
+    df,
+    ddf,      // its derivatives
+    gap,      // how far the needles are apart, as segments
+    error_f,  // by how much these may be off, of needles whose bounding spheres overlap
+    error_df,
+    error_ddf,
+    columns
+  };
+  float* column[columns];
+};
+
 /// What a scan of cells came to.
 struct Scan {
   std::size_t seen;   ///< needles in the cells
@@ -121,6 +136,9 @@ struct NearKernels {
   /// Needles whose bounding spheres come to overlap the seeker's in the time ahead; their columns
   /// a are velocities.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
+  /// What isolate() knows of the first n pairs at time s from now.
+  void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
+                           const ContactColumns& out);
   /// Sets `from` of the first n pairs. Returns the evaluations of the contact function, by lanes.
   std::size_t (*isolate)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };

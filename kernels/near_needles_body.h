@@ -161,6 +161,69 @@ NEEDLEWORK_INLINE LaneSample sample(const LanePairs& pair, Lanes s) {
   return out;
 }
 
+/// Those of the lanes from k on.
+NEEDLEWORK_INLINE LanePairs load_pairs(const Seeker& seeker, const PairColumns& pairs,
+                                       std::size_t k) {
+  using C = PairColumns;
+  const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
+  LanePairs pair;
+  pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
+  pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
+  pair.u[0] = broadcast(seeker.motion.u);
+  pair.p[0] = broadcast(seeker.motion.p);
+  pair.omega[0] = Lanes(seeker.motion.omega);
+  pair.age[0] = Lanes(0.0f);
+  pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
+  pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
+  pair.omega[1] = column(C::omega);
+  pair.age[1] = column(C::age);
+  return pair;
+}
+
+/// What bounds the contact function of pairs up to a time, and what rounding does to it.
+struct LaneBounds {
+  Lanes speed, margin;
+  Lanes reach_squared;  // of the centres, where needles may touch
+  Lanes bend, twist;    // while the bounding spheres overlap, f'' is at most `bend`, and the third
+                        // derivative 6 times `twist`
+  Lanes error_f, error_df, error_ddf;
+  Mask trusted;  // the phases are not too large for these
+};
+
+NEEDLEWORK_INLINE LaneBounds bounds_of(const Seeker& seeker, const LanePairs& pair, Lanes until) {
+  LaneBounds out;
+  const Lanes half(0.5f), w = pair.omega[0] + pair.omega[1];
+  const Lanes v = square_root(dot(pair.v, pair.v));
+  out.speed = v + half * w;
+  // What times off by 2^-20 and phases off by 2^-23 of themselves do, and the caller's margin.
+  const Lanes swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
+  const Lanes phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
+  out.margin = Lanes(seeker.margin) + swift * Lanes(0x1p-18f) + phase * Lanes(0x1p-20f);
+  out.trusted = phase < Lanes(0x1p12f);
+  const Lanes reach = Lanes(1 + 0x1p-10f) + out.margin;
+  out.reach_squared = reach * reach + dot(pair.r, pair.r) * Lanes(0x1p-18f);
+  const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(out.reach_squared);
+  out.bend = ((v + v) + arm * w) * w;
+  out.twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
+  out.error_f = out.margin + out.margin;
+  out.error_df = out.margin * (out.speed + out.speed);
+  out.error_ddf = out.margin * (out.bend + out.bend);
+  return out;
+}
+
+void contact_function(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
+                      const ContactColumns& out) {
+  using C = ContactColumns;
+  for (std::size_t k = 0; k < n; k += lanes_at_once) {
+    const LanePairs pair = load_pairs(seeker, pairs, k);
+    const LaneSample e = sample(pair, Lanes(s));
+    const LaneBounds bounds = bounds_of(seeker, pair, Lanes(s));
+    const Lanes values[C::columns] = {
+        e.f, e.df, e.ddf, e.gap, bounds.error_f, bounds.error_df, bounds.error_ddf};
+    for (int c = 0; c < C::columns; ++c) store_lanes(values[c], out.column[c] + k);
+  }
+}
+
 /// isolate() for the lanes from k to end - 1. Lane k is part (k - first) / pair_count of `parts` of
 /// its pair's time.
 inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs, std::size_t k,
@@ -170,31 +233,15 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
   const Lanes zero(0.0f), one(1.0f), half(0.5f);
   std::size_t evaluations = 0;
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_lanes(pairs.column[c] + k); };
-  LanePairs pair;
-  pair.r = {column(C::r_x), column(C::r_y), column(C::r_z)};
-  pair.v = {column(C::v_x), column(C::v_y), column(C::v_z)};
-  pair.u[0] = broadcast(seeker.motion.u);
-  pair.p[0] = broadcast(seeker.motion.p);
-  pair.omega[0] = Lanes(seeker.motion.omega);
-  pair.age[0] = zero;
-  pair.u[1] = {column(C::u_x), column(C::u_y), column(C::u_z)};
-  pair.p[1] = {column(C::p_x), column(C::p_y), column(C::p_z)};
-  pair.omega[1] = column(C::omega);
-  pair.age[1] = column(C::age);
+  const LanePairs pair = load_pairs(seeker, pairs, k);
   Lanes until = column(C::until);
 
+  const LaneBounds bounds = bounds_of(seeker, pair, until);
+  const Lanes margin = bounds.margin, speed = bounds.speed;
   const Lanes a = dot(pair.v, pair.v), b = dot(pair.r, pair.v), rr = dot(pair.r, pair.r);
-  const Lanes w = pair.omega[0] + pair.omega[1];
-  const Lanes v = square_root(a), speed = v + half * w;
-  // What times off by 2^-20 and phases off by 2^-23 of themselves do, and the caller's margin.
-  const Lanes swift = norm_1(broadcast(seeker.motion.v)) + (norm_1(pair.v) + w);
-  const Lanes phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
-  const Lanes margin = Lanes(seeker.margin) + swift * Lanes(0x1p-18f) + phase * Lanes(0x1p-20f);
-  const Mask trusted = phase < Lanes(0x1p12f);
 
   // Time in which the bounding spheres overlap.
-  const Lanes reach = Lanes(1 + 0x1p-10f) + margin;
-  const Lanes reach_squared = reach * reach + rr * Lanes(0x1p-18f);
+  const Lanes reach_squared = bounds.reach_squared;
   const Lanes c = rr - reach_squared;
   const Lanes discriminant = b * b - a * c;
   const Lanes root = square_root(maximum(discriminant, zero));
@@ -213,12 +260,9 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
     low = low + span * begin;
   }
 
-  // While they do, f'' is at most `bend`, and the third derivative 6 times `twist`.
-  const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(reach_squared);
-  const Lanes bend = ((v + v) + arm * w) * w;
-  const Lanes twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
+  const Lanes bend = bounds.bend, twist = bounds.twist;
   const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
-  const Lanes slope_off = margin * (speed + speed), two_margins = margin + margin;
+  const Lanes slope_off = bounds.error_df, two_margins = bounds.error_f;
   // The first step is one over which f'' changes f by no more than this; steps adapt.
   constexpr float first_bend = 0.2f;
   const Lanes least = Lanes(0x1p-9f) / speed;
@@ -231,7 +275,7 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
     ++evaluations;
     const Lanes middle = half * (low + high), h = half * (high - low);
     const LaneSample e = sample(pair, middle);
-    const Mask known = trusted & (e.gap < Lanes(0x1p10f));
+    const Mask known = bounds.trusted & (e.gap < Lanes(0x1p10f));
 
     // Two bounds, from below, on how far the needles are from a contact up to h before and after
     // the middle, both concave in time: f with its sign, and along the gap that they have now.

@@ -36,6 +36,7 @@ SineCosine<DoubleDouble> sine_cosine(const DoubleDouble& x) {
   constexpr int last = 28;
   const auto coefficient = [](int n) { return inverse_factorial[n - 2]; };
 
+  constexpr double round_magic = 0x1.8p52, two_over_pi = 0x1.45f306dc9c883p-1;
   const double shifted = x.hi * two_over_pi + round_magic;
   const double n = shifted - round_magic;
   DoubleDouble r = x - two_prod(n, 0x1.921fb54442d18p+0);

@@ -1,14 +1,17 @@
 // Kernels by lanes, each on all instruction sets of this CPU; scalar is the twin. Names are
-// KERNEL/GAS/ISA, items are pairs of needles. The answer is compared with the twin's before the
-// clock starts.
+// KERNEL/GAS/ISA, items are pairs of needles (free-flight: needles). The answer is compared with
+// the twin's before the clock starts.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <bit>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench/kernels/neighbourhood.h"
+#include "kernels/free_flight.h"
 #include "src/search/choice.h"
 
 namespace needlework::bench {
@@ -88,6 +91,83 @@ void approaching(benchmark::State& state, Isa isa, double density) {
          });
 }
 
+/// All needles of a gas, to one time; as many as the engine takes at once.
+void free_flight(benchmark::State& state, Isa isa, double density) {
+  using C = kernels::FlightColumns;
+  constexpr std::size_t count = 64;
+  const std::vector<NearPair> pairs = near_pairs(density, count);
+  double initial[C::columns][count], moved[C::columns][count];
+  const auto view = [](double(&columns)[C::columns][count]) {
+    C out;
+    for (int c = 0; c < C::columns; ++c) out.column[c] = columns[c];
+    return out;
+  };
+  for (std::size_t n = 0; n < count; ++n) {
+    const kernels::Flight& flight = pairs[n].first;
+    const Vec3d* vectors[] = {&flight.r, &flight.v, &flight.u, &flight.p};
+    for (int c = 0; c < C::omega; ++c) initial[c][n] = (&vectors[c / 3]->x)[c % 3];
+    initial[C::omega][n] = flight.omega;
+    initial[C::elapsed][n] = time_ahead(density);
+  }
+  std::memcpy(moved, initial, sizeof moved);
+  kernels::fly(isa, view(moved), count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const kernels::Flight& flight = pairs[n].first;
+    const Vec3d r = centre_after(flight, time_ahead(density));
+    const Vec3d u = director_after(flight, time_ahead(density));
+    const bool same = r == Vec3d{moved[C::r_x][n], moved[C::r_y][n], moved[C::r_z][n]} &&
+                      u == Vec3d{moved[C::u_x][n], moved[C::u_y][n], moved[C::u_z][n]};
+    require(same, "free-flight", isa);
+  }
+  double done = 0;
+  for (auto _ : state) {
+    // In place: centres and directors go on from where they are.
+    kernels::fly(isa, view(moved), count);
+    benchmark::ClobberMemory();
+    done += count;
+  }
+  count_pairs(state, done);
+}
+
+void contact_function(benchmark::State& state, Isa isa, double density) {
+  using C = kernels::ContactColumns;
+  std::vector<PairBatch> batches = pair_batches(density, searches);
+  std::size_t room = 0;
+  for (const PairBatch& pairs : batches) room = std::max(room, pairs.size + kernels::block_size);
+  std::vector<float> storage(2 * C::columns * room);
+  const auto view = [&](std::size_t half) {
+    C out;
+    for (std::size_t c = 0; c < C::columns; ++c) {
+      out.column[c] = storage.data() + (half * C::columns + c) * room;
+    }
+    return out;
+  };
+  const auto s = static_cast<float>(0.5 * time_ahead(density));
+  for (PairBatch& pairs : batches) {
+    const auto by = [&](Isa one, std::size_t half) {
+      kernels::near_kernels(one).contact_function(pairs.seeker, pairs.columns(), pairs.size, s,
+                                                  view(half));
+      return view(half);
+    };
+    const C got = by(isa, 0), expected = by(Isa::scalar, 1);
+    for (int c = 0; c < C::columns; ++c) {
+      require(std::memcmp(got.column[c], expected.column[c], pairs.size * sizeof(float)) == 0,
+              "contact-function", isa);
+    }
+  }
+  const NearKernels& chosen = kernels::near_kernels(isa);
+  std::size_t n = 0;
+  double done = 0;
+  for (auto _ : state) {
+    PairBatch& one = batches[n];
+    chosen.contact_function(one.seeker, one.columns(), one.size, s, view(0));
+    benchmark::ClobberMemory();
+    done += static_cast<double>(one.size);
+    n = n + 1 < batches.size() ? n + 1 : 0;
+  }
+  count_pairs(state, done);
+}
+
 void isolate(benchmark::State& state, Isa isa, double density) {
   std::vector<PairBatch> batches = pair_batches(density, searches);
   const auto result = [](PairBatch& pairs, Isa by) {
@@ -123,7 +203,11 @@ const bool added = [] {
   const struct {
     const char* name;
     void (*measure)(benchmark::State&, Isa, double);
-  } all[] = {{"overlapping", overlapping}, {"approaching", approaching}, {"isolate", isolate}};
+  } all[] = {{"free-flight", free_flight},
+             {"overlapping", overlapping},
+             {"approaching", approaching},
+             {"contact-function", contact_function},
+             {"isolate", isolate}};
   for (const auto& kernel : all) {
     for (const GasName& gas : gases) {
       for (const Isa isa : kernels::available()) {

@@ -32,16 +32,6 @@ void for_pairs(benchmark::State& state, const std::vector<NearPair>& pairs, Appl
       Counter(done / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
 }
 
-void free_flight(benchmark::State& state, double density) {
-  const std::vector<NearPair> pairs = near_pairs(density, pair_count);
-  const double elapsed = time_ahead(density);
-  for_pairs(state, pairs, [&](const NearPair& pair, std::size_t) {
-    const kernels::Flight& flight = pair.first;
-    const SineCosine<double> turned = sine_cosine(flight.omega * elapsed);
-    return centre_after(flight, elapsed) + flight.u * turned.cosine + flight.p * turned.sine;
-  });
-}
-
 void spheres(benchmark::State& state, double density) {
   const std::vector<NearPair> pairs = near_pairs(density, pair_count);
   const double ahead = time_ahead(density);
@@ -91,8 +81,7 @@ const bool added = [] {
   const struct {
     const char* name;
     void (*measure)(benchmark::State&, double);
-  } all[] = {{"free-flight", free_flight},
-             {"spheres-stay-apart", spheres},
+  } all[] = {{"spheres-stay-apart", spheres},
              {"closest-approach", closest_approach},
              {"contact-function", contact_function<double>},
              {"contact-function-double-double", contact_function<DoubleDouble>},

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
+#include "kernels/free_flight.h"
 #include "kernels/power_of_two.h"
 #include "src/engine/accuracy.h"
 #include "src/engine/space_order.h"
@@ -176,30 +178,58 @@ Totals Run::totals() const {
   return out;
 }
 
-State Run::state() const {
+State Run::state(kernels::Isa isa) const {
+  using C = kernels::FlightColumns;
   State out;
   out.box = gas.box;
   std::vector<Needle> by_id(gas.size());
   std::iota(by_id.begin(), by_id.end(), Needle{0});
   std::sort(by_id.begin(), by_id.end(),
             [&](Needle a, Needle b) { return gas.ids[a] < gas.ids[b]; });
-  for (const Needle i : by_id) {
-    out.id.push_back(gas.ids[i]);
-    const kernels::Flight& flight = gas.records[i].flight;
-    const double elapsed = gas.clock.difference(now, gas.records[i].time);
-    std::array<double, 3> r = array(centre_after(flight, elapsed));
-    Shift image = gas.images[i];
-    for (int axis = 0; axis < 3; ++axis) {
-      const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
-      r[axis] = wrapped.place;
-      image[axis] = add_boxes(image[axis], wrapped.boxes);
+  // As many as the first-level cache holds.
+  constexpr std::size_t at_once = 64;
+  double columns[C::columns][at_once];
+  kernels::FlightColumns flights;
+  for (int c = 0; c < C::columns; ++c) flights.column[c] = columns[c];
+  for (std::size_t begin = 0; begin < by_id.size(); begin += at_once) {
+    const std::span needles(&by_id[begin], std::min(at_once, by_id.size() - begin));
+    for (std::size_t n = 0; n < needles.size(); ++n) {
+      const Record& record = gas.records[needles[n]];
+      const kernels::Flight& flight = record.flight;
+      const auto put = [&](int column, const Vec3d& a) {
+        columns[column][n] = a.x;
+        columns[column + 1][n] = a.y;
+        columns[column + 2][n] = a.z;
+      };
+      put(C::r_x, flight.r);
+      put(C::v_x, flight.v);
+      put(C::u_x, flight.u);
+      put(C::p_x, flight.p);
+      columns[C::omega][n] = flight.omega;
+      columns[C::elapsed][n] = gas.clock.difference(now, record.time);
     }
-    out.position.push_back(r);
-    out.image.push_back(image);
-    out.velocity.push_back(array(flight.v));
-    const Vec3d u = elapsed == 0 ? flight.u : normalised(director_after(flight, elapsed));
-    out.orientation.push_back(array(u));
-    out.angular_velocity.push_back(array(flight.w));
+    kernels::fly(isa, flights, needles.size());
+    for (std::size_t n = 0; n < needles.size(); ++n) {
+      const Needle i = needles[n];
+      const kernels::Flight& flight = gas.records[i].flight;
+      const auto got = [&](int column) {
+        return Vec3d{columns[column][n], columns[column + 1][n], columns[column + 2][n]};
+      };
+      std::array<double, 3> r = array(got(C::r_x));
+      Shift image = gas.images[i];
+      for (int axis = 0; axis < 3; ++axis) {
+        const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+        r[axis] = wrapped.place;
+        image[axis] = add_boxes(image[axis], wrapped.boxes);
+      }
+      const bool just_now = columns[C::elapsed][n] == 0;
+      out.id.push_back(gas.ids[i]);
+      out.position.push_back(r);
+      out.image.push_back(image);
+      out.velocity.push_back(array(flight.v));
+      out.orientation.push_back(array(just_now ? flight.u : normalised(got(C::u_x))));
+      out.angular_velocity.push_back(array(flight.w));
+    }
   }
   return out;
 }

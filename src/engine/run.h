@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 
+#include "kernels/isa.h"
 #include "src/engine/simulation.h"
 #include "src/engine/tally.h"
 #include "src/physics/collision.h"
@@ -28,7 +29,8 @@ class Run {
   virtual const char* queue_name() const = 0;
 
   Totals totals() const;
-  State state() const;
+  /// Free flight to now by this instruction set, on which no bit depends.
+  State state(kernels::Isa isa) const;
 
   /// Of all needles, kept up by the collisions.
   double energy() const {

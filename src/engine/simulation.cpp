@@ -72,11 +72,11 @@ struct Simulation::Implementation {
   Implementation(const Scene& scene, Gas initial)
       : run(make_run(scene, std::move(initial))),
         effects(name_effects(scene.collisions)),
-        isa(kernels::name_of(isa_of(scene.engine.isa))) {}
+        isa(isa_of(scene.engine.isa)) {}
 
   std::unique_ptr<Run> run;
   std::string effects;
-  std::string isa;
+  kernels::Isa isa;
 };
 
 Simulation::Simulation(const Scene& scene) {
@@ -107,10 +107,10 @@ double Simulation::time() const {
 double Simulation::epoch_length() const { return implementation_->run->gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run->mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run->tally.hash.hex(); }
-State Simulation::state() const { return implementation_->run->state(); }
+State Simulation::state() const { return implementation_->run->state(implementation_->isa); }
 std::string Simulation::search() const { return implementation_->run->search_name(); }
 std::string Simulation::queue() const { return implementation_->run->queue_name(); }
-std::string Simulation::isa() const { return implementation_->isa; }
+std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
 std::string Simulation::effects() const { return implementation_->effects; }
 
 }  // namespace needlework

@@ -84,20 +84,57 @@ inline PairRow row_of(const kernels::Seeker& seeker, const kernels::Motion& othe
   return row;
 }
 
-/// What isolate() says of these pairs. Lanes beyond them hold what a search may have left there.
+/// Pairs in columns. Lanes beyond them hold what a search may have left there.
+class PairTable {
+ public:
+  explicit PairTable(const std::vector<PairRow>& rows)
+      : room_(rows.size() + 2 * kernels::block_size),
+        storage_(room_ * kernels::PairColumns::columns, std::numeric_limits<float>::quiet_NaN()) {
+    const kernels::PairColumns columns = view();
+    for (int c = 0; c < kernels::PairColumns::columns; ++c) {
+      for (std::size_t n = 0; n < rows.size(); ++n) columns.column[c][n] = rows[n][c];
+    }
+  }
+  kernels::PairColumns view() {
+    kernels::PairColumns out;
+    for (int c = 0; c < kernels::PairColumns::columns; ++c) {
+      out.column[c] = storage_.data() + c * room_;
+    }
+    return out;
+  }
+
+ private:
+  std::size_t room_;
+  std::vector<float> storage_;
+};
+
+/// What isolate() says of these pairs.
 inline std::vector<float> isolated(const kernels::NearKernels& kernels,
                                    const kernels::Seeker& seeker,
                                    const std::vector<PairRow>& rows) {
-  using C = kernels::PairColumns;
-  const std::size_t room = rows.size() + 2 * kernels::block_size;
-  std::vector<float> storage(room * C::columns, std::numeric_limits<float>::quiet_NaN());
+  PairTable table(rows);
+  const float* from = table.view().column[kernels::PairColumns::from];
+  kernels.isolate(seeker, table.view(), rows.size());
+  return {from, from + rows.size()};
+}
+
+/// The contact function of these pairs at time s, and its bounds, one pair after the other.
+using ContactRow = std::array<float, kernels::ContactColumns::columns>;
+inline std::vector<ContactRow> contact_functions(const kernels::NearKernels& kernels,
+                                                 const kernels::Seeker& seeker,
+                                                 const std::vector<PairRow>& rows, float s) {
+  using C = kernels::ContactColumns;
+  PairTable table(rows);
+  const std::size_t room = rows.size() + kernels::block_size;
+  std::vector<float> storage(room * C::columns);
   C columns;
-  for (int c = 0; c < C::columns; ++c) {
-    columns.column[c] = storage.data() + c * room;
-    for (std::size_t n = 0; n < rows.size(); ++n) columns.column[c][n] = rows[n][c];
+  for (int c = 0; c < C::columns; ++c) columns.column[c] = storage.data() + c * room;
+  kernels.contact_function(seeker, table.view(), rows.size(), s, columns);
+  std::vector<ContactRow> out(rows.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    for (int c = 0; c < C::columns; ++c) out[n][c] = columns.column[c][n];
   }
-  kernels.isolate(seeker, columns, rows.size());
-  return {columns.column[C::from], columns.column[C::from] + rows.size()};
+  return out;
 }
 
 /// A finite number of any size, or now and then one that is not.

@@ -110,9 +110,13 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> approaching(const NearKerne
   });
 }
 
-std::vector<std::uint32_t> bits(const std::vector<float>& values) {
+/// All that are not a number are one.
+template <class Values>
+std::vector<std::uint32_t> bits(const Values& values) {
   std::vector<std::uint32_t> out;
-  for (const float value : values) out.push_back(std::bit_cast<std::uint32_t>(value));
+  for (const float value : values) {
+    out.push_back(std::isnan(value) ? 0xffffffff : std::bit_cast<std::uint32_t>(value));
+  }
   return out;
 }
 
@@ -154,6 +158,12 @@ std::vector<std::string_view> family_names() {
   return out;
 }
 
+std::string family_id(const test::PairFamily& family) {
+  std::string name(family.name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 // ---- the same bits ----
 
 class OnEveryIsa : public testing::TestWithParam<Isa> {
@@ -171,6 +181,12 @@ class OnEveryIsa : public testing::TestWithParam<Isa> {
   void expect_same(Random& random, const Seeker& seeker, const std::vector<PairRow>& rows) {
     const std::vector<float> truth = isolated(twin(), seeker, rows);
     EXPECT_EQ(bits(isolated(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
+    const auto s = static_cast<float>(random.uniform());
+    const auto values = test::contact_functions(kernels(), seeker, rows, s);
+    const auto expected_values = test::contact_functions(twin(), seeker, rows, s);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      EXPECT_EQ(bits(values[n]), bits(expected_values[n])) << "pair " << n << ", seed " << seed;
+    }
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (std::size_t n = order.size(); n > 1; --n) {
@@ -299,6 +315,54 @@ INSTANTIATE_TEST_SUITE_P(Isas, OnEveryIsa,
                          testing::Values(Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512),
                          [](const auto& info) { return std::string(name_of(info.param)); });
 
+// ---- the contact function, within its bounds ----
+
+class ContactFunctionByLanes : public testing::TestWithParam<test::PairFamily> {};
+
+// Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
+// claim.
+TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
+  using C = ContactColumns;
+  const test::PairFamily& family = GetParam();
+  Random random(seed);
+  const std::size_t count = (family.thermal ? 50000 : 10000) / thin;
+  std::size_t near = 0;
+  double worst[4] = {};
+  for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 2)) {
+    const LanePair pair = lane_pair(random, drawn);
+    const auto s = static_cast<float>(random.uniform()) * pair.row[PairColumns::until];
+    const auto frame = make_frame<DoubleDouble>(pair.pair.view(), {true, 1 / pair.unit, pair.unit});
+    const DoubleDouble at(static_cast<double>(s));
+    const Sample<DoubleDouble> exact = evaluate(frame, at);
+    const Vec3d r = to_double(exact.r);
+    const double phase = to_double(frame.omega[0]) * s +
+                         to_double(frame.omega[1]) * (s + pair.row[PairColumns::age]);
+    if (dot(r, r) > 1 || phase > 0x1p11) continue;
+    ++near;
+    const auto got =
+        test::contact_functions(near_kernels(Isa::scalar), pair.seeker, {pair.row}, s)[0];
+    const double expected[] = {to_double(exact.f), to_double(exact.df), to_double(exact.ddf)};
+    for (int n = 0; n < 3; ++n) {
+      const double error = std::abs(got[C::f + n] - expected[n]), bound = got[C::error_f + n];
+      ASSERT_LE(error, bound / 4) << "derivative " << n << " at " << s << ", seed " << seed << "\n"
+                                  << test::csv_line(0, drawn);
+      if (error > 0) worst[n] = std::max(worst[n], error / bound);
+    }
+    const Vec3d gap =
+        test::nearest_points(r, to_double(exact.u[0]), Vec3d{}, to_double(exact.u[1])).gap;
+    const double error = std::abs(got[C::gap] - std::sqrt(dot(gap, gap)));
+    ASSERT_LE(error, got[C::error_f] / 4) << "gap at " << s << ", seed " << seed << "\n"
+                                          << test::csv_line(0, drawn);
+    worst[3] = std::max(worst[3], error / got[C::error_f]);
+  }
+  std::printf("of %zu: errors up to %.2f, %.2f, %.2f, that of the gap %.2f of their bounds\n", near,
+              worst[0], worst[1], worst[2], worst[3]);
+  EXPECT_GT(near, count / 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, ContactFunctionByLanes, testing::ValuesIn(test::pair_families()),
+                         [](const auto& info) { return family_id(info.param); });
+
 // ---- no contact lost ----
 
 class Isolate : public testing::TestWithParam<test::PairFamily> {};
@@ -330,11 +394,7 @@ TEST_P(Isolate, IsNeverLaterThanTheFirstContact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Isolate, testing::ValuesIn(test::pair_families()),
-                         [](const auto& info) {
-                           std::string name(info.param.name);
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         [](const auto& info) { return family_id(info.param); });
 
 // ---- most of the rest ruled out ----
 

@@ -1,0 +1,38 @@
+// Free flight of many needles at once: where each is after a time of its own.
+//
+// The same bits as centre_after() and director_after() of contact_function.h, one needle at a time,
+// on every instruction set; with one lane the source is the plain twin.
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/isa.h"
+
+namespace needlework::kernels {
+
+/// Needles in columns, in any one unit of time.
+struct FlightColumns {
+  enum Column {
+    r_x,  // centre [L]; result: after the time
+    r_y,
+    r_z,
+    v_x,  // velocity
+    v_y,
+    v_z,
+    u_x,  // director; result: after the time
+    u_y,
+    u_z,
+    p_x,  // w x u / |w|, or 0
+    p_y,
+    p_z,
+    omega,    // |w|
+    elapsed,  // the time
+    columns
+  };
+  double* column[columns];
+};
+
+/// Advances n needles. Throws nothing; `isa` must be available().
+void fly(Isa isa, const FlightColumns& needles, std::size_t n);
+
+}  // namespace needlework::kernels

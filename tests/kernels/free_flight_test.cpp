@@ -1,0 +1,156 @@
+// Free flight by lanes: the bits of one needle at a time.
+#include "kernels/free_flight.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "kernels/contact_function.h"
+#include "tests/support/random.h"
+
+namespace needlework::kernels {
+namespace {
+
+using test::Random;
+using C = FlightColumns;
+
+constexpr std::uint64_t seed = 1212;
+constexpr double untouched = -77;
+
+struct Needle {
+  Flight flight;
+  double elapsed;
+};
+
+/// Columns with nothing beyond the last needle but a guard.
+class Table {
+ public:
+  explicit Table(const std::vector<Needle>& needles) : size_(needles.size()) {
+    for (auto& column : storage_) column.assign(size_ + 1, untouched);
+    for (std::size_t n = 0; n < size_; ++n) {
+      const Flight& flight = needles[n].flight;
+      put(C::r_x, n, flight.r);
+      put(C::v_x, n, flight.v);
+      put(C::u_x, n, flight.u);
+      put(C::p_x, n, flight.p);
+      storage_[C::omega][n] = flight.omega;
+      storage_[C::elapsed][n] = needles[n].elapsed;
+    }
+  }
+  FlightColumns view() {
+    FlightColumns out;
+    for (int c = 0; c < C::columns; ++c) out.column[c] = storage_[c].data();
+    return out;
+  }
+  Vec3d at(int column, std::size_t n) const {
+    return {storage_[column][n], storage_[column + 1][n], storage_[column + 2][n]};
+  }
+  bool guarded() const {
+    return std::all_of(std::begin(storage_), std::end(storage_),
+                       [&](const auto& column) { return column[size_] == untouched; });
+  }
+
+ private:
+  void put(int column, std::size_t n, const Vec3d& a) {
+    storage_[column][n] = a.x;
+    storage_[column + 1][n] = a.y;
+    storage_[column + 2][n] = a.z;
+  }
+
+  std::size_t size_;
+  std::vector<double> storage_[C::columns];
+};
+
+void expect_same_bits(const Vec3d& a, const Vec3d& b) {
+  for (const auto component : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+    const double x = a.*component, y = b.*component;
+    if (std::isnan(x) && std::isnan(y)) continue;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(x), std::bit_cast<std::uint64_t>(y)) << x << ", " << y;
+  }
+}
+
+/// On every instruction set, what one needle at a time gives.
+void expect_flight(const std::vector<Needle>& needles) {
+  for (const Isa isa : available()) {
+    SCOPED_TRACE(std::string(name_of(isa)) + ", " + std::to_string(needles.size()) + " needles");
+    Table table(needles);
+    fly(isa, table.view(), needles.size());
+    for (std::size_t n = 0; n < needles.size(); ++n) {
+      const auto& [flight, elapsed] = needles[n];
+      expect_same_bits(table.at(C::r_x, n), centre_after(flight, elapsed));
+      expect_same_bits(table.at(C::u_x, n), director_after(flight, elapsed));
+      expect_same_bits(table.at(C::v_x, n), flight.v);
+      expect_same_bits(table.at(C::p_x, n), flight.p);
+    }
+    EXPECT_TRUE(table.guarded());
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+Needle draw(Random& random) {
+  const auto vector = [&](double scale) {
+    const auto a = random.normal_vector(scale);
+    return Vec3d{a[0], a[1], a[2]};
+  };
+  const auto u = random.direction();
+  Needle out;
+  out.flight.r = vector(random.log_uniform(1e-3, 1e3));
+  out.flight.v = vector(random.log_uniform(1e-3, 1e3));
+  out.flight.u = {u[0], u[1], u[2]};
+  out.flight.w = cross(out.flight.u, vector(random.log_uniform(1e-3, 1e3)));
+  if (random.below(8) == 0) out.flight.w = {};
+  set_rotation(out.flight);
+  // Phases of up to 2^12 and, now and then, of 2^40 radians; and none.
+  out.elapsed = random.below(8) == 0 ? 0 : random.log_uniform(1e-6, random.coin() ? 4 : 1e9);
+  return out;
+}
+
+TEST(Fly, GivesTheBitsOfOneNeedleAtATime) {
+  Random random(seed);
+  for (std::size_t count = 0; count <= 40; ++count) {
+    for (int n = 0; n < 50; ++n) {
+      std::vector<Needle> needles;
+      while (needles.size() < count) needles.push_back(draw(random));
+      expect_flight(needles);
+      ASSERT_FALSE(HasFailure()) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Fly, GivesTheSameBitsOfAnyNumbers) {
+  Random random(seed + 1);
+  const auto any = [&] {
+    switch (random.below(6)) {
+      case 0:
+        return std::bit_cast<double>(random.bits());
+      case 1:
+        return random.coin() ? 0.0 : -0.0;
+      case 2:
+        return std::numeric_limits<double>::infinity();
+      default:
+        return random.normal() * std::ldexp(1.0, random.below(200) - 100);
+    }
+  };
+  for (int n = 0; n < 3000; ++n) {
+    std::vector<Needle> needles(1 + random.below(20));
+    for (auto& [flight, elapsed] : needles) {
+      flight.r = {any(), any(), any()};
+      flight.v = {any(), any(), any()};
+      flight.u = {any(), any(), any()};
+      flight.p = {any(), any(), any()};
+      flight.omega = any();
+      elapsed = any();
+    }
+    expect_flight(needles);
+    ASSERT_FALSE(HasFailure()) << n << ", seed " << seed + 1;
+  }
+}
+
+}  // namespace
+}  // namespace needlework::kernels
