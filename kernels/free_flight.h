@@ -10,7 +10,10 @@
 
 namespace needlework::kernels {
 
-/// Needles in columns, in any one unit of time.
+inline constexpr std::size_t flights_at_once = 8;  ///< one vector of AVX-512
+
+/// Needles in columns, in any one unit of time. Columns have room for a multiple of
+/// `flights_at_once` of them; what is beyond the last needle may be anything, and is overwritten.
 struct FlightColumns {
   enum Column {
     r_x,  // centre [L]; result: after the time

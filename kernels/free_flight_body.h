@@ -3,20 +3,17 @@
 
 #include "kernels/sine_cosine_body.h"
 
-/// Columns are read and written in steps of wide_at_once, of which the last may be cut short.
 inline void fly(const FlightColumns& needles, std::size_t n) {
   using C = FlightColumns;
   for (std::size_t k = 0; k < n; k += wide_at_once) {
-    const std::size_t count = n - k < wide_at_once ? n - k : wide_at_once;
-    const auto load = [&](int c)
-                          NEEDLEWORK_TARGET { return load_wide(needles.column[c] + k, count); };
+    const auto load = [&](int c) NEEDLEWORK_TARGET { return load_wide(needles.column[c] + k); };
     const Wide elapsed = load(C::elapsed);
     const SineCosine<Wide> sc = sine_cosine_of(load(C::omega) * elapsed);
     for (int axis = 0; axis < 3; ++axis) {
       const Wide r = load(C::r_x + axis) + load(C::v_x + axis) * elapsed;
       const Wide u = load(C::u_x + axis) * sc.cosine + load(C::p_x + axis) * sc.sine;
-      store_wide(r, needles.column[C::r_x + axis] + k, count);
-      store_wide(u, needles.column[C::u_x + axis] + k, count);
+      store_wide(r, needles.column[C::r_x + axis] + k);
+      store_wide(u, needles.column[C::u_x + axis] + k);
     }
   }
 }

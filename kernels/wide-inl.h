@@ -28,14 +28,8 @@ struct Wide {
 };
 
 inline constexpr std::size_t wide_at_once = hn::MaxLanes(WideTag());
-HWY_INLINE Wide load_wide(const double* p, std::size_t count) {
-  if (count == wide_at_once) return hn::LoadU(WideTag(), p);
-  return hn::MaskedLoad(hn::FirstN(WideTag(), count), WideTag(), p);
-}
-HWY_INLINE void store_wide(const Wide& a, double* p, std::size_t count) {
-  if (count == wide_at_once) return hn::StoreU(a.v, WideTag(), p);
-  hn::BlendedStore(a.v, hn::FirstN(WideTag(), count), WideTag(), p);
-}
+HWY_INLINE Wide load_wide(const double* p) { return hn::LoadU(WideTag(), p); }
+HWY_INLINE void store_wide(const Wide& a, double* p) { hn::StoreU(a.v, WideTag(), p); }
 
 HWY_INLINE Wide operator+(const Wide& a, const Wide& b) { return hn::Add(a.v, b.v); }
 HWY_INLINE Wide operator-(const Wide& a, const Wide& b) { return hn::Sub(a.v, b.v); }

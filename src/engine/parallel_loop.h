@@ -21,6 +21,7 @@
 #include <omp.h>
 
 #include <atomic>
+#include <cassert>
 #include <deque>
 #include <mutex>
 
@@ -415,6 +416,9 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   if (fastest > me.fastest) me.fastest = fastest;
   if (in_order) me.latest = key;
   me.queue.changed.clear();
+#ifndef NDEBUG
+  me.worker.read_ahead = false;
+#endif
   me.worker.happen(event, stale);
   const auto record = [&](Needle i, const Done& taken) {
     const Vec3d& v = gas.records[i].flight.v;
@@ -423,6 +427,8 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   };
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
+  // No record that an event reads is ahead of it, or the phase is undone.
+  assert(!me.worker.read_ahead || amiss_);
   make_known(me);
   if (!alone) claims_.drop(me.zone);
   return Outcome::done;

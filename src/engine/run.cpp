@@ -188,7 +188,8 @@ State Run::state(kernels::Isa isa) const {
             [&](Needle a, Needle b) { return gas.ids[a] < gas.ids[b]; });
   // As many as the first-level cache holds.
   constexpr std::size_t at_once = 64;
-  double columns[C::columns][at_once];
+  static_assert(at_once % kernels::flights_at_once == 0);
+  double columns[C::columns][at_once] = {};
   kernels::FlightColumns flights;
   for (int c = 0; c < C::columns; ++c) flights.column[c] = columns[c];
   for (std::size_t begin = 0; begin < by_id.size(); begin += at_once) {

@@ -61,6 +61,10 @@ class Worker {
   Time now;
   UndoLog* undo = nullptr;                    ///< where to note what is replaced, if anywhere
   std::vector<Collision>* reports = nullptr;  ///< where to put collisions in place of the callback
+#ifndef NDEBUG
+  /// Whether this event has read a record from later than itself, of a needle within reach then.
+  bool read_ahead = false;
+#endif
 
  private:
   // A record that the event at hand has replaced, and the boxes by which its centre was wrapped.
@@ -265,6 +269,14 @@ kernels::Contact Worker<Search, Queue, effects>::predict(Needle a, Needle b, con
   // A little later may be the same time on the clock, where the ids decide.
   const double to = (gas_.clock.difference(until, start) + gas_.clock.resolution()) * (1 + 0x1p-50);
   kernels::Pair pair = make_pair(gas_, a, first, b, second, shift);
+#ifndef NDEBUG
+  if (start > now) {
+    const Vec3d apart = (centre_after(first.flight, pair.elapsed_first.hi) -
+                         centre_after(second.flight, pair.elapsed_second.hi)) -
+                        to_double(pair.shift);
+    if (dot(apart, apart) <= 1) read_ahead = true;
+  }
+#endif
   // Both partners of a collision search the pair, with records made now.
   const bool shared = pair.touch.collided && first.time == second.time;
   const Shared& last = last_shared_;

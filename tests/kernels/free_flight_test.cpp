@@ -28,12 +28,13 @@ struct Needle {
   double elapsed;
 };
 
-/// Columns with nothing beyond the last needle but a guard.
+/// Columns with a guard beyond the room that they have to have, at any address of a double.
 class Table {
  public:
-  explicit Table(const std::vector<Needle>& needles) : size_(needles.size()) {
-    for (auto& column : storage_) column.assign(size_ + 1, untouched);
-    for (std::size_t n = 0; n < size_; ++n) {
+  explicit Table(const std::vector<Needle>& needles)
+      : room_((needles.size() + flights_at_once - 1) / flights_at_once * flights_at_once) {
+    for (auto& column : storage_) column.assign(room_ + 1, untouched);
+    for (std::size_t n = 0; n < needles.size(); ++n) {
       const Flight& flight = needles[n].flight;
       put(C::r_x, n, flight.r);
       put(C::v_x, n, flight.v);
@@ -53,7 +54,7 @@ class Table {
   }
   bool guarded() const {
     return std::all_of(std::begin(storage_), std::end(storage_),
-                       [&](const auto& column) { return column[size_] == untouched; });
+                       [&](const auto& column) { return column[room_] == untouched; });
   }
 
  private:
@@ -63,7 +64,7 @@ class Table {
     storage_[column + 2][n] = a.z;
   }
 
-  std::size_t size_;
+  std::size_t room_;
   std::vector<double> storage_[C::columns];
 };
 

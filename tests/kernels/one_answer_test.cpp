@@ -1,0 +1,172 @@
+// There is one answer of each kernel: on every instruction set, and by every compiler and build, as
+// a digest of it is written down here.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "kernels/first_contact.h"
+#include "kernels/free_flight.h"
+#include "kernels/near_needles.h"
+#include "tests/kernels/lane_pairs.h"
+#include "tests/support/random.h"
+
+namespace needlework::kernels {
+namespace {
+
+using test::PairRow;
+using test::Random;
+
+/// FNV-1a over the bits of numbers.
+class Digest {
+ public:
+  void take(float a) { take(std::uint64_t{std::bit_cast<std::uint32_t>(a)}); }
+  void take(double a) { take(std::bit_cast<std::uint64_t>(a)); }
+  void take(std::uint64_t a) {
+    for (int byte = 0; byte < 8; ++byte) {
+      state_ = (state_ ^ (a >> 8 * byte & 0xff)) * 0x100000001b3u;
+    }
+  }
+  std::string hex() const {
+    char out[17];
+    std::snprintf(out, sizeof out, "%016llx", static_cast<unsigned long long>(state_));
+    return out;
+  }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+/// Braces evaluate in order.
+Vec3d any_vector(Random& random, double size) {
+  return Vec3d{random.uniform(-size, size), random.uniform(-size, size),
+               random.uniform(-size, size)};
+}
+
+/// Around the origin, turning as fast as it flies.
+Flight any_flight(Random& random) {
+  Flight out;
+  const auto u = random.direction();
+  out.r = any_vector(random, 0.6);
+  out.v = any_vector(random, 1.5);
+  out.u = {u[0], u[1], u[2]};
+  out.w = cross(out.u, any_vector(random, 4));
+  set_rotation(out);
+  return out;
+}
+
+template <class Answer>
+void expect_everywhere(const char* digest, Answer&& answer) {
+  for (const Isa isa : available()) {
+    Digest out;
+    answer(isa, out);
+    EXPECT_EQ(out.hex(), digest) << name_of(isa);
+  }
+}
+
+TEST(OneAnswer, OfFreeFlight) {
+  expect_everywhere("a9df506d9e2a0d2f", [](Isa isa, Digest& out) {
+    using C = FlightColumns;
+    Random random(1);
+    for (std::size_t count = 1; count <= 33; ++count) {
+      const std::size_t room = count + flights_at_once;
+      std::vector<double> storage(C::columns * room);
+      C columns;
+      for (std::size_t c = 0; c < C::columns; ++c) columns.column[c] = &storage[c * room];
+      for (std::size_t n = 0; n < count; ++n) {
+        const Flight flight = any_flight(random);
+        const Vec3d vectors[] = {flight.r, flight.v, flight.u, flight.p};
+        for (int c = 0; c < C::omega; ++c) columns.column[c][n] = (&vectors[c / 3].x)[c % 3];
+        columns.column[C::omega][n] = flight.omega;
+        columns.column[C::elapsed][n] = random.uniform(0, 10);
+      }
+      fly(isa, columns, count);
+      for (const double* column : columns.column) {
+        for (std::size_t n = 0; n < count; ++n) out.take(column[n]);
+      }
+    }
+  });
+}
+
+TEST(OneAnswer, OfFilters) {
+  expect_everywhere("0bccad944a609b25", [](Isa isa, Digest& out) {
+    Random random(2);
+    const NearKernels& kernels = near_kernels(isa);
+    for (int n = 0; n < 200; ++n) {
+      Block blocks[2];
+      const BlockLink links[2] = {{block_size, 1},
+                                  {static_cast<std::uint32_t>(1 + n % 16), BlockLink::none}};
+      const CellView cells[] = {{0, {0.5f, 0, 0}}, {0, {0, -0.5f, 1}}};
+      std::uint32_t id = 1;
+      for (Block& block : blocks) {
+        for (std::size_t lane = 0; lane < block_size; ++lane) {
+          const auto a = random.direction();
+          const Vec3d r = any_vector(random, 1);
+          const double row[] = {r.x, r.y, r.z, a[0], a[1], a[2], random.uniform(-1, 0)};
+          for (int c = 0; c < Block::columns; ++c) {
+            block.column[c][lane] = static_cast<float>(row[c]);
+          }
+          block.needle[lane] = id++;
+        }
+      }
+      const Seeker seeker = test::seeker_of(test::motion_of(any_flight(random), 0, 1), 0.7f);
+      std::uint32_t needles[5 * block_size], seen_in[5 * block_size];
+      const Surroundings around{blocks, links, cells, 2};
+      const auto take = [&](const Scan& scan) {
+        out.take(std::uint64_t{scan.seen});
+        for (std::size_t k = 0; k < scan.found; ++k) {
+          out.take(std::uint64_t{needles[k]} << 32 | seen_in[k]);
+        }
+      };
+      take(kernels.overlapping(around, seeker, 0.2f, {needles, seen_in}));
+      take(kernels.approaching(around, seeker, {needles, seen_in}));
+    }
+  });
+}
+
+TEST(OneAnswer, OfTheContactFunctionAndItsIsolation) {
+  expect_everywhere("3f031bf29cdd52cc", [](Isa isa, Digest& out) {
+    Random random(3);
+    for (std::size_t count = 1; count <= 40; ++count) {
+      const Seeker seeker = test::seeker_of(test::motion_of(any_flight(random), 0, 1), 2);
+      std::vector<PairRow> rows(count);
+      for (PairRow& row : rows) {
+        // One after the other: compilers differ in the order of arguments.
+        const Flight other = any_flight(random);
+        const double age = random.uniform(), until = random.uniform(0, 2);
+        row = test::row_of(seeker, test::motion_of(other, -age, 1), 0, static_cast<float>(until));
+      }
+      for (const auto& values : test::contact_functions(near_kernels(isa), seeker, rows, 0.5f)) {
+        for (const float value : values) out.take(value);
+      }
+      for (const float from : test::isolated(near_kernels(isa), seeker, rows)) out.take(from);
+    }
+  });
+}
+
+// In double and double-double, one pair at a time.
+TEST(OneAnswer, OfFirstContacts) {
+  Random random(4);
+  Digest out;
+  std::size_t contacts = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const Flight first = any_flight(random), second = any_flight(random);
+    Pair pair;
+    pair.first = &first;
+    pair.second = &second;
+    SearchCounters counters;
+    const Contact contact = first_contact(pair, 0, 3, counters);
+    contacts += contact.found;
+    out.take(contact.elapsed.hi);
+    out.take(contact.elapsed.lo);
+    out.take(counters.evaluated << 32 | counters.escalated);
+  }
+  EXPECT_GT(contacts, 1000u);
+  EXPECT_EQ(out.hex(), "9b7868840cc15990");
+}
+
+}  // namespace
+}  // namespace needlework::kernels
