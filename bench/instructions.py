@@ -5,6 +5,7 @@ guard    compares the engine with the committed figures of instructions.json and
          grown by more than 3 %; --update writes them anew.
 effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
          README.md.
+shares   tells where a collision's instructions go; the table goes to README.md.
 baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
@@ -34,6 +35,21 @@ SHORT, LONG = 1.0, 3.0  # collisions per needle
 DENSITIES = {"dilute": 10000 / 24**3, "dense": 20000 / 12**3}  # of the paper's scenes
 CELL_SIDES = {0.1: (1.0, 1.36), DENSITIES["dilute"]: (1.17, 1.4), DENSITIES["dense"]: (1.15, 1.3)}
 SKIPPED = 77  # exit code that ctest takes for a skipped test
+
+# Where instructions go, by the first of these patterns that a function's name has.
+SHARES = {
+    "neighbours by lanes (`approaching`, `overlapping`)": r"::(approaching|overlapping)$",
+    "following the pairs that are left, by lanes (`isolate`)": r"::isolate",
+    "cells to look into (`look_around`)": r"::look_around|append_near",
+    "motions into columns, candidates in order": r"candidates|Candidate|pair_columns|fill_pairs",
+    "placing needles in cells": r"NearSearch::place|Hulls::",
+    "collisions and their records":
+        r"collide|record|contact_geometry|set_rotation|Hash|director|Run::|normalised",
+    "first contacts in double and double-double":
+        r"kernels::|sine_cosine|make_pair|settle_touch|::predict|::consider",
+    "calendar": r"Tournament|WinnerTree|EventTable",
+    "the rest of the loop": r"",
+}
 
 # Not in equilibrium, or the program would compare each collision's time with theory.
 PLAIN = ["initial.t_rot=0.999"]
@@ -68,14 +84,13 @@ class Failure(Exception):
     """Something could not be measured."""
 
 
-def in_folder(command):
-    """Runs a command in an empty folder; returns its result and the files it left, as text."""
+def in_folder(command, left=""):
+    """Runs a command in an empty folder; returns its result and a file that it left there, if any."""
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             raise Failure(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr}")
-        massif = Path(folder) / "massif"
-        return done, massif.read_text() if massif.exists() else ""
+        return done, (Path(folder) / left).read_text() if left else ""
 
 
 @dataclass
@@ -107,6 +122,23 @@ class Measured:
         result = json.loads(done.stdout)
         return int(collected[1]), result["collisions"], result["trajectory_hash"]
 
+    def by_function(self, collisions_per_needle):
+        """Instructions of each function, and the collisions."""
+        tool = ["--tool=callgrind", "--callgrind-out-file=callgrind"]
+        done, profile = in_folder(self.command(tool, NEEDLES, collisions_per_needle), "callgrind")
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write(profile)
+            file.flush()
+            listed = subprocess.run(["callgrind_annotate", "--threshold=100", "--show-percs=no",
+                                     file.name], check=True, capture_output=True, text=True).stdout
+        functions = {}
+        for count, name in re.findall(r"^ *([\d,]+)\s+\S*?:(.*?)(?: \[.*\])?$", listed, re.MULTILINE):
+            # Without arguments, and without the types that a loop is made of.
+            name = name.replace("(anonymous namespace)", "anonymous").split("(")[0]
+            name = re.sub(r"(Worker|EventLoop)<[^>]*>", r"\1", name)
+            functions[name] = functions.get(name, 0) + int(count.replace(",", ""))
+        return functions, json.loads(done.stdout)["collisions"]
+
     def instructions_per_collision(self):
         start, first, _ = self.run(SHORT)
         end, last, trajectory = self.run(LONG)
@@ -114,7 +146,7 @@ class Measured:
 
     def peak_heap(self, needles):
         tool = ["--tool=massif", "--peak-inaccuracy=0.0", "--massif-out-file=massif"]
-        _, massif = in_folder(self.command(tool, needles, 0.01))
+        _, massif = in_folder(self.command(tool, needles, 0.01), "massif")
         return max(map(int, re.findall(r"mem_heap_B=(\d+)", massif)))
 
 
@@ -223,6 +255,37 @@ def effects(program, out):
     return 0
 
 
+def shares(program):
+    build, offered = build_of(program)
+    isa = "avx2" if "avx2" in offered.split() else "scalar"
+
+    def count(density, collisions_per_needle):
+        return lambda: Measured(program, density, isa, []).by_function(collisions_per_needle)
+
+    counted = measure_all({(scene, length): count(density, length)
+                           for scene, density in DENSITIES.items() for length in (SHORT, LONG)})
+    columns = {}
+    for scene in DENSITIES:
+        (start, first), (end, last) = counted[scene, SHORT], counted[scene, LONG]
+        sums = dict.fromkeys(SHARES, 0)
+        for function, instructions in end.items():
+            part = next(part for part, names in SHARES.items() if re.search(names, function))
+            sums[part] += (instructions - start.get(function, 0)) / (last - first)
+        columns[scene] = sums
+    totals = {scene: sum(sums.values()) for scene, sums in columns.items()}
+    heads = [f"{scene}, {1e-3 * totals[scene]:.0f} thousand" for scene in DENSITIES]
+    lines = ["| | " + " | ".join(heads) + " |", "|---" * (1 + len(heads)) + "|"]
+    for part in SHARES:
+        cells = [f"{100 * columns[scene][part] / totals[scene]:.0f} %" for scene in DENSITIES]
+        lines.append(f"| {part} | " + " | ".join(cells) + " |")
+    text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle of "
+            f"{NEEDLES} needles, {isa}; {build['compiler']}, {build['flags']}.\n\n"
+            + "\n".join(lines) + "\n")
+    put_table("shares", text)
+    print(text, end="")
+    return 0
+
+
 def baseline(program):
     classical = ["engine.search=linked-lists", "engine.queue=indexed-heap"]
 
@@ -241,7 +304,7 @@ def baseline(program):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["guard", "effects", "baseline"])
+    parser.add_argument("what", choices=["guard", "effects", "shares", "baseline"])
     parser.add_argument("--program", default=str(BENCH.parent / "build/release/needlework"))
     parser.add_argument("--update", action="store_true",
                         help="guard: write the figures instead of comparing with them")
@@ -251,6 +314,8 @@ def main():
     try:
         if arguments.what == "guard":
             return guard(arguments.program, arguments.update)
+        if arguments.what == "shares":
+            return shares(arguments.program)
         if arguments.what == "baseline":
             return baseline(arguments.program)
         return effects(arguments.program, arguments.out)

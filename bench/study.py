@@ -3,7 +3,7 @@
 
     bench/study.py                 all but matrix, 20 minutes; build first, with NEEDLEWORK_BENCH=ON
     bench/study.py density size    some parts only
-    bench/study.py matrix          each search by each queue, an hour
+    bench/study.py matrix          each search by each queue, 40 minutes
     bench/study.py tables          no measuring: tables and picture anew from the files
 
 Writes results/MACHINE-ISA/: one JSON file for each part, README.md and density.svg. A machine is

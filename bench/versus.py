@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+"""Compares two builds of the program, run side by side on the paper's elastic scenes.
+
+    bench/versus.py build/release/needlework build/v3/needlework
+    bench/versus.py OLD NEW --scene dense --repetitions 40
+    bench/versus.py PROGRAM PROGRAM --second-without-huge-pages
+    bench/versus.py PROGRAM PROGRAM --second engine.queue=bucket
+
+Prints, for each scene, the CPU time of the event loop per collision, the least of each, and how much
+the second takes of the first's: the median over repetitions of the quotient of neighbours in time,
+with the interval that holds the true median in 95 of 100 cases. A machine that changes its speed
+does so for both. Fails when the trajectories differ.
+"""
+
+import argparse
+import ctypes
+import json
+import math
+import statistics
+import subprocess
+import sys
+
+SCENES = {  # needles, box, collisions per needle
+    "dilute": (10000, 24.0, 10),
+    "dense": (20000, 12.0, 4),
+    "dilute-1e5": (100000, 24 * 10 ** (1 / 3), 2),
+    "dilute-1e6": (1000000, 24 * 100 ** (1 / 3), 0.5),
+    "dense-1e5": (100000, 12 * 5 ** (1 / 3), 2),
+}
+PR_SET_THP_DISABLE = 41  # of linux/prctl.h; kept by programs that are started
+
+
+def run(program, scene, settings, huge_pages):
+    needles, box, collisions = SCENES[scene]
+    command = [program, "run", "/dev/null", "--json", "--quiet"]
+    for setting in (f"needles.count={needles}", f"needles.box={box!r}",
+                    f"until.collisions_per_needle={collisions}", *settings):
+        command += ["--set", setting]
+
+    def without_huge_pages():
+        if ctypes.CDLL(None).prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0) != 0:
+            raise OSError("prctl(PR_SET_THP_DISABLE) failed")
+
+    done = subprocess.run(command, capture_output=True, text=True,
+                          preexec_fn=None if huge_pages else without_huge_pages)
+    if done.returncode != 0:
+        sys.exit(f"versus.py: {' '.join(command)}: exit code {done.returncode}: {done.stderr}")
+    result = json.loads(done.stdout)
+    return 1e6 * result["cpu_s"] / result["collisions"], result["trajectory_hash"]
+
+
+def interval(values):
+    """Order statistics that hold the median with 95 % (the sign test's; normal approximation)."""
+    values, n = sorted(values), len(values)
+    low = max(0, math.floor(n / 2 - 0.98 * math.sqrt(n)))
+    return values[low], values[n - 1 - low]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("first")
+    parser.add_argument("second")
+    parser.add_argument("--scene", choices=SCENES, action="append",
+                        help="may be given several times; else dilute and dense")
+    parser.add_argument("--repetitions", type=int, default=20)
+    parser.add_argument("--second", dest="settings", action="append", default=[],
+                        metavar="KEY=VALUE", help="a setting for the second alone")
+    parser.add_argument("--second-without-huge-pages", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.repetitions < 6:
+        parser.error("--repetitions: expected at least 6, fewer have no interval")
+    for scene in arguments.scene or ["dilute", "dense"]:
+        costs = ([], [])
+        for repetition in range(arguments.repetitions):
+            hashes = set()
+            for which in (0, 1) if repetition % 2 == 0 else (1, 0):
+                cost, trajectory = run(
+                    (arguments.first, arguments.second)[which], scene,
+                    arguments.settings if which else [],
+                    not (which and arguments.second_without_huge_pages))
+                costs[which].append(cost)
+                hashes.add(trajectory)
+            if len(hashes) > 1:
+                sys.exit(f"versus.py: {scene}: the trajectories differ")
+        quotients = [b / a for a, b in zip(*costs)]
+        low, high = interval(quotients)
+        print(f"{scene}: {min(costs[0]):.2f} and {min(costs[1]):.2f} us per collision at best; "
+              f"the second takes {statistics.median(quotients):.3f} of the first "
+              f"({low:.3f} to {high:.3f}, {len(quotients)} repetitions)", flush=True)
+
+
+if __name__ == "__main__":
+    main()
