@@ -44,7 +44,8 @@ SHARES = {
     "motions into columns, candidates in order": r"candidates|Candidate|pair_columns|fill_pairs",
     "placing needles in cells": r"NearSearch::place|Hulls::",
     "collisions and their records":
-        r"collide|record|contact_geometry|set_rotation|Hash|director|Run::|normalised",
+        r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
+    "windows, and sorting the storage": r"Run::|permute|order_in_space|sort_storage|ContactIntegrals",
     "first contacts in double and double-double":
         r"kernels::|sine_cosine|make_pair|settle_touch|::predict|::consider",
     "calendar": r"Tournament|WinnerTree|EventTable",
@@ -268,6 +269,9 @@ def shares(program):
     for scene in DENSITIES:
         (start, first), (end, last) = counted[scene, SHORT], counted[scene, LONG]
         sums = dict.fromkeys(SHARES, 0)
+        for part, names in SHARES.items():
+            if not any(re.search(names, function) for function in end):
+                raise Failure(f"{scene}: no function is of the part '{part}': SHARES is out of date")
         for function, instructions in end.items():
             part = next(part for part, names in SHARES.items() if re.search(names, function))
             sums[part] += (instructions - start.get(function, 0)) / (last - first)
@@ -281,7 +285,10 @@ def shares(program):
     text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle of "
             f"{NEEDLES} needles, {isa}; {build['compiler']}, {build['flags']}.\n\n"
             + "\n".join(lines) + "\n")
-    put_table("shares", text)
+    if COMMITTED.exists() and json.loads(COMMITTED.read_text())["build"] == build:
+        put_table("shares", text)
+    else:
+        print("Not put into README.md: its tables are of another compiler or flags.\n")
     print(text, end="")
     return 0
 

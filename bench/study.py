@@ -115,8 +115,10 @@ def engine_of(case):
     return "/".join([words[1], words[2], words[4], *words[6:]])
 
 
+COUNTERS = ["events", "searches", "candidates", "evaluated", "rebuilds"]  # per collision
+
+
 def case_table(results):
-    counters = ["events", "searches", "candidates", "evaluated", "rebuilds"]
     rows = []
     for case in results["cases"]:
         per_collision = case["per_collision"]
@@ -124,10 +126,10 @@ def case_table(results):
                      case["search"], number(case["best_us_per_collision"]),
                      number(case["median_us_per_collision"]), number(case["times_baseline"]),
                      f"{case['collisions_per_cpu_s']:.0f}",
-                     *(number(per_collision[name]) for name in counters),
+                     *(number(per_collision[name]) for name in COUNTERS),
                      f"{min(case['bytes_per_needle']):.0f}", number(min(case["setup_s"]))])
     return table(["scene", "search/queue/ISA", "search in use", "us per collision, best", "median",
-                  "times baseline", "collisions per CPU s", *(f"{name}" for name in counters),
+                  "times baseline", "collisions per CPU s", *COUNTERS,
                   "bytes per needle", "set-up s"], rows)
 
 
@@ -150,10 +152,12 @@ def density_table(results):
         rows.append([number(density), *(number(best[asked]) for asked in
                                         ("baseline", "linked-cells", "capsules", "auto")),
                      cases["auto"]["search"], f"{100 * (best['auto'] / by_hand - 1):+.0f} %",
-                     number(best["baseline"] / best["auto"])])
+                     number(best["baseline"] / best["auto"]),
+                     *(number(cases["auto"]["per_collision"][name]) for name in COUNTERS)])
     wide = [us for density, us in cost.items() if 0.49 < density < 51]
     text = table(["n L^3", "baseline", "linked-cells", "capsules", "auto", "which is",
-                  "auto over best by hand", "times baseline"], rows)
+                  "auto over best by hand", "times baseline",
+                  *(f"{name}, auto" for name in COUNTERS)], rows)
     return text + f"\nSpread of `auto` over n L^3 = 0.5 to 50: {number(max(wide) / min(wide))}.\n"
 
 
@@ -176,9 +180,11 @@ def size_table(results):
 
 def hull_table(results):
     """Sizes of hulls by hand, beside the one that the search chooses."""
-    scenes = {}
+    scenes, baselines = {}, {}
     for case in results["cases"]:
-        if not case["baseline"]:
+        if case["baseline"]:
+            baselines[case["scene"]] = case["best_us_per_collision"]
+        else:
             scenes.setdefault(case["scene"], []).append(case)
     rows = []
     for scene, cases in scenes.items():
@@ -186,28 +192,38 @@ def hull_table(results):
         chosen = next(case["best_us_per_collision"] for case in cases
                       if not re.search("/(side|radius):", case["name"]))
         rows.append([scene, cases[0]["search"], *map(number, us),
-                     f"{100 * (chosen / min(us) - 1):.0f} %"])
+                     f"{100 * (chosen / min(us) - 1):.0f} %", number(baselines[scene])])
     return table(["scene", "search", "half of it", "0.7", "0.85", "as chosen", "1.2", "1.4",
-                  "twice", "chosen over best"], rows)
+                  "twice", "chosen over best", "baseline"], rows)
 
 
 def matrix_table(results):
-    """One line for each gas and search: every queue, and how far the tournament, which `auto` takes,
-    is from the best of all searches and queues."""
-    scenes = {}
+    """One line for each gas and search: every queue; and for the better search, how far the
+    tournament, which `auto` takes, is from the best."""
+    scenes, spreads = {}, []
     for case in results["cases"]:
         scenes.setdefault(case["scene"], []).append(case)
+        spreads.append(max(case["us_per_collision"]) / min(case["us_per_collision"]))
     rows, queues = [], []
     for scene, cases in scenes.items():
         us = {tuple(case["name"].split("/")[1:3]): case["best_us_per_collision"] for case in cases
               if not case["baseline"]}
         baseline = next(case["best_us_per_collision"] for case in cases if case["baseline"])
         queues = list(dict.fromkeys(queue for _, queue in us))
+        best = min(us.values())
         for search in dict.fromkeys(search for search, _ in us):
-            over = us[search, "tournament"] / min(us.values()) - 1
-            rows.append([scene, search, *(number(us[search, queue]) for queue in queues),
-                         f"{100 * over:+.0f} %", number(baseline)])
-    return table(["scene", "search", *queues, "tournament over the best of both searches", "baseline"], rows)
+            mine = us[search, "tournament"]
+            better = best in (us[search, queue] for queue in queues)
+            over = f"{100 * (mine / best - 1):+.0f} %" if better else ""
+            rows.append([scene, search, *(number(us[search, queue]) for queue in queues), over,
+                         number(baseline), number(baseline / mine)])
+    repetitions = len(results["cases"][0]["us_per_collision"])
+    spread = sorted(spreads)[len(spreads) // 2]
+    return table(["scene", "search", *queues, "tournament over best", "baseline",
+                  "tournament, times baseline"], rows) + (
+        f"\nBest of {repetitions} repetitions each, which differ by {100 * (spread - 1):.0f} % at the "
+        f"median and by {100 * (max(spreads) - 1):.0f} % at most: queues that differ by less are not "
+        f"told apart here.\n")
 
 
 def kernel_table(results):
@@ -229,7 +245,8 @@ def kernel_table(results):
 def calendar_table(results):
     best = results["best"]
     sizes = sorted({int(name.split("/")[2]) for name in best})
-    rows = [[row, *(number(best[f"{row}/{size}"]["ns_per_item"]) for size in sizes)]
+    rows = [[row + (" (baseline)" if "indexed-heap" in row else ""),
+             *(number(best[f"{row}/{size}"]["ns_per_item"]) for size in sizes)]
             for row in dict.fromkeys(name.rsplit("/", 1)[0] for name in best)]
     return table(["ns per event", *(f"{size:.0e}".replace("e+0", "e") for size in sizes)], rows)
 

@@ -31,8 +31,8 @@ namespace scalar {
 
 using Wide = double;
 constexpr std::size_t wide_at_once = 1;
-double load_wide(const double* p) { return *p; }
-void store_wide(double a, double* p) { *p = a; }
+inline double load_wide(const double* p) { return *p; }
+inline void store_wide(double a, double* p) { *p = a; }
 using sine_cosine_detail::turned;
 
 #include "kernels/free_flight_body.h"

@@ -103,7 +103,9 @@ struct PairColumns {
   float* column[columns];
 };
 
-/// The contact function of pairs, in columns with room for one block more than there are pairs.
+/// The contact function of pairs, in columns with room for one block more than there are pairs. The
+/// error bounds hold where the bounding spheres overlap and phases, |w| times the time since a
+/// needle's u and p, are below 2^12 in sum; elsewhere isolate() does not use them.
 struct ContactColumns {
   enum Column {
     f,

@@ -3,7 +3,6 @@
 namespace needlework {
 
 SineCosine<DoubleDouble> sine_cosine(const DoubleDouble& x) {
-  using namespace sine_cosine_detail;
   // 1/n! as double-doubles, n = 2 .. 28.
   static constexpr DoubleDouble inverse_factorial[] = {
       {0x1.0000000000000p-1, 0x0.0p+0},
@@ -49,7 +48,11 @@ SineCosine<DoubleDouble> sine_cosine(const DoubleDouble& x) {
   for (int i = last - 2; i >= 2; i -= 2) pc = coefficient(i) - z * pc;
   const DoubleDouble sine = r - r * z * ps;
   const DoubleDouble cosine = DoubleDouble(1.0) - z * pc;
-  return rotate_by_quadrant(std::bit_cast<std::uint64_t>(shifted), sine, cosine);
+  const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted);
+  const SineCosine<DoubleDouble> turned = quadrant & 1 ? SineCosine<DoubleDouble>{cosine, -sine}
+                                                       : SineCosine<DoubleDouble>{sine, cosine};
+  if (quadrant & 2) return {-turned.sine, -turned.cosine};
+  return turned;
 }
 
 }  // namespace needlework

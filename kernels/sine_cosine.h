@@ -20,17 +20,6 @@ struct SineCosine {
 
 namespace sine_cosine_detail {
 
-template <class T>
-SineCosine<T> rotate_by_quadrant(std::uint64_t quadrant, T s, T c) {
-  if (quadrant & 1) {
-    const T swap = s;
-    s = c;
-    c = -swap;
-  }
-  if (quadrant & 2) return {-s, -c};
-  return {s, c};
-}
-
 // Without branches: no processor can foretell the quadrant.
 inline SineCosine<double> turned(double shifted, double s, double c) {
   const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted);

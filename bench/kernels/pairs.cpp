@@ -83,7 +83,7 @@ const bool added = [] {
     void (*measure)(benchmark::State&, double);
   } all[] = {{"spheres-stay-apart", spheres},
              {"closest-approach", closest_approach},
-             {"contact-function", contact_function<double>},
+             {"contact-function-double", contact_function<double>},
              {"contact-function-double-double", contact_function<DoubleDouble>},
              {"first-contact", first_contact}};
   for (const auto& kernel : all) {

@@ -33,8 +33,10 @@ const char* const rule_of_verdicts =
     "that "
     "of the rank test of Mann and Whitney. same: the interval lies within 3 % of no change. "
     "faster, "
-    "slower: else, it lies on one side of no change. unclear: else, or with less than four "
-    "repetitions in either. The baseline itself is not judged; a change of code that it shares, "
+    "slower: else, it lies on one side of no change. unclear: else, or with too few repetitions "
+    "for "
+    "such an interval, as three and four are. The baseline itself is not judged; a change of code "
+    "that it shares, "
     "the prediction of contacts say, shows in its own time only.";
 
 Change change_between(const std::vector<double>& before, const std::vector<double>& after) {

@@ -186,7 +186,7 @@ State Run::state(kernels::Isa isa) const {
   std::iota(by_id.begin(), by_id.end(), Needle{0});
   std::sort(by_id.begin(), by_id.end(),
             [&](Needle a, Needle b) { return gas.ids[a] < gas.ids[b]; });
-  // As many as the first-level cache holds.
+  // Few enough for their columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
   double columns[C::columns][at_once] = {};

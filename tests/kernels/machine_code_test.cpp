@@ -77,8 +77,8 @@ TEST(MachineCode, OfLanesUsesTheRegistersOfItsInstructionSet) {
   struct Widths {
     std::size_t xmm = 0, ymm = 0, zmm = 0;
   };
-  std::map<std::string, Widths> arithmetic;  // by target, of packed floats
-  const std::regex packed("v?(add|sub|mul|div|sqrt|min|max)ps");
+  std::map<std::string, Widths> arithmetic;  // by target, of packed numbers
+  const std::regex packed("v?(add|sub|mul|div|sqrt|min|max)p[sd]");
   disassemble([&](const std::string& symbol, std::string_view instruction) {
     const auto end = instruction.find_first_of(" \t\n");
     if (!std::regex_match(instruction.begin(), instruction.begin() + end, packed)) return;
