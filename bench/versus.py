@@ -74,6 +74,8 @@ def main():
     parser.add_argument("--scene", choices=SCENES, action="append",
                         help="may be given several times; else dilute and dense")
     parser.add_argument("--repetitions", type=int, default=20)
+    parser.add_argument("--set", dest="both", action="append", default=[], metavar="KEY=VALUE",
+                        help="a setting for both")
     parser.add_argument("--second", dest="settings", action="append", default=[],
                         metavar="KEY=VALUE", help="a setting for the second alone")
     parser.add_argument("--second-without-huge-pages", action="store_true")
@@ -87,7 +89,7 @@ def main():
             for which in (0, 1) if repetition % 2 == 0 else (1, 0):
                 cost, trajectory = run(
                     (arguments.first, arguments.second)[which], scene,
-                    arguments.settings if which else [],
+                    arguments.both + (arguments.settings if which else []),
                     not (which and arguments.second_without_huge_pages))
                 costs[which].append(cost)
                 hashes.add(trajectory)
