@@ -223,7 +223,8 @@ const std::vector<Subset>& subsets() {
       {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
       {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
       {"matrix",
-       "1000 to 1000000 needles at n L^3 = 0.1 to 50: each search by lanes by each queue; 40 minutes",
+       "1000 to 1000000 needles at n L^3 = 0.1 to 50: each search by lanes by each queue; 40 "
+       "minutes",
        by_all},
       {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
       {"hulls", "8000 needles, k = 2, 6, 100: cells and capsules smaller and larger than chosen",
