@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -36,8 +37,8 @@ struct Share {
 };
 
 struct SweepArguments {
-  std::string grid, member;
-  std::optional<std::string> out, isa;
+  std::string grid;
+  std::optional<std::string> member, out, isa;
   std::optional<int> threads;
   bool summary = false, json = false, quiet = false, force = false;
 };
@@ -87,6 +88,7 @@ class Sweep {
   void prepare();
   void find_out_what_is_there();
   void run_what_is_missing();
+  void look_at_those_of_others();
   void sum_up();
   void tell(std::span<const sweep::PointSummary> summary);
   std::vector<std::string> names_of(int code) const;
@@ -110,6 +112,7 @@ int Sweep::run() {
   if (!arguments_.summary) {
     if (const int code = ranks_.do_everywhere([&] { run_what_is_missing(); })) return code;
     codes_ = ranks_.greatest(codes_);
+    if (const int code = ranks_.do_everywhere([&] { look_at_those_of_others(); })) return code;
   }
   const int code = ranks_.do_everywhere([&] {
     if (ranks_.rank() == 0) sum_up();
@@ -127,6 +130,9 @@ void Sweep::prepare() {
     throw InputError(arguments_.grid + ": out is missing: expected a folder, or --out DIR");
   }
   const std::string place = arguments_.out ? "--out " + out : arguments_.grid + ": out = " + out;
+  if (arguments_.summary && !std::filesystem::is_directory(out)) {
+    throw InputError(place + ": expected the folder of a sweep, to sum up: it does not exist");
+  }
   folder_.emplace(out, grid_, arguments_.force, place);
   if (ranks_.rank() == 0) tell_warnings(grid_);
   costs_ = estimated_costs(grid_);
@@ -168,10 +174,23 @@ void Sweep::run_what_is_missing() {
   run_members(runs, codes_);
 }
 
+// Members that were in the hands of another process may be done by now.
+void Sweep::look_at_those_of_others() {
+  for (const std::size_t member : members_) {
+    if (codes_[member] != stopped) continue;
+    const State state = folder_->state(grid_.members[member]);
+    if (state == State::finished) codes_[member] = ok;
+    if (state == State::failed) codes_[member] = invalid_state;
+  }
+}
+
 // The files alone count, as other processes may have made some of them.
 void Sweep::sum_up() {
   for (const sweep::Member& member : grid_.members) {
     missing_ += folder_->state(member) == State::missing;
+  }
+  if (arguments_.summary && missing_ == grid_.members.size()) {
+    throw InputError(arguments_.grid + ": expected members to sum up: none is finished");
   }
   std::vector<sweep::PointSummary> summary;
   if (missing_ == 0 || arguments_.summary) {
@@ -220,12 +239,12 @@ std::vector<std::string> Sweep::names_of(int code) const {
 }
 
 int run(const SweepArguments& arguments) {
-  const auto share = arguments.member.empty() ? Share() : parse_share(arguments.member);
+  const auto share = arguments.member ? parse_share(*arguments.member) : Share();
   if (!share) {
     print_error(
         fmt::format("--member {}: expected K/M, part K of M, such as 1/16 (see needlework "
                     "--help)",
-                    arguments.member));
+                    *arguments.member));
     return bad_usage;
   }
   return Sweep(arguments, *share).run();

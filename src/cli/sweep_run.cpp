@@ -81,9 +81,16 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, Progres
 
   Scene scene = member.scene;
   scene.output.file = folder.unfinished_file(member);
-  PreparedRun prepared(complete_scene(std::move(scene), {.threads = 1, .isa = runs.isa}), true,
-                       runs.grid.name);
-  const Course course = prepared.drive(progress);
+  const Course course = [&] {
+    try {
+      PreparedRun prepared(complete_scene(std::move(scene), {.threads = 1, .isa = runs.isa}), true,
+                           runs.grid.name);
+      return prepared.drive(progress);
+    } catch (...) {
+      folder.remove_unfinished(member);  // the disk may be full of it
+      throw;
+    }
+  }();
   if (course.failure) {
     folder.keep(member, SweepFolder::State::failed);
     throw InvalidStateError(

@@ -60,8 +60,11 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   // again and again; longer, events wait for nothing. [L]
   static constexpr double usual_sight = 1.5;
 
+  // Collisions between two meetings of all threads, at most and at least, about.
+  static constexpr double most_together = 0x1p15, least_together = 0x1p6;
+
   ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads,
-               double sight = usual_sight);
+               double sight = usual_sight, double least = least_together);
 
   Stop advance(const Scene::Until& until) override;
 
@@ -118,6 +121,10 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   bool rest(Hand& me);
   void make_known(Hand& me);
 
+  /// Collisions in a time, by the mean free time.
+  double thermal_rate() const {
+    return 0.5 * static_cast<double>(gas.size()) / this->mean_free_time;
+  }
   CellBox cell_of(Block block) const { return {places_[block], {}}; }
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
@@ -125,8 +132,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   bool may_have_met(const Hand& me, const Done& mine, double speed, bool in_order,
                     bool alone) const;
 
-  // Collisions between two meetings of all threads, at most and at least.
-  static constexpr double most_together = 0x1p15, least_together = 0x1p6;
+  static constexpr double most_in_vain = 1000;
   // Events that wait while a thread looks for one that need not.
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
@@ -135,6 +141,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
+  double others_apart_;    ///< needles of an event alone are so far from those of others [L]
   Claims claims_;
   DoneLog done_;                     ///< in this phase
   std::vector<std::uint8_t> inner_;  ///< of a block: nobody else ever comes near
@@ -142,6 +149,13 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   std::vector<CellCounts> places_;   ///< of the blocks
   std::deque<Hand> hands_;
   std::atomic<bool> amiss_ = false, finished_ = false;
+  std::atomic<bool> too_many_ = false;  ///< collisions, for a phase
+  double least_;                        ///< collisions that are worth a phase
+  std::uint64_t most_of_a_thread_ = 0;  ///< of them
+  double together_ = most_together;     ///< collisions of a phase, less where some were undone
+  double in_vain_ = 0;  ///< lengths of a phase to do alone after one that was undone
+  double pace_ = 1;     ///< collisions there are, over those of thermal flight
+  Time alone_until_;    ///< till then one thread does what was undone
   std::mutex meeting_;  ///< for mail and rest
   std::size_t resting_ = 0;
   int spins_;  ///< before a waiting thread yields
@@ -149,17 +163,34 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
 
 template <class Search, Effects effects>
 ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
-                                            const SearchSetup& setup, int threads, double sight)
+                                            const SearchSetup& setup, int threads, double sight,
+                                            double least)
     : Base(scene, std::move(initial), setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
       neighbours_(cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
       reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
-      done_(search_.grid(), gas.box) {
+      done_(search_.grid(), gas.box),
+      least_(least) {
+  int team = 0;
+  omp_set_dynamic(0);  // all of them, in every phase
+#pragma omp parallel num_threads(threads)
+#pragma omp single
+  team = omp_get_num_threads();
+  if (team != threads) {
+    throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
+                     std::to_string(team) +
+                     ", which is all that OpenMP gives here (OMP_THREAD_LIMIT, "
+                     "OMP_MAX_ACTIVE_LEVELS, or a parallel region around)");
+  }
   const CellCounts moves = cells_within(search_.grid(), search_.drift() + search_.radius());
+  others_apart_ = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     apart_[axis] = 3 * neighbours_[axis] + 2 * moves[axis];
+    // Less the partners of both events, and how far needles may be beyond their cells.
+    const std::int32_t between = apart_[axis] - 2 * neighbours_[axis] - moves[axis];
+    others_apart_ = std::min(others_apart_, between * search_.grid().sides()[axis]);
     if (cells_[axis] >= Claims::most_cells) {
       throw InputError("engine.threads = " + std::to_string(threads) +
                        ": expected 1 for a box of " + std::to_string(cells_[axis]) +
@@ -209,28 +240,43 @@ Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
       return Stop::time;
     }
     Time end = std::min(this->window_end_, last);
-    // An end by collisions is approached in smaller and smaller phases, to undo little.
-    const double left = limits.collisions - static_cast<double>(tally.collisions);
-    const double per_time = 0.5 * static_cast<double>(gas.size()) / this->mean_free_time;
-    const double expected =
-        std::min({most_together, left / 2, per_time * gas.clock.difference(end, next)});
-    end = std::min(end, gas.clock.add(next, expected / per_time));
-    if (expected >= least_together) run_together(limits, end);
-    // What is left: the last collisions, a phase that was undone, events at its very end.
-    if (queue_.top().time >= end) continue;
-    queue_.order_again();
-    if (const auto stop = this->run_alone(limits, end)) return *stop;
+    bool alone = next < alone_until_;
+    if (alone) {
+      end = std::min(end, alone_until_);
+    } else {
+      // An end by collisions is approached in smaller and smaller phases, to undo little.
+      const double left = std::ceil(limits.collisions) - static_cast<double>(tally.collisions);
+      const double most = std::min(together_, left / 2);
+      const double rate = pace_ * thermal_rate(), to_end = rate * gas.clock.difference(end, next);
+      const Time part = to_end > most ? gas.clock.add(next, most / rate) : end;
+      // Too little to share, or too short to be told from nothing.
+      alone = std::min(most, to_end) < least_ || !(next < part);
+      if (!alone) end = std::min(end, part);
+    }
+    const std::uint64_t before = tally.collisions;
+    if (!alone) {
+      run_together(limits, end);
+    } else {
+      queue_.order_again();
+      if (const auto stop = this->run_alone(limits, end)) return *stop;
+    }
+    // Where needles slide along each other there are many more collisions than in thermal flight.
+    const double expected = thermal_rate() * gas.clock.difference(end, next);
+    const auto counted = static_cast<double>(tally.collisions - before);
+    if (counted >= least_) pace_ = std::clamp(counted / expected, 1e-3, 1e9);
   }
 }
 
 // Runs events before `end` on all threads. Undoes all when that is not what one thread would have
-// done, or when it would have stopped before.
+// done, or when it would have stopped before; then one thread has to do it. Undoes all as well when
+// there are many more collisions than expected; then threads try less at once.
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end) {
   search_.prepare(now, end);
   done_.clear();
-  amiss_ = finished_ = false;
+  amiss_ = too_many_ = finished_ = false;
   resting_ = 0;
+  most_of_a_thread_ = static_cast<std::uint64_t>(2 * together_ + 4 * least_together);
   for (Hand& hand : hands_) {
     hand.undo.clear();
     hand.reports.clear();
@@ -268,8 +314,18 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
     tally.counters = counters;
     ++tally.counters.redone;
     undo();
+    if (too_many_) {
+      pace_ = std::min(4 * pace_, 1e9);
+    } else {
+      // Again and again in vain, as in a long box: tried more and more seldom.
+      alone_until_ = gas.clock.add(end, in_vain_ * gas.clock.difference(end, now));
+      in_vain_ = std::min(2 * in_vain_ + 1, most_in_vain);
+      together_ = std::max(together_ / 4, least_);
+    }
     return;
   }
+  together_ = std::min(2 * together_, most_together);
+  in_vain_ = 0;
   for (const Hand& hand : hands_) now = std::max(now, hand.worker.now);
   report();
 }
@@ -420,6 +476,7 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   me.worker.read_ahead = false;
 #endif
   me.worker.happen(event, stale);
+  if (me.tally.collisions > most_of_a_thread_) too_many_ = amiss_ = true;
   const auto record = [&](Needle i, const Done& taken) {
     const Vec3d& v = gas.records[i].flight.v;
     if (may_have_met(me, taken, std::sqrt(dot(v, v)), in_order, alone)) amiss_ = true;
@@ -573,10 +630,10 @@ bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Done& min
     fastest = std::max(fastest, hand.fastest.load());
   }
   if (latest < mine.key) return false;
-  // Farther than this others may be at work.
   const double farthest = DoneLog::reach(mine.key, latest, speed + fastest);
-  if (!(farthest < 1.01 + 2 * search_.drift())) return true;
-  return !(alone && in_order) && done_.may_have_met(mine, speed, farthest);
+  if (alone && in_order) return !(farthest < others_apart_);
+  // Farther than this others may be at work.
+  return !(farthest < 1.01 + 2 * search_.drift()) || done_.may_have_met(mine, speed, farthest);
 }
 
 }  // namespace needlework

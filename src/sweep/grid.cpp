@@ -32,6 +32,9 @@ struct Setting {
 
 std::string_view after_dot(std::string_view key) { return key.substr(key.find('.') + 1); }
 
+// With what is added to it, the 255 bytes that file systems take.
+constexpr std::size_t longest_name = 240;
+
 // Fit for the name of a file in any shell.
 std::string plain(std::string_view text) {
   std::string result;
@@ -306,6 +309,12 @@ Member Reader::make_member(std::size_t point, std::uint64_t seed) const {
   member.seed = seed;
   const std::string name = grid_.name_of_point(point);
   member.name = fmt::format("{}{}seed={}", name, name.empty() ? "" : ",", seed);
+  if (member.name.size() > longest_name) {
+    throw InputError(
+        fmt::format("{}: member {}...: a name of {} bytes: expected at most {}, as it "
+                    "names files",
+                    printable(name_), member.name.substr(0, 60), member.name.size(), longest_name));
+  }
   member.scene = parse_overridden_scene(grid_.base, base_name_, overrides);
   member.scene.output.file.clear();
   const Scene& scene = member.scene;

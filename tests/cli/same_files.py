@@ -46,7 +46,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "scene.toml").write_text(SCENE)
         files = {}
-        for threads in (1, 2, 3):
+        for threads in (1, 2, 3, 4, 8):
             out = Path(folder) / f"{threads}.h5"
             subprocess.run([program, "run", "scene.toml", "--threads", str(threads), "--out",
                             str(out), "--quiet"], cwd=folder, check=True,
@@ -61,7 +61,7 @@ def main():
                             if one.get(name) != other.get(name))
             expected = [] if threads == 1 else ["parameters/threads"]
             assert differ == expected, f"{threads} threads: {differ}"
-        print(f"{len(one)} datasets and attributes, the same on 1, 2 and 3 threads")
+        print(f"{len(one)} datasets and attributes, the same on 1, 2, 3, 4 and 8 threads")
 
 
 main()

@@ -121,6 +121,25 @@ TEST_F(SweepCommand, SummaryAloneSumsUpWhatIsThere) {
   EXPECT_EQ(rest["points"], result("--summary grid.toml --out part")["points"]);
 }
 
+TEST_F(SweepCommand, SummaryNeedsSomethingToSumUp) {
+  const Outcome absent = run("sweep --summary grid.toml --out absent");
+  EXPECT_EQ(absent.exit_code, 3);
+  EXPECT_TRUE(absent.complains("--out absent: expected the folder of a sweep"));
+  EXPECT_FALSE(exists("absent"));
+  std::filesystem::create_directory(path("empty"));
+  const Outcome empty = run("sweep --summary grid.toml --out empty");
+  EXPECT_EQ(empty.exit_code, 3);
+  EXPECT_TRUE(empty.complains("expected members to sum up: none is finished"));
+  EXPECT_FALSE(exists("empty/summary.h5"));
+}
+
+TEST_F(SweepCommand, AnEmptyShareIsNoShare) {
+  const Outcome outcome = run("sweep grid.toml --out share --member \"\"");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(outcome.complains("--member : expected K/M"));
+  EXPECT_FALSE(exists("share"));
+}
+
 TEST_F(SweepCommand, RunsNothingTwice) {
   const json first = result("grid.toml --out twice");
   const json again = result("grid.toml --out twice");
@@ -236,10 +255,10 @@ TEST_F(SweepCommand, ErrorsOfUsageAndInputAreTold) {
 TEST_F(SweepCommand, ExampleIsAGridThatCanBeRun) {
   const std::string source = NEEDLEWORK_SOURCE;
   const Outcome outcome =
-      run("sweep --json --summary '" + source + "/profiles/sweep-cooling.toml' --out example");
+      run("sweep --json '" + source + "/profiles/sweep-cooling.toml' --out example --member 12/12");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.json()["members"], 12);
-  EXPECT_EQ(outcome.json()["missing"], 12);
+  EXPECT_EQ(outcome.json()["missing"], 11);
 }
 
 class SweepOverRanks : public SweepCommand {

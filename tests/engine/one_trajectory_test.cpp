@@ -44,7 +44,7 @@ TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
   Scene scene = cooling_scene();
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const kernels::Isa isa : kernels::available()) {
-      for (const int threads : {2, 3}) {
+      for (const int threads : {2, 3, 4, 8}) {
         scene.engine.search = search;
         scene.engine.isa = kernels::name_of(isa);
         scene.engine.threads = threads;

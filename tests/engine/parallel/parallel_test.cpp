@@ -1,7 +1,13 @@
 // Runs on several threads are those on one, bit for bit, to the last collision.
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <cmath>
+#include <memory>
+
+#include "src/engine/parallel_loop.h"
 #include "src/error.h"
+#include "src/search/near_search.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -132,6 +138,85 @@ TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance({.energy_ratio = 0.5}), Stop::energy);
   EXPECT_GE(simulation.counters().redone, 1u);
+}
+
+// The limit is a number of collisions and a bit: one more is needed, and no time is left for a
+// phase.
+TEST(Parallel, EndsAtTheNextCollision) {
+  Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
+  std::size_t with_a_bit = 0;
+  for (int n = 1; n <= 300; n += 3) {
+    const double mean = std::nextafter(n / 500.0, 1.0);
+    with_a_bit += mean * 500 > n;
+    scene.engine.threads = 2;
+    Simulation simulation(scene);
+    ASSERT_EQ(simulation.advance({.collisions_per_needle = mean}), Stop::collisions);
+    ASSERT_EQ(simulation.totals().collisions, static_cast<std::uint64_t>(std::ceil(mean * 500)));
+  }
+  EXPECT_GT(with_a_bit, 30u);
+}
+
+// Called for short times on end, as the program does, a run does not try what was undone anew; and
+// needles that slide, with many more collisions than in thermal flight, make no endless phase.
+TEST(Parallel, UndoesAPhaseOnlyOnce) {
+  Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
+  scene.initial.t_rot = 0;
+  const auto run = [&](int threads, double wall) {
+    scene.engine.threads = threads;
+    auto simulation = std::make_unique<Simulation>(scene);
+    Scene::Until until;
+    until.energy_ratio = thin > 1 ? 0.7 : 0.3;
+    if (wall > 0) until.wall_s = wall;
+    Stop stop;
+    do {
+      stop = simulation->advance(until);
+    } while (stop == Stop::wall_time);
+    EXPECT_EQ(stop, Stop::energy);
+    return simulation;
+  };
+  const auto truth = run(1, 0), seen = run(2, 1e-4);
+  EXPECT_EQ(seen->trajectory_hash(), truth->trajectory_hash());
+  const Counters& counters = seen->counters();
+  EXPECT_GT(counters.phases, 2u);
+  EXPECT_LE(counters.redone, 3u);
+  // Each of 2^15 collisions at most, or twice that in vain.
+  EXPECT_LE(counters.events, 2 * truth->counters().events);
+}
+
+// Scenes so small that usually one thread does them alone.
+TEST(Parallel, FewNeedlesToo) {
+  for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
+                        Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},
+                        Case{"", 100, {4, 4, 4}, 0.8, -1, 1e-3, 6, 2000}}) {
+    const Scene scene = scene_of(c);
+    Scene::Until until;
+    until.collisions_per_needle = 2 * c.collisions / static_cast<double>(c.count);
+    Simulation truth(scene);
+    truth.advance(until);
+    for (const int threads : {2, 3, 8}) {
+      ParallelLoop<Capsules, Effects{true, true}> loop(
+          scene, make_gas(scene, draw_initial_state(scene)), {}, threads, 1.5, 1);
+      EXPECT_EQ(loop.advance(until), Stop::collisions);
+      const Tally& tally = static_cast<const needlework::Run&>(loop).tally;
+      EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;
+      EXPECT_GT(tally.counters.phases, tally.counters.redone) << c.count << ", " << threads;
+    }
+  }
+}
+
+TEST(Parallel, SaysWhenOpenMPGivesFewerThreads) {
+  Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
+  scene.engine.threads = 2;
+  const int levels = omp_get_max_active_levels();
+  omp_set_max_active_levels(0);
+  std::string message;
+  try {
+    Simulation{scene};
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  omp_set_max_active_levels(levels);
+  EXPECT_NE(message.find("engine.threads = 2: expected at most 1"), std::string::npos) << message;
 }
 
 TEST(Parallel, FailsWhereOneThreadFails) {
