@@ -136,6 +136,24 @@ std::string rate_line(const Report& report) {
               exact, rate / exact, error / exact);
 }
 
+// How several threads got on with each other; see src/engine/README.md.
+std::string thread_line(int threads, const Report& report) {
+  const Counters& counters = report.simulation.counters();
+  if (counters.phases == 0) {
+    return line("threads", "{}, of which one did all: too few needles, or collisions, to share",
+                threads);
+  }
+  const auto events = static_cast<double>(counters.events);
+  const double time = threads * report.course.loop.wall();
+  return line("threads",
+              "{}: {:.3g} events a turn, blocked {} of the time; {:.2g} looks at others and {:.2g} "
+              "writes to them an event; {} of {} phases undone",
+              threads, events / static_cast<double>(std::max<std::uint64_t>(counters.turns, 1)),
+              per_cent(1e-9 * static_cast<double>(counters.blocked) / time),
+              static_cast<double>(counters.border) / events,
+              static_cast<double>(counters.foreign) / events, counters.redone, counters.phases);
+}
+
 }  // namespace
 
 std::string summary_of(const Report& report) {
@@ -157,11 +175,14 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
   }
+  const int threads = scene.engine.threads.value_or(1);
   text += line("took", "{}", duration_text(report.course.loop.wall()));
   if (last.collisions > 0) {
     text.pop_back();
-    text += fmt::format(", {:.3g} us per collision\n", report.us_per_collision());
+    text += fmt::format(", {:.3g} us per collision{}\n", report.us_per_collision(),
+                        threads > 1 ? ", CPU time of all threads" : "");
   }
+  if (threads > 1) text += thread_line(threads, report);
   if (!scene.output.file.empty()) text += line("file", "{}", scene.output.file);
   return text;
 }

@@ -21,6 +21,7 @@ struct Done {
   double speed;  ///< [L/time]
   bool contact;
   std::uint32_t lower_id, higher_id;  ///< of the event's needles
+  Time time;                          ///< in full, of which the key has 53 bits
 };
 
 /// The events done, by the cell in which they were. Threads may use it at once, as long as none
@@ -68,7 +69,7 @@ class DoneLog {
 
  private:
   static bool comes_after(const Done& a, const Done& b) {
-    if (a.key != b.key) return a.key > b.key;
+    if (a.time != b.time) return a.time > b.time;
     // Two searches at one time may be made in any order.
     return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
                                            std::tie(b.contact, b.lower_id, b.higher_id);

@@ -606,7 +606,8 @@ auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey k
           std::sqrt(dot(flight.v, flight.v)),
           event.is_contact(),
           event.lower_id,
-          event.higher_id};
+          event.higher_id,
+          event.time};
 }
 
 // The cell of a needle that is at r, and those in which it may be placed.

@@ -306,6 +306,16 @@ TEST_F(RunCommand, RefusesThreadsThatSearchOrQueueCannotUse) {
   }
 }
 
+TEST_F(RunCommand, TellsHowThreadsGotOn) {
+  const std::string more = "small.toml --set needles.count=1000 --set needles.box=8 ";
+  const std::string few = "small.toml --set needles.count=20 --set needles.box=4 ";
+  EXPECT_NE(run("run " + more + "--threads 2").out.find(" events a turn, blocked "),
+            std::string::npos);
+  EXPECT_NE(run("run " + few + "--threads 2").out.find("2, of which one did all"),
+            std::string::npos);
+  EXPECT_EQ(run("run " + more + "--threads 1").out.find("threads"), std::string::npos);
+}
+
 TEST_F(RunCommand, SumsUpInPlainWords) {
   const Outcome cooling = run("run cooling.toml --out c.h5");
   for (const char* part :

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 
 namespace needlework {
 namespace {
@@ -12,7 +13,7 @@ TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
 
 Done at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
         std::uint32_t higher = 1) {
-  return {key_at(time), r, speed, lower != higher, lower, higher};
+  return {key_at(time), r, speed, lower != higher, lower, higher, {0, time}};
 }
 
 const std::array<double, 3> box{8, 9, 10};
@@ -75,6 +76,15 @@ TEST(DoneLog, LooksAtLaterEventsOnly) {
     EXPECT_FALSE(may_have_met(at(1, here, 0), 2, at(before, here, 1, 2, 3)));
   }
   EXPECT_TRUE(may_have_met(at(1, here, 0), 2, at(1 + 1e-12, here, 1)));
+}
+
+// After many epochs two times may have one key.
+TEST(DoneLog, TellsTimesOfOneKeyApart) {
+  Done early = at(1, here, 0), late = at(1, here, 0);
+  early.time = {std::int64_t{1} << 40, 0.5};
+  late.time = {std::int64_t{1} << 40, std::nextafter(0.5, 1)};
+  EXPECT_TRUE(may_have_met(early, 1, late));
+  EXPECT_FALSE(may_have_met(late, 1, early));
 }
 
 TEST(DoneLog, LooksAtAllLaterEvents) {
