@@ -240,10 +240,12 @@ Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
       return Stop::time;
     }
     Time end = std::min(this->window_end_, last);
-    bool alone = next < alone_until_;
-    if (alone) {
-      end = std::min(end, alone_until_);
-    } else {
+    // Till then no thread finds that the search has to begin its times anew.
+    const Time ready = search_.prepare(now);
+    bool alone = next < alone_until_ || !(next < ready);
+    if (next < alone_until_) end = std::min(end, alone_until_);
+    if (!alone) {
+      end = std::min(end, ready);
       // An end by collisions is approached in smaller and smaller phases, to undo little.
       const double left = std::ceil(limits.collisions) - static_cast<double>(tally.collisions);
       const double most = std::min(together_, left / 2);
@@ -272,7 +274,6 @@ Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
 // there are many more collisions than expected; then threads try less at once.
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end) {
-  search_.prepare(now, end);
   done_.clear();
   amiss_ = too_many_ = finished_ = false;
   resting_ = 0;

@@ -124,7 +124,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
 
 Time NearSearch::place(Needle i, Time now) {
   Hulls& hulls = *hulls_;
-  prepare(now, now);
+  if (hulls.unit == 0 || hulls.since_base(now) > kernels::longest_time) hulls.rebase(now);
   const Record& record = hulls.gas.records[i];
   const kernels::Flight& flight = record.flight;
   const double elapsed = hulls.gas.clock.difference(now, record.time);

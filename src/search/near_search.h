@@ -105,9 +105,13 @@ class NearSearch {
   double drift() const { return hulls_->kind == Hulls::Kind::cell ? hulls_->overlap : radius(); }
   /// How far from where a needle is it may be placed. [L]
   double radius() const { return hulls_->radius; }
-  /// Makes times until then fit for place(): needed before several threads call it.
-  void prepare(Time now, Time until) {
-    if (hulls_->unit == 0 || hulls_->since_base(until) > kernels::longest_time) hulls_->rebase(now);
+  /// Makes times from now on fit for place(). Returns until when they are: till then several
+  /// threads may call it.
+  Time prepare(Time now) {
+    Hulls& hulls = *hulls_;
+    // From the middle on anew, so that there is always as much ahead.
+    if (hulls.unit == 0 || hulls.since_base(now) > 0.5 * kernels::longest_time) hulls.rebase(now);
+    return hulls.gas.clock.add(hulls.base, kernels::longest_time / hulls.unit);
   }
 
  private:
