@@ -289,6 +289,7 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
     hand.mail.clear();
     hand.held.clear();
   }
+  [[maybe_unused]] const Time base = search_.hulls().base;
   const TimeKey end_key = queue_.key_of(end);
   const int threads = static_cast<int>(hands_.size());
 #pragma omp parallel num_threads(threads)
@@ -306,6 +307,7 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
       amiss_ = true;
     }
   }
+  assert(search_.hulls().base == base);  // which no thread may change for the others
   ++tally.counters.phases;
   const Tally before = tally;
   for (Hand& hand : hands_) tally.take(hand.tally);
