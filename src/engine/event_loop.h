@@ -142,7 +142,10 @@ std::optional<Stop> EventLoop<Search, Queue, effects>::run_alone(const Limits& l
       now = limits.time;
       return Stop::time;
     }
-    if (event.time >= end) return std::nullopt;
+    if (event.time >= end) {
+      if (event.time == Time::never()) return Stop::nothing_can_happen;
+      return std::nullopt;
+    }
     worker_.happen(event, worker_.is_stale(event));
     now = event.time;
   }
@@ -150,7 +153,8 @@ std::optional<Stop> EventLoop<Search, Queue, effects>::run_alone(const Limits& l
 
 template <class Search, class Queue, Effects effects>
 bool EventLoop<Search, Queue, effects>::pass_window(Time next, const Limits& limits) {
-  if (window_end_ > std::min(next, limits.time)) return false;
+  const Time until = std::min(next, limits.time);
+  if (window_end_ > until || until == Time::never()) return false;
   now = window_end_;
   open_window();
   if (sorted && tally.counters.crossings - sorted_at_ > 2 * gas.size()) sort_storage();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
-#include <limits>
 
 #include "kernels/double_double.h"
 
@@ -16,7 +15,8 @@ struct Time {
   std::int64_t epoch = 0;
   double offset = 0;
 
-  static constexpr Time never() { return {std::numeric_limits<std::int64_t>::max(), 0}; }
+  /// The end of all time that can be told; differences from it are finite.
+  static constexpr Time never() { return {std::int64_t{1} << 62, 0}; }
   friend constexpr auto operator<=>(const Time&, const Time&) = default;
 };
 
@@ -31,20 +31,21 @@ class Clock {
   /// Spacing of the times at hand. [time]
   double resolution() const { return length_ * 0x1p-52; }
 
-  /// t + dt, dt >= 0, rounded to the nearest at the resolution or finer; `never` for dt of 2^62
-  /// epochs or more.
+  /// t + dt, dt >= 0, rounded to the nearest at the resolution or finer; `never` from 2^62
+  /// epochs on.
   Time add(Time t, double dt) const {
     const double epochs = dt / length_;
-    if (!(epochs < 0x1p62) || t == Time::never()) return Time::never();
+    if (!(epochs < 0x1p62)) return Time::never();
     const double whole = std::floor(epochs);
     const double offset = t.offset + (epochs - whole) * length_;
     const bool carry = offset >= length_;
-    return {t.epoch + static_cast<std::int64_t>(whole) + carry, carry ? offset - length_ : offset};
+    const std::int64_t epoch = t.epoch + static_cast<std::int64_t>(whole) + carry;
+    if (epoch >= Time::never().epoch) return Time::never();
+    return {epoch, carry ? offset - length_ : offset};
   }
 
-  /// a - b; infinite when a is `never`.
+  /// a - b.
   double difference(Time a, Time b) const {
-    if (a == Time::never()) return std::numeric_limits<double>::infinity();
     return static_cast<double>(a.epoch - b.epoch) * length_ + (a.offset - b.offset);
   }
 
