@@ -31,6 +31,7 @@
 #include "src/engine/done_log.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/patience.h"
+#include "src/engine/phase_plan.h"
 #include "src/engine/zones.h"
 #include "src/search/cell_grid.h"
 
@@ -60,11 +61,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   // again and again; longer, events wait for nothing. [L]
   static constexpr double usual_sight = 1.5;
 
-  // Collisions between two meetings of all threads, at most and at least, about.
-  static constexpr double most_together = 0x1p15, least_together = 0x1p6;
-
   ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads,
-               double sight = usual_sight, double least = least_together);
+               double sight = usual_sight, double least = PhasePlan::usual_least);
 
   Stop advance(const Scene::Until& until) override;
 
@@ -93,9 +91,10 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
     UndoLog undo;
     std::vector<Held> held;
     std::vector<Collision> reports;
-    // For others: the latest event taken up in this phase, the speed of the fastest needle before
-    // any of them, and whether there is mail.
-    alignas(128) std::atomic<TimeKey> latest = 0;
+    // For others: the earliest event there is, the latest taken up in this phase, the speed of the
+    // fastest needle before any of them, and whether there is mail.
+    alignas(128) std::atomic<TimeKey> front = 0;
+    std::atomic<TimeKey> latest = 0;
     std::atomic<double> fastest = 0;
     std::atomic<bool> has_mail = false;
     std::vector<Block> mail;  ///< its blocks to which others have written
@@ -129,19 +128,19 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
+  bool is_too_far_ahead(const Hand& me, TimeKey key) const;
   bool may_have_met(const Hand& me, const Done& mine, double speed, bool in_order,
                     bool alone) const;
 
-  static constexpr double most_in_vain = 1000;
   // Events that wait while a thread looks for one that need not.
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
 
   CellCounts cells_;
+  double others_near_;     ///< others may be at work farther than this from any event [L]
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
-  double others_apart_;    ///< needles of an event alone are so far from those of others [L]
   Claims claims_;
   DoneLog done_;                     ///< in this phase
   std::vector<std::uint8_t> inner_;  ///< of a block: nobody else ever comes near
@@ -150,12 +149,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   std::deque<Hand> hands_;
   std::atomic<bool> amiss_ = false, finished_ = false;
   std::atomic<bool> too_many_ = false;  ///< collisions, for a phase
-  double least_;                        ///< collisions that are worth a phase
-  std::uint64_t most_of_a_thread_ = 0;  ///< of them
-  double together_ = most_together;     ///< collisions of a phase, less where some were undone
-  double in_vain_ = 0;  ///< lengths of a phase to do alone after one that was undone
-  double pace_ = 1;     ///< collisions there are, over those of thermal flight
-  Time alone_until_;    ///< till then one thread does what was undone
+  double fastest_before_ = 0;           ///< needle of an event, in the phase before [L/time]
+  PhasePlan plan_;
   std::mutex meeting_;  ///< for mail and rest
   std::size_t resting_ = 0;
   int spins_;  ///< before a waiting thread yields
@@ -168,11 +163,12 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
     : Base(scene, std::move(initial), setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
-      neighbours_(cells_within(search_.grid(), 1.01 + 2 * search_.drift())),
+      others_near_(1.01 + 2 * search_.drift()),
+      neighbours_(cells_within(search_.grid(), others_near_)),
       reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
       done_(search_.grid(), gas.box),
-      least_(least) {
+      plan_(gas.clock, least) {
   int team = 0;
   omp_set_dynamic(0);  // all of them, in every phase
 #pragma omp parallel num_threads(threads)
@@ -185,12 +181,8 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
                      "OMP_MAX_ACTIVE_LEVELS, or a parallel region around)");
   }
   const CellCounts moves = cells_within(search_.grid(), search_.drift() + search_.radius());
-  others_apart_ = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     apart_[axis] = 3 * neighbours_[axis] + 2 * moves[axis];
-    // Less the partners of both events, and how far needles may be beyond their cells.
-    const std::int32_t between = apart_[axis] - 2 * neighbours_[axis] - moves[axis];
-    others_apart_ = std::min(others_apart_, between * search_.grid().sides()[axis]);
     if (cells_[axis] >= Claims::most_cells) {
       throw InputError("engine.threads = " + std::to_string(threads) +
                        ": expected 1 for a box of " + std::to_string(cells_[axis]) +
@@ -239,33 +231,21 @@ Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
       now = limits.time;
       return Stop::time;
     }
-    Time end = std::min(this->window_end_, last);
-    // Till then no thread finds that the search has to begin its times anew.
+    if (next == Time::never()) return Stop::nothing_can_happen;
+    // Till `ready` no thread finds that the search has to begin its times anew.
     const Time ready = search_.prepare(now);
-    bool alone = next < alone_until_ || !(next < ready);
-    if (next < alone_until_) end = std::min(end, alone_until_);
-    if (!alone) {
-      end = std::min(end, ready);
-      // An end by collisions is approached in smaller and smaller phases, to undo little.
-      const double left = std::ceil(limits.collisions) - static_cast<double>(tally.collisions);
-      const double most = std::min(together_, left / 2);
-      const double rate = pace_ * thermal_rate(), to_end = rate * gas.clock.difference(end, next);
-      const Time part = to_end > most ? gas.clock.add(next, most / rate) : end;
-      // Too little to share, or too short to be told from nothing.
-      alone = std::min(most, to_end) < least_ || !(next < part);
-      if (!alone) end = std::min(end, part);
-    }
+    const double left = std::ceil(limits.collisions) - static_cast<double>(tally.collisions);
+    const PhasePlan::Stretch stretch =
+        plan_.next({next, std::min(this->window_end_, last), ready, left, thermal_rate()});
     const std::uint64_t before = tally.collisions;
-    if (!alone) {
-      run_together(limits, end);
+    if (stretch.together) {
+      run_together(limits, stretch.end);
     } else {
       queue_.order_again();
-      if (const auto stop = this->run_alone(limits, end)) return *stop;
+      if (const auto stop = this->run_alone(limits, stretch.end)) return *stop;
     }
-    // Where needles slide along each other there are many more collisions than in thermal flight.
-    const double expected = thermal_rate() * gas.clock.difference(end, next);
-    const auto counted = static_cast<double>(tally.collisions - before);
-    if (counted >= least_) pace_ = std::clamp(counted / expected, 1e-3, 1e9);
+    plan_.counted(static_cast<double>(tally.collisions - before),
+                  thermal_rate() * gas.clock.difference(stretch.end, next));
   }
 }
 
@@ -277,12 +257,14 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   done_.clear();
   amiss_ = too_many_ = finished_ = false;
   resting_ = 0;
-  most_of_a_thread_ = static_cast<std::uint64_t>(2 * together_ + 4 * least_together);
+  fastest_before_ = 0;
   for (Hand& hand : hands_) {
+    fastest_before_ = std::max(fastest_before_, hand.fastest.load());
     hand.undo.clear();
     hand.reports.clear();
     hand.worker.now = now;
     hand.worker.reports = this->callback ? &hand.reports : nullptr;
+    hand.front = 0;
     hand.latest = 0;
     hand.fastest = 0;
     hand.has_mail = hand.resting = false;
@@ -318,17 +300,13 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
     ++tally.counters.redone;
     undo();
     if (too_many_) {
-      pace_ = std::min(4 * pace_, 1e9);
+      plan_.had_too_many();
     } else {
-      // Again and again in vain, as in a long box: tried more and more seldom.
-      alone_until_ = gas.clock.add(end, in_vain_ * gas.clock.difference(end, now));
-      in_vain_ = std::min(2 * in_vain_ + 1, most_in_vain);
-      together_ = std::max(together_ / 4, least_);
+      plan_.undone(now, end);
     }
     return;
   }
-  together_ = std::min(2 * together_, most_together);
-  in_vain_ = 0;
+  plan_.kept();
   for (const Hand& hand : hands_) now = std::max(now, hand.worker.now);
   report();
 }
@@ -386,18 +364,18 @@ void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
     if (me.has_mail.load(std::memory_order_acquire)) read_mail(me);
     release_held(me);
     const TimeKey key = queue_.winning_key(me.zone);
+    TimeKey front = key;
+    for (const Held& held : me.held) front = std::min(front, held.key);
+    me.front.store(front, std::memory_order_relaxed);
     // Those held may wait for one that has come up since.
-    const auto before_all = [&] {
-      return std::all_of(me.held.begin(), me.held.end(),
-                         [&](const Held& held) { return key <= held.key; });
-    };
-    if (key < end && (me.held.size() < most_held || before_all())) {
+    const bool may_start = me.held.size() < most_held || key == front;
+    if (key < end && may_start && !is_too_far_ahead(me, key)) {
       const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
       if (outcome == Outcome::done) go_on();
       if (outcome == Outcome::again) wait();
       continue;
     }
-    if (me.held.empty()) {
+    if (key >= end && me.held.empty()) {
       blockings.begin();
       if (rest(me)) break;
       continue;
@@ -479,7 +457,7 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   me.worker.read_ahead = false;
 #endif
   me.worker.happen(event, stale);
-  if (me.tally.collisions > most_of_a_thread_) too_many_ = amiss_ = true;
+  if (me.tally.collisions > plan_.most_of_a_thread()) too_many_ = amiss_ = true;
   const auto record = [&](Needle i, const Done& taken) {
     const Vec3d& v = gas.records[i].flight.v;
     if (may_have_met(me, taken, std::sqrt(dot(v, v)), in_order, alone)) amiss_ = true;
@@ -620,6 +598,20 @@ CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const 
                       search_.cell_of(i));
 }
 
+// Whether another thread is so far behind that it could not be told who may have met meanwhile; or
+// nearly so, as threads go on while one looks at their clocks.
+template <class Search, Effects effects>
+bool ParallelLoop<Search, effects>::is_too_far_ahead(const Hand& me, TimeKey key) const {
+  return std::any_of(hands_.begin(), hands_.end(), [&](const Hand& hand) {
+    const TimeKey front = hand.front.load(std::memory_order_relaxed);
+    if (front >= key) return false;
+    const double fastest = std::max({fastest_before_, hand.fastest.load(std::memory_order_relaxed),
+                                     me.fastest.load(std::memory_order_relaxed)});
+    constexpr double room = 2;
+    return !(DoneLog::reach(front, key, room * 2 * fastest) < others_near_);
+  });
+}
+
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
 // has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
 // are far.
@@ -635,9 +627,9 @@ bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Done& min
   }
   if (latest < mine.key) return false;
   const double farthest = DoneLog::reach(mine.key, latest, speed + fastest);
-  if (alone && in_order) return !(farthest < others_apart_);
   // Farther than this others may be at work.
-  return !(farthest < 1.01 + 2 * search_.drift()) || done_.may_have_met(mine, speed, farthest);
+  if (!(farthest < others_near_)) return true;
+  return !(alone && in_order) && done_.may_have_met(mine, speed, farthest);
 }
 
 }  // namespace needlework

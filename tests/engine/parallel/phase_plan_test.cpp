@@ -1,0 +1,128 @@
+// How long threads go on before they meet.
+#include "src/engine/phase_plan.h"
+
+#include <gtest/gtest.h>
+
+namespace needlework {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Epochs of 1, so that times are easy to read.
+const Clock clock(1);
+Time at(double time) { return clock.add({}, time); }
+
+class PhasePlanTest : public testing::Test {
+ protected:
+  // Of a run without end in sight, with so many collisions per time.
+  PhasePlan::Outlook outlook(double next, double rate, double left = infinity) const {
+    return {at(next), at(1e6), at(1e6), left, rate};
+  }
+  void expect_together(const PhasePlan::Outlook& outlook, double until) {
+    const PhasePlan::Stretch stretch = plan.next(outlook);
+    EXPECT_TRUE(stretch.together);
+    EXPECT_DOUBLE_EQ(clock.since_start(stretch.end), until);
+  }
+  void expect_alone(const PhasePlan::Outlook& outlook, double until) {
+    const PhasePlan::Stretch stretch = plan.next(outlook);
+    EXPECT_FALSE(stretch.together);
+    EXPECT_DOUBLE_EQ(clock.since_start(stretch.end), until);
+  }
+
+  PhasePlan plan{clock, 64};
+};
+
+TEST_F(PhasePlanTest, HasPhasesOfSoManyCollisions) {
+  expect_together(outlook(3, 0x1p15), 4);
+  expect_together(outlook(3, 0x1p13), 7);
+}
+
+TEST_F(PhasePlanTest, EndsWhereItIsAskedTo) {
+  PhasePlan::Outlook before_end = outlook(3, 0x1p13);
+  before_end.end = at(5);
+  expect_together(before_end, 5);
+  PhasePlan::Outlook before_ready = outlook(3, 0x1p13);
+  before_ready.ready = at(4);
+  expect_together(before_ready, 4);
+}
+
+// One thread does not end earlier than asked: it needs no meetings.
+TEST_F(PhasePlanTest, LeavesToOneThreadWhatIsTooLittle) {
+  PhasePlan::Outlook few = outlook(3, 100);
+  few.end = at(3.6);
+  expect_alone(few, 3.6);
+  few.end = at(3.7);
+  expect_together(few, 3.7);
+  PhasePlan::Outlook soon = outlook(3, 100);
+  soon.ready = at(3.6);
+  expect_alone(soon, 1e6);
+  soon.ready = at(3);
+  expect_alone(soon, 1e6);
+  soon.ready = at(2);
+  expect_alone(soon, 1e6);
+  // So many collisions that a phase is shorter than times can tell.
+  expect_alone(outlook(3.5, 1e300), 1e6);
+}
+
+TEST_F(PhasePlanTest, ComesToAnEndByCollisionsInSmallerAndSmallerPhases) {
+  expect_together(outlook(0, 100, 3200), 16);
+  expect_together(outlook(16, 100, 1600), 24);
+  expect_together(outlook(24, 100, 128), 24.64);
+  expect_alone(outlook(24, 100, 127), 1e6);
+  expect_alone(outlook(24, 100, -5), 1e6);
+}
+
+TEST_F(PhasePlanTest, LeavesWhatWasUndoneToOneThread) {
+  plan.undone(at(2), at(4));
+  expect_alone(outlook(2, 0x1p13), 4);
+  expect_alone(outlook(3.5, 0x1p13), 4);
+  // The next one is a quarter as long.
+  expect_together(outlook(4, 0x1p13), 5);
+  plan.kept();
+  expect_together(outlook(5, 0x1p13), 7);
+  plan.kept();
+  expect_together(outlook(7, 0x1p13), 11);
+  plan.kept();
+  expect_together(outlook(11, 0x1p13), 15);
+}
+
+TEST_F(PhasePlanTest, TriesMoreAndMoreSeldomWhereAllIsInVain) {
+  plan.undone(at(0), at(1));
+  expect_alone(outlook(0, 0x1p13), 1);
+  plan.undone(at(1), at(2));
+  expect_alone(outlook(1, 0x1p13), 3);
+  plan.undone(at(3), at(4));
+  expect_alone(outlook(3, 0x1p13), 7);
+  for (int n = 0; n < 20; ++n) plan.undone(at(0), at(1));
+  expect_alone(outlook(0, 0x1p13), 1001);
+  // Not shorter than what is worth it.
+  expect_together(outlook(1001, 64), 1002);
+  plan.kept();
+  plan.undone(at(1002), at(1003));
+  expect_alone(outlook(1002, 0x1p13), 1003);
+}
+
+TEST_F(PhasePlanTest, GoesByTheCollisionsThatThereAre) {
+  plan.counted(3000, 1000);
+  expect_together(outlook(0, 0x1p15 / 3), 1);
+  plan.counted(500, 1000);
+  expect_together(outlook(0, 0x1p15), 2);
+  // Too few to go by.
+  plan.counted(63, 1e6);
+  expect_together(outlook(0, 0x1p15), 2);
+}
+
+// Broken off at twice as many as expected; that says nothing of the threads.
+TEST_F(PhasePlanTest, TriesLessAtOnceAfterTooManyCollisions) {
+  EXPECT_GT(plan.most_of_a_thread(), 0x1p16);
+  EXPECT_LT(plan.most_of_a_thread(), 0x1p17);
+  plan.had_too_many();
+  expect_together(outlook(0, 0x1p13), 1);
+  for (int n = 0; n < 50; ++n) plan.had_too_many();
+  expect_together(outlook(0, 0x1p15 * 1e-9), 1);
+  plan.undone(at(0), at(1));
+  EXPECT_LT(plan.most_of_a_thread(), 0x1p15);
+}
+
+}  // namespace
+}  // namespace needlework
