@@ -195,6 +195,11 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
                        static_cast<std::int32_t>(b / x / y)});
   }
   for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
+  double squares = 0;
+  for (const Record& record : gas.records) {
+    squares = std::max(squares, dot(record.flight.v, record.flight.v));
+  }
+  hands_[0].fastest = std::sqrt(squares);
   // With a core for each, most waits are shorter than a visit to the system.
   spins_ = threads <= omp_get_num_procs() ? 1000 : 32;
   divide();
@@ -602,14 +607,14 @@ CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const 
 // nearly so, as threads go on while one looks at their clocks.
 template <class Search, Effects effects>
 bool ParallelLoop<Search, effects>::is_too_far_ahead(const Hand& me, TimeKey key) const {
-  return std::any_of(hands_.begin(), hands_.end(), [&](const Hand& hand) {
-    const TimeKey front = hand.front.load(std::memory_order_relaxed);
-    if (front >= key) return false;
-    const double fastest = std::max({fastest_before_, hand.fastest.load(std::memory_order_relaxed),
-                                     me.fastest.load(std::memory_order_relaxed)});
-    constexpr double room = 2;
-    return !(DoneLog::reach(front, key, room * 2 * fastest) < others_near_);
-  });
+  TimeKey front = key;
+  double fastest = std::max(fastest_before_, me.fastest.load(std::memory_order_relaxed));
+  for (const Hand& hand : hands_) {
+    front = std::min(front, hand.front.load(std::memory_order_relaxed));
+    fastest = std::max(fastest, hand.fastest.load(std::memory_order_relaxed));
+  }
+  constexpr double room = 2;
+  return !(DoneLog::reach(front, key, room * 2 * fastest) < others_near_);
 }
 
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event

@@ -4,6 +4,7 @@
 #include "src/calendar/choice.h"
 #include "src/engine/accuracy.h"
 #include "src/engine/make_run_with.h"
+#include "src/engine/zones.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/scene/check.h"
@@ -40,12 +41,14 @@ std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queu
 }  // namespace
 
 std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
+  const int threads = scene.engine.threads.value_or(1);
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
-                          scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter};
+                          scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter,
+                          multiples_to_divide(initial.box, static_cast<std::uint32_t>(threads))};
   const double volume = initial.box[0] * initial.box[1] * initial.box[2];
   const std::string search =
       chosen_search(scene.engine.search, static_cast<double>(initial.size()) / volume);
-  const std::string queue = chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1));
+  const std::string queue = chosen_calendar(scene.engine.queue, threads);
   return with_queue(AllCalendars<CalendarList>(), queue, scene, std::move(initial), search, setup);
 }
 

@@ -1,6 +1,7 @@
 #include "src/engine/zones.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace needlework {
@@ -64,6 +65,50 @@ std::vector<std::uint32_t> divide_box(const CellCounts& cells,
     high.zones -= half;
     parts.push_back(low);
     parts.push_back(high);
+  }
+  return out;
+}
+
+CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t zones) {
+  // In parts of the axes.
+  struct Part {
+    std::array<double, 3> low, high;
+    std::uint32_t zones;
+  };
+  std::array<std::vector<double>, 3> cuts;
+  std::vector<Part> parts = {{{0, 0, 0}, {1, 1, 1}, zones}};
+  while (!parts.empty()) {
+    const Part part = parts.back();
+    parts.pop_back();
+    if (part.zones == 1) continue;
+    const auto length = [&](int axis) { return (part.high[axis] - part.low[axis]) * box[axis]; };
+    int axis = 0;
+    for (int a = 1; a < 3; ++a) {
+      if (length(a) >= length(axis) * (1 - 1e-9)) axis = a;
+    }
+    const std::uint32_t half = part.zones / 2;
+    const double share = static_cast<double>(half) / part.zones;
+    const double cut = part.low[axis] + share * (part.high[axis] - part.low[axis]);
+    cuts[axis].push_back(cut);
+    Part low = part, high = part;
+    low.high[axis] = high.low[axis] = cut;
+    low.zones = half;
+    high.zones -= half;
+    parts.push_back(low);
+    parts.push_back(high);
+  }
+  CellCounts out = {1, 1, 1};
+  // More than that no grid is near to.
+  const std::int32_t most = static_cast<std::int32_t>(std::min(2 * zones, 1000u));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto is_whole = [&](double cut) {
+      return std::abs(cut * out[axis] - std::round(cut * out[axis])) < 1e-9;
+    };
+    while (!std::all_of(cuts[axis].begin(), cuts[axis].end(), is_whole)) {
+      if (++out[axis] <= most) continue;
+      out[axis] = 1;
+      break;
+    }
   }
   return out;
 }

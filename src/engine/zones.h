@@ -15,6 +15,9 @@ using CellCounts = std::array<std::int32_t, 3>;
 std::vector<std::uint32_t> divide_box(const CellCounts& cells,
                                       const std::vector<std::size_t>& weight, std::uint32_t zones);
 
+/// Counts of cells along the axes whose multiples divide_box can cut in equal shares.
+CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t zones);
+
 /// Of each cell, whether all within `distance` cells of it along the axes are of its zone.
 std::vector<std::uint8_t> inner_cells(const CellCounts& cells,
                                       const std::vector<std::uint32_t>& zone,

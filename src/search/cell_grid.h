@@ -20,7 +20,9 @@ class CellGrid {
   CellGrid() = default;
   /// As many cells as fit with sides of at least `least_side`, one at least, but not many more than
   /// there are needles: empty ones would cost memory and crossings, up to all the memory there is.
-  CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles) {
+  /// Up to a quarter more along an axis where that gives a multiple of what is asked for there.
+  CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles,
+           const std::array<std::int32_t, 3>& multiples = {1, 1, 1}) {
     const double most = std::min(0x1p12 + 16 * static_cast<double>(needles), 0x1p31 - 1);
     const auto fitting = [](double edge, double side) {
       return std::max(1.0, std::floor(edge / side));
@@ -30,7 +32,9 @@ class CellGrid {
       side *= 1.25;
     }
     for (int axis = 0; axis < 3; ++axis) {
-      count_[axis] = static_cast<std::int32_t>(fitting(box[axis], side));
+      const auto fit = static_cast<std::int32_t>(fitting(box[axis], side));
+      const std::int32_t more = (multiples[axis] - fit % multiples[axis]) % multiples[axis];
+      count_[axis] = more <= fit / 4 ? fit + more : fit;
       side_[axis] = box[axis] / count_[axis];
       reciprocal_[axis] = 1 / side_[axis];
     }

@@ -93,7 +93,7 @@ Hulls::Hulls(const Gas& all, const SearchSetup& setup, Kind which)
       grid(gas.box,
            setup.cell_side.value_or(kind == Kind::cell ? auto_cell_side(density_of(gas))
                                                        : auto_side_for_capsules(density_of(gas))),
-           gas.size()),
+           gas.size(), setup.cell_side ? std::array{1, 1, 1} : setup.count_multiples),
       places(gas.size()),
       motions(gas.size()) {
   // With room for all that may ever be chained, as only full blocks have others after them: threads

@@ -1,6 +1,8 @@
 // What a run asks of its search.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "kernels/isa.h"
@@ -12,6 +14,9 @@ struct SearchSetup {
   std::optional<double> cell_side;       ///< least side of cells; absent: the search chooses [L]
   std::optional<double> capsule_radius;  ///< absent: the search chooses [L]
   bool float_filter = true;              ///< see kernels/accuracy.h
+  /// Where the search chooses its cells, their counts along the axes are multiples of these if
+  /// near.
+  std::array<std::int32_t, 3> count_multiples = {1, 1, 1};
 };
 
 }  // namespace needlework

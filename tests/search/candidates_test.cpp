@@ -288,6 +288,17 @@ TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   for (const std::int32_t n : dilute) EXPECT_LE(n, 13);
 }
 
+// Up to a quarter more.
+TEST(Cells, ComeInMultiplesThatAreNear) {
+  const auto counts = [](std::array<std::int32_t, 3> multiples) {
+    return CellGrid({24, 24, 24}, 2.3, 10000, multiples).counts();
+  };
+  using Counts = std::array<std::int32_t, 3>;
+  EXPECT_EQ(counts({1, 1, 1}), (Counts{10, 10, 10}));
+  EXPECT_EQ(counts({2, 3, 4}), (Counts{10, 12, 12}));
+  EXPECT_EQ(counts({7, 5, 13}), (Counts{10, 10, 10}));
+}
+
 // Whatever side is asked for, and however thin the box.
 TEST(Cells, AreNotManyMoreThanNeedles) {
   const auto cells = [](std::array<double, 3> box, double side, std::size_t needles) {

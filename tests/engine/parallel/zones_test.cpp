@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 
@@ -41,6 +42,32 @@ TEST(Zones, GetTheirShareOfTheNeedles) {
       }
     }
   }
+}
+
+// Of as many cells as is asked for, zones get equal parts, to a cell.
+TEST(Zones, AreEqualWhereCellsAllowIt) {
+  for (const std::array<double, 3> box :
+       {std::array{24.0, 24.0, 24.0}, {100, 4, 4}, {3, 50, 40}, {10, 20, 15}}) {
+    for (const std::uint32_t zones : {1u, 2u, 3u, 4u, 5u, 6u, 8u, 12u}) {
+      const CellCounts multiples = multiples_to_divide(box, zones);
+      CellCounts cells;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto near = static_cast<std::int32_t>(std::ceil(8 * box[axis] / multiples[axis]));
+        cells[axis] = multiples[axis] * near;
+      }
+      const std::vector<std::uint32_t> zone =
+          divide_box(cells, std::vector<std::size_t>(size_of(cells), 1), zones);
+      for (std::uint32_t z = 0; z < zones; ++z) {
+        EXPECT_EQ(static_cast<std::size_t>(std::count(zone.begin(), zone.end(), z)) * zones,
+                  zone.size())
+            << zones << " zones of " << cells[0] << " x " << cells[1] << " x " << cells[2];
+      }
+      EXPECT_LE(*std::max_element(multiples.begin(), multiples.end()), 12);
+    }
+  }
+  EXPECT_EQ(multiples_to_divide({9, 9, 9}, 2), (CellCounts{1, 1, 2}));
+  EXPECT_EQ(multiples_to_divide({9, 9, 9}, 8), (CellCounts{2, 2, 2}));
+  EXPECT_EQ(multiples_to_divide({900, 9, 9}, 7), (CellCounts{7, 1, 1}));
 }
 
 TEST(Zones, MayBeMoreThanTheCells) {
