@@ -99,6 +99,7 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
   EXPECT_GT(counters.foreign, 10u);  // collisions over the border
+  EXPECT_GT(counters.sorts, 0u);     // which divides the box anew
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {
