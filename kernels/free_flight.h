@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "kernels/contact_function.h"
 #include "kernels/isa.h"
 
 namespace needlework::kernels {
@@ -33,6 +34,28 @@ struct FlightColumns {
     columns
   };
   double* column[columns];
+
+  /// Puts needle n in, to fly for `time` from here.
+  void put(std::size_t n, const Flight& flight, double time) const {
+    put(r_x, n, flight.r);
+    put(v_x, n, flight.v);
+    put(u_x, n, flight.u);
+    put(p_x, n, flight.p);
+    column[omega][n] = flight.omega;
+    column[elapsed][n] = time;
+  }
+  Vec3d centre(std::size_t n) const { return at(r_x, n); }
+  Vec3d director(std::size_t n) const { return at(u_x, n); }
+  Vec3d at(int first, std::size_t n) const {
+    return {column[first][n], column[first + 1][n], column[first + 2][n]};
+  }
+
+ private:
+  void put(int first, std::size_t n, const Vec3d& a) const {
+    column[first][n] = a.x;
+    column[first + 1][n] = a.y;
+    column[first + 2][n] = a.z;
+  }
 };
 
 /// Advances n needles. Throws nothing; `isa` must be available().

@@ -100,25 +100,13 @@ void free_flight(benchmark::State& state, Isa isa, double density) {
   C columns;
   for (int c = 0; c < C::columns; ++c) columns.column[c] = moved[c];
   for (std::size_t n = 0; n < count; ++n) {
-    const kernels::Flight& flight = pairs[n].first;
-    const auto put = [&](int column, const Vec3d& a) {
-      moved[column][n] = a.x;
-      moved[column + 1][n] = a.y;
-      moved[column + 2][n] = a.z;
-    };
-    put(C::r_x, flight.r);
-    put(C::v_x, flight.v);
-    put(C::u_x, flight.u);
-    put(C::p_x, flight.p);
-    moved[C::omega][n] = flight.omega;
-    moved[C::elapsed][n] = time_ahead(density);
+    columns.put(n, pairs[n].first, time_ahead(density));
   }
   kernels::fly(isa, columns, count);
   for (std::size_t n = 0; n < count; ++n) {
     const kernels::Flight& flight = pairs[n].first;
-    const auto got = [&](int c) { return Vec3d{moved[c][n], moved[c + 1][n], moved[c + 2][n]}; };
-    require(got(C::r_x) == centre_after(flight, time_ahead(density)) &&
-                got(C::u_x) == director_after(flight, time_ahead(density)),
+    require(columns.centre(n) == centre_after(flight, time_ahead(density)) &&
+                columns.director(n) == director_after(flight, time_ahead(density)),
             "free-flight", isa);
   }
   double done = 0;

@@ -196,27 +196,13 @@ State Run::state(kernels::Isa isa) const {
     const std::span needles(&by_id[begin], std::min(at_once, by_id.size() - begin));
     for (std::size_t n = 0; n < needles.size(); ++n) {
       const Record& record = gas.records[needles[n]];
-      const kernels::Flight& flight = record.flight;
-      const auto put = [&](int column, const Vec3d& a) {
-        columns[column][n] = a.x;
-        columns[column + 1][n] = a.y;
-        columns[column + 2][n] = a.z;
-      };
-      put(C::r_x, flight.r);
-      put(C::v_x, flight.v);
-      put(C::u_x, flight.u);
-      put(C::p_x, flight.p);
-      columns[C::omega][n] = flight.omega;
-      columns[C::elapsed][n] = gas.clock.difference(now, record.time);
+      flights.put(n, record.flight, gas.clock.difference(now, record.time));
     }
     kernels::fly(isa, flights, needles.size());
     for (std::size_t n = 0; n < needles.size(); ++n) {
       const Needle i = needles[n];
       const kernels::Flight& flight = gas.records[i].flight;
-      const auto got = [&](int column) {
-        return Vec3d{columns[column][n], columns[column + 1][n], columns[column + 2][n]};
-      };
-      std::array<double, 3> r = array(got(C::r_x));
+      std::array<double, 3> r = array(flights.centre(n));
       Shift image = gas.images[i];
       for (int axis = 0; axis < 3; ++axis) {
         const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
@@ -228,7 +214,7 @@ State Run::state(kernels::Isa isa) const {
       out.position.push_back(r);
       out.image.push_back(image);
       out.velocity.push_back(array(flight.v));
-      out.orientation.push_back(array(just_now ? flight.u : normalised(got(C::u_x))));
+      out.orientation.push_back(array(just_now ? flight.u : normalised(flights.director(n))));
       out.angular_velocity.push_back(array(flight.w));
     }
   }

@@ -35,13 +35,7 @@ class Table {
       : room_((needles.size() + flights_at_once - 1) / flights_at_once * flights_at_once) {
     for (auto& column : storage_) column.assign(room_ + 1, untouched);
     for (std::size_t n = 0; n < needles.size(); ++n) {
-      const Flight& flight = needles[n].flight;
-      put(C::r_x, n, flight.r);
-      put(C::v_x, n, flight.v);
-      put(C::u_x, n, flight.u);
-      put(C::p_x, n, flight.p);
-      storage_[C::omega][n] = flight.omega;
-      storage_[C::elapsed][n] = needles[n].elapsed;
+      view().put(n, needles[n].flight, needles[n].elapsed);
     }
   }
   FlightColumns view() {
@@ -49,21 +43,12 @@ class Table {
     for (int c = 0; c < C::columns; ++c) out.column[c] = storage_[c].data();
     return out;
   }
-  Vec3d at(int column, std::size_t n) const {
-    return {storage_[column][n], storage_[column + 1][n], storage_[column + 2][n]};
-  }
   bool guarded() const {
     return std::all_of(std::begin(storage_), std::end(storage_),
                        [&](const auto& column) { return column[room_] == untouched; });
   }
 
  private:
-  void put(int column, std::size_t n, const Vec3d& a) {
-    storage_[column][n] = a.x;
-    storage_[column + 1][n] = a.y;
-    storage_[column + 2][n] = a.z;
-  }
-
   std::size_t room_;
   std::vector<double> storage_[C::columns];
 };
@@ -81,13 +66,14 @@ void expect_flight(const std::vector<Needle>& needles) {
   for (const Isa isa : available()) {
     SCOPED_TRACE(std::string(name_of(isa)) + ", " + std::to_string(needles.size()) + " needles");
     Table table(needles);
-    fly(isa, table.view(), needles.size());
+    const FlightColumns flown = table.view();
+    fly(isa, flown, needles.size());
     for (std::size_t n = 0; n < needles.size(); ++n) {
       const auto& [flight, elapsed] = needles[n];
-      expect_same_bits(table.at(C::r_x, n), centre_after(flight, elapsed));
-      expect_same_bits(table.at(C::u_x, n), director_after(flight, elapsed));
-      expect_same_bits(table.at(C::v_x, n), flight.v);
-      expect_same_bits(table.at(C::p_x, n), flight.p);
+      expect_same_bits(flown.centre(n), centre_after(flight, elapsed));
+      expect_same_bits(flown.director(n), director_after(flight, elapsed));
+      expect_same_bits(flown.at(C::v_x, n), flight.v);
+      expect_same_bits(flown.at(C::p_x, n), flight.p);
     }
     EXPECT_TRUE(table.guarded());
     if (testing::Test::HasFailure()) return;

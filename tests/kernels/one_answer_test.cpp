@@ -78,17 +78,7 @@ TEST(OneAnswer, OfFreeFlight) {
       for (std::size_t c = 0; c < C::columns; ++c) columns.column[c] = &storage[c * room];
       for (std::size_t n = 0; n < count; ++n) {
         const Flight flight = any_flight(random);
-        const auto put = [&](int column, const Vec3d& a) {
-          columns.column[column][n] = a.x;
-          columns.column[column + 1][n] = a.y;
-          columns.column[column + 2][n] = a.z;
-        };
-        put(C::r_x, flight.r);
-        put(C::v_x, flight.v);
-        put(C::u_x, flight.u);
-        put(C::p_x, flight.p);
-        columns.column[C::omega][n] = flight.omega;
-        columns.column[C::elapsed][n] = random.uniform(0, 10);
+        columns.put(n, flight, random.uniform(0, 10));
       }
       fly(isa, columns, count);
       for (const double* column : columns.column) {
