@@ -60,6 +60,7 @@ void BucketCalendar::enter_if_due(Needle i) {
 
 void BucketCalendar::file(Needle i, Number number) {
   if (number > present_ + static_cast<Number>(mask_)) {
+    // Nor are events in the last 256 of the 2^62 epochs there are, whose keys are the same.
     if (keys_[i] != never_) far_.push_back(i);
     return;
   }

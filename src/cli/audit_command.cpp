@@ -15,6 +15,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/number_in.h"
 #include "src/cli/output_path.h"
+#include "src/cli/prepared_run.h"
 #include "src/cli/progress.h"
 #include "src/cli/resources.h"
 #include "src/cli/scene_source.h"
@@ -166,6 +167,7 @@ int run_audit(const AuditArguments& arguments) {
   for (const std::string& warning : warnings(scene)) print_warning(warning);
   if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
+  require_events(simulation, scene, arguments.scene.path);
   audit::Audit audit(simulation.state(), setup_of(scene, arguments, simulation.epoch_length()));
   const AuditIdentity identity =
       fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);
@@ -177,10 +179,6 @@ int run_audit(const AuditArguments& arguments) {
   simulation.on_collision([&](const Collision& collision) { audit.add(collision); });
   const SignalGuard guard(simulation);
   const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);
-  if (outcome.stop == Stop::nothing_can_happen && !scene.until.time) {
-    throw InputError(arguments.scene.path +
-                     ": nothing can ever happen: expected needles that move, or until.time");
-  }
   if (arguments.state && !outcome.failure) {
     if (outcome.is_complete()) {
       std::remove(arguments.state->c_str());

@@ -9,7 +9,6 @@
 #include "src/scene/check.h"
 
 namespace needlework::cli {
-namespace {
 
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
   if (scene.until.time) return;
@@ -19,6 +18,8 @@ void require_events(Simulation& simulation, const Scene& scene, const std::strin
     throw InputError(path + ": nothing can ever happen: expected needles that move, or until.time");
   }
 }
+
+namespace {
 
 io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
   const std::string& file = scene.output.file;

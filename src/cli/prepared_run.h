@@ -12,6 +12,10 @@
 
 namespace needlework::cli {
 
+/// Throws InputError, which names the scene by `path`, if nothing can ever happen and no end in
+/// time is set.
+void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
+
 /// Made of a scene; writes to its output.file if that is not empty.
 class PreparedRun {
  public:

@@ -157,7 +157,7 @@ bool EventLoop<Search, Queue, effects>::pass_window(Time next, const Limits& lim
   if (window_end_ > until || until == Time::never()) return false;
   now = window_end_;
   open_window();
-  // From each needle's second to its eighth cell the order hardly gets worse, but sorting costs.
+  // Measured: after 2 to 8 of each needle the order is about as good, but sorting costs.
   constexpr std::uint64_t crossings = 6;
   if (sorted && tally.counters.crossings - sorted_at_ > crossings * gas.size()) sort_storage();
   return true;

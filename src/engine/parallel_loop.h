@@ -3,8 +3,9 @@
 // Each thread has a zone of the box and makes the events of the needles there happen, the earliest
 // first. What an event reads and writes lies within some cells of it, so events far from each other
 // may happen in any order, or at once. An event waits while the clock of any block within `reach_`
-// cells is behind it; other events of the zone, far from the waiting ones, go on. Where zones are
-// near, a thread claims the cells that its event may write to before it reads any.
+// cells is behind it; other events of the zone, far from the waiting ones, go on. A thread waits as
+// well while another is very far behind in time. Where zones are near, a thread claims the cells
+// that its event may write to before it reads any.
 //
 // That is nearly always enough, and nothing of the kind can be enough for sure: between two needles
 // there may be a row of others that hand a push on in no time, from an event outside the reach to
@@ -124,11 +125,12 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   double thermal_rate() const {
     return 0.5 * static_cast<double>(gas.size()) / this->mean_free_time;
   }
+  double thermal_speed() const { return std::sqrt(std::max(0.0, this->energy())); }
   CellBox cell_of(Block block) const { return {places_[block], {}}; }
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  bool is_too_far_ahead(const Hand& me, TimeKey key) const;
+  bool is_too_far_ahead(TimeKey key) const;
   bool may_have_met(const Hand& me, const Done& mine, double speed, bool in_order,
                     bool alone) const;
 
@@ -137,7 +139,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   static constexpr Block nobody = ~Block{0};
 
   CellCounts cells_;
-  double others_near_;     ///< others may be at work farther than this from any event [L]
+  double log_reach_;       ///< others may be at work where the log is farther from any event [L]
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
@@ -149,7 +151,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   std::deque<Hand> hands_;
   std::atomic<bool> amiss_ = false, finished_ = false;
   std::atomic<bool> too_many_ = false;  ///< collisions, for a phase
-  double fastest_before_ = 0;           ///< needle of an event, in the phase before [L/time]
+  double fastest_to_thermal_;    ///< speed of the fastest in the phase before, over thermal_speed()
+  double expected_fastest_ = 0;  ///< in this phase, which may be much later [L/time]
   PhasePlan plan_;
   std::mutex meeting_;  ///< for mail and rest
   std::size_t resting_ = 0;
@@ -163,8 +166,8 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
     : Base(scene, std::move(initial), setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
-      others_near_(1.01 + 2 * search_.drift()),
-      neighbours_(cells_within(search_.grid(), others_near_)),
+      log_reach_(1.01 + 2 * search_.drift()),
+      neighbours_(cells_within(search_.grid(), log_reach_)),
       reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
       done_(search_.grid(), gas.box),
@@ -199,7 +202,7 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
   for (const Record& record : gas.records) {
     squares = std::max(squares, dot(record.flight.v, record.flight.v));
   }
-  hands_[0].fastest = std::sqrt(squares);
+  fastest_to_thermal_ = squares > 0 ? std::sqrt(squares) / thermal_speed() : 0;
   // With a core for each, most waits are shorter than a visit to the system.
   spins_ = threads <= omp_get_num_procs() ? 1000 : 32;
   divide();
@@ -210,7 +213,7 @@ void ParallelLoop<Search, effects>::divide() {
   std::vector<std::size_t> weight(queue_.blocks());
   for (Block b = 0; b < queue_.blocks(); ++b) weight[b] = queue_.needles_in(b);
   const auto threads = static_cast<std::uint32_t>(hands_.size());
-  const std::vector<std::uint32_t> zone = divide_box(cells_, weight, threads);
+  const std::vector<std::uint32_t> zone = divide_box(cells_, gas.box, weight, threads);
   queue_.divide(zone, threads);
   inner_ = inner_cells(cells_, zone, apart_);
   ours_ = inner_cells(cells_, zone, reach_.reach());
@@ -262,9 +265,8 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   done_.clear();
   amiss_ = too_many_ = finished_ = false;
   resting_ = 0;
-  fastest_before_ = 0;
+  expected_fastest_ = fastest_to_thermal_ * thermal_speed();
   for (Hand& hand : hands_) {
-    fastest_before_ = std::max(fastest_before_, hand.fastest.load());
     hand.undo.clear();
     hand.reports.clear();
     hand.worker.now = now;
@@ -296,6 +298,9 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   }
   assert(search_.hulls().base == base);  // which no thread may change for the others
   ++tally.counters.phases;
+  double fastest = 0;
+  for (const Hand& hand : hands_) fastest = std::max(fastest, hand.fastest.load());
+  fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
   const Tally before = tally;
   for (Hand& hand : hands_) tally.take(hand.tally);
   if (amiss_ || this->reached(limits)) {
@@ -371,10 +376,11 @@ void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
     const TimeKey key = queue_.winning_key(me.zone);
     TimeKey front = key;
     for (const Held& held : me.held) front = std::min(front, held.key);
+    look_away();
     me.front.store(front, std::memory_order_relaxed);
     // Those held may wait for one that has come up since.
     const bool may_start = me.held.size() < most_held || key == front;
-    if (key < end && may_start && !is_too_far_ahead(me, key)) {
+    if (key < end && may_start && !is_too_far_ahead(key)) {
       const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
       if (outcome == Outcome::done) go_on();
       if (outcome == Outcome::again) wait();
@@ -604,17 +610,18 @@ CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const 
 }
 
 // Whether another thread is so far behind that it could not be told who may have met meanwhile; or
-// nearly so, as threads go on while one looks at their clocks.
+// nearly so, as threads go on while one looks at their clocks. The hindmost never is ahead.
 template <class Search, Effects effects>
-bool ParallelLoop<Search, effects>::is_too_far_ahead(const Hand& me, TimeKey key) const {
+bool ParallelLoop<Search, effects>::is_too_far_ahead(TimeKey key) const {
+  look_away();
   TimeKey front = key;
-  double fastest = std::max(fastest_before_, me.fastest.load(std::memory_order_relaxed));
+  double fastest = expected_fastest_;
   for (const Hand& hand : hands_) {
     front = std::min(front, hand.front.load(std::memory_order_relaxed));
     fastest = std::max(fastest, hand.fastest.load(std::memory_order_relaxed));
   }
   constexpr double room = 2;
-  return !(DoneLog::reach(front, key, room * 2 * fastest) < others_near_);
+  return front < key && !(DoneLog::reach(front, key, room * 2 * fastest) < log_reach_);
 }
 
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
@@ -633,7 +640,7 @@ bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Done& min
   if (latest < mine.key) return false;
   const double farthest = DoneLog::reach(mine.key, latest, speed + fastest);
   // Farther than this others may be at work.
-  if (!(farthest < others_near_)) return true;
+  if (!(farthest < log_reach_)) return true;
   return !(alone && in_order) && done_.may_have_met(mine, speed, farthest);
 }
 

@@ -41,7 +41,7 @@ std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queu
 }  // namespace
 
 std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
-  const int threads = scene.engine.threads.value_or(1);
+  const int threads = std::max(1, scene.engine.threads.value_or(1));
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter,
                           multiples_to_divide(initial.box, static_cast<std::uint32_t>(threads))};

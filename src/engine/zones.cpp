@@ -27,19 +27,30 @@ void for_each_cell(const Part& part, Visit&& visit) {
   }
 }
 
+// Of axes equal but for rounding the last, so that cells next to each other in memory stay
+// together.
+template <class Length>
+int longest(Length&& length) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
+    if (length(a) >= length(axis) * (1 - 1e-9)) axis = a;
+  }
+  return axis;
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> divide_box(const CellCounts& cells,
+std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<double, 3>& box,
                                       const std::vector<std::size_t>& weight, std::uint32_t zones) {
   std::vector<std::uint32_t> out(weight.size(), 0);
   std::vector<Part> parts = {{{0, 0, 0}, cells, 0, zones}};
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
-    int axis = 0;
-    for (int a = 1; a < 3; ++a) {
-      if (part.high[a] - part.low[a] >= part.high[axis] - part.low[axis]) axis = a;
-    }
+    const int axis = longest([&](int a) {
+      const std::int32_t count = part.high[a] - part.low[a];
+      return count < 2 ? 0 : count * box[a] / cells[a];
+    });
     if (part.zones == 1 || part.high[axis] - part.low[axis] < 2) {
       for_each_cell(part, [&](const CellCounts& at) { out[index_of(cells, at)] = part.first; });
       continue;
@@ -80,12 +91,8 @@ CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t z
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
-    if (part.zones == 1) continue;
-    const auto length = [&](int axis) { return (part.high[axis] - part.low[axis]) * box[axis]; };
-    int axis = 0;
-    for (int a = 1; a < 3; ++a) {
-      if (length(a) >= length(axis) * (1 - 1e-9)) axis = a;
-    }
+    if (part.zones <= 1) continue;
+    const int axis = longest([&](int a) { return (part.high[a] - part.low[a]) * box[a]; });
     const std::uint32_t half = part.zones / 2;
     const double share = static_cast<double>(half) / part.zones;
     const double cut = part.low[axis] + share * (part.high[axis] - part.low[axis]);

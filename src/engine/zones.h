@@ -10,9 +10,9 @@ namespace needlework {
 /// A grid of cells, numbered with x running fastest.
 using CellCounts = std::array<std::int32_t, 3>;
 
-/// Cuts the box in two along its longest side, and the parts again, until there are so many zones;
-/// each gets about its share of the weight. Returns the zone of each cell.
-std::vector<std::uint32_t> divide_box(const CellCounts& cells,
+/// Cuts the box [L] in two along its longest side, and the parts again, until there are so many
+/// zones; each gets about its share of the weight. Returns the zone of each cell.
+std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<double, 3>& box,
                                       const std::vector<std::size_t>& weight, std::uint32_t zones);
 
 /// Counts of cells along the axes whose multiples divide_box can cut in equal shares.

@@ -20,7 +20,8 @@ class CellGrid {
   CellGrid() = default;
   /// As many cells as fit with sides of at least `least_side`, one at least, but not many more than
   /// there are needles: empty ones would cost memory and crossings, up to all the memory there is.
-  /// Up to a quarter more along an axis where that gives a multiple of what is asked for there.
+  /// Then up to a quarter more along an axis, with shorter sides, where that gives a multiple of
+  /// what is asked for there.
   CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles,
            const std::array<std::int32_t, 3>& multiples = {1, 1, 1}) {
     const double most = std::min(0x1p12 + 16 * static_cast<double>(needles), 0x1p31 - 1);

@@ -19,7 +19,8 @@ inline double auto_capsule_radius(double density) {
   return std::clamp(0.6 / std::cbrt(density * density), 0.02, 1.0);
 }
 
-/// Side of the cells of capsules [L], of about 12 needles, which fill the lanes.
+/// Side of the cells of capsules [L], of about 12 needles, which fill the lanes; a few fewer where
+/// several threads are to have equal parts of them.
 inline double auto_side_for_capsules(double density) { return std::cbrt(12 / density); }
 
 /// Side of linked cells [L], of about 8 needles. In a dilute gas it pays to look through more, as

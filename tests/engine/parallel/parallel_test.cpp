@@ -87,6 +87,25 @@ TEST(Parallel, IsTheSameEveryTime) {
   }
 }
 
+// Stretches of one thread may lie between phases of several, in which a gas cools: what was fast
+// then is not what is fast now.
+TEST(Parallel, GoesOnTogetherAfterALongTimeAlone) {
+  Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
+  const int steps = thin > 1 ? 20 : 100;
+  const auto run = [&](int threads) {
+    scene.engine.threads = threads;
+    auto simulation = std::make_unique<Simulation>(scene);
+    // Too little for a phase, time and again.
+    for (int n = 0; n <= steps; ++n) simulation->advance(test::until_collisions(0.2 * n));
+    EXPECT_EQ(simulation->counters().phases, 0u);
+    simulation->advance(test::until_collisions(0.2 * steps + 6));
+    return simulation;
+  };
+  const auto truth = run(1), seen = run(2);
+  EXPECT_EQ(seen->trajectory_hash(), truth->trajectory_hash());
+  EXPECT_GT(seen->counters().phases, seen->counters().redone);
+}
+
 TEST(Parallel, UsesItsThreads) {
   Scene scene = scene_of({"", 2000, {14, 14, 14}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;

@@ -3,6 +3,7 @@
 // asks for N of them; run for hours it found what no chosen scene had shown.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -65,6 +66,7 @@ Drawn draw(std::uint64_t seed) {
   return {scene, until};
 }
 
+// As it has to be on any number of threads.
 struct End {
   Stop stop;
   std::uint64_t collisions;
@@ -78,8 +80,8 @@ void PrintTo(const End& end, std::ostream* out) {
        << end.time << ", energy " << end.energy << ", hash " << end.hash;
 }
 
-// `slice`: wall time of a call [s]; 0: all in one.
-End run(Drawn drawn, int threads, double slice) {
+// `slice`: wall time of a call [s]; 0: all in one. Adds the phases of several threads to `phases`.
+End run(Drawn drawn, int threads, double slice, std::uint64_t& phases) {
   drawn.scene.engine.threads = threads;
   if (slice > 0) drawn.until.wall_s = slice;
   Simulation simulation(drawn.scene);
@@ -87,6 +89,7 @@ End run(Drawn drawn, int threads, double slice) {
   do {
     stop = simulation.advance(drawn.until);
   } while (stop == Stop::wall_time);
+  phases += simulation.counters().phases;
   const Totals totals = simulation.totals();
   return {stop, totals.collisions, simulation.trajectory_hash(), totals.time, totals.energy};
 }
@@ -94,13 +97,15 @@ End run(Drawn drawn, int threads, double slice) {
 TEST(RandomScenes, EndAsOnOneThread) {
   const char* asked = std::getenv("NEEDLEWORK_RANDOM_SCENES");
   const int scenes = asked ? std::atoi(asked) : static_cast<int>(40 / test::thin);
+  std::uint64_t phases = 0;
   for (int seed = 1; seed <= scenes; ++seed) {
     const Drawn drawn = draw(static_cast<std::uint64_t>(seed));
     const int threads = std::array{2, 3, 2, 8}[static_cast<std::size_t>(seed % 4)];
-    const End truth = run(drawn, 1, 0);
-    ASSERT_EQ(run(drawn, threads, seed % 3 ? 0 : 1e-3), truth)
+    const End truth = run(drawn, 1, 0, phases);
+    ASSERT_EQ(run(drawn, threads, seed % 3 ? 0 : 1e-3, phases), truth)
         << "seed " << seed << " on " << threads << " threads";
   }
+  EXPECT_GT(phases, 0u);
 }
 
 }  // namespace
