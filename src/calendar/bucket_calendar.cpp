@@ -60,7 +60,8 @@ void BucketCalendar::enter_if_due(Needle i) {
 
 void BucketCalendar::file(Needle i, Number number) {
   if (number > present_ + static_cast<Number>(mask_)) {
-    // Nor are events in the last 256 of the 2^62 epochs there are, whose keys are the same.
+    // What never happens is not kept, nor what happens in the last 256 of the 2^62 epochs there
+    // are, which has the same key.
     if (keys_[i] != never_) far_.push_back(i);
     return;
   }

@@ -139,7 +139,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   static constexpr Block nobody = ~Block{0};
 
   CellCounts cells_;
-  double log_reach_;       ///< others may be at work where the log is farther from any event [L]
+  double log_reach_;       ///< to read the log so far from an event is safe from others at work [L]
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
