@@ -8,7 +8,7 @@
 #include "kernels/inline.h"
 
 // Highway compiles this file once more for each of its instruction sets.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#include "kernels/targets.h"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/near_needles.cpp"
 #include <hwy/foreach_target.h>

@@ -18,13 +18,6 @@ std::string contents(const fs::path& path) {
   return text.str();
 }
 
-// A folder that no other test uses, also when tests run at the same time.
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "needlework-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  return name;
-}
-
 }  // namespace
 
 testing::AssertionResult Outcome::complains(const std::string& part) const {
@@ -35,7 +28,7 @@ testing::AssertionResult Outcome::complains(const std::string& part) const {
   return testing::AssertionFailure() << "expected one line with \"" << part << "\", got:\n" << err;
 }
 
-ProgramTest::ProgramTest() : folder_(new_folder()) {
+ProgramTest::ProgramTest() {
   write(small, R"(title = "Small gas"
 [needles]
 count = 50
@@ -45,15 +38,14 @@ collisions_per_needle = 10
 )");
 }
 
-ProgramTest::~ProgramTest() { fs::remove_all(folder_); }
-
 Outcome ProgramTest::run(const std::string& arguments, const std::string& before,
                          const std::string& out) const {
   return shell(before + " '" + NEEDLEWORK_PROGRAM + "' " + arguments, out);
 }
 
 Outcome ProgramTest::shell(const std::string& command, const std::string& out) const {
-  const fs::path streams = new_folder();
+  const test::TemporaryFolder temporary;
+  const fs::path& streams = temporary.path();
   const std::string out_path = out.empty() ? (streams / "out").string() : out;
   const std::string redirections =
       " </dev/null >'" + out_path + "' 2>'" + (streams / "err").string() + "'";
@@ -63,7 +55,6 @@ Outcome ProgramTest::shell(const std::string& command, const std::string& out) c
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
   if (out.empty()) outcome.out = contents(out_path);
   outcome.err = contents(streams / "err");
-  fs::remove_all(streams);
   return outcome;
 }
 

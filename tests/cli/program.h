@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace needlework {
 
 /// What came of a run of the program.
@@ -25,7 +27,6 @@ struct Outcome {
 class ProgramTest : public testing::Test {
  protected:
   ProgramTest();
-  ~ProgramTest() override;
 
   /// Runs `needlework ARGUMENTS`, words as for a shell. `before` is what stands before the program,
   /// such as VARIABLE=value; stdout goes to `out` if that is given.
@@ -45,7 +46,8 @@ class ProgramTest : public testing::Test {
   static constexpr const char* small = "small.toml";
 
  private:
-  std::filesystem::path folder_;
+  test::TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
 };
 
 }  // namespace needlework

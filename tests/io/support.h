@@ -13,18 +13,13 @@
 #include "src/error.h"
 #include "src/io/h5md.h"
 #include "src/io/hdf5.h"
+#include "tests/support/temporary_folder.h"
 
 namespace needlework::io {
 
 /// A folder that is gone after the test.
 class InFolder : public testing::Test {
  protected:
-  InFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "needlework-io-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~InFolder() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
   std::vector<std::string> files() const {
@@ -35,7 +30,8 @@ class InFolder : public testing::Test {
     return names;
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder temporary_;
+  std::filesystem::path folder_ = temporary_.path();
 };
 
 /// A random valid state with all mantissa bits in use, and the numbers that are easily lost.

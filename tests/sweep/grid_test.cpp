@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "src/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace needlework::sweep {
 namespace {
@@ -15,12 +16,7 @@ namespace fs = std::filesystem;
 
 class GridFile : public testing::Test {
  protected:
-  GridFile() {
-    std::string name = (fs::temp_directory_path() / "needlework-test-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    write("base.toml", "[needles]\ncount = 50\nbox = 5\n[until]\ntime = 1\n");
-  }
-  ~GridFile() override { fs::remove_all(folder_); }
+  GridFile() { write("base.toml", "[needles]\ncount = 50\nbox = 5\n[until]\ntime = 1\n"); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -44,7 +40,8 @@ class GridFile : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(GridFile, MembersAreAllPointsWithAllSeeds) {

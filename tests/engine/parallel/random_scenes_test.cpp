@@ -1,6 +1,6 @@
 // Scenes drawn at random, on one thread and on several: of any density and shape of box, elastic,
 // rough, cooling and sliding, with every kind of end. NEEDLEWORK_RANDOM_SCENES=N in the environment
-// asks for N of them; run for hours it found what no chosen scene had shown.
+// asks for N of them. Random scenes have found what no chosen one had shown.
 #include <gtest/gtest.h>
 
 #include <array>
