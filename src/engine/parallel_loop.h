@@ -31,6 +31,7 @@
 #include "src/engine/claims.h"
 #include "src/engine/done_log.h"
 #include "src/engine/event_loop.h"
+#include "src/engine/fronts.h"
 #include "src/engine/patience.h"
 #include "src/engine/phase_plan.h"
 #include "src/engine/zones.h"
@@ -92,12 +93,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
     UndoLog undo;
     std::vector<Held> held;
     std::vector<Collision> reports;
-    // For others: the earliest event there is, the latest taken up in this phase, the speed of the
-    // fastest needle before any of them, and whether there is mail.
-    alignas(128) std::atomic<TimeKey> front = 0;
-    std::atomic<TimeKey> latest = 0;
-    std::atomic<double> fastest = 0;
-    std::atomic<bool> has_mail = false;
+    alignas(128) std::atomic<bool> has_mail = false;
     std::vector<Block> mail;  ///< its blocks to which others have written
     bool resting = false;
   };
@@ -130,7 +126,6 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  bool is_too_far_ahead(TimeKey key) const;
   bool may_have_met(const Hand& me, const Done& mine, double speed, bool in_order,
                     bool alone) const;
 
@@ -139,7 +134,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   static constexpr Block nobody = ~Block{0};
 
   CellCounts cells_;
-  double log_reach_;       ///< to read the log so far from an event is safe from others at work [L]
+  double sight_of_done_;   ///< others may be at work where what has been done is farther [L]
   CellCounts neighbours_;  ///< what needles of a cell read is not farther than this
   CellBall reach_;         ///< where an event looks for earlier ones
   CellCounts apart_;       ///< events farther than this never touch the same
@@ -151,8 +146,8 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   std::deque<Hand> hands_;
   std::atomic<bool> amiss_ = false, finished_ = false;
   std::atomic<bool> too_many_ = false;  ///< collisions, for a phase
-  double fastest_to_thermal_;    ///< speed of the fastest in the phase before, over thermal_speed()
-  double expected_fastest_ = 0;  ///< in this phase, which may be much later [L/time]
+  Fronts fronts_;
+  double fastest_to_thermal_;  ///< speed of the fastest in the phase before, over thermal_speed()
   PhasePlan plan_;
   std::mutex meeting_;  ///< for mail and rest
   std::size_t resting_ = 0;
@@ -166,11 +161,12 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
     : Base(scene, std::move(initial), setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
-      log_reach_(1.01 + 2 * search_.drift()),
-      neighbours_(cells_within(search_.grid(), log_reach_)),
+      sight_of_done_(1.01 + 2 * search_.drift()),
+      neighbours_(cells_within(search_.grid(), sight_of_done_)),
       reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
       done_(search_.grid(), gas.box),
+      fronts_(static_cast<std::size_t>(threads), sight_of_done_),
       plan_(gas.clock, least) {
   int team = 0;
   omp_set_dynamic(0);  // all of them, in every phase
@@ -265,15 +261,13 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   done_.clear();
   amiss_ = too_many_ = finished_ = false;
   resting_ = 0;
-  expected_fastest_ = fastest_to_thermal_ * thermal_speed();
+  // The phase before may be long ago.
+  fronts_.begin(fastest_to_thermal_ * thermal_speed());
   for (Hand& hand : hands_) {
     hand.undo.clear();
     hand.reports.clear();
     hand.worker.now = now;
     hand.worker.reports = this->callback ? &hand.reports : nullptr;
-    hand.front = 0;
-    hand.latest = 0;
-    hand.fastest = 0;
     hand.has_mail = hand.resting = false;
     hand.mail.clear();
     hand.held.clear();
@@ -298,8 +292,7 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   }
   assert(search_.hulls().base == base);  // which no thread may change for the others
   ++tally.counters.phases;
-  double fastest = 0;
-  for (const Hand& hand : hands_) fastest = std::max(fastest, hand.fastest.load());
+  const double fastest = fronts_.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
   const Tally before = tally;
   for (Hand& hand : hands_) tally.take(hand.tally);
@@ -376,11 +369,10 @@ void ParallelLoop<Search, effects>::work(Hand& me, TimeKey end) {
     const TimeKey key = queue_.winning_key(me.zone);
     TimeKey front = key;
     for (const Held& held : me.held) front = std::min(front, held.key);
-    look_away();
-    me.front.store(front, std::memory_order_relaxed);
+    fronts_.tell_next(me.zone, front);
     // Those held may wait for one that has come up since.
     const bool may_start = me.held.size() < most_held || key == front;
-    if (key < end && may_start && !is_too_far_ahead(key)) {
+    if (key < end && may_start && !fronts_.is_too_far_ahead(key)) {
       const Outcome outcome = attempt(me, queue_.winner(me.zone), key);
       if (outcome == Outcome::done) go_on();
       if (outcome == Outcome::again) wait();
@@ -457,12 +449,8 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
     amiss_ = true;
     return give_up(nobody);
   }
-  // Told before it happens, and others asked after: of two events at once, whichever asks last
-  // knows of the other.
-  const bool in_order = key > me.latest;
   const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
-  if (fastest > me.fastest) me.fastest = fastest;
-  if (in_order) me.latest = key;
+  const bool in_order = fronts_.tell_taken(me.zone, key, fastest);
   me.queue.changed.clear();
 #ifndef NDEBUG
   me.worker.read_ahead = false;
@@ -609,38 +597,15 @@ CellBox ParallelLoop<Search, effects>::cells_of(Needle i, const Vec3d& r) const 
                       search_.cell_of(i));
 }
 
-// Whether another thread is so far behind that it could not be told who may have met meanwhile; or
-// nearly so, as threads go on while one looks at their clocks. The hindmost never is ahead.
-template <class Search, Effects effects>
-bool ParallelLoop<Search, effects>::is_too_far_ahead(TimeKey key) const {
-  look_away();
-  TimeKey front = key;
-  double fastest = expected_fastest_;
-  for (const Hand& hand : hands_) {
-    front = std::min(front, hand.front.load(std::memory_order_relaxed));
-    fastest = std::max(fastest, hand.fastest.load(std::memory_order_relaxed));
-  }
-  constexpr double room = 2;
-  return front < key && !(DoneLog::reach(front, key, room * 2 * fastest) < log_reach_);
-}
-
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
 // has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
 // are far.
 template <class Search, Effects effects>
 bool ParallelLoop<Search, effects>::may_have_met(const Hand& me, const Done& mine, double speed,
                                                  bool in_order, bool alone) const {
-  TimeKey latest = 0;
-  double fastest = speed;
-  for (const Hand& hand : hands_) {
-    if (&hand == &me && in_order) continue;
-    latest = std::max(latest, hand.latest.load());
-    fastest = std::max(fastest, hand.fastest.load());
-  }
-  if (latest < mine.key) return false;
-  const double farthest = DoneLog::reach(mine.key, latest, speed + fastest);
-  // Farther than this others may be at work.
-  if (!(farthest < log_reach_)) return true;
+  const double farthest = fronts_.reach_of_later(me.zone, mine.key, speed, in_order);
+  if (farthest == 0) return false;
+  if (fronts_.is_out_of_sight(farthest)) return true;
   return !(alone && in_order) && done_.may_have_met(mine, speed, farthest);
 }
 

@@ -1,0 +1,82 @@
+// How far threads are in time.
+#include "src/engine/fronts.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+namespace needlework {
+namespace {
+
+TimeKey key(double time) { return std::bit_cast<TimeKey>(time); }
+
+// Needles as fast as 0.5, in sight up to 1.2: centres of needles that touch are within 1, so there
+// is room for 0.2, half of it left for what is not yet seen.
+TEST(Fronts, AreTooFarAheadWhereOthersCouldComeNear) {
+  Fronts fronts(2, 1.2);
+  fronts.begin(0.5);
+  fronts.tell_next(0, key(7));
+  fronts.tell_next(1, key(9));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.11)));
+  fronts.tell_next(0, key(9.5));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(9.09)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(9.11)));
+}
+
+TEST(Fronts, GoByTheFastestNeedleThereIs) {
+  Fronts fronts(3, 1.2);
+  fronts.begin(0.5);
+  EXPECT_EQ(fronts.fastest(), 0);
+  for (std::size_t t = 0; t < 3; ++t) fronts.tell_next(t, key(7));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
+  fronts.tell_taken(2, key(7), 5);
+  fronts.tell_taken(2, key(7), 1);
+  EXPECT_EQ(fronts.fastest(), 5);
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.009)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.011)));
+  fronts.begin(0.5);
+  EXPECT_EQ(fronts.fastest(), 0);
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7)));  // nobody has told of any
+}
+
+// Or all would wait, for ever: also where times are told less finely than needles move.
+TEST(Fronts, HindmostIsNeverAhead) {
+  for (const double time : {0.0, 1e-300, 7.0, 1e20, 1e300}) {
+    for (const double speed : {0.0, 1e-300, 1.0, 1e300, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
+      Fronts fronts(2, 1.2);
+      fronts.begin(speed);
+      fronts.tell_next(0, key(time));
+      fronts.tell_next(1, key(2 * time));
+      fronts.tell_taken(0, key(time), speed);
+      EXPECT_FALSE(fronts.is_too_far_ahead(key(time))) << time << ", " << speed;
+    }
+  }
+}
+
+TEST(Fronts, TellHowFarLaterEventsMayMatter) {
+  Fronts fronts(2, 1.2);
+  fronts.begin(0);
+  EXPECT_TRUE(fronts.tell_taken(0, key(7), 0.5));
+  EXPECT_EQ(fronts.reach_of_later(0, key(7), 1, true), 0);
+  EXPECT_TRUE(fronts.tell_taken(1, key(7.1), 3));
+  EXPECT_NEAR(fronts.reach_of_later(0, key(7), 1, true), 1 + 0.1 * 4, 1e-5);
+  EXPECT_NEAR(fronts.reach_of_later(0, key(7), 4, true), 1 + 0.1 * 8, 1e-5);
+  EXPECT_EQ(fronts.reach_of_later(1, key(7.1), 3, true), 0);
+  // One's own later ones matter to what is done out of order.
+  EXPECT_FALSE(fronts.tell_taken(1, key(6.9), 0.5));
+  EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, false), 1 + 0.2 * 4, 1e-5);
+  EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, true), 1 + 0.1 * 2, 1e-5);
+}
+
+TEST(Fronts, SeeNotFartherThanTheirSight) {
+  const Fronts fronts(2, 1.2);
+  EXPECT_FALSE(fronts.is_out_of_sight(1.19));
+  EXPECT_TRUE(fronts.is_out_of_sight(1.2));
+  EXPECT_TRUE(fronts.is_out_of_sight(std::numeric_limits<double>::quiet_NaN()));
+}
+
+}  // namespace
+}  // namespace needlework
