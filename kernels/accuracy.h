@@ -26,7 +26,7 @@ struct Accuracy {
   Escalation escalation = Escalation::undecided;
   /// Searches follow pairs by lanes in float before double does. Else double follows them all.
   bool float_filter = true;
-  /// A root in double is done when Newton's step is below this share of the time since the later
+  /// A root in double is done when a step is below this share of the time since the later
   /// record; 0: when rounding takes over.
   double root_tolerance = 0;
   /// Time between two samples, in units of 1 / (|v12| + |w1| + |w2|) up to a factor of 2.

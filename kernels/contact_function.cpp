@@ -120,6 +120,21 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
   return out;
 }
 
+// The errors of e are many roundoffs of the largest that its values can be, so they cover those of
+// the sums here.
+Estimate expanded(const Estimate& e, double off, double third) {
+  const double size = std::abs(off);
+  Estimate out = e;
+  out.f = e.f + off * (e.df + 0.5 * off * e.ddf);
+  out.df = e.df + off * e.ddf;
+  const double bent = size * third;
+  out.error_ddf = (e.error_ddf + bent) * roundup;
+  out.error_df = (e.error_df + size * (e.error_ddf + 0.5 * bent)) * roundup;
+  out.error_f =
+      (e.error_f + size * (e.error_df + 0.5 * size * (e.error_ddf + bent * (1.0 / 3)))) * roundup;
+  return out;
+}
+
 Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
   // What a few operations in double-double may be off by, as a share of the largest number in them.
   constexpr double share = 0x1p-96;

@@ -197,6 +197,17 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   return out;
 }
 
+/// |f'''| is not above this from `off` before the time of e to as much after it.
+template <class T>
+double third_derivative_bound(const Frame<T>& frame, const Estimate& e, double off) {
+  const double w = frame.w_sum, v = frame.v_length;
+  return (3 * v + (e.distance + v * off) * w) * w * w;
+}
+
+/// What an estimate in double says of the time `off` later, or before, by Taylor's expansion.
+/// |f'''| is not above `third` between. The distance remains that of e.
+Estimate expanded(const Estimate& e, double off, double third);
+
 /// f as the sum of a slow and a fast part, each (a + b s) times sines and cosines of one frequency,
 /// |w1| - |w2| and |w1| + |w2|: bounds on f's derivatives for needles that stay close to one plane
 /// or parallel, where |r|, |v| and the sum of the frequencies say too much.

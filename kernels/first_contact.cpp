@@ -35,6 +35,7 @@ class Search {
   Contact run(double from, double until);
 
  private:
+  int sign_at_end(const Interval& interval, const Estimate& e, double end);
   int side_before_root(const Interval& interval, const Estimate& e, double least_slope);
 
   std::optional<Root> search_samples(const Interval& interval);
@@ -68,6 +69,18 @@ class Search {
   double first_ = 0, last_ = 0;  // only roots between these can be contacts
 };
 
+// Sign of f just after an end of the interval that was classified by e, which often tells.
+template <Isolation isolation, Escalation escalation>
+int Search<isolation, escalation>::sign_at_end(const Interval& interval, const Estimate& e,
+                                               double end) {
+  if (end != 0 || !values_.pair().touch.touching) {
+    const Estimate there =
+        expanded(e, end - interval.middle(), stretches_.third_derivative_bound(e, interval));
+    if (std::abs(there.f) > there.error_f) return sign_of(there.f);
+  }
+  return values_.sign_at(end);
+}
+
 // The sign of f at the beginning of an interval on which |f'| is at least `least_slope`, when f has
 // a root there; else 0. The middle often tells both.
 template <Isolation isolation, Escalation escalation>
@@ -82,14 +95,14 @@ int Search<isolation, escalation>::side_before_root(const Interval& interval, co
   const bool rooted = least_slope * interval.half() > (std::abs(e.f) + e.error_f) * roundup;
   if (rooted) return -slope;
   const bool in_first_half = sign_of(e.f) == slope;
-  const int outer = values_.sign_at(in_first_half ? interval.begin : interval.end);
+  const int outer = sign_at_end(interval, e, in_first_half ? interval.begin : interval.end);
   return outer == (in_first_half ? -slope : slope) ? -slope : 0;
 }
 
-// Safeguarded Newton iteration. f has the sign `side` at `begin` and the other at `end`; where f is
-// monotone, |f'| is at least `least_slope` between them, else that is 0. Stops where the rounding
-// error of T takes over, or, with nothing, as soon as the root is known to have an arm beyond a
-// tip.
+// Halley's iteration, safeguarded. f has the sign `side` at `begin` and the other at `end`; where f
+// is monotone, |f'| is at least `least_slope` between them, else that is 0. Stops where the
+// rounding error of T takes over, or, with nothing, as soon as the root is known to have an arm
+// beyond a tip.
 template <Isolation isolation, Escalation escalation>
 template <class T>
 auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, double least_slope)
@@ -108,7 +121,7 @@ auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, do
       if (values_.arms_inside(s, sample, (std::abs(e.f) + e.error_f) / least_slope) < 0)
         return std::nullopt;
     }
-    const T next = s - sample.f / sample.df;
+    const T next = s - sample.f / (sample.df - sample.f * sample.ddf / (sample.df + sample.df));
     const bool last = std::abs(e.f) <= (escalates ? e.error_f : noise_in_double * e.distance);
     if (last) {
       if (to_double(next - begin) >= 0 && to_double(end - next) >= 0) s = next;
@@ -166,11 +179,12 @@ std::optional<Root> Search<isolation, escalation>::accept_precisely(const Double
 template <Isolation isolation, Escalation escalation>
 std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& interval,
                                                                const Estimate& e) {
-  const int before = values_.sign_at(interval.begin), after = values_.sign_at(interval.end);
+  const int before = sign_at_end(interval, e, interval.begin),
+            after = sign_at_end(interval, e, interval.end);
   const int bend = sign_of(e.ddf);
   if (before == 0 || after == 0) return std::nullopt;
   if (before != after) {
-    // Newton's iteration is monotone from the end where f and f'' have one sign.
+    // From the end where f and f'' have one sign, steps go towards the root.
     return accept(interval.begin, interval.end, before == bend ? interval.begin : interval.end,
                   before);
   }
@@ -217,7 +231,7 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
 template <Isolation isolation, Escalation escalation>
 std::optional<Root> Search<isolation, escalation>::search_start(const Interval& interval,
                                                                 const Estimate& e) {
-  const int side = values_.pair().touch.side, after = values_.sign_at(interval.end);
+  const int side = values_.pair().touch.side, after = sign_at_end(interval, e, interval.end);
   if (after == side || after == 0) return std::nullopt;
   if (sign_of(e.ddf) == side) return std::nullopt;
   // f rises from 0, bends back and has passed 0 by the end. Until half of the least time of return

@@ -35,6 +35,8 @@ class Stretches {
   double least_bend(const Estimate& e, const Interval& interval) const;
   /// |f''| is not above this on it.
   double most_bend(const Estimate& e, const Interval& interval) const;
+  /// |f'''| is not above this on it.
+  double third_derivative_bound(const Estimate& e, const Interval& interval) const;
   /// Whether f is found to be identically 0, now that intervals of this depth are needed.
   bool vanishes(int depth);
 
@@ -48,7 +50,6 @@ class Stretches {
   static constexpr double flat_in_double = 8 * noise_in_double;
   static constexpr bool escalates = ContactValues<escalation>::escalates;
 
-  double third_derivative_bound(const Estimate& e, const Interval& interval) const;
   double second_derivative_bound(const Estimate& e, const Interval& interval) const;
   double bent_by(const Estimate& e, const Interval& interval) const;
   Shape shape_of(const Estimate& e, const Interval& interval) const;
@@ -99,8 +100,7 @@ double Stretches<isolation, escalation>::second_derivative_bound(const Estimate&
 template <Isolation isolation, Escalation escalation>
 double Stretches<isolation, escalation>::third_derivative_bound(const Estimate& e,
                                                                 const Interval& interval) const {
-  const double w = values_.frame().w_sum, v = values_.frame().v_length;
-  const double general = (3 * v + (e.distance + v * interval.half()) * w) * w * w;
+  const double general = kernels::third_derivative_bound(values_.frame(), e, interval.half());
   if (interval.depth < sharpen_depth) return general;
   return std::min(general, amplitude_->derivative_bound(3, interval.end));
 }

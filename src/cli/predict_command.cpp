@@ -117,7 +117,8 @@ void add_predict_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"sampling", "bounds", "intervals"}));
   command->add_option("--escalation", engine.escalation, "what goes to double-double")
       ->check(CLI::IsMember({"never", "undecided", "always"}));
-  command->add_option("--root-tolerance", engine.root_tolerance, "of Newton's steps, relative")
+  command
+      ->add_option("--root-tolerance", engine.root_tolerance, "of steps towards a root, relative")
       ->check(number_in(0, 1e-3));
   command->add_option("--sampling-step", engine.sampling_step, "time between samples, scaled")
       ->check(number_in(1e-4, 0.5));

@@ -202,7 +202,10 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
     const HardRun rigorous = run_once(scene, state, until, &watch);
     expect_sound(rigorous, scene);
     expect_clean(rigorous.tally, watch);
-    EXPECT_EQ(rigorous.failed(), truth.failed());
+    // Where rounding decides, it may have needles collapse at one level alone.
+    if (watch.undecided == 0) {
+      EXPECT_EQ(rigorous.failed(), truth.failed());
+    }
     scene.engine = {};
   }
   scene.engine.threads = 2;

@@ -187,6 +187,35 @@ TEST_P(ContactFunction, ErrorBoundsHoldInDoubleDouble) {
   expect_bounds_hold<DoubleDouble, Wide>(GetParam(), 1000, 2e4);
 }
 
+TEST_P(ContactFunction, ExpansionTellsItAtOtherTimes) {
+  Random random(seed + 2);
+  Looseness far;  // where the third derivative counts, not rounding
+  for (int n = 0; n < 2000 && !testing::Test::HasFailure(); ++n) {
+    const KernelPair held = draw(GetParam(), random);
+    const Pair pair = held.view();
+    const PairScale scale = scale_of(pair);
+    const Frame<double> frame = make_frame<double>(pair, scale);
+    const double s = draw_time<double>(random, GetParam());
+    const Estimate e = estimate(frame, s, evaluate(frame, s));
+    for (const double size : {0.25, random.log_uniform(1e-12, 0.25)}) {
+      const double off = random.coin() ? size : -size;
+      const Estimate there = expanded(e, off, third_derivative_bound(frame, e, size));
+      using Real = cpp_bin_float_50;
+      const auto exact = precise_contact(pair, scale, Real(Real(s) + Real(off)));
+      const std::string where = std::string(name(GetParam())) + ", seed " +
+                                std::to_string(seed + 2) + ", pair " + std::to_string(n) +
+                                ", off " + std::to_string(off);
+      Looseness near;
+      Looseness& looseness = size == 0.25 ? far : near;
+      looseness.take(0, distance_of(there.f, exact.f), there.error_f, where);
+      looseness.take(1, distance_of(there.df, exact.df), there.error_df, where);
+      looseness.take(2, distance_of(there.ddf, exact.ddf), there.error_ddf, where);
+    }
+  }
+  far.print(name(GetParam()));
+  for (int derivative = 0; derivative < 3; ++derivative) EXPECT_LT(far.mean(derivative), 30);
+}
+
 TEST_P(ContactFunction, AmplitudeBoundsItsDerivatives) {
   Random random(seed + 1);
   double closest = 0;
