@@ -51,22 +51,19 @@ template <class Search, Effects effects>
 class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   using Base = EventLoop<Search, CellCalendar, effects>;
   using Block = CellCalendar::Block;
-  using Base::gas;
-  using Base::now;
   using Base::queue_;
+  using Base::run_;
   using Base::search_;
-  using Base::tally;
-  using typename Base::Limits;
 
  public:
   // How far from its cell an event looks for earlier ones. Where it is shorter, phases are undone
   // again and again; longer, events wait for nothing. [L]
   static constexpr double usual_sight = 1.5;
 
-  ParallelLoop(const Scene& scene, Gas initial, const SearchSetup& setup, int threads,
-               double sight = usual_sight, double least = PhasePlan::usual_least);
+  ParallelLoop(Run& run, const SearchSetup& setup, int threads, double sight = usual_sight,
+               double least = PhasePlan::usual_least);
 
-  Stop advance(const Scene::Until& until) override;
+  std::optional<Stop> advance(const Limits& limits) override;
 
  private:
   // An event that has to wait until the clock of `for_block` is past it.
@@ -81,7 +78,7 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
         : zone(number),
           queue{loop.queue_, {}},
           search(loop.search_, tally.counters),
-          worker(loop, search, queue, tally) {
+          worker(loop.run_, search, queue, tally) {
       worker.undo = &undo;
     }
 
@@ -119,9 +116,9 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
 
   /// Collisions in a time, by the mean free time.
   double thermal_rate() const {
-    return 0.5 * static_cast<double>(gas.size()) / this->mean_free_time;
+    return 0.5 * static_cast<double>(run_.gas.size()) / run_.mean_free_time;
   }
-  double thermal_speed() const { return std::sqrt(std::max(0.0, this->energy())); }
+  double thermal_speed() const { return std::sqrt(std::max(0.0, run_.energy())); }
   CellBox cell_of(Block block) const { return {places_[block], {}}; }
   Block earlier_around(const Hand& me, Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
@@ -155,19 +152,18 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
 };
 
 template <class Search, Effects effects>
-ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
-                                            const SearchSetup& setup, int threads, double sight,
-                                            double least)
-    : Base(scene, std::move(initial), setup),
+ParallelLoop<Search, effects>::ParallelLoop(Run& run, const SearchSetup& setup, int threads,
+                                            double sight, double least)
+    : Base(run, setup),
       cells_(search_.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
       sight_of_done_(1.01 + 2 * search_.drift()),
       neighbours_(cells_within(search_.grid(), sight_of_done_)),
       reach_(search_.grid(), sight),
       claims_(cells_, neighbours_, static_cast<std::size_t>(threads)),
-      done_(search_.grid(), gas.box),
+      done_(search_.grid(), run.gas.box),
       fronts_(static_cast<std::size_t>(threads), sight_of_done_),
-      plan_(gas.clock, least) {
+      plan_(run.gas.clock, least) {
   int team = 0;
   omp_set_dynamic(0);  // all of them, in every phase
 #pragma omp parallel num_threads(threads)
@@ -195,7 +191,7 @@ ParallelLoop<Search, effects>::ParallelLoop(const Scene& scene, Gas initial,
   }
   for (int t = 0; t < threads; ++t) hands_.emplace_back(*this, static_cast<std::uint32_t>(t));
   double squares = 0;
-  for (const Record& record : gas.records) {
+  for (const Record& record : run.gas.records) {
     squares = std::max(squares, dot(record.flight.v, record.flight.v));
   }
   fastest_to_thermal_ = squares > 0 ? std::sqrt(squares) / thermal_speed() : 0;
@@ -209,7 +205,7 @@ void ParallelLoop<Search, effects>::divide() {
   std::vector<std::size_t> weight(queue_.blocks());
   for (Block b = 0; b < queue_.blocks(); ++b) weight[b] = queue_.needles_in(b);
   const auto threads = static_cast<std::uint32_t>(hands_.size());
-  const std::vector<std::uint32_t> zone = divide_box(cells_, gas.box, weight, threads);
+  const std::vector<std::uint32_t> zone = divide_box(cells_, run_.gas.box, weight, threads);
   queue_.divide(zone, threads);
   inner_ = inner_cells(cells_, zone, apart_);
   ours_ = inner_cells(cells_, zone, reach_.reach());
@@ -217,39 +213,37 @@ void ParallelLoop<Search, effects>::divide() {
 }
 
 template <class Search, Effects effects>
-Stop ParallelLoop<Search, effects>::advance(const Scene::Until& until) {
-  this->interrupted = false;
-  const Limits limits(*this, until);
-  if (const auto stop = this->needs_no_events(limits)) return *stop;
+std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits) {
   const Time last =
       limits.time == Time::never()
           ? limits.time
           : Time{limits.time.epoch,
                  std::nextafter(limits.time.offset, std::numeric_limits<double>::infinity())};
   for (;;) {
-    if (const auto stop = this->reached(limits)) return *stop;
-    if (const auto stop = this->called_off(limits)) return *stop;
+    if (const auto stop = limits.reached(run_)) return stop;
+    if (const auto stop = limits.called_off(run_)) return stop;
+    if (run_.tally.collisions >= limits.pause) return std::nullopt;
     const Time next = queue_.top().time;
     if (this->pass_window(next, limits)) continue;
     if (next > limits.time) {
-      now = limits.time;
+      run_.now = limits.time;
       return Stop::time;
     }
     if (next == Time::never()) return Stop::nothing_can_happen;
     // Till `ready` no thread finds that the search has to begin its times anew.
-    const Time ready = search_.prepare(now);
-    const double left = std::ceil(limits.collisions) - static_cast<double>(tally.collisions);
+    const Time ready = search_.prepare(run_.now);
+    const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
     const PhasePlan::Stretch stretch =
-        plan_.next({next, std::min(this->window_end_, last), ready, left, thermal_rate()});
-    const std::uint64_t before = tally.collisions;
+        plan_.next({next, std::min(run_.window_end, last), ready, left, thermal_rate()});
+    const std::uint64_t before = run_.tally.collisions;
     if (stretch.together) {
       run_together(limits, stretch.end);
     } else {
       queue_.order_again();
-      if (const auto stop = this->run_alone(limits, stretch.end)) return *stop;
+      if (const auto stop = this->run_alone(limits, stretch.end)) return stop;
     }
-    plan_.counted(static_cast<double>(tally.collisions - before),
-                  thermal_rate() * gas.clock.difference(stretch.end, next));
+    plan_.counted(static_cast<double>(run_.tally.collisions - before),
+                  thermal_rate() * run_.gas.clock.difference(stretch.end, next));
   }
 }
 
@@ -266,8 +260,8 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   for (Hand& hand : hands_) {
     hand.undo.clear();
     hand.reports.clear();
-    hand.worker.now = now;
-    hand.worker.reports = this->callback ? &hand.reports : nullptr;
+    hand.worker.now = run_.now;
+    hand.worker.reports = run_.callback ? &hand.reports : nullptr;
     hand.has_mail = hand.resting = false;
     hand.mail.clear();
     hand.held.clear();
@@ -291,26 +285,26 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
     }
   }
   assert(search_.hulls().base == base);  // which no thread may change for the others
-  ++tally.counters.phases;
+  ++run_.tally.counters.phases;
   const double fastest = fronts_.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
-  const Tally before = tally;
-  for (Hand& hand : hands_) tally.take(hand.tally);
-  if (amiss_ || this->reached(limits)) {
-    const Counters counters = tally.counters;
-    tally = before;
-    tally.counters = counters;
-    ++tally.counters.redone;
+  const Tally before = run_.tally;
+  for (Hand& hand : hands_) run_.tally.take(hand.tally);
+  if (amiss_ || limits.reached(run_)) {
+    const Counters counters = run_.tally.counters;
+    run_.tally = before;
+    run_.tally.counters = counters;
+    ++run_.tally.counters.redone;
     undo();
     if (too_many_) {
       plan_.had_too_many();
     } else {
-      plan_.undone(now, end);
+      plan_.undone(run_.now, end);
     }
     return;
   }
   plan_.kept();
-  for (const Hand& hand : hands_) now = std::max(now, hand.worker.now);
+  for (const Hand& hand : hands_) run_.now = std::max(run_.now, hand.worker.now);
   report();
 }
 
@@ -318,17 +312,17 @@ template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::undo() {
   std::vector<Needle> needles;
   for (Hand& hand : hands_) {
-    hand.undo.put_back(gas, this->last_collision);
+    hand.undo.put_back(run_.gas, run_.last_collision);
     needles.insert(needles.end(), hand.undo.scheduled().begin(), hand.undo.scheduled().end());
     hand.worker.forget();
   }
   std::sort(needles.begin(), needles.end());
   needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
   queue_.order_again();  // events that were held among them
-  this->worker_.now = now;
+  this->worker_.now = run_.now;
   this->worker_.forget();
   std::vector<Time> placed_until;
-  for (const Needle i : needles) placed_until.push_back(search_.place(i, now));
+  for (const Needle i : needles) placed_until.push_back(search_.place(i, run_.now));
   for (std::size_t n = 0; n < needles.size(); ++n) {
     this->worker_.schedule(needles[n], placed_until[n]);
   }
@@ -337,7 +331,7 @@ void ParallelLoop<Search, effects>::undo() {
 // Reports the collisions of the phase in their order.
 template <class Search, Effects effects>
 void ParallelLoop<Search, effects>::report() {
-  if (!this->callback) return;
+  if (!run_.callback) return;
   std::vector<const Collision*> all;
   for (const Hand& hand : hands_) {
     for (const Collision& collision : hand.reports) all.push_back(&collision);
@@ -348,7 +342,7 @@ void ParallelLoop<Search, effects>::report() {
     };
     return key(*a) < key(*b);
   });
-  for (const Collision* collision : all) this->callback(*collision);
+  for (const Collision* collision : all) run_.callback(*collision);
 }
 
 template <class Search, Effects effects>
@@ -444,7 +438,7 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
     partner = take(event.partner, event, key);
     done_.bring_near(partner.r);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
-  } else if (stale && near_partner && gas.records[event.partner].time > event.time) {
+  } else if (stale && near_partner && run_.gas.records[event.partner].time > event.time) {
     // It may have happened, had it had its turn.
     amiss_ = true;
     return give_up(nobody);
@@ -458,7 +452,7 @@ auto ParallelLoop<Search, effects>::attempt(Hand& me, Block block, TimeKey key) 
   me.worker.happen(event, stale);
   if (me.tally.collisions > plan_.most_of_a_thread()) too_many_ = amiss_ = true;
   const auto record = [&](Needle i, const Done& taken) {
-    const Vec3d& v = gas.records[i].flight.v;
+    const Vec3d& v = run_.gas.records[i].flight.v;
     if (may_have_met(me, taken, std::sqrt(dot(v, v)), in_order, alone)) amiss_ = true;
     done_.add(taken);
   };
@@ -579,10 +573,10 @@ auto ParallelLoop<Search, effects>::earlier_around(const Hand& me, Block centre,
 
 template <class Search, Effects effects>
 auto ParallelLoop<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Done {
-  const Record& record = gas.records[i];
+  const Record& record = run_.gas.records[i];
   const kernels::Flight& flight = record.flight;
   return {key,
-          centre_after(flight, gas.clock.difference(event.time, record.time)),
+          centre_after(flight, run_.gas.clock.difference(event.time, record.time)),
           std::sqrt(dot(flight.v, flight.v)),
           event.is_contact(),
           event.lower_id,

@@ -131,7 +131,7 @@ void Run::open_window() {
   contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
   const bool endless = !std::isfinite(mean_free_time);
   window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
-  window_end_ = gas.clock.add(now, window_span_);
+  window_end = gas.clock.add(now, window_span_);
   search_span = 4 * window_span_;
 }
 

@@ -22,11 +22,6 @@ class Run {
  public:
   /// Takes over scene parameters and a gas fresh from make_gas().
   Run(const Scene& scene, Gas initial);
-  virtual ~Run() = default;
-
-  virtual Stop advance(const Scene::Until& until) = 0;
-  virtual const char* search_name() const = 0;
-  virtual const char* queue_name() const = 0;
 
   Totals totals() const;
   /// Free flight to now by this instruction set, on which no bit depends.
@@ -41,6 +36,10 @@ class Run {
   std::int64_t in_quanta(double energy) const {
     return static_cast<std::int64_t>(energy * per_quantum_);
   }
+
+  /// Sets mean free time, contact time and the next window's end from the present state.
+  void open_window();
+  bool nothing_can_happen() const;
 
   /// Passes a collision of these two to the callback, or puts it down for later. Apart from the
   /// loops, whose code it would swell.
@@ -59,16 +58,13 @@ class Run {
   Tally tally;
   std::function<void(const Collision&)> callback;
   std::atomic<bool> interrupted = false;
+  Time window_end;
 
- protected:
-  /// Sets mean free time, contact time and the next window's end from the present state.
-  void open_window();
-  bool nothing_can_happen() const;
+ private:
   /// Fills in temperatures and energy.
   void sum_energies(Totals& out) const;
 
   std::optional<double> tc_, tc_relative_;
-  Time window_end_;
   double window_span_ = 0;
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::int64_t quanta_at_window_ = 0;
@@ -77,9 +73,5 @@ class Run {
 /// The needles of a state, whose arrays a run has no more use for. Throws InputError for a state
 /// that cannot be run.
 Gas make_gas(const Scene& scene, const State& initial);
-
-/// Makes the event loop that the scene asks for. Throws InputError for a search or queue that does
-/// not exist.
-std::unique_ptr<Run> make_run(const Scene& scene, Gas initial);
 
 }  // namespace needlework

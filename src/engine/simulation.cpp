@@ -3,7 +3,7 @@
 #include "src/calendar/all.h"
 #include "src/calendar/choice.h"
 #include "src/engine/accuracy.h"
-#include "src/engine/make_run_with.h"
+#include "src/engine/make_loop_with.h"
 #include "src/engine/zones.h"
 #include "src/error.h"
 #include "src/io/h5md.h"
@@ -22,37 +22,34 @@ kernels::Isa isa_of(const std::string& name) {
   throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
 }
 
-// Makes the run with that of the calendars whose name it is.
+// Makes the loop with that of the calendars whose name it is.
 template <class... Queues>
-std::unique_ptr<Run> with_queue(CalendarList<Queues...>, const std::string& queue,
-                                const Scene& scene, Gas initial, const std::string& search,
-                                const SearchSetup& setup) {
-  std::unique_ptr<Run> run;
-  const bool found =
-      ((queue == Queues::name &&
-        (run = make_run_with<Queues>(scene, std::move(initial), search, setup), true)) ||
-       ...);
-  if (found) return run;
+std::unique_ptr<Loop> with_queue(CalendarList<Queues...>, const std::string& queue,
+                                 const Scene& scene, Run& run, const std::string& search,
+                                 const SearchSetup& setup) {
+  std::unique_ptr<Loop> loop;
+  const bool found = ((queue == Queues::name &&
+                       (loop = make_loop_with<Queues>(scene, run, search, setup), true)) ||
+                      ...);
+  if (found) return loop;
   std::string names = "auto";
   ((names += std::string(", ") + Queues::name), ...);
   throw InputError("engine.queue = \"" + queue + "\": expected one of " + names);
 }
 
-}  // namespace
-
-std::unique_ptr<Run> make_run(const Scene& scene, Gas initial) {
+// The event loop that the scene asks for.
+std::unique_ptr<Loop> make_loop(const Scene& scene, Run& run) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
+  const std::array<double, 3>& box = run.gas.box;
   const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
                           scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter,
-                          multiples_to_divide(initial.box, static_cast<std::uint32_t>(threads))};
-  const double volume = initial.box[0] * initial.box[1] * initial.box[2];
+                          multiples_to_divide(box, static_cast<std::uint32_t>(threads))};
+  const double volume = box[0] * box[1] * box[2];
   const std::string search =
-      chosen_search(scene.engine.search, static_cast<double>(initial.size()) / volume);
+      chosen_search(scene.engine.search, static_cast<double>(run.gas.size()) / volume);
   const std::string queue = chosen_calendar(scene.engine.queue, threads);
-  return with_queue(AllCalendars<CalendarList>(), queue, scene, std::move(initial), search, setup);
+  return with_queue(AllCalendars<CalendarList>(), queue, scene, run, search, setup);
 }
-
-namespace {
 
 State initial_state(const Scene& scene) {
   if (scene.initial.file.empty()) return draw_initial_state(scene);
@@ -72,13 +69,22 @@ std::string name_effects(const Scene::Collisions& collisions) {
 }  // namespace
 
 struct Simulation::Implementation {
-  Implementation(const Scene& scene, Gas initial)
-      : run(make_run(scene, std::move(initial))),
-        effects(name_effects(scene.collisions)),
+  Implementation(const Scene& its_scene, Gas initial)
+      : scene(its_scene),
+        run(scene, std::move(initial)),
+        loop(make_loop(scene, run)),
         isa(isa_of(scene.engine.isa)) {}
 
-  std::unique_ptr<Run> run;
-  std::string effects;
+  Stop advance(const Scene::Until& until) {
+    run.interrupted = false;
+    const Limits limits(run, until);
+    if (const auto stop = limits.reached_without_events(run)) return *stop;
+    return *loop->advance(limits);
+  }
+
+  const Scene scene;
+  Run run;
+  std::unique_ptr<Loop> loop;
   kernels::Isa isa;
 };
 
@@ -95,25 +101,25 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Stop Simulation::advance(const Scene::Until& until) { return implementation_->run->advance(until); }
+Stop Simulation::advance(const Scene::Until& until) { return implementation_->advance(until); }
 
 void Simulation::on_collision(std::function<void(const Collision&)> callback) {
-  implementation_->run->callback = std::move(callback);
+  implementation_->run.callback = std::move(callback);
 }
 
-void Simulation::interrupt() noexcept { implementation_->run->interrupted = true; }
-Totals Simulation::totals() const { return implementation_->run->totals(); }
-const Counters& Simulation::counters() const { return implementation_->run->tally.counters; }
+void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
+Totals Simulation::totals() const { return implementation_->run.totals(); }
+const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
-  return implementation_->run->gas.clock.since_start(implementation_->run->now);
+  return implementation_->run.gas.clock.since_start(implementation_->run.now);
 }
-double Simulation::epoch_length() const { return implementation_->run->gas.clock.epoch_length(); }
-double Simulation::mean_free_time() const { return implementation_->run->mean_free_time; }
-std::string Simulation::trajectory_hash() const { return implementation_->run->tally.hash.hex(); }
-State Simulation::state() const { return implementation_->run->state(implementation_->isa); }
-std::string Simulation::search() const { return implementation_->run->search_name(); }
-std::string Simulation::queue() const { return implementation_->run->queue_name(); }
+double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
+double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
+std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
+State Simulation::state() const { return implementation_->run.state(implementation_->isa); }
+std::string Simulation::search() const { return implementation_->loop->search_name(); }
+std::string Simulation::queue() const { return implementation_->loop->queue_name(); }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
-std::string Simulation::effects() const { return implementation_->effects; }
+std::string Simulation::effects() const { return name_effects(implementation_->scene.collisions); }
 
 }  // namespace needlework

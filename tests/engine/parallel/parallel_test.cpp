@@ -213,13 +213,13 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   const int ends = thin > 1 ? 3 : 12;
   for (const int threads : {2, 3}) {
     Simulation truth(scene);
-    ParallelLoop<LinkedCells, Effects{true, true}> loop(
-        scene, make_gas(scene, draw_initial_state(scene)), {}, threads,
-        ParallelLoop<LinkedCells, Effects{true, true}>::usual_sight, 1);
-    const Tally& tally = static_cast<const needlework::Run&>(loop).tally;
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    using Loop = ParallelLoop<LinkedCells, Effects{true, true}>;
+    Loop loop(run, {}, threads, Loop::usual_sight, 1);
+    const Tally& tally = run.tally;
     for (int n = 1; n <= ends; ++n) {
       const Scene::Until until{.energy_ratio = std::pow(0.85, n)};
-      ASSERT_EQ(loop.advance(until), truth.advance(until));
+      ASSERT_EQ(loop.advance(Limits(run, until)), truth.advance(until));
       ASSERT_EQ(tally.hash.hex(), truth.trajectory_hash()) << threads << " threads, end " << n;
     }
     EXPECT_GT(tally.counters.phases, 2 * tally.counters.redone);
@@ -250,10 +250,10 @@ TEST(Parallel, FewNeedlesToo) {
     Simulation truth(scene);
     truth.advance(until);
     for (const int threads : {2, 3, 8}) {
-      ParallelLoop<Capsules, Effects{true, true}> loop(
-          scene, make_gas(scene, draw_initial_state(scene)), {}, threads, 1.5, 1);
-      EXPECT_EQ(loop.advance(until), Stop::collisions);
-      const Tally& tally = static_cast<const needlework::Run&>(loop).tally;
+      needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+      ParallelLoop<Capsules, Effects{true, true}> loop(run, {}, threads, 1.5, 1);
+      EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
+      const Tally& tally = run.tally;
       EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;
       EXPECT_GT(tally.counters.phases, tally.counters.redone) << c.count << ", " << threads;
     }

@@ -19,10 +19,10 @@ Scene::Until mean_collisions(double mean) {
 template <class Search>
 double redone(const Scene& scene, int threads, double sight, const Scene::Until& until,
               const std::string& truth) {
-  ParallelLoop<Search, Effects{}> loop(scene, make_gas(scene, draw_initial_state(scene)), {},
-                                       threads, sight);
-  EXPECT_EQ(loop.advance(until), Stop::collisions);
-  const Tally& tally = static_cast<const Run&>(loop).tally;
+  Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  ParallelLoop<Search, Effects{}> loop(run, {}, threads, sight);
+  EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
+  const Tally& tally = run.tally;
   EXPECT_EQ(tally.hash.hex(), truth) << threads << " threads";
   return static_cast<double>(tally.counters.redone) / static_cast<double>(tally.counters.phases);
 }

@@ -1,11 +1,11 @@
-// The definition of make_run_with, for the files that instantiate it.
+// The definition of make_loop_with, for the files that instantiate it.
 #pragma once
 
 #include <concepts>
 
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
-#include "src/engine/make_run_with.h"
+#include "src/engine/make_loop_with.h"
 #include "src/error.h"
 #include "src/search/all_pairs.h"
 #include "src/search/linked_lists.h"
@@ -22,7 +22,7 @@ inline constexpr bool parallel_with =
     std::derived_from<Search, NearSearch>&& std::same_as<Queue, CellCalendar>;
 
 template <class Search, Calendar Queue>
-std::unique_ptr<Run> with_effects(const Scene& scene, Gas initial, const SearchSetup& setup) {
+std::unique_ptr<Loop> with_effects(const Scene& scene, Run& run, const SearchSetup& setup) {
   const bool rough = scene.collisions.beta != -1;
   const bool contact_time = scene.collisions.tc || scene.collisions.tc_relative;
   const int threads = scene.engine.threads.value_or(1);
@@ -31,14 +31,13 @@ std::unique_ptr<Run> with_effects(const Scene& scene, Gas initial, const SearchS
                      Search::name + " with queue " + Queue::name +
                      "; several threads need linked-cells or capsules, and cell-calendar");
   }
-  const auto make = [&]<Effects effects>() -> std::unique_ptr<Run> {
+  const auto make = [&]<Effects effects>() -> std::unique_ptr<Loop> {
     if constexpr (parallel_with<Search, Queue>) {
       if (threads > 1) {
-        return std::make_unique<ParallelLoop<Search, effects>>(scene, std::move(initial), setup,
-                                                               threads);
+        return std::make_unique<ParallelLoop<Search, effects>>(run, setup, threads);
       }
     }
-    return std::make_unique<EventLoop<Search, Queue, effects>>(scene, std::move(initial), setup);
+    return std::make_unique<EventLoop<Search, Queue, effects>>(run, setup);
   };
   if (rough) {
     return contact_time ? make.template operator()<Effects{true, true}>()
@@ -49,16 +48,12 @@ std::unique_ptr<Run> with_effects(const Scene& scene, Gas initial, const SearchS
 }
 
 template <Calendar Queue>
-std::unique_ptr<Run> make_run_with(const Scene& scene, Gas initial, const std::string& search,
-                                   const SearchSetup& setup) {
-  if (search == AllPairs::name)
-    return with_effects<AllPairs, Queue>(scene, std::move(initial), setup);
-  if (search == LinkedLists::name)
-    return with_effects<LinkedLists, Queue>(scene, std::move(initial), setup);
-  if (search == LinkedCells::name)
-    return with_effects<LinkedCells, Queue>(scene, std::move(initial), setup);
-  if (search == Capsules::name)
-    return with_effects<Capsules, Queue>(scene, std::move(initial), setup);
+std::unique_ptr<Loop> make_loop_with(const Scene& scene, Run& run, const std::string& search,
+                                     const SearchSetup& setup) {
+  if (search == AllPairs::name) return with_effects<AllPairs, Queue>(scene, run, setup);
+  if (search == LinkedLists::name) return with_effects<LinkedLists, Queue>(scene, run, setup);
+  if (search == LinkedCells::name) return with_effects<LinkedCells, Queue>(scene, run, setup);
+  if (search == Capsules::name) return with_effects<Capsules, Queue>(scene, run, setup);
   throw InputError("engine.search = \"" + search +
                    "\": expected auto, all-pairs, linked-lists, linked-cells or capsules");
 }

@@ -1,0 +1,42 @@
+#include "src/engine/loop.h"
+
+#include <algorithm>
+
+#include "src/error.h"
+
+namespace needlework {
+
+Limits::Limits(const Run& run, const Scene::Until& until)
+    : time(until.time ? run.gas.clock.add({}, std::max(0.0, *until.time)) : Time::never()),
+      collisions(until.collisions_per_needle
+                     ? *until.collisions_per_needle * static_cast<double>(run.gas.size()) / 2
+                     : std::numeric_limits<double>::infinity()),
+      energy(until.energy_ratio ? *until.energy_ratio * run.initial_energy : -1),
+      wall(std::chrono::steady_clock::time_point::max()) {
+  if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
+    throw InputError("until: expected at least one end condition");
+  }
+  if (until.wall_s) {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> left(*until.wall_s);
+    if (left < wall - now) {
+      wall = now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(left);
+    }
+  }
+}
+
+std::optional<Stop> Limits::reached_without_events(Run& run) const {
+  if (time < run.now) return Stop::time;
+  if (!run.nothing_can_happen()) return std::nullopt;
+  if (time == Time::never()) return Stop::nothing_can_happen;
+  run.now = time;
+  return Stop::time;
+}
+
+std::optional<Stop> Limits::called_off(const Run& run) const {
+  if (run.interrupted) return Stop::interrupted;
+  if (wall != wall.max() && std::chrono::steady_clock::now() >= wall) return Stop::wall_time;
+  return std::nullopt;
+}
+
+}  // namespace needlework

@@ -1,0 +1,11 @@
+#include "src/calendar/bucket_calendar.h"
+
+#include "src/engine/make_loop_with_body.h"
+
+namespace needlework {
+
+template std::unique_ptr<Loop> make_loop_with<BucketCalendar>(const Scene&, Run&,
+                                                              const std::string&,
+                                                              const SearchSetup&);
+
+}  // namespace needlework
