@@ -178,6 +178,15 @@ std::vector<Case> by_effects() {
                  {searched_by("auto")});
 }
 
+// A cloud of 37 needles to L^3 in a box of 0.064: with cells for what the box holds, and as chosen.
+std::vector<Case> by_cloud() {
+  const GasScene gas{"cloud", 8000, 50};
+  std::vector<Case> out = product({gas}, {searched_by("linked-cells"), searched_by("auto")});
+  for (Case& one : out) one.filled = 0.12;
+  out[1].scene.engine.cell_side = auto_cell_side(8000 / std::pow(gas.box, 3));
+  return out;
+}
+
 // Is over at once; for trying things out.
 std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("auto")}); }
 
@@ -229,6 +238,8 @@ const std::vector<Subset>& subsets() {
       {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
       {"hulls", "8000 needles, k = 2, 6, 100: cells and capsules smaller and larger than chosen",
        by_hulls},
+      {"cloud", "8000 needles in a part of their box: cells for the whole box, and as chosen",
+       by_cloud},
       {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
       {"smoke", "200 needles, over at once", by_smoke}};
   return all;

@@ -12,6 +12,7 @@ namespace needlework::bench {
 struct Case {
   std::string scene_name;
   Scene scene;
+  double filled = 1;  ///< share of each edge of the box that needles begin in
   bool is_baseline = false;
 
   /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for, and what else is.

@@ -39,12 +39,21 @@ Counters difference(Counters now, const Counters& before) {
   return now;
 }
 
+State initial_state(const Case& what) {
+  State out = draw_initial_state(what.scene);
+  for (auto& r : out.position) {
+    for (double& x : r) x *= what.filled;
+  }
+  return out;
+}
+
 Message measure_here(const Case& what, double min_time) {
   Message out{};
   const std::uint64_t before = cli::peak_memory();
   cli::Stopwatch setup, loop;
   setup.start();
-  Simulation simulation(what.scene);
+  Simulation simulation =
+      what.filled == 1 ? Simulation(what.scene) : Simulation(what.scene, initial_state(what));
   setup.stop();
 
   Scene::Until until;

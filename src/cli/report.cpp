@@ -20,7 +20,8 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
 
 Json stats_of(const Counters& counters) {
-  return {{"candidates", counters.candidates},
+  return {{"cells", counters.cells},
+          {"candidates", counters.candidates},
           {"filtered", counters.filtered},
           {"isolated", counters.isolated},
           {"predicted", counters.predicted},
@@ -29,6 +30,7 @@ Json stats_of(const Counters& counters) {
           {"rebuilds", counters.rebuilds},
           {"crossings", counters.crossings},
           {"sorts", counters.sorts},
+          {"resized", counters.resized},
           {"stale", counters.stale},
           {"renewals", counters.renewals},
           {"searches", counters.searches},

@@ -126,8 +126,7 @@ void Run::open_window() {
   // 2^58 quanta, so that sums of many changes fit.
   quantum_ = energy_at_window_ > 0 ? times_power_of_two(1, exponent_of(energy_at_window_) - 58) : 1;
   per_quantum_ = 1 / quantum_;
-  const double density = count / (gas.box[0] * gas.box[1] * gas.box[2]);
-  mean_free_time = needlework::mean_free_time(density, sums.t_tr, sums.t_rot, gas.k);
+  mean_free_time = needlework::mean_free_time(gas.density(), sums.t_tr, sums.t_rot, gas.k);
   contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
   const bool endless = !std::isfinite(mean_free_time);
   window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));

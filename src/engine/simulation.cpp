@@ -1,5 +1,7 @@
 #include "src/engine/simulation.h"
 
+#include <optional>
+
 #include "src/calendar/all.h"
 #include "src/calendar/choice.h"
 #include "src/engine/accuracy.h"
@@ -9,6 +11,7 @@
 #include "src/io/h5md.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
+#include "src/search/sizing.h"
 
 namespace needlework {
 namespace {
@@ -37,16 +40,16 @@ std::unique_ptr<Loop> with_queue(CalendarList<Queues...>, const std::string& que
   throw InputError("engine.queue = \"" + queue + "\": expected one of " + names);
 }
 
-// The event loop that the scene asks for.
-std::unique_ptr<Loop> make_loop(const Scene& scene, Run& run) {
+// The event loop that the scene asks for, for a gas of this density.
+std::unique_ptr<Loop> make_loop(const Scene& scene, Run& run, double density) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
-  const std::array<double, 3>& box = run.gas.box;
-  const SearchSetup setup{isa_of(scene.engine.isa), scene.engine.cell_side,
-                          scene.engine.capsule_radius, accuracy_of(scene.engine).float_filter,
-                          multiples_to_divide(box, static_cast<std::uint32_t>(threads))};
-  const double volume = box[0] * box[1] * box[2];
-  const std::string search =
-      chosen_search(scene.engine.search, static_cast<double>(run.gas.size()) / volume);
+  const SearchSetup setup{isa_of(scene.engine.isa),
+                          density,
+                          scene.engine.cell_side,
+                          scene.engine.capsule_radius,
+                          accuracy_of(scene.engine).float_filter,
+                          multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))};
+  const std::string search = chosen_search(scene.engine.search, density);
   const std::string queue = chosen_calendar(scene.engine.queue, threads);
   return with_queue(AllCalendars<CalendarList>(), queue, scene, run, search, setup);
 }
@@ -70,21 +73,39 @@ std::string name_effects(const Scene::Collisions& collisions) {
 
 struct Simulation::Implementation {
   Implementation(const Scene& its_scene, Gas initial)
-      : scene(its_scene),
-        run(scene, std::move(initial)),
-        loop(make_loop(scene, run)),
-        isa(isa_of(scene.engine.isa)) {}
+      : scene(its_scene), run(scene, std::move(initial)), isa(isa_of(scene.engine.isa)) {
+    if (has_sizes(scene.engine.search) && !scene.engine.cell_side && !scene.engine.capsule_radius) {
+      sizing.emplace(run.gas);
+    }
+    begin_loop();
+  }
+
+  void begin_loop() {
+    loop = make_loop(scene, run, sizing ? sizing->density() : run.gas.density());
+    search = loop->search_name();
+    queue = loop->queue_name();
+  }
 
   Stop advance(const Scene::Until& until) {
     run.interrupted = false;
-    const Limits limits(run, until);
+    Limits limits(run, until);
     if (const auto stop = limits.reached_without_events(run)) return *stop;
-    return *loop->advance(limits);
+    for (;;) {
+      if (!loop) begin_loop();
+      if (sizing) limits.pause = sizing->next();
+      if (const auto stop = loop->advance(limits)) return *stop;
+      const Tally& tally = run.tally;
+      if (!sizing->look(tally.collisions, tally.counters, loop->cell_volume())) continue;
+      loop.reset();  // before the next one takes its memory
+      ++run.tally.counters.resized;
+    }
   }
 
   const Scene scene;
   Run run;
+  std::optional<Sizing> sizing;  ///< unless the scene says how large cells or capsules are
   std::unique_ptr<Loop> loop;
+  std::string search, queue;
   kernels::Isa isa;
 };
 
@@ -117,8 +138,8 @@ double Simulation::epoch_length() const { return implementation_->run.gas.clock.
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
 State Simulation::state() const { return implementation_->run.state(implementation_->isa); }
-std::string Simulation::search() const { return implementation_->loop->search_name(); }
-std::string Simulation::queue() const { return implementation_->loop->queue_name(); }
+std::string Simulation::search() const { return implementation_->search; }
+std::string Simulation::queue() const { return implementation_->queue; }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
 std::string Simulation::effects() const { return name_effects(implementation_->scene.collisions); }
 

@@ -59,6 +59,8 @@ struct Gas {
   double k = 6;
 
   std::size_t size() const { return records.size(); }
+  /// Needles per L^3.
+  double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
 
   /// |f| that rounding two records can explain, with room for what a train of bounces adds up. [L]
   double touch_tolerance() const { return 0x1p-44 * (1 + ((box[0] + box[1]) + box[2])); }

@@ -19,12 +19,13 @@ class CellGrid {
  public:
   CellGrid() = default;
   /// As many cells as fit with sides of at least `least_side`, one at least, but not many more than
-  /// there are needles: empty ones would cost memory and crossings, up to all the memory there is.
+  /// `most_per_needle`: empty ones would cost memory and crossings, up to all the memory there is.
   /// Then up to a quarter more along an axis, with shorter sides, where that gives a multiple of
   /// what is asked for there.
   CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles,
-           const std::array<std::int32_t, 3>& multiples = {1, 1, 1}) {
-    const double most = std::min(0x1p12 + 16 * static_cast<double>(needles), 0x1p31 - 1);
+           const std::array<std::int32_t, 3>& multiples = {1, 1, 1}, double most_per_needle = 16) {
+    const double most =
+        std::min(0x1p12 + most_per_needle * static_cast<double>(needles), 0x1p31 - 1);
     const auto fitting = [](double edge, double side) {
       return std::max(1.0, std::floor(edge / side));
     };
@@ -43,6 +44,8 @@ class CellGrid {
 
   std::array<std::int32_t, 3> counts() const { return count_; }
   std::array<double, 3> sides() const { return side_; }
+  /// Of a cell. [L^3]
+  double cell_volume() const { return side_[0] * side_[1] * side_[2]; }
   std::size_t size() const {
     return static_cast<std::size_t>(count_[0]) * count_[1] * static_cast<std::size_t>(count_[2]);
   }

@@ -1,5 +1,6 @@
-// What `auto` stands for: by the number of needles per L^3 alone. `needlework bench hulls` compares
-// that with sizes by hand, from masses at the tips to ones at the centre.
+// What `auto` stands for, by the number of needles per L^3: that of the gas, until sizing.h finds
+// that the sizes for another one suit it better. `needlework bench hulls` compares them with sizes
+// by hand, from masses at the tips to ones at the centre.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,11 @@ namespace needlework {
 inline std::string chosen_search(const std::string& asked, double density) {
   if (asked != "auto") return asked;
   return density < 2.5 ? "linked-cells" : "capsules";
+}
+
+/// Whether the search asked for has sizes to choose.
+inline bool has_sizes(const std::string& asked) {
+  return asked != "all-pairs" && asked != "linked-lists";
 }
 
 /// Radius of capsules [L]: larger ones have more neighbours, smaller ones are left sooner.

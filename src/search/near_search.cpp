@@ -20,6 +20,9 @@ using kernels::PairColumns;
 // A needle stays in its cell until it is out of it by so much of the cell's side: one that goes to
 // and fro at a border, or crosses a corner, has not to be placed anew so often.
 constexpr double overlap_of_side = 0.2;
+// Cells that a search may choose to have, by needles: those around a cloud are empty, and take half
+// a kilobyte each.
+constexpr double most_cells = 2;
 // What rounding does to the place of a hull, by far. [L]
 constexpr double hull_margin = 0x1p-12;
 // What the roundings of times in blocks and motions amount to, twice; see near_needles_body.h. Ends
@@ -33,8 +36,8 @@ void store(float (&to)[3], const Vec3d& a) {
   to[2] = static_cast<float>(a.z);
 }
 
-double density_of(const Gas& gas) {
-  return static_cast<double>(gas.size()) / (gas.box[0] * gas.box[1] * gas.box[2]);
+double side_for(Hulls::Kind kind, double density) {
+  return kind == Hulls::Kind::cell ? auto_cell_side(density) : auto_side_for_capsules(density);
 }
 
 // Fills in the pairs of the seeker with what it has found, four at once: most of the work is to
@@ -87,13 +90,13 @@ void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
 Hulls::Hulls(const Gas& all, const SearchSetup& setup, Kind which)
     : gas(all),
       kind(which),
-      radius(kind == Kind::cell
-                 ? 0
-                 : setup.capsule_radius.value_or(auto_capsule_radius(density_of(gas)))),
-      grid(gas.box,
-           setup.cell_side.value_or(kind == Kind::cell ? auto_cell_side(density_of(gas))
-                                                       : auto_side_for_capsules(density_of(gas))),
-           gas.size(), setup.cell_side ? std::array{1, 1, 1} : setup.count_multiples),
+      radius(kind == Kind::cell ? 0
+                                : setup.capsule_radius.value_or(
+                                      auto_capsule_radius(setup.density.value_or(gas.density())))),
+      grid(setup.cell_side
+               ? CellGrid(gas.box, *setup.cell_side, gas.size())
+               : CellGrid(gas.box, side_for(kind, setup.density.value_or(gas.density())),
+                          gas.size(), setup.count_multiples, most_cells)),
       places(gas.size()),
       motions(gas.size()) {
   // With room for all that may ever be chained, as only full blocks have others after them: threads
@@ -344,6 +347,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     seeker.u[axis] = hulls.blocks[place.block].column[Block::a_x + axis][place.lane];
   }
   look_around(seeker, place.cell, ahead);
+  counters_.cells += view_count_;
   const kernels::Surroundings around{hulls.blocks.data(), hulls.links.data(), views_.data(),
                                      view_count_, hulls.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};

@@ -112,7 +112,7 @@ TEST_F(BenchCommand, ListsWhatItCanMeasure) {
   const Outcome outcome = run("bench --list");
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* subset : {"quick", "dilute", "dense", "searches", "queues", "isa", "steps",
-                             "density", "size", "storage", "matrix", "effects", "hulls"}) {
+                             "density", "size", "storage", "matrix", "cloud", "effects", "hulls"}) {
     EXPECT_NE(outcome.out.find(std::string(subset) + " "), std::string::npos) << subset << " in\n"
                                                                               << outcome.out;
   }

@@ -63,7 +63,7 @@ TEST_F(RunCommand, PrintsAllKeysAndNothingElse) {
   }
   EXPECT_EQ(object["momentum"].size(), 3u);
   for (const char* key : {"candidates", "filtered", "isolated", "predicted", "evaluated",
-                          "escalated", "rebuilds", "crossings", "sorts"}) {
+                          "escalated", "rebuilds", "crossings", "sorts", "resized"}) {
     EXPECT_TRUE(object["stats"][key].is_number_integer()) << key;
   }
   EXPECT_EQ(object["trajectory_hash"].get<std::string>().size(), 32u);

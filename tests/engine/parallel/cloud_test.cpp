@@ -1,0 +1,137 @@
+// A cloud of needles in a large box: what search and sizes suit it changes as it spreads. Its
+// trajectory is that of any search all along, on any number of threads.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "src/calendar/tournament.h"
+#include "src/engine/event_loop.h"
+#include "src/engine/parallel_loop.h"
+#include "src/search/linked_lists.h"
+#include "src/search/near_search.h"
+#include "tests/support/same_run.h"
+
+namespace needlework {
+namespace {
+
+using test::thin;
+using test::until_collisions;
+
+// 1000 needles, so many to L^3 where they are: 31, in a box of 0.064.
+State cloud(const Scene& scene) {
+  State state = draw_initial_state(scene);
+  for (auto& r : state.position) {
+    for (double& x : r) x = 10 + x / 8;
+  }
+  return state;
+}
+
+TEST(Cloud, IsFollowedAsItSpreads) {
+  Scene scene = test::scene_of(1000, 25);
+  const State state = cloud(scene);
+  const auto until = until_collisions(150 / thin);
+  scene.engine.search = "linked-lists";
+  Simulation truth(scene, state);
+  ASSERT_EQ(truth.advance(until), Stop::collisions);
+  scene.engine.search = "auto";
+  for (const int threads : {1, 2, 3}) {
+    SCOPED_TRACE(threads);
+    scene.engine.threads = threads;
+    Simulation simulation(scene, state);
+    EXPECT_EQ(simulation.search(), "capsules");
+    EXPECT_LT(simulation.counters().candidates, 600u * simulation.counters().searches);
+    EXPECT_EQ(simulation.advance(until), Stop::collisions);
+    EXPECT_EQ(simulation.trajectory_hash(), truth.trajectory_hash());
+    EXPECT_EQ(simulation.totals().time, truth.totals().time);
+    const Counters& counters = simulation.counters();
+    if (thin == 1) {
+      EXPECT_GE(counters.resized, 2u);
+      EXPECT_LE(counters.resized, 8u);
+      EXPECT_EQ(simulation.search(), "linked-cells");
+    }
+    if (threads > 1) EXPECT_GT(counters.phases, 0u);
+  }
+}
+
+// What is set by hand stays so.
+TEST(Cloud, IsSearchedAsAskedFor) {
+  Scene scene = test::scene_of(1000, 25);
+  const State state = cloud(scene);
+  const auto until = until_collisions(10 / thin);
+  const auto resized = [&](const Scene& its) {
+    Simulation simulation(its, state);
+    EXPECT_EQ(simulation.advance(until), Stop::collisions);
+    EXPECT_EQ(simulation.search(), its.engine.search);
+    return simulation.counters().resized;
+  };
+  scene.engine.search = "linked-cells";
+  scene.engine.cell_side = 5;
+  EXPECT_EQ(resized(scene), 0u);
+  scene.engine.search = "capsules";
+  scene.engine.cell_side = {};
+  scene.engine.capsule_radius = 0.5;
+  EXPECT_EQ(resized(scene), 0u);
+  scene.engine.search = "linked-lists";
+  scene.engine.capsule_radius = {};
+  EXPECT_EQ(resized(scene), 0u);
+}
+
+// The run goes on with another loop at any time between two events.
+TEST(Loops, MayFollowEachOther) {
+  Scene scene = test::scene_of(600, 7, 8);
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.tc_relative = 1e-3;
+  scene.collisions.beta = 0.5;
+  const double end = 40 / thin;
+  Simulation truth(scene);
+  truth.advance(until_collisions(end));
+
+  constexpr Effects effects{true, true};
+  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  Limits limits(run, until_collisions(end));
+  std::optional<Stop> stop;
+  for (int n = 0; !stop; ++n) {
+    std::unique_ptr<Loop> loop;
+    SearchSetup setup;
+    setup.density = std::array{0.3, 1.0, 3.0}[n % 3];
+    if (n % 4 == 0)
+      loop = std::make_unique<EventLoop<LinkedCells, Tournament, effects>>(run, setup);
+    if (n % 4 == 1) loop = std::make_unique<ParallelLoop<Capsules, effects>>(run, setup, 2, 1.5, 1);
+    if (n % 4 == 2)
+      loop = std::make_unique<EventLoop<LinkedLists, Tournament, effects>>(run, setup);
+    if (n % 4 == 3) loop = std::make_unique<EventLoop<Capsules, CellCalendar, effects>>(run, setup);
+    limits.pause = run.tally.collisions + 200 + 100 * static_cast<std::uint64_t>(n % 5);
+    stop = loop->advance(limits);
+    ASSERT_LT(n, 1000);
+  }
+  EXPECT_EQ(stop, Stop::collisions);
+  EXPECT_EQ(run.tally.hash.hex(), truth.trajectory_hash());
+}
+
+// A loop that follows another does no more work than one that goes on.
+TEST(Loops, GoOnWhereTheOthersLeft) {
+  const Scene scene = test::scene_of(1000, 11);
+  const auto searches_of_half = [&](bool by_another) {
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    Limits limits(run, until_collisions(40));
+    limits.pause = 10000;
+    std::unique_ptr<Loop> loop =
+        std::make_unique<EventLoop<LinkedCells, Tournament, Effects{}>>(run, SearchSetup{});
+    EXPECT_EQ(loop->advance(limits), std::nullopt);
+    limits.pause = std::numeric_limits<std::uint64_t>::max();
+    if (by_another) {
+      loop.reset();
+      loop = std::make_unique<EventLoop<LinkedCells, Tournament, Effects{}>>(run, SearchSetup{});
+    }
+    const std::uint64_t before = run.tally.counters.searches;
+    EXPECT_EQ(loop->advance(limits), Stop::collisions);
+    return static_cast<double>(run.tally.counters.searches - before);
+  };
+  EXPECT_NEAR(searches_of_half(true) / searches_of_half(false), 1, 0.03);
+}
+
+}  // namespace
+}  // namespace needlework
