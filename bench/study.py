@@ -33,6 +33,7 @@ SCENES = {
     "matrix": ["--repetitions", "2", "--min-time", "0.5"],
     "storage": ["--repetitions", "3"],
     "hulls": ["--repetitions", "3"],
+    "cloud": ["--repetitions", "3"],
     "effects": [],
 }
 # Parts that have an executable of their own, with Google Benchmark.
@@ -259,6 +260,7 @@ SECTIONS = [  # part, title, what makes its table
     ("matrix", "Every search by every queue: us per collision", matrix_table),
     ("storage", "Storage by place or by id", case_table),
     ("hulls", "Sides of cells and radii of capsules: us per collision", hull_table),
+    ("cloud", "A cloud: cells for the whole box, and as chosen", case_table),
     ("queues", "Queues", case_table),
     ("isa", "Instruction sets", case_table),
     ("effects", "Effects", case_table),
