@@ -120,18 +120,20 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
   return out;
 }
 
-// The errors of e are many roundoffs of the largest that its values can be, so they cover those of
-// the sums here.
 Estimate expanded(const Estimate& e, double off, double third) {
-  const double size = std::abs(off);
+  // What the sums here are off by; e may be known to more digits than double has.
+  constexpr double rounding = 0x1p-50;
+  const double size = std::abs(off), bent = size * third;
+  const double f = std::abs(e.f), df = std::abs(e.df), ddf = std::abs(e.ddf);
   Estimate out = e;
   out.f = e.f + off * (e.df + 0.5 * off * e.ddf);
   out.df = e.df + off * e.ddf;
-  const double bent = size * third;
-  out.error_ddf = (e.error_ddf + bent) * roundup;
-  out.error_df = (e.error_df + size * (e.error_ddf + 0.5 * bent)) * roundup;
-  out.error_f =
-      (e.error_f + size * (e.error_df + 0.5 * size * (e.error_ddf + bent * (1.0 / 3)))) * roundup;
+  out.error_ddf = (e.error_ddf + bent + rounding * ddf) * roundup;
+  out.error_df =
+      (e.error_df + size * (e.error_ddf + 0.5 * bent) + rounding * (df + size * ddf)) * roundup;
+  out.error_f = (e.error_f + size * (e.error_df + 0.5 * size * (e.error_ddf + bent * (1.0 / 3))) +
+                 rounding * (f + size * (df + size * ddf))) *
+                roundup;
   return out;
 }
 

@@ -204,7 +204,7 @@ double third_derivative_bound(const Frame<T>& frame, const Estimate& e, double o
   return (3 * v + (e.distance + v * off) * w) * w * w;
 }
 
-/// What an estimate in double says of the time `off` later, or before, by Taylor's expansion.
+/// What an estimate says of the time `off` later, or before, by Taylor's expansion.
 /// |f'''| is not above `third` between. The distance remains that of e.
 Estimate expanded(const Estimate& e, double off, double third);
 
