@@ -73,7 +73,8 @@ class Search {
 template <Isolation isolation, Escalation escalation>
 int Search<isolation, escalation>::sign_at_end(const Interval& interval, const Estimate& e,
                                                double end) {
-  if (end != 0 || !values_.pair().touch.touching) {
+  const bool carried = end == 0 && values_.pair().touch.touching;
+  if (escalation != Escalation::always && !carried) {
     const Estimate there =
         expanded(e, end - interval.middle(), stretches_.third_derivative_bound(e, interval));
     if (std::abs(there.f) > there.error_f) return sign_of(there.f);

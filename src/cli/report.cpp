@@ -20,8 +20,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
 
 Json stats_of(const Counters& counters) {
-  return {{"cells", counters.cells},
-          {"candidates", counters.candidates},
+  return {{"candidates", counters.candidates},
           {"filtered", counters.filtered},
           {"isolated", counters.isolated},
           {"predicted", counters.predicted},

@@ -11,10 +11,9 @@ struct Counters {
   std::uint64_t crossings = 0;   ///< changes of cell
   std::uint64_t rebuilds = 0;    ///< hulls set anew because their needle left them
   std::uint64_t sorts = 0;       ///< of the storage, by place
-  std::uint64_t resized = 0;     ///< times that cells and capsules became larger or smaller
+  std::uint64_t resized = 0;     ///< times that search and sizes were chosen anew
   std::uint64_t renewals = 0;    ///< records renewed by their own clock
   std::uint64_t searches = 0;    ///< searches over all candidates of a needle
-  std::uint64_t cells = 0;       ///< that searches have looked into
   std::uint64_t candidates = 0;  ///< pairs proposed by the search
   std::uint64_t filtered = 0;    ///< of these, settled by a filter
   std::uint64_t isolated = 0;    ///< evaluations by lanes of the contact function in float
@@ -38,12 +37,12 @@ struct Counters {
   }
 
   static constexpr std::uint64_t Counters::*members[] = {
-      &Counters::events,    &Counters::stale,      &Counters::crossings, &Counters::rebuilds,
-      &Counters::sorts,     &Counters::resized,    &Counters::renewals,  &Counters::searches,
-      &Counters::cells,     &Counters::candidates, &Counters::filtered,  &Counters::isolated,
-      &Counters::predicted, &Counters::evaluated,  &Counters::escalated, &Counters::touches,
-      &Counters::phases,    &Counters::redone,     &Counters::border,    &Counters::held,
-      &Counters::waited,    &Counters::foreign,    &Counters::turns,     &Counters::blocked};
+      &Counters::events,     &Counters::stale,     &Counters::crossings, &Counters::rebuilds,
+      &Counters::sorts,      &Counters::resized,   &Counters::renewals,  &Counters::searches,
+      &Counters::candidates, &Counters::filtered,  &Counters::isolated,  &Counters::predicted,
+      &Counters::evaluated,  &Counters::escalated, &Counters::touches,   &Counters::phases,
+      &Counters::redone,     &Counters::border,    &Counters::held,      &Counters::waited,
+      &Counters::foreign,    &Counters::turns,     &Counters::blocked};
 };
 
 }  // namespace needlework

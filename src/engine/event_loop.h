@@ -1,14 +1,12 @@
 // The event loop: takes the earliest event, makes it happen, and so on until the end.
 #pragma once
 
-#include <concepts>
 #include <optional>
 #include <vector>
 
 #include "src/engine/loop.h"
 #include "src/engine/space_order.h"
 #include "src/engine/worker.h"
-#include "src/search/near_search.h"
 #include "src/search/setup.h"
 
 namespace needlework {
@@ -20,18 +18,13 @@ class EventLoop : public Loop {
   EventLoop(Run& run, const SearchSetup& setup);
 
   std::optional<Stop> advance(const Limits& limits) override;
-  double cell_volume() const override {
-    if constexpr (std::derived_from<Search, NearSearch>) return search_.grid().cell_volume();
-    return 0;
-  }
   const char* search_name() const override { return Search::name; }
   const char* queue_name() const override { return Queue::name; }
 
  protected:
   /// Whether the window ends before an event at this time; then goes on to the next window.
   bool pass_window(Time next, const Limits& limits);
-  /// Runs events before `end` until a limit is met; without a value when that came first, or a
-  /// pause.
+  /// Runs events before `end` until a limit is met; without a value at `end` or at a pause.
   std::optional<Stop> run_alone(const Limits& limits, Time end);
   virtual void sort_storage();
 
@@ -62,7 +55,6 @@ EventLoop<Search, Queue, effects>::EventLoop(Run& run, const SearchSetup& setup)
     // Unless a loop before has filled it in.
     run.last_collision.resize(run.gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }
-  worker_.now = run.now;
   worker_.now = run.now;
   const Needle count = static_cast<Needle>(run.gas.size());
   std::vector<Time> placed_until(count);

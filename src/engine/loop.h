@@ -42,8 +42,6 @@ class Loop {
   /// Goes on until a limit is met; without a value when it pauses before. Throws InvalidStateError
   /// when the run cannot go on correctly; the state stays as it was before the event that failed.
   virtual std::optional<Stop> advance(const Limits& limits) = 0;
-  /// Of the search that tells how many cells it looks into; else 0. [L^3]
-  virtual double cell_volume() const = 0;
   virtual const char* search_name() const = 0;
   virtual const char* queue_name() const = 0;
 };

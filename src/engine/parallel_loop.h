@@ -241,6 +241,7 @@ std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits)
     } else {
       queue_.order_again();
       if (const auto stop = this->run_alone(limits, stretch.end)) return stop;
+      if (run_.tally.collisions >= limits.pause) return std::nullopt;
     }
     plan_.counted(static_cast<double>(run_.tally.collisions - before),
                   thermal_rate() * run_.gas.clock.difference(stretch.end, next));

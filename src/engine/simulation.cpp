@@ -75,7 +75,7 @@ struct Simulation::Implementation {
   Implementation(const Scene& its_scene, Gas initial)
       : scene(its_scene), run(scene, std::move(initial)), isa(isa_of(scene.engine.isa)) {
     if (has_sizes(scene.engine.search) && !scene.engine.cell_side && !scene.engine.capsule_radius) {
-      sizing.emplace(run.gas);
+      sizing.emplace(run.gas, run.now);
     }
     begin_loop();
   }
@@ -94,8 +94,7 @@ struct Simulation::Implementation {
       if (!loop) begin_loop();
       if (sizing) limits.pause = sizing->next();
       if (const auto stop = loop->advance(limits)) return *stop;
-      const Tally& tally = run.tally;
-      if (!sizing->look(tally.collisions, tally.counters, loop->cell_volume())) continue;
+      if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
       loop.reset();  // before the next one takes its memory
       ++run.tally.counters.resized;
     }

@@ -64,7 +64,8 @@ class Simulation {
 
   /// Runs until the first of the conditions is met; `until` counts from the start of the run, not
   /// from now. Throws InvalidStateError when the run cannot go on correctly; the state stays as it
-  /// was before the event that failed. Without any condition: throws InputError.
+  /// was before the event that failed. Throws InputError without any condition, and when OpenMP no
+  /// longer gives as many threads as at the start; the run may then be tried again.
   Stop advance(const Scene::Until& until);
 
   /// Called for each collision, in order, after it happened.

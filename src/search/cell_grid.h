@@ -44,8 +44,6 @@ class CellGrid {
 
   std::array<std::int32_t, 3> counts() const { return count_; }
   std::array<double, 3> sides() const { return side_; }
-  /// Of a cell. [L^3]
-  double cell_volume() const { return side_[0] * side_[1] * side_[2]; }
   std::size_t size() const {
     return static_cast<std::size_t>(count_[0]) * count_[1] * static_cast<std::size_t>(count_[2]);
   }

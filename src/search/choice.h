@@ -1,6 +1,6 @@
-// What `auto` stands for, by the number of needles per L^3: that of the gas, until sizing.h finds
-// that the sizes for another one suit it better. `needlework bench hulls` compares them with sizes
-// by hand, from masses at the tips to ones at the centre.
+// What `auto` stands for, by the number of needles per L^3 around a needle; see sizing.h.
+// `needlework bench hulls` compares that with sizes by hand, from masses at the tips to ones at the
+// centre.
 #pragma once
 
 #include <algorithm>

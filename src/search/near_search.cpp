@@ -347,7 +347,6 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     seeker.u[axis] = hulls.blocks[place.block].column[Block::a_x + axis][place.lane];
   }
   look_around(seeker, place.cell, ahead);
-  counters_.cells += view_count_;
   const kernels::Surroundings around{hulls.blocks.data(), hulls.links.data(), views_.data(),
                                      view_count_, hulls.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};

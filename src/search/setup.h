@@ -11,7 +11,7 @@ namespace needlework {
 
 struct SearchSetup {
   kernels::Isa isa = kernels::Isa::scalar;
-  /// Of gases for which the search chooses what follows; absent: of this one in its box. [1 / L^3]
+  /// That for which the search chooses what follows; absent: of the gas in its box. [1 / L^3]
   std::optional<double> density;
   std::optional<double> cell_side;       ///< least side of cells; absent: the search chooses [L]
   std::optional<double> capsule_radius;  ///< absent: the search chooses [L]

@@ -1,9 +1,8 @@
 #include "src/search/sizing.h"
 
-#include <limits>
+#include <algorithm>
+#include <cmath>
 #include <vector>
-
-#include "src/search/cell_grid.h"
 
 namespace needlework {
 namespace {
@@ -11,47 +10,54 @@ namespace {
 // Sizes for another density than this times that in use, or its inverse, are worth the time that it
 // takes to place all needles anew: that of a third of a collision for each.
 constexpr double worth_it = 2;
-// Fewer needles may come together by chance, and are soon searched anyhow.
-constexpr std::size_t fewest = 64;
-// Side of the cells in which needles are counted. [L]
+// Collisions per needle from one count to the next; a count takes as long as a few percent of one.
+constexpr std::uint64_t apart = 2;
+// Fewer pairs may have come together by chance.
+constexpr double fewest_pairs = 50;
+// Side of the cells in which needles are counted, about. [L]
 constexpr double side = 2;
 
-// Others near a needle, per L^3, on average over all needles.
-double density_around(const Gas& gas) {
-  const CellGrid grid(gas.box, side, gas.size());
-  std::vector<std::uint32_t> count(grid.size());
-  for (const Record& record : gas.records) ++count[grid.index_of(grid.cell_of(record.flight.r))];
-  double pairs = 0;
-  for (const double n : count) pairs += n * (n - 1);
-  return pairs / static_cast<double>(gas.size()) / grid.cell_volume();
+// Others near a needle, per L^3, on average over all needles. Counted by sorting, not in a grid, so
+// that a box may be as large as it likes.
+double density_around(const Gas& gas, Time now) {
+  double volume = 1, count[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    count[axis] = std::clamp(std::floor(gas.box[axis] / side), 1.0, 0x1p20);
+    volume *= gas.box[axis] / count[axis];
+  }
+  std::vector<std::uint64_t> cells;
+  cells.reserve(gas.size());
+  for (const Record& record : gas.records) {
+    const Vec3d r = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const double place[3] = {r.x, r.y, r.z};
+    std::uint64_t cell = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = place[axis] / gas.box[axis];
+      const auto c = static_cast<std::uint64_t>((share - std::floor(share)) * count[axis]);
+      cell = (cell << 21) | c;
+    }
+    cells.push_back(cell);
+  }
+  std::sort(cells.begin(), cells.end());
+  double pairs = 0, before = 0;  // in this cell
+  for (std::size_t n = 1; n < cells.size(); ++n) {
+    before = cells[n] == cells[n - 1] ? before + 1 : 0;
+    pairs += before;
+  }
+  if (pairs < fewest_pairs) return gas.density();
+  return 2 * pairs / static_cast<double>(gas.size()) / volume;
 }
 
 }  // namespace
 
-Sizing::Sizing(const Gas& gas) : needles_(gas.size()), density_(gas.density()) {
-  if (needles_ < fewest) {
-    next_ = std::numeric_limits<std::uint64_t>::max();
-  } else {
-    take(density_around(gas));
-  }
-}
+Sizing::Sizing(const Gas& gas, Time now) : density_(gas.density()) { look(0, gas, now); }
 
-bool Sizing::take(double density) {
+bool Sizing::look(std::uint64_t collisions, const Gas& gas, Time now) {
+  next_ = collisions + std::max<std::uint64_t>(1, apart * gas.size() / 2);
+  const double density = density_around(gas, now);
   if (density < worth_it * density_ && density * worth_it > density_) return false;
   density_ = density;
   return true;
-}
-
-bool Sizing::look(std::uint64_t collisions, const Counters& counters, double cell_volume) {
-  next_ = collisions + needles_;
-  // A needle is found in its own cell, too.
-  const double found = static_cast<double>(counters.candidates - candidates_) -
-                       static_cast<double>(counters.searches - searches_);
-  const double volume = cell_volume * static_cast<double>(counters.cells - cells_);
-  searches_ = counters.searches;
-  candidates_ = counters.candidates;
-  cells_ = counters.cells;
-  return volume > 0 && found > 0 && take(found / volume);
 }
 
 }  // namespace needlework

@@ -16,6 +16,7 @@ struct Watch {
   double share = 1;        ///< of pairs that are audited
   /// Flights of pairs that rounding may decide, of those checked.
   std::uint64_t undecided = 0;
+  bool by_rounding = false;  ///< which decides so much that levels of accuracy may end otherwise
   /// The audit's collision rule squares the energies: not for velocities near the ends of range.
   bool audited = true;
 };

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <cmath>
 
 #include "tests/search/gas_drive.h"
 
@@ -23,7 +23,7 @@ Gas gas_in(double filled, Needle count, double edge) {
 TEST(Sizing, OfAnEvenGasIsItsDensity) {
   for (const double density : {0.1, 0.72, 2.5, 11.6, 50.0}) {
     const Gas gas = gas_in(1, 4000, std::cbrt(4000 / density));
-    EXPECT_EQ(Sizing(gas).density(), gas.density());
+    EXPECT_EQ(Sizing(gas, {}).density(), gas.density());
   }
 }
 
@@ -31,57 +31,45 @@ TEST(Sizing, OfACloudIsTheDensityInIt) {
   for (const double filled : {0.5, 0.1}) {
     const Gas gas = gas_in(filled, 4000, 60);
     const double within = gas.density() / (filled * filled * filled);
-    EXPECT_NEAR(Sizing(gas).density(), within, 0.2 * within) << filled;
+    EXPECT_NEAR(Sizing(gas, {}).density(), within, 0.2 * within) << filled;
   }
 }
 
-// Of searches that each find themselves and `others` in the cells that they look into.
-void search(Counters& counters, std::uint64_t searches, std::uint64_t cells, std::uint64_t others) {
-  counters.searches += searches;
-  counters.cells += searches * cells;
-  counters.candidates += searches * (1 + others);
-}
-
-TEST(Sizing, FollowsWhatSearchesFind) {
-  const Gas gas = gas_in(1, 4000, 20);  // density 0.5
-  Sizing sizing(gas);
-  const double volume = 10;
-  Counters counters;
-  EXPECT_EQ(sizing.next(), 0u);
-  search(counters, 4000, 20, 100);  // as expected
-  EXPECT_FALSE(sizing.look(0, counters, volume));
+TEST(Sizing, IsCountedWhereNeedlesHaveCome) {
+  Gas gas = gas_in(0.1, 4000, 60);
+  Sizing sizing(gas, {});
+  const double first = sizing.density();
   EXPECT_EQ(sizing.next(), 4000u);
-  search(counters, 10000, 20, 190);  // 1.9 times as many; it is not the sum since the start
-  EXPECT_FALSE(sizing.look(4000, counters, volume));
-  EXPECT_EQ(sizing.density(), 0.5);
-  search(counters, 10000, 20, 210);
-  EXPECT_TRUE(sizing.look(8000, counters, volume));
-  EXPECT_DOUBLE_EQ(sizing.density(), 1.05);
-  EXPECT_EQ(sizing.next(), 12000u);
-  search(counters, 10000, 30, 30);  // by the new search, with smaller cells
-  EXPECT_FALSE(sizing.look(12000, counters, 1.5));
-  search(counters, 10000, 30, 22);
-  EXPECT_TRUE(sizing.look(16000, counters, 1.5));
-  EXPECT_NEAR(sizing.density(), 22 / 45.0, 1e-12);
+  // Each flies on with its own velocity, so that the cloud is twice as long each way.
+  Random random(6);
+  for (Needle i = 0; i < gas.size(); ++i) {
+    const auto speed = [&] { return random.uniform(0, 6); };
+    put(gas, i, gas.records[i].flight.r, {1, 0, 0}, {speed(), speed(), speed()}, {});
+  }
+  EXPECT_FALSE(sizing.look(4100, gas, {}));
+  EXPECT_EQ(sizing.density(), first);
+  EXPECT_EQ(sizing.next(), 8100u);
+  EXPECT_TRUE(sizing.look(9000, gas, gas.clock.add({}, 1)));
+  EXPECT_LT(sizing.density(), 0.4 * first);
+  EXPECT_GT(sizing.density(), 0.1 * first);
 }
 
-TEST(Sizing, KeepsItsDensityWhereNothingIsTold) {
-  const Gas gas = gas_in(1, 4000, 20);
-  Sizing sizing(gas);
-  Counters counters;
-  EXPECT_FALSE(sizing.look(100, counters, 10));  // no search
-  counters.searches = counters.candidates = 10;  // one without cells
-  EXPECT_FALSE(sizing.look(5000, counters, 0));
-  search(counters, 100, 20, 0);  // all alone
-  EXPECT_FALSE(sizing.look(9000, counters, 10));
-  EXPECT_EQ(sizing.density(), 0.5);
+// In a box of any size.
+TEST(Sizing, OfASmallCloudIsTheDensityInIt) {
+  for (const double edge : {400.0, 1e4, 2e6}) {
+    const double within = 4000 / 125.0;
+    EXPECT_NEAR(Sizing(gas_in(5 / edge, 4000, edge), {}).density(), within, 0.4 * within) << edge;
+  }
 }
 
-TEST(Sizing, LeavesFewNeedlesAlone) {
-  const Gas gas = gas_in(0.01, 63, 20);
-  const Sizing sizing(gas);
-  EXPECT_EQ(sizing.density(), gas.density());
-  EXPECT_EQ(sizing.next(), std::numeric_limits<std::uint64_t>::max());
+// A few pairs may be near each other by chance.
+TEST(Sizing, OfFewNeedlesIsTheirDensity) {
+  for (const Needle count : {2u, 10u, 64u, 150u}) {
+    for (const double edge : {2.01, 10.0, 30.0, 120.0}) {
+      const Gas gas = gas_in(1, count, edge);
+      EXPECT_EQ(Sizing(gas, {}).density(), gas.density()) << count << ' ' << edge;
+    }
+  }
 }
 
 }  // namespace

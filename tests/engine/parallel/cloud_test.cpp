@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "src/calendar/tournament.h"
 #include "src/engine/event_loop.h"
@@ -108,6 +110,52 @@ TEST(Loops, MayFollowEachOther) {
     ASSERT_LT(n, 1000);
   }
   EXPECT_EQ(stop, Stop::collisions);
+  EXPECT_EQ(run.tally.hash.hex(), truth.trajectory_hash());
+}
+
+// Also after each collision of many at one instant, here of 27 equal groups.
+TEST(Loops, MayFollowEachOtherAtOneInstant) {
+  Scene scene = test::scene_of(4, 3, 5);
+  const State group = draw_initial_state(scene);
+  State state;
+  state.box = {9, 9, 9};
+  for (int copy = 0; copy < 27; ++copy) {
+    for (std::size_t n = 0; n < group.size(); ++n) {
+      std::array<double, 3> r = group.position[n];
+      const int steps[] = {copy % 3, copy / 3 % 3, copy / 9};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        r[axis] = std::round(r[axis] * 0x1p30) * 0x1p-30 + 3 * steps[axis];
+      }
+      state.position.push_back(r);
+      state.velocity.push_back(group.velocity[n]);
+      state.orientation.push_back(group.orientation[n]);
+      state.angular_velocity.push_back(group.angular_velocity[n]);
+    }
+  }
+  scene.collisions.epsilon = 0.8;
+  scene.collisions.tc_relative = 1e-3;
+  const std::uint64_t end = 270;
+  std::set<double> instants;
+  Simulation truth(scene, state);
+  truth.on_collision([&](const Collision& collision) { instants.insert(collision.time); });
+  truth.advance(until_collisions(2 * static_cast<double>(end) / 108));
+  EXPECT_LT(instants.size(), end / 2);
+
+  needlework::Run run(scene, make_gas(scene, state));
+  for (std::uint64_t n = 0; n < end; ++n) {
+    std::unique_ptr<Loop> loop;
+    SearchSetup setup;
+    setup.density = n % 2 ? 0.1 : 1.0;
+    constexpr Effects effects{false, true};
+    if (n % 3 == 0)
+      loop = std::make_unique<EventLoop<LinkedCells, Tournament, effects>>(run, setup);
+    if (n % 3 == 1) loop = std::make_unique<EventLoop<Capsules, Tournament, effects>>(run, setup);
+    if (n % 3 == 2)
+      loop = std::make_unique<EventLoop<LinkedLists, Tournament, effects>>(run, setup);
+    Limits limits(run, until_collisions(1e6));
+    limits.collisions = static_cast<double>(n + 1);
+    ASSERT_EQ(loop->advance(limits), Stop::collisions);
+  }
   EXPECT_EQ(run.tally.hash.hex(), truth.trajectory_hash());
 }
 
