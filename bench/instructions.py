@@ -45,7 +45,8 @@ SHARES = {
     "placing needles in cells": r"NearSearch::place|Hulls::",
     "collisions and their records":
         r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
-    "windows, and sorting the storage": r"Run::|permute|order_in_space|sort_storage|ContactIntegrals",
+    "windows, counting needles, sorting the storage":
+        r"Run::|Sizing|density_around|sort|permute|order_in_space|ContactIntegrals",
     "first contacts in double and double-double":
         r"kernels::|sine_cosine|make_pair|settle_touch|::predict|::consider",
     "calendar": r"Tournament|WinnerTree|EventTable",
