@@ -306,9 +306,9 @@ double Audit::tolerance(Pair& pair, double s) const {
          2 * resolution + slack_;
 }
 
-void Audit::keep_touch(const Flown& flown, Start::Kind kind, int side) {
+void Audit::keep_touch(const Flown& flown, const Start& start) {
   touches_[key_of(flown.first, flown.second)] = {
-      separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), {kind, side}};
+      separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), start};
 }
 
 void Audit::settle(const Pair& pair, bool undecided) {
@@ -329,7 +329,10 @@ void Audit::check_apart(const Flown& flown) {
     // What follows now may come first: the contact is due in the flight to come.
     const double early = finding->certain ? tolerance(pair, finding->end) : 0;
     if (to_the_end && finding->end >= duration - early) {
-      if (finding->side != 0) keep_touch(flown, Start::touching, finding->side);
+      const auto kind = finding->side != 0 ? Start::touching : Start::apart;
+      // Which counts as 0 if the contact is taken to be due, and was not.
+      const double gap = pair.precise(duration).f;
+      keep_touch(flown, {kind, finding->side, gap, std::abs(gap)});
       const bool brief = (finding->end - finding->begin) * pair.rate() < longest_touch;
       return settle(pair, undecided || finding->side == 0 || !brief);
     }
@@ -341,15 +344,9 @@ void Audit::check_apart(const Flown& flown) {
     undecided = true;
     if (finding->end >= last) break;
   }
-  // Rounding the new records may move the needles through each other.
-  if (to_the_end) {
-    const Sample sample = pair.sample(duration);
-    const double near = sample.f_error + 4 * pair.limit(sample, duration) + space_.rounding() +
-                        std::abs(sample.df) * (relative_tolerance * duration + resolution);
-    if (std::abs(sample.f) <= near && search.on_needles(duration, duration) >= 0) {
-      const int side = search.sign(duration);
-      if (side != 0) keep_touch(flown, Start::touching, side);
-    }
+  if (to_the_end && pair.is_near_contact(duration)) {
+    const int side = search.on_needles(duration, duration) >= 0 ? search.sign(duration) : 0;
+    keep_touch(flown, {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
   }
   settle(pair, undecided);
 }
@@ -375,7 +372,9 @@ void Audit::check_touching(const Flown& flown) {
   const bool at_start = begin <= 0 && start.kind != Start::apart;
   const int side = at_start ? start.side : search.sign(begin), after = search.sign(end);
   const int inside = search.on_needles(begin, end);
-  const bool none = !undecided && (inside < 0 || (side != 0 && side == after));
+  // Where f bends, it may not change sign within what its slope here says, though it vanishes now.
+  const bool keeps_sign = side != 0 && side == after, off_contact = search.sign(duration) != 0;
+  const bool none = !undecided && (inside < 0 || (keeps_sign && off_contact));
   const auto differs = [&](Kind kind, double s) {
     report(kind, flown.first, flown.second, begin_of(flown.first, flown.second), s);
   };
@@ -388,12 +387,12 @@ void Audit::check_touching(const Flown& flown) {
     differs(spurious ? Kind::spurious : Kind::early, duration);
   } else if (before) {
     differs(Kind::missed, before->begin);
-  } else if (side == 0 || after == 0 || inside == 0) {
+  } else if (side == 0 || after == 0 || inside == 0 || keeps_sign) {
     undecided = true;
   }
   // The needles stay on the side that they came from.
   const double approaching = pair.precise(duration).df;
-  if (!spurious) keep_touch(flown, Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1);
+  if (!spurious) keep_touch(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
   settle(pair, undecided);
 }
 

@@ -116,7 +116,7 @@ class Audit {
   void check_apart(const Flown& flown);
   void check_touching(const Flown& flown);
   std::optional<Touch> take_touch(Index i, Index j);
-  void keep_touch(const Flown& flown, Start::Kind kind, int side);
+  void keep_touch(const Flown& flown, const Start& start);
   void settle(const Pair& pair, bool undecided);
   double tolerance(Pair& pair, double s) const;
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);

@@ -68,7 +68,11 @@ Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const 
   speed_ = upper(norm(first.flight.v - second.flight.v));
   spin_ = omega_[0] + omega_[1];
   distance_ = sample(0).distance;
-  if (start.kind == Start::collided) offset_ = precise(0).f;
+  if (start.kind == Start::collided) {
+    offset_ = precise(0).f;
+  } else if (start.gap) {
+    offset_ = precise(0).f - *start.gap;
+  }
 }
 
 Sample Pair::sample(double s) const {
@@ -158,10 +162,15 @@ double Pair::limit(const Sample& sample, double s, double half) const {
   // What both evaluations share drops out of f(s) - f(0).
   if (start_.kind == Start::collided) {
     sum *= std::min(1.0, 4 * rate() * (std::abs(s) + half));
-  } else if (start_.kind == Start::touching) {
-    sum += space_.rounding();
   }
+  sum += start_.gap_error;
   return sum;
+}
+
+bool Pair::is_near_contact(double s) const {
+  const Sample e = sample(s);
+  const double least = -beside * e.sine;
+  return std::abs(e.f) <= space_.continued() && e.margin[0] >= least && e.margin[1] >= least;
 }
 
 double Pair::margin_limit(const Sample& sample, double s) const {

@@ -29,6 +29,10 @@ struct Start {
   };
   Kind kind = apart;
   int side = 0;
+  /// f(0) of a pair that goes on near a contact without having collided: f at the end of the flight
+  /// before.
+  std::optional<double> gap;
+  double gap_error = 0;  ///< by which that is open
 };
 
 /// The gas that pairs live in.
@@ -37,10 +41,16 @@ struct Space {
 
   /// What rounding a new record can change of a contact function. [L]
   double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2]); }
+  /// Below this f goes on from one flight to the next, where contact points are on the needles or
+  /// within `beside` of them: the engine's rule, so that trains of bounces are told to the end. [L]
+  double continued() const { return 0x1p-44 * (1 + box[0] + box[1] + box[2]); }
 };
 
 /// Beyond so many lengths or radians of flight the engine may have rounded a record on the way.
 inline constexpr double longest_record = 0x1p9;
+
+/// So far beyond a tip a contact point still counts as near the needle. [L]
+inline constexpr double beside = 0x1p-18;
 
 /// Times are multiples of this, or finer. [epochs]
 inline constexpr double resolution = 0x1p-52;
@@ -85,6 +95,8 @@ class Pair {
   double limit(const Sample& sample, double s, double half = 0) const;
   /// The same of `margin`.
   double margin_limit(const Sample& sample, double s) const;
+  /// Whether f goes on from its value at s into a flight that begins there.
+  bool is_near_contact(double s) const;
   const Start& start() const { return start_; }
 
  private:

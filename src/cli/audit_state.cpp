@@ -21,6 +21,7 @@ json json_of(const audit::Checkpoint& checkpoint) {
                        {"r", touch.r.components},
                        {"kind", static_cast<int>(touch.start.kind)},
                        {"side", touch.start.side}});
+    if (touch.start.gap) touches.back()["gap"] = {*touch.start.gap, touch.start.gap_error};
   }
   json listed = json::array();
   for (const audit::Difference& difference : tally.listed) {
@@ -60,6 +61,10 @@ audit::Checkpoint checkpoint_of(const json& from) {
     row.at("r").get_to(touch.r.components);
     touch.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
     row.at("side").get_to(touch.start.side);
+    if (row.contains("gap")) {
+      touch.start.gap = row.at("gap").at(0).get<double>();
+      row.at("gap").at(1).get_to(touch.start.gap_error);
+    }
     out.touches[std::stoull(row.at("pair").get<std::string>())] = touch;
   }
   return out;
