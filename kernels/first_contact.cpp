@@ -130,7 +130,8 @@ auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, do
     }
     (sign_of(e.f) == side ? begin : end) = s;
     const bool within = to_double(next - begin) > 0 && to_double(end - next) > 0;
-    const T target = within ? next : begin + (end - begin) * T(0.5);
+    // A root may be among the least of numbers, a thousand halvings from here.
+    const T target = within ? next : begin + (end - begin) * T(i < 60 ? 0.5 : 0x1p-32);
     const double step = std::abs(to_double(target - s));
     s = target;
     const double size = share * std::abs(to_double(s));
@@ -444,11 +445,10 @@ int side_after(const Pair& pair) {
 
 double gap_at(const Pair& pair, const DoubleDouble& elapsed) {
   const PairScale scale = scale_of(pair);
-  const Frame<DoubleDouble> frame = make_frame<DoubleDouble>(pair, scale);
+  SearchCounters ignored;
+  ContactValues<Escalation::undecided> values(pair, scale, ignored);
   const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
-  const DoubleDouble f = evaluate(frame, s).f;
-  if (!pair.touch.touching) return to_double(f);
-  return to_double(f - evaluate(frame, DoubleDouble()).f + DoubleDouble(pair.touch.gap));
+  return to_double(values.sample_at(s).f);
 }
 
 }  // namespace needlework::kernels

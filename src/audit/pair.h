@@ -122,7 +122,8 @@ class Pair {
   std::array<double, 2> omega_, velocity_;
   double speed_ = 0, spin_ = 0;
   double distance_ = 0;  ///< |r12| at s = 0, not below
-  double offset_ = 0;    ///< f(0) of a pair that has collided there
+  double offset_ = 0;    ///< by which f(0) is off what the flight before says
+  double slope_ = 0;     ///< f'(0) of a pair that has just collided and by rounding approaches
   std::optional<Precise> precise_;
   // Of f, as a sum over products of one of {cosine, sine} of each needle's angle since its record.
   struct Coefficient {

@@ -6,6 +6,7 @@
 
 #include "src/engine/counters.h"
 #include "src/observe/trajectory_hash.h"
+#include "src/physics/clock.h"
 
 namespace needlework {
 
@@ -14,8 +15,10 @@ struct Tally {
   std::int64_t energy = 0;  ///< change of the energy, in quanta of the window
   TrajectoryHash hash;
   Counters counters;
+  Time instant;                  ///< of the last collision
+  std::uint64_t at_instant = 0;  ///< collisions at that instant
 
-  /// Moves what `other` has into this one.
+  /// Moves what `other` has into this one, but for its instant: what follows is later.
   void take(Tally& other) {
     collisions += other.collisions;
     tc_collisions += other.tc_collisions;

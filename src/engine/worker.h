@@ -100,8 +100,6 @@ class Worker {
   Search& search_;
   Queue& queue_;
   Tally& tally_;
-  Time instant_;  ///< of the last collision
-  std::uint64_t collisions_at_instant_ = 0;
   Shared last_shared_;
   Replaced replaced_[2];
   int replaced_count_ = 0;
@@ -336,15 +334,23 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
   kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
   const double tick = gas_.clock.resolution();
   const kernels::Contact due = first_contact_of(
-      before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50), (elapsed + tick) * (1 + 0x1p-50));
-  if (due.found && gas_.clock.add(start, due.elapsed.hi) <= now) {
-    touch.side = due.side;  // a contact that is due now and has not happened yet
+      before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50), (elapsed + tick) * (1 + 0x1p-38));
+  const double gap = gap_at(before, gas_.clock.exact_difference(now, start));
+  const int side = gap > 0 ? 1 : gap < 0 ? -1 : 0;
+  // A contact that is due now and has not happened yet; or is due so soon that the time told for it
+  // is later than that at which f vanishes.
+  if (due.found && (gas_.clock.add(start, due.elapsed.hi) <= now || side != due.side)) {
+    touch.side = due.side;
   } else {
-    touch.gap = gap_at(before, gas_.clock.exact_difference(now, start));
-    touch.side = touch.gap > 0 ? 1 : touch.gap < 0 ? -1 : 0;
+    touch.gap = gap;
+    touch.side = side;
     // On the contact itself: one just had, at this very instant, or a touch.
     const bool just_had = before.touch.touching && elapsed == 0;
     if (touch.side == 0) touch.side = just_had ? before.touch.side : side_after(before);
+    // Centre on centre, turning in one place, they had none.
+    if (touch.side == 0) {
+      touch.side = side_after(make_pair(gas_, a, gas_.records[a], b, gas_.records[b], shift));
+    }
   }
   Record &mine = gas_.records[a], &other = gas_.records[b];
   if (mine.time >= other.time) {
@@ -359,13 +365,13 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
 // there.
 template <class Search, class Queue, Effects effects>
 void Worker<Search, Queue, effects>::count_at_instant(Needle a, Needle b) {
-  if (now != instant_) collisions_at_instant_ = 0;
-  instant_ = now;
-  if (++collisions_at_instant_ <= 64 + 2 * gas_.size()) return;
+  if (now != tally_.instant) tally_.at_instant = 0;
+  tally_.instant = now;
+  if (++tally_.at_instant <= 10000 + 2 * gas_.size()) return;
   throw InvalidStateError("needles " + std::to_string(gas_.ids[a]) + " and " +
                           std::to_string(gas_.ids[b]) + " and others collapse at time " +
                           std::to_string(gas_.clock.since_start(now)) + ": " +
-                          std::to_string(collisions_at_instant_) +
+                          std::to_string(tally_.at_instant) +
                           " collisions at one instant; set collisions.tc_relative, to 1e-3 say");
 }
 

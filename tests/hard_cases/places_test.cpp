@@ -90,8 +90,16 @@ TEST(LeastBox, TwoNeedlesMeetThroughTwoImages) {
 
 // Centres on borders of box and cells, to the last bit on either side, moving along the border,
 // towards it, or at rest. Boxes of 8 have cells of 1 and 2 among those that the searches use.
-TEST(Borders, AreDecidedToTheLastBit) {
-  Random random(seed);
+// Some centres coincide, or are apart by the least of numbers, at rest or turning in one place:
+// such pairs begin on their contact. Of these seeds, the last three have shown lost collisions.
+class Borders : public testing::TestWithParam<std::uint64_t> {};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Borders,
+                         testing::Values(seed, seed + 3 * 1000003, seed + 6 * 1000003,
+                                         seed + 10 * 1000003));
+
+TEST_P(Borders, AreDecidedToTheLastBit) {
+  Random random(GetParam());
   for (const double side : {8.0, 5.0, 2.01}) {
     std::vector<double> places;
     for (const double x :
@@ -153,20 +161,29 @@ void expect_same_sides(const State& before, const State& after) {
 }
 
 // Needles that do not rotate, whose contact points all come to one point at one time.
-TEST(ManyThroughOnePoint, KeepTheirSidesWhenTheyMeetAtOneInstant) {
+class ManyThroughOnePointTogether : public testing::TestWithParam<std::uint64_t> {};
+
+// With the second and third, a needle came through another by rounding alone; the fourth takes
+// hundreds of collisions at one instant.
+INSTANTIATE_TEST_SUITE_P(Seeds, ManyThroughOnePointTogether,
+                         testing::Values(seed, seed + 1000003, seed + 2 * 1000003,
+                                         seed + 3 * 1000003));
+
+TEST_P(ManyThroughOnePointTogether, KeepTheirSides) {
   for (const int count : {3, 8, 20}) {
     for (const bool cools : {false, true}) {
       SCOPED_TRACE(std::to_string(count) + " needles" + (cools ? ", cooling" : ""));
-      Random random(seed + static_cast<std::uint64_t>(count));
+      Random random(GetParam() + static_cast<std::uint64_t>(count));
       State state = empty_state({6, 6, 6});
       for (int n = 0; n < count; ++n) {
         const Three u = random.direction(), v = random.normal_vector(0.7);
         const Three r = Three{3, 3, 3} - random.uniform(-0.45, 0.45) * u - v;
         add_needle(state, r, u, v, {0, 0, 0});
       }
-      // What happens within rounding of one place and time is more than the audit can follow.
+      // What happens within rounding of one place and time, rounding decides; with 20 needles the
+      // audit would take minutes.
       const Scene scene = cools ? cooling() : elastic();
-      const Watch watch{.everywhere = thin == 1, .undecided = 6, .audited = count == 3};
+      const Watch watch{.everywhere = thin == 1, .undecided = 20u * count, .audited = count < 20};
       const HardRun before = run_hard(scene, state, until_time(0.999), watch);
       const HardRun after = run_hard(scene, state, until_time(1.001), watch);
       EXPECT_GE(after.collisions.size(),
@@ -326,7 +343,7 @@ TEST(OnePlane, TiltedRattles) {
                 double(run.tally.undecided), double(run.tally.checked));
     met += run.collisions.size();
   }
-  if (thin == 1) EXPECT_GT(met, 1000u);
+  EXPECT_TRUE(thin > 1 || met > 1000) << met;  // the shorter runs may be over before
 }
 
 // Rounding takes them out of their plane, so that some meet, and part again as slowly as rounding
