@@ -333,8 +333,10 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
   const double elapsed = gas_.clock.difference(now, start);
   kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
   const double tick = gas_.clock.resolution();
+  // By so much of it, at most, the time told for a contact may be off.
+  const double off = std::max(0x1p-38, 2 * run_.accuracy.root_tolerance);
   const kernels::Contact due = first_contact_of(
-      before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50), (elapsed + tick) * (1 + 0x1p-38));
+      before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50), (elapsed + tick) * (1 + off));
   const double gap = gap_at(before, gas_.clock.exact_difference(now, start));
   const int side = gap > 0 ? 1 : gap < 0 ? -1 : 0;
   // A contact that is due now and has not happened yet; or is due so soon that the time told for it
