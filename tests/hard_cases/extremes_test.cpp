@@ -289,7 +289,7 @@ TEST(Subnormal, ComponentsChangeNothing) {
     }
   }
   // Of many pairs f is subnormal from the start, and goes on from there.
-  const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.undecided = 1000});
+  const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.undecided = 800});
   EXPECT_EQ(run.stop, Stop::collisions);
   // Directors given by subnormal numbers alone.
   for (auto& u : state.orientation) {

@@ -8,10 +8,12 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "src/calendar/tournament.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/parallel_loop.h"
+#include "src/error.h"
 #include "src/search/linked_lists.h"
 #include "src/search/near_search.h"
 #include "tests/support/same_run.h"
@@ -157,6 +159,37 @@ TEST(Loops, MayFollowEachOtherAtOneInstant) {
     ASSERT_EQ(loop->advance(limits), Stop::collisions);
   }
   EXPECT_EQ(run.tally.hash.hex(), truth.trajectory_hash());
+}
+
+// Three needles or more that collapse are reported by how many collisions there are at one instant,
+// whichever loops have counted them.
+TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
+  Scene scene = test::scene_of(60, 4, 6);
+  scene.collisions.epsilon = 0.6;
+  scene.collisions.beta = 0;
+  const auto until = until_collisions(1000);
+  const auto failure = [&](const auto& advance) -> std::string {
+    try {
+      advance();
+    } catch (const InvalidStateError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  Simulation one(scene);
+  const std::string expected = failure([&] { one.advance(until); });
+  EXPECT_NE(expected.find("collisions at one instant"), std::string::npos) << expected;
+
+  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  Limits limits(run, until);
+  const std::string told = failure([&] {
+    for (;;) {
+      EventLoop<LinkedLists, Tournament, Effects{true, false}> loop(run, SearchSetup{});
+      limits.pause = run.tally.collisions + 1000;
+      if (loop.advance(limits)) return;
+    }
+  });
+  EXPECT_EQ(told, expected);
 }
 
 // A loop that follows another does no more work than one that goes on.
