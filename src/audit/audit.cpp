@@ -261,7 +261,15 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (i > j) std::swap(i, j);
   if (!is_chosen(i, j)) return;
   const double duration = elapsed<double>(begin_of(i, j), now).middle;
-  if (!(duration > 0)) return;
+  if (!(duration > 0)) {
+    // Another collision of one of them follows at once: f goes on from 0, with another slope.
+    const auto found = touches_.find(key_of(i, j));
+    if (found != touches_.end() && found->second.start.kind == Start::collided) {
+      const int side = found->second.start.side;
+      found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
+    }
+    return;
+  }
   ++tally_.checked;
   const Approach approach = approach_of(i, j);
   std::optional<Touch> touch;
