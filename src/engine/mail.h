@@ -1,0 +1,80 @@
+// What threads tell each other of the calendar's blocks, and how they find that nothing is left.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <vector>
+
+#include "src/calendar/cell_calendar.h"
+#include "src/engine/patience.h"
+
+namespace needlework {
+
+/// A box of mail for each thread: blocks of its zone to which others have written. A thread without
+/// anything left to do rests until there is mail; when all rest, there is none under way.
+class Mail {
+ public:
+  using Block = CellCalendar::Block;
+
+  explicit Mail(std::size_t threads) : boxes_(threads) {}
+
+  /// Of a new phase.
+  void begin() {
+    resting_ = 0;
+    finished_ = false;
+    for (Box& box : boxes_) {
+      box.blocks.clear();
+      box.has_some = box.resting = false;
+    }
+  }
+
+  void send(std::size_t thread, Block block) {
+    Box& box = boxes_[thread];
+    const std::lock_guard alone(meeting_);
+    box.blocks.push_back(block);
+    box.has_some.store(true, std::memory_order_release);
+    if (box.resting) {
+      box.resting = false;
+      --resting_;
+    }
+  }
+  bool has_some(std::size_t thread) const {
+    return boxes_[thread].has_some.load(std::memory_order_acquire);
+  }
+  std::vector<Block> take(std::size_t thread) {
+    Box& box = boxes_[thread];
+    std::vector<Block> blocks;
+    const std::lock_guard alone(meeting_);
+    blocks.swap(box.blocks);
+    box.has_some.store(false, std::memory_order_relaxed);
+    return blocks;
+  }
+
+  /// Waits for mail. Returns true when all threads do, or `given_up` is set.
+  bool rest(std::size_t thread, const std::atomic<bool>& given_up, Patience patience) {
+    {
+      const std::lock_guard alone(meeting_);
+      if (!boxes_[thread].blocks.empty()) return false;
+      boxes_[thread].resting = true;
+      if (++resting_ == boxes_.size()) finished_ = true;
+    }
+    for (; !finished_.load() && !given_up.load(); patience.wait()) {
+      if (has_some(thread)) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct alignas(128) Box {
+    std::atomic<bool> has_some = false;
+    std::vector<Block> blocks;
+    bool resting = false;
+  };
+
+  std::vector<Box> boxes_;
+  std::mutex meeting_;  ///< for the boxes' blocks, and who rests
+  std::size_t resting_ = 0;
+  std::atomic<bool> finished_ = false;
+};
+
+}  // namespace needlework

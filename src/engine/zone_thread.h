@@ -1,0 +1,333 @@
+// A thread of a phase: makes the events of its zone happen, unless they have to wait for others'.
+#pragma once
+
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+#include "src/calendar/cell_calendar.h"
+#include "src/engine/phase.h"
+#include "src/engine/worker.h"
+
+namespace needlework {
+
+/// What a thread needs of the calendar, and what it has changed there in the event at hand.
+struct ZoneQueue {
+  void set(const Event& event, CellCalendar::Block block) { calendar.put(event, block, changed); }
+
+  CellCalendar& calendar;
+  std::vector<CellCalendar::Block> changed;
+};
+
+template <class Search, Effects effects>
+class alignas(128) ZoneThread {
+ public:
+  ZoneThread(Phase<Search>& phase, std::uint32_t zone)
+      : phase_(phase),
+        zone_(zone),
+        queue_{phase.queue, {}},
+        search_(phase.search, tally_.counters),
+        worker_(phase.run, search_, queue_, tally_) {
+    worker_.undo = &undo_;
+  }
+  ZoneThread(const ZoneThread&) = delete;
+  ZoneThread& operator=(const ZoneThread&) = delete;
+
+  /// Of a new phase.
+  void begin();
+  /// Makes all events before `end` happen, or as many until something is amiss.
+  void work(TimeKey end);
+  /// Undoes what it has done in the phase, and adds the needles whose event that has replaced.
+  void undo(std::vector<Needle>& needles);
+  /// The storage has another order.
+  void forget() { worker_.forget(); }
+
+  /// Of the phase.
+  Time now() const { return worker_.now; }
+  Tally& tally() { return tally_; }
+  const std::vector<Collision>& reports() const { return reports_; }
+
+ private:
+  using Block = CellCalendar::Block;
+
+  // An event that has to wait until the clock of `for_block` is past it.
+  struct Held {
+    Block block, for_block;
+    TimeKey key;
+  };
+
+  enum class Outcome { done, held, again };
+
+  Outcome attempt(Block block, TimeKey key);
+  Outcome hold(Block block, TimeKey key, Block for_block);
+  void release_held();
+  void read_mail();
+  void make_known();
+  Block earlier_around(Block centre, Block block, TimeKey key) const;
+  Done take(Needle i, const Event& event, TimeKey key) const;
+  CellBox cells_of(Needle i, const Vec3d& r) const;
+  bool may_have_met(const Done& mine, double speed, bool in_order, bool alone) const;
+
+  // Events that wait while a thread looks for one that need not.
+  static constexpr std::size_t most_held = 12;
+  static constexpr Block nobody = ~Block{0};
+
+  Phase<Search>& phase_;
+  const std::uint32_t zone_;
+  Tally tally_;
+  ZoneQueue queue_;
+  Search search_;
+  Worker<Search, ZoneQueue, effects> worker_;
+  UndoLog undo_;
+  std::vector<Held> held_;
+  std::vector<Collision> reports_;
+};
+
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::begin() {
+  undo_.clear();
+  reports_.clear();
+  held_.clear();
+  worker_.now = phase_.run.now;
+  worker_.reports = phase_.run.callback ? &reports_ : nullptr;
+}
+
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::undo(std::vector<Needle>& needles) {
+  undo_.put_back(phase_.run.gas, phase_.run.last_collision);
+  needles.insert(needles.end(), undo_.scheduled().begin(), undo_.scheduled().end());
+  worker_.forget();
+}
+
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::work(TimeKey end) {
+  Patience patience(phase_.spins);
+  Blockings blockings;
+  const auto go_on = [&] {
+    patience.reset();
+    blockings.end(tally_.counters.turns, tally_.counters.blocked);
+  };
+  const auto wait = [&] {
+    blockings.begin();
+    patience.wait();
+  };
+  while (!phase_.amiss.load(std::memory_order_relaxed)) {
+    if (phase_.mail.has_some(zone_)) read_mail();
+    release_held();
+    const TimeKey key = phase_.queue.winning_key(zone_);
+    TimeKey front = key;
+    for (const Held& held : held_) front = std::min(front, held.key);
+    phase_.fronts.tell_next(zone_, front);
+    // Those held may wait for one that has come up since.
+    const bool may_start = held_.size() < most_held || key == front;
+    if (key < end && may_start && !phase_.fronts.is_too_far_ahead(key)) {
+      const Outcome outcome = attempt(phase_.queue.winner(zone_), key);
+      if (outcome == Outcome::done) go_on();
+      if (outcome == Outcome::again) wait();
+      continue;
+    }
+    if (key >= end && held_.empty()) {
+      blockings.begin();
+      if (phase_.mail.rest(zone_, phase_.amiss, Patience(phase_.spins))) break;
+      continue;
+    }
+    ++tally_.counters.waited;
+    wait();
+  }
+  go_on();
+}
+
+// Does the next event of a block, unless it has to wait.
+template <class Search, Effects effects>
+auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
+  const bool alone = phase_.inner[block] && held_.empty();
+  const auto give_up = [&](Block for_block) {
+    phase_.claims.drop(zone_);
+    return for_block == nobody ? Outcome::again : hold(block, key, for_block);
+  };
+  const auto claim = [&](Claims::Part part, const CellBox& box) {
+    return alone || phase_.claims.claim(zone_, part, box);
+  };
+  if (!alone) {
+    ++tally_.counters.border;
+    const Block earlier = earlier_around(block, block, key);
+    if (earlier != nobody) return give_up(earlier);
+    if (!claim(Claims::owner, phase_.cell_of(block))) return Outcome::again;
+    // Somebody may have written to the block, or to others of the zone near it, just before.
+    if (phase_.queue.clock_of(block) != key || phase_.mail.has_some(zone_)) {
+      return give_up(nobody);
+    }
+  }
+  const Event event = phase_.queue.top_of(block);
+  worker_.bring_near(phase_.queue.soon(zone_));
+  if (event.is_contact()) {
+    phase_.queue.bring_near(event.partner);
+    worker_.bring_near(event.partner);
+  }
+  phase_.queue.bring_keys_near(block);
+  bool stale = false, near_partner = false;
+  if (event.is_contact()) {
+    // A partner that is no longer near has had another collision.
+    const Block other = phase_.queue.block_of(event.partner);
+    const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
+    near_partner = near(here, there, phase_.cells, phase_.neighbours);
+    stale = !near_partner;
+    if (near_partner) {
+      if (!alone && other != block) {
+        const Block earlier = earlier_around(other, block, key);
+        if (earlier != nobody) return give_up(earlier);
+      }
+      if (!claim(Claims::partner, there)) return Outcome::again;
+      if (phase_.queue.block_of(event.partner) != other) return give_up(nobody);
+      phase_.queue.bring_keys_near(other);
+      stale = worker_.is_stale(event);
+    }
+  }
+  const bool collides = event.is_contact() && !stale;
+  const Done owner = take(event.owner, event, key);
+  phase_.done.bring_near(owner.r);
+  if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
+  Done partner;
+  if (collides) {
+    partner = take(event.partner, event, key);
+    phase_.done.bring_near(partner.r);
+    if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
+  } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
+    // It may have happened, had it had its turn.
+    phase_.amiss = true;
+    return give_up(nobody);
+  }
+  const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
+  const bool in_order = phase_.fronts.tell_taken(zone_, key, fastest);
+  queue_.changed.clear();
+#ifndef NDEBUG
+  worker_.read_ahead = false;
+#endif
+  worker_.happen(event, stale);
+  if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.amiss = true;
+  const auto record = [&](Needle i, const Done& taken) {
+    const Vec3d& v = phase_.run.gas.records[i].flight.v;
+    if (may_have_met(taken, std::sqrt(dot(v, v)), in_order, alone)) phase_.amiss = true;
+    phase_.done.add(taken);
+  };
+  record(event.owner, owner);
+  if (collides) record(event.partner, partner);
+  // No record that an event reads is ahead of it, or the phase is undone.
+  assert(!worker_.read_ahead || phase_.amiss);
+  make_known();
+  if (!alone) phase_.claims.drop(zone_);
+  return Outcome::done;
+}
+
+template <class Search, Effects effects>
+auto ZoneThread<Search, effects>::hold(Block block, TimeKey key, Block for_block) -> Outcome {
+  ++tally_.counters.held;
+  held_.push_back({block, for_block, key});
+  phase_.queue.follow_by_key(block, CellCalendar::no_event);
+  return Outcome::held;
+}
+
+// Lets those go on whose turn may have come.
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::release_held() {
+  std::erase_if(held_, [&](const Held& held) {
+    look_away();
+    const TimeKey clock = phase_.queue.clock_of(held.for_block);
+    if (clock < held.key || (clock == held.key && held.for_block < held.block)) return false;
+    phase_.queue.follow_by_key(held.block, phase_.queue.clock_of(held.block));
+    return true;
+  });
+}
+
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::read_mail() {
+  for (const Block block : phase_.mail.take(zone_)) {
+    std::erase_if(held_, [&](const Held& held) { return held.block == block; });
+    phase_.queue.follow_by_key(block, phase_.queue.clock_of(block));
+  }
+}
+
+// Makes the clocks of the blocks that an event has changed known: first those that it has brought
+// forward, so that nobody sees this one done and not what follows from it.
+template <class Search, Effects effects>
+void ZoneThread<Search, effects>::make_known() {
+  std::vector<Block>& changed = queue_.changed;
+  look_away();
+  for (const Block b : changed) {
+    if (phase_.queue.key_of_next(b) < phase_.queue.clock_of(b)) phase_.queue.publish(b);
+  }
+  for (const Block b : changed) {
+    look_away();
+    phase_.queue.publish(b);
+    const std::uint32_t zone = phase_.queue.zone_of(b);
+    if (zone == zone_) {
+      std::erase_if(held_, [&](const Held& held) { return held.block == b; });
+      phase_.queue.follow_by_key(b, phase_.queue.clock_of(b));
+      continue;
+    }
+    ++tally_.counters.foreign;
+    phase_.mail.send(zone, b);
+  }
+}
+
+// A block within reach of `centre` whose clock is behind the event of `block`, if any. Of the
+// zone's own blocks these can only be held ones.
+template <class Search, Effects effects>
+auto ZoneThread<Search, effects>::earlier_around(Block centre, Block block, TimeKey key) const
+    -> Block {
+  look_away();
+  for (const Held& held : held_) {
+    const bool before = held.key < key || (held.key == key && held.block < block);
+    if (before && phase_.reach.holds(phase_.places[centre], phase_.places[held.block]))
+      return held.block;
+  }
+  Block found = nobody;
+  if (phase_.ours[centre] && phase_.queue.zone_of(centre) == zone_) return found;
+  phase_.reach.any_row(phase_.places[centre], [&](Block first, Block last) {
+    // Zones are boxes.
+    if (phase_.queue.zone_of(first) == zone_ && phase_.queue.zone_of(last - 1) == zone_)
+      return false;
+    for (Block b = first; b < last; ++b) {
+      const TimeKey clock = phase_.queue.clock_of(b);
+      if (clock > key || (clock == key && b >= block)) continue;
+      found = b;
+      return true;
+    }
+    return false;
+  });
+  return found;
+}
+
+template <class Search, Effects effects>
+auto ZoneThread<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Done {
+  const Record& record = phase_.run.gas.records[i];
+  const kernels::Flight& flight = record.flight;
+  return {key,
+          centre_after(flight, phase_.run.gas.clock.difference(event.time, record.time)),
+          std::sqrt(dot(flight.v, flight.v)),
+          event.is_contact(),
+          event.lower_id,
+          event.higher_id,
+          event.time};
+}
+
+// The cell of a needle that is at r, and those in which it may be placed.
+template <class Search, Effects effects>
+CellBox ZoneThread<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
+  return cells_around(phase_.search.grid(), r, phase_.search.radius() * (1 + 0x1p-10) + 0x1p-20,
+                      phase_.search.cell_of(i));
+}
+
+// Whether a needle that has had an event, and is so fast since, may have met one whose later event
+// has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
+// are far.
+template <class Search, Effects effects>
+bool ZoneThread<Search, effects>::may_have_met(const Done& mine, double speed, bool in_order,
+                                               bool alone) const {
+  const double farthest = phase_.fronts.reach_of_later(zone_, mine.key, speed, in_order);
+  if (farthest == 0) return false;
+  if (phase_.fronts.is_out_of_sight(farthest)) return true;
+  return !(alone && in_order) && phase_.done.may_have_met(mine, speed, farthest);
+}
+
+}  // namespace needlework

@@ -1,0 +1,82 @@
+// Mail between threads, and how they find that nothing is left to do.
+#include "src/engine/mail.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace needlework {
+namespace {
+
+const Patience patient(32);
+
+TEST(Mail, ComesToItsThreadOnce) {
+  Mail mail(3);
+  mail.begin();
+  EXPECT_FALSE(mail.has_some(1));
+  mail.send(1, 7);
+  mail.send(1, 5);
+  EXPECT_FALSE(mail.has_some(0));
+  EXPECT_TRUE(mail.has_some(1));
+  EXPECT_EQ(mail.take(1), (std::vector<Mail::Block>{7, 5}));
+  EXPECT_FALSE(mail.has_some(1));
+  EXPECT_TRUE(mail.take(1).empty());
+}
+
+TEST(Mail, OfAPhaseBeforeIsGone) {
+  Mail mail(2);
+  mail.begin();
+  mail.send(0, 1);
+  mail.begin();
+  EXPECT_FALSE(mail.has_some(0));
+  EXPECT_TRUE(mail.take(0).empty());
+}
+
+TEST(Mail, LetsNobodyRest) {
+  Mail mail(1);
+  mail.begin();
+  const std::atomic<bool> given_up = false;
+  mail.send(0, 1);
+  EXPECT_FALSE(mail.rest(0, given_up, patient));
+  (void)mail.take(0);
+  EXPECT_TRUE(mail.rest(0, given_up, patient));
+}
+
+TEST(Mail, IsNotWaitedForWhenThePhaseIsGivenUp) {
+  Mail mail(2);
+  mail.begin();
+  const std::atomic<bool> given_up = true;
+  EXPECT_TRUE(mail.rest(0, given_up, patient));
+}
+
+// A rests first; B sends it work, which A does and sends work back: neither may leave before all of
+// it has been done, however they are interleaved.
+TEST(Mail, EndsWhenAllRestAndNoneIsUnderWay) {
+  for (int repetition = 0; repetition < 200; ++repetition) {
+    Mail mail(2);
+    mail.begin();
+    const std::atomic<bool> given_up = false;
+    constexpr Mail::Block last = 50;
+    std::array<std::vector<Mail::Block>, 2> got;
+    const auto work = [&](std::size_t me) {
+      do {
+        for (const Mail::Block block : mail.take(me)) {
+          got[me].push_back(block);
+          if (block < last) mail.send(1 - me, block + 1);
+        }
+      } while (!mail.rest(me, given_up, patient));
+    };
+    mail.send(1, 0);
+    std::thread other(work, 0);
+    work(1);
+    other.join();
+    EXPECT_EQ(got[0].size() + got[1].size(), last + 1);
+    EXPECT_EQ(got[1].back(), last);
+  }
+}
+
+}  // namespace
+}  // namespace needlework
