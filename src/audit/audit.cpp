@@ -137,8 +137,10 @@ void Audit::add(const Collision& reported) {
       check_rule(a, b, now, collision);
       for (Index other = 0; other < needles_.size(); ++other) {
         if (other == a || other == b) continue;
-        check_flight(a, other, now);
-        check_flight(b, other, now);
+        for (const Index mine : {a, b}) {
+          check_flight(mine, other, now);
+          go_on_from_contact(mine, other, now);
+        }
       }
       if (is_chosen(a, b)) check_contact(a, b, now);
     }
@@ -261,15 +263,7 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (i > j) std::swap(i, j);
   if (!is_chosen(i, j)) return;
   const double duration = elapsed<double>(begin_of(i, j), now).middle;
-  if (!(duration > 0)) {
-    // Another collision of one of them follows at once: f goes on from 0, with another slope.
-    const auto found = touches_.find(key_of(i, j));
-    if (found != touches_.end() && found->second.start.kind == Start::collided) {
-      const int side = found->second.start.side;
-      found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
-    }
-    return;
-  }
+  if (!(duration > 0)) return;
   ++tally_.checked;
   const Approach approach = approach_of(i, j);
   std::optional<Touch> touch;
@@ -278,6 +272,16 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
     check_apart({i, j, approach, encounter, duration,
                  start_of(separation(approach, 0, encounter.shift, space_.box), touch)});
   });
+}
+
+// Of a pair that has collided now, before another collision of one of them: f goes on from 0, but
+// with another slope.
+void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
+  if (!(begin_of(i, j) == now)) return;
+  const auto found = touches_.find(key_of(std::min(i, j), std::max(i, j)));
+  if (found == touches_.end() || found->second.start.kind != Start::collided) return;
+  const int side = found->second.start.side;
+  found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
 }
 
 // No contact until now, but for one now and here.

@@ -113,6 +113,7 @@ class Audit {
   bool contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const;
   void check_flight(Index i, Index j, const Instant& now);
   void check_contact(Index a, Index b, const Instant& now);
+  void go_on_from_contact(Index i, Index j, const Instant& now);
   void check_apart(const Flown& flown);
   void check_touching(const Flown& flown);
   std::optional<Touch> take_touch(Index i, Index j);

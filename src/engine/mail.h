@@ -1,4 +1,5 @@
-// What threads tell each other of the calendar's blocks, and how they find that nothing is left.
+// What threads tell each other of the calendar's blocks, and how they find that nothing is left to
+// do.
 #pragma once
 
 #include <atomic>
@@ -50,7 +51,8 @@ class Mail {
     return blocks;
   }
 
-  /// Waits for mail. Returns true when all threads do, or `given_up` is set.
+  /// Waits for mail, for a thread that has nothing left to do, nor will have unless mail comes.
+  /// Returns false when there is some, true when all threads wait, or `given_up` is set.
   bool rest(std::size_t thread, const std::atomic<bool>& given_up, Patience patience) {
     {
       const std::lock_guard alone(meeting_);
@@ -72,9 +74,9 @@ class Mail {
   };
 
   std::vector<Box> boxes_;
-  std::mutex meeting_;  ///< for the boxes' blocks, and who rests
+  alignas(128) std::mutex meeting_;  ///< for the boxes' blocks, and who rests
   std::size_t resting_ = 0;
-  std::atomic<bool> finished_ = false;
+  alignas(128) std::atomic<bool> finished_ = false;
 };
 
 }  // namespace needlework

@@ -2,8 +2,8 @@
 //
 // Each thread has a zone of the box and makes the events of the needles there happen, the earliest
 // first. What an event reads and writes lies within some cells of it, so events far from each other
-// may happen in any order, or at once. An event waits while the clock of any block within `reach_`
-// cells is behind it; other events of the zone, far from the waiting ones, go on. A thread waits as
+// may happen in any order, or at once. An event waits while the clock of any block within reach
+// is behind it; other events of the zone, far from the waiting ones, go on. A thread waits as
 // well while another is very far behind in time. Where zones are near, a thread claims the cells
 // that its event may write to before it reads any.
 //
@@ -23,14 +23,20 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <deque>
+#include <limits>
+#include <string>
+#include <tuple>
 
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/phase.h"
 #include "src/engine/phase_plan.h"
 #include "src/engine/zone_thread.h"
+#include "src/error.h"
 
 namespace needlework {
 

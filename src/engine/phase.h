@@ -3,8 +3,8 @@
 
 #include <omp.h>
 
-#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,7 +26,7 @@ struct Phase {
   using Block = CellCalendar::Block;
 
   /// `sight`: how far from its cell an event looks for earlier ones. [L]
-  Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, int threads, double sight);
+  Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, int its_threads, double sight);
 
   /// Divides the box into zones, by where needles are now.
   void divide();
@@ -51,10 +51,10 @@ struct Phase {
   DoneLog done;
   Fronts fronts;
   Mail mail;
-  std::atomic<bool> amiss = false;     ///< all that has been done is to be undone
-  std::atomic<bool> too_many = false;  ///< collisions of a thread
-  std::uint64_t most_collisions = 0;   ///< of a thread
-  int spins;                           ///< before a waiting thread yields
+  alignas(128) std::atomic<bool> amiss = false;  ///< all that has been done is to be undone
+  std::atomic<bool> too_many = false;            ///< collisions of a thread
+  std::uint64_t most_collisions = 0;             ///< of a thread
+  const int spins;                               ///< before a waiting thread yields
 };
 
 template <class Search>
@@ -72,7 +72,9 @@ Phase<Search>::Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, 
       claims(cells, neighbours, threads),
       done(search.grid(), run.gas.box),
       fronts(threads, sight_of_done),
-      mail(threads) {
+      mail(threads),
+      // With a core for each, most waits are shorter than a visit to the system.
+      spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
   const CellCounts moves = cells_within(search.grid(), search.drift() + search.radius());
   for (int axis = 0; axis < 3; ++axis) {
     apart[axis] = 3 * neighbours[axis] + 2 * moves[axis];
@@ -87,8 +89,6 @@ Phase<Search>::Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, 
     places.push_back({static_cast<std::int32_t>(b % x), static_cast<std::int32_t>(b / x % y),
                       static_cast<std::int32_t>(b / x / y)});
   }
-  // With a core for each, most waits are shorter than a visit to the system.
-  spins = its_threads <= omp_get_num_procs() ? 1000 : 32;
 }
 
 template <class Search>

@@ -364,7 +364,8 @@ void Worker<Search, Queue, effects>::settle_touch(Needle a, Needle b, const Shif
 
 // Three needles or more can collapse too, by hitting each other in turn. When that has come to
 // where the clock stands still, more collisions happen at one instant than needles could have
-// there. Rough needles have gone on after more than four thousand.
+// there. Rough needles have been seen to go on after more than four
+// thousand.
 template <class Search, class Queue, Effects effects>
 void Worker<Search, Queue, effects>::count_at_instant(Needle a, Needle b) {
   if (now != tally_.instant) tally_.at_instant = 0;

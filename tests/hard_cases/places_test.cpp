@@ -92,7 +92,7 @@ TEST(LeastBox, TwoNeedlesMeetThroughTwoImages) {
 // towards it, or at rest. Boxes of 8 have cells of 1 and 2 among those that the searches use.
 // Some centres coincide, or are apart by the least of numbers, at rest or turning in one place:
 // such pairs begin on their contact. Of these seeds, the second to fourth have shown lost
-// collisions, the others what the audit has to know of such places.
+// collisions, the last three what the audit has to know of such places.
 class Borders : public testing::TestWithParam<std::uint64_t> {};
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Borders,
@@ -137,8 +137,8 @@ TEST_P(Borders, AreDecidedToTheLastBit) {
 }
 
 // Whether no pair has come through each other between two states that are close in time: where the
-// lines meet on both needles in both, and cross at an angle, the side is the same. Returns of how
-// many pairs that could be told.
+// lines meet on both needles in both, and cross at an angle, the side is the same. Returns for
+// how many pairs that could be told.
 int expect_same_sides(const State& before, const State& after) {
   int pairs = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {

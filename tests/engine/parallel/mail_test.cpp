@@ -74,6 +74,7 @@ TEST(Mail, EndsWhenAllRestAndNoneIsUnderWay) {
     work(1);
     other.join();
     EXPECT_EQ(got[0].size() + got[1].size(), last + 1);
+    ASSERT_FALSE(got[1].empty());
     EXPECT_EQ(got[1].back(), last);
   }
 }
