@@ -3,9 +3,9 @@
 
 guard    compares the engine with the committed figures of instructions.json and fails when one has
          grown by more than 3 %; --update writes them anew.
-effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
-         README.md.
-shares   tells where a collision's instructions go; the table goes to README.md.
+effects  counts what each effect costs when it is on; the table goes to results/effects.md and to the
+         README.md of the project.
+shares   tells where a collision's instructions go; the table goes to bench/README.md.
 baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
@@ -146,10 +146,14 @@ class Measured:
         end, last, trajectory = self.run(LONG)
         return (end - start) / (last - first), trajectory
 
-    def peak_heap(self, needles):
+    def heap_of_the_loop(self, needles):
+        """The most bytes that are held while events happen; setting up takes as many, for a while."""
         tool = ["--tool=massif", "--peak-inaccuracy=0.0", "--massif-out-file=massif"]
-        _, massif = in_folder(self.command(tool, needles, 0.01), "massif")
-        return max(map(int, re.findall(r"mem_heap_B=(\d+)", massif)))
+        _, massif = in_folder(self.command(tool, needles, 0.2), "massif")
+        snapshots = [(int(time), int(held)) for time, held in
+                     re.findall(r"time=(\d+)\nmem_heap_B=(\d+)", massif)]
+        end = snapshots[-1][0]
+        return max(held for time, held in snapshots if 0.6 * end < time < 0.95 * end)
 
 
 def measure_all(jobs):
@@ -223,7 +227,8 @@ def effects(program, out):
         return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags)
 
     def bytes_per_needle(effect):
-        extra = measured(effect.neutral).peak_heap(NEEDLES) - measured([]).peak_heap(NEEDLES)
+        extra = (measured(effect.neutral).heap_of_the_loop(NEEDLES)
+                 - measured([]).heap_of_the_loop(NEEDLES))
         return extra / NEEDLES
 
     jobs = {"off": measured([]).instructions_per_collision}
@@ -252,7 +257,7 @@ def effects(program, out):
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text)
     if out == EFFECTS_TABLE:
-        put_table("effects", text)
+        put_table("effects", text, BENCH.parent / "README.md")
     print(text, end="")
     return 0
 
