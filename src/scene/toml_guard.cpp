@@ -11,6 +11,10 @@ namespace {
 
 bool beyond_ascii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
+bool is_digit(std::string_view text, std::size_t at) {
+  return at < text.size() && text[at] >= '0' && text[at] <= '9';
+}
+
 // The bytes of the character that begins at `begin`, as far as they can be told.
 std::string_view character(std::string_view text, std::size_t begin) {
   std::size_t end = begin + 1;
@@ -47,7 +51,10 @@ class Scanner {
 
   // Outside strings, comments and bare values.
   void step_over(char c) {
-    if (beyond_ascii(c)) return report_character("outside quotes and comments");
+    constexpr std::string_view behind_values = " \t\r\n,]}";
+    if (beyond_ascii(c)) return report_character("expected ASCII outside quotes and comments");
+    if (next_ == Next::end && behind_values.find(c) == behind_values.npos)
+      return report_character("expected the end of the line, or of what the value stands in");
     if (c == '.') ++dots_;
     if (c == '=') begin(Next::value);
     if (c == ',') begin(in_array() ? Next::value : Next::key);
@@ -76,11 +83,17 @@ class Scanner {
 
   bool in_array() const { return !open_.empty() && open_.back() == '['; }
 
-  // A number, a date, or what the parser takes for one before it finds the error.
+  // A number, a date, or what the parser takes for one before it finds the error. A date goes on
+  // behind a space with the two digits of an hour; behind other values they are an error anyway.
   void skip_bare_value() {
     constexpr std::string_view ends = " \t\r\n#,]}";
-    for (; at_ < toml_.size() && ends.find(toml_[at_]) == ends.npos; ++at_)
-      if (beyond_ascii(toml_[at_])) return report_character("outside quotes and comments");
+    for (; at_ < toml_.size(); ++at_) {
+      const bool hour_follows =
+          toml_[at_] == ' ' && is_digit(toml_, at_ + 1) && is_digit(toml_, at_ + 2);
+      if (ends.find(toml_[at_]) != ends.npos && !hour_follows) break;
+      if (beyond_ascii(toml_[at_]))
+        return report_character("expected ASCII outside quotes and comments");
+    }
     begin(Next::end);
   }
 
@@ -96,9 +109,11 @@ class Scanner {
       if (c == '\n' && !triple) return;  // an error; the line ends as any other
       if (c == '\n') ++line_;
       quotes = c == quote ? quotes + 1 : 0;
-      // One or two more may follow the closing three; behind a value they do no harm.
       if (quotes == (triple ? 3 : 1)) {
         ++at_;
+        // One or two before the closing three belong to the string.
+        for (int more = 0; triple && more < 2 && at_ < toml_.size() && toml_[at_] == quote; ++more)
+          ++at_;
         return;
       }
       if (c == '\\' && quote == '"') skip_escape(triple);
@@ -118,12 +133,12 @@ class Scanner {
       if (at_ + 1 < toml_.size() && beyond_ascii(toml_[at_ + 1])) ++at_;
     }
     if (triple && at_ < toml_.size() && beyond_ascii(toml_[at_]))
-      report_character("after a backslash that ends a line");
+      report_character("expected ASCII after a backslash that ends a line");
   }
 
-  void report_character(std::string_view place) {
-    hazard_ = {line_, fmt::format("unexpected '{}': expected ASCII {}",
-                                  printable(character(toml_, at_)), place)};
+  void report_character(std::string_view expected) {
+    hazard_ = {line_,
+               fmt::format("unexpected '{}': {}", printable(character(toml_, at_)), expected)};
   }
 
   std::string_view toml_;

@@ -23,7 +23,9 @@ struct TomlHazard {
 ///   recursion, so that a key of some 100 kB full of dots overflows the stack;
 /// - characters beyond ASCII outside quotes and comments, which are an error anyway, or after a
 ///   backslash that ends a line of a """string""", which is allowed: asked whether such a character
-///   is white space, the parser reaches code that is marked as unreachable.
+///   is white space, the parser reaches code that is marked as unreachable;
+/// - anything but an end behind a value, which is an error anyway: behind what begins as a date and
+///   its time the parser looks ahead, into strings as well.
 std::optional<TomlHazard> find_toml_hazard(std::string_view toml);
 
 }  // namespace needlework

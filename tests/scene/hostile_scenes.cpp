@@ -50,14 +50,17 @@ std::size_t hazard_line(const std::string& toml) {
 TEST(TomlGuard, LooksPastStringsCommentsAndNumbers) {
   const std::string dots = repeated(".", 50) + "\xc3\xa9";
   const std::string brackets = repeated("[", 50);
-  for (const std::string& harmless :
-       {"a = \"" + dots + brackets + "\"", "a = '" + dots + "'", "# " + brackets + dots,
-        "a = \"\"\"\n" + brackets + "\n\"\" \\\"\"\" " + dots + "\"\"\"\"\"",
-        "a = '''\\'' " + brackets + "\n'''", "a = \"\\\"" + brackets + "\"", "a = \"\" # " + dots,
-        "a = [" + repeated("0.5, ", 100) + "]", repeated("a.b = 1.5\n", 100),
-        "a = " + repeated("[", 16) + repeated("]", 16), repeated("a.", 16) + "a = 1",
-        "\xef\xbb\xbf# " + dots, "\xef\xbb\xbf'" + dots + "' = 1", "a = '''\\\n" + dots + "'''",
-        "a = \"\"\"\\\n  b" + dots + "\"\"\"", "{'" + dots + "'.'" + dots + "'"})
+  for (const std::string& harmless : std::vector<std::string>{
+           "a = \"" + dots + brackets + "\"", "a = '" + dots + "'", "# " + brackets + dots,
+           "a = \"\"\"\n" + brackets + "\n\"\" \\\"\"\" " + dots + "\"\"\"\"\"",
+           "a = '''\\'' " + brackets + "\n'''", "a = \"\\\"" + brackets + "\"",
+           "a = \"\" # " + dots, "a = [" + repeated("0.5, ", 100) + "]",
+           repeated("a.b = 1.5\n", 100), "a = " + repeated("[", 16) + repeated("]", 16),
+           repeated("a.", 16) + "a = 1", "\xef\xbb\xbf# " + dots, "\xef\xbb\xbf'" + dots + "' = 1",
+           "a = '''\\\n" + dots + "'''", "a = \"\"\"\\\n  b" + dots + "\"\"\"",
+           "a = 1979-05-27 07:32:00.5-08:00 # " + dots,
+           "a = [1979-05-27 07:32:00\t\n, 1979-05-27 ] # " + dots, "a = {b = '''" + dots + "'''''}",
+           "{'" + dots + "'.'" + dots + "'"})
     EXPECT_EQ(hazard_line(harmless), 0u) << harmless;
 }
 
@@ -79,6 +82,12 @@ TEST(HostileScene, CharactersThatTheParserMistakesForWhiteSpaceAreRefused) {
   EXPECT_EQ(message("title = \"\"\"a\\\n  \u00e9\"\"\""),
             "s.toml: line 2: unexpected '\u00e9': expected ASCII after a backslash that ends a "
             "line");
+  // The parser looks for the end of a date and its time before it looks at either.
+  EXPECT_EQ(message("title = 1979-05-27 07:32:00.9(s=\"\u00e9\""),
+            "s.toml: line 1: unexpected '\u00e9': expected ASCII outside quotes and comments");
+  const std::string end = ": expected the end of the line, or of what the value stands in";
+  EXPECT_EQ(message("title = 1979-05-27 1#=\"\u00e9\""), "s.toml: line 1: unexpected '1'" + end);
+  EXPECT_EQ(message("[needles]\ncount = 'a' b"), "s.toml: line 2: unexpected 'b'" + end);
   const std::vector<std::string> overrides = {"needles.count=1", "needles.box=3", "until.time=1",
                                               "output.file=\u00e9t\u00e9.h5"};
   EXPECT_EQ(parse_scene("", "s.toml", overrides).output.file, "\u00e9t\u00e9.h5");
@@ -95,7 +104,8 @@ TEST(HostileScene, BytesThatAreNoTextAreRefused) {
   EXPECT_EQ(message(std::string("\xff\xfe[\0n\0", 6)),
             "s.toml: line 1: unexpected '\\xff': expected ASCII outside quotes and comments");
   EXPECT_EQ(message("a = 5\rb = 6"),
-            "s.toml: line 1: bad key-value pair: expected '\\n' after '\\r', saw 'b'");
+            "s.toml: line 1: unexpected 'b': expected the end of the line, or of what the value "
+            "stands in");
 }
 
 TEST(HostileScene, MessageEscapesControlCharacters) {
