@@ -110,11 +110,13 @@ struct ContactColumns {
   enum Column {
     f,
     df,
-    ddf,      // its derivatives
+    ddf,
+    dddf,     // its derivatives
     gap,      // how far the needles are apart, as segments
     error_f,  // by how much these may be off, of needles whose bounding spheres overlap
     error_df,
     error_ddf,
+    error_dddf,
     columns
   };
   float* column[columns];

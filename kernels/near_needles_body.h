@@ -120,11 +120,11 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
       });
 }
 
-/// The contact function of pairs at one time each, with two derivatives; and what tells how far the
-/// needles stay apart along the gap between them: projected on it, centre, velocity, directors and
-/// their rates.
+/// The contact function of pairs at one time each, with three derivatives; and what tells how far
+/// the needles stay apart along the gap between them: projected on it, centre, velocity, directors
+/// and their rates.
 struct LaneSample {
-  Lanes f, df, ddf;
+  Lanes f, df, ddf, dddf;
   Lanes gap;  // its length
   Lanes centre, velocity, director[2], turning[2];
 };
@@ -143,13 +143,18 @@ NEEDLEWORK_INLINE LaneSample sample(const LanePairs& pair, Lanes s) {
     d[i] = (pair.p[i] * t.cosine - pair.u[i] * t.sine) * pair.omega[i];
   }
   const V3 c = pair.r + pair.v * s, x = cross(n[0], n[1]);
-  const V3 dx = cross(d[0], n[1]) + cross(n[0], d[1]), dd = cross(d[0], d[1]);
-  const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
+  const V3 dx[2] = {cross(d[0], n[1]), cross(n[0], d[1])}, dd = cross(d[0], d[1]);
+  const Lanes square[2] = {pair.omega[0] * pair.omega[0], pair.omega[1] * pair.omega[1]};
+  const Lanes squares = square[0] + square[1];
+  const Lanes vx = dot(pair.v, x), vdx = dot(pair.v, dx[0] + dx[1]), vdd = dot(pair.v, dd);
+  const Lanes cdx[2] = {dot(c, dx[0]), dot(c, dx[1])}, cdd = dot(c, dd);
   LaneSample out;
-  const Lanes vdx = dot(pair.v, dx), cdd = dot(c, dd);
   out.f = dot(c, x);
-  out.df = dot(pair.v, x) + dot(c, dx);
+  out.df = vx + (cdx[0] + cdx[1]);
   out.ddf = (vdx + vdx) + ((cdd + cdd) - squares * out.f);
+  out.dddf =
+      Lanes(3.0f) * ((vdd + vdd) - squares * vx) -
+      ((squares + (square[1] + square[1])) * cdx[0] + (squares + (square[0] + square[0])) * cdx[1]);
   const V3 gap = segment_gap(c, n[0], n[1], x, dot(x, x));
   out.gap = square_root(dot(gap, gap));
   out.centre = dot(gap, c);
@@ -184,9 +189,10 @@ NEEDLEWORK_INLINE LanePairs load_pairs(const Seeker& seeker, const PairColumns& 
 struct LaneBounds {
   Lanes speed, margin;
   Lanes reach_squared;  // of the centres, where needles may touch
-  Lanes bend, twist;    // while the bounding spheres overlap, f'' is at most `bend`, and the third
-                        // derivative 6 times `twist`
-  Lanes error_f, error_df, error_ddf;
+  // While the bounding spheres overlap f'' is at most `bend`, and the fourth derivative 4! `coil`:
+  // derivative n of u1 x u2 is at most (|w1| + |w2|)^n, and the second of the centres is 0.
+  Lanes bend, coil;
+  Lanes error_f, error_df, error_ddf, error_dddf;
   Mask trusted;  // the phases are not too large for these
 };
 
@@ -203,11 +209,14 @@ NEEDLEWORK_INLINE LaneBounds bounds_of(const Seeker& seeker, const LanePairs& pa
   const Lanes reach = Lanes(1 + 0x1p-10f) + out.margin;
   out.reach_squared = reach * reach + dot(pair.r, pair.r) * Lanes(0x1p-18f);
   const Lanes arm = Lanes(1 + 0x1p-8f) * square_root(out.reach_squared);
-  out.bend = ((v + v) + arm * w) * w;
-  out.twist = ((v + v + v) + arm * w) * w * w * Lanes(1.0f / 6);
+  const Lanes turn = arm * w;
+  out.bend = ((v + v) + turn) * w;
+  const Lanes twist = ((v + v + v) + turn) * (w * w);  // at most the third derivative
+  out.coil = (Lanes(4.0f) * v + turn) * (w * w * w) * Lanes(1.0f / 24);
   out.error_f = out.margin + out.margin;
   out.error_df = out.margin * (out.speed + out.speed);
   out.error_ddf = out.margin * (out.bend + out.bend);
+  out.error_dddf = out.margin * (twist + twist);
   return out;
 }
 
@@ -218,8 +227,15 @@ void contact_function(const Seeker& seeker, const PairColumns& pairs, std::size_
     const LanePairs pair = load_pairs(seeker, pairs, k);
     const LaneSample e = sample(pair, Lanes(s));
     const LaneBounds bounds = bounds_of(seeker, pair, Lanes(s));
-    const Lanes values[C::columns] = {
-        e.f, e.df, e.ddf, e.gap, bounds.error_f, bounds.error_df, bounds.error_ddf};
+    const Lanes values[C::columns] = {e.f,
+                                      e.df,
+                                      e.ddf,
+                                      e.dddf,
+                                      e.gap,
+                                      bounds.error_f,
+                                      bounds.error_df,
+                                      bounds.error_ddf,
+                                      bounds.error_dddf};
     for (int c = 0; c < C::columns; ++c) store_lanes(values[c], out.column[c] + k);
   }
 }
@@ -237,7 +253,7 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
   Lanes until = column(C::until);
 
   const LaneBounds bounds = bounds_of(seeker, pair, until);
-  const Lanes margin = bounds.margin, speed = bounds.speed;
+  const Lanes speed = bounds.speed;
   const Lanes a = dot(pair.v, pair.v), b = dot(pair.r, pair.v), rr = dot(pair.r, pair.r);
 
   // Time in which the bounding spheres overlap.
@@ -260,13 +276,13 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
     low = low + span * begin;
   }
 
-  const Lanes bend = bounds.bend, twist = bounds.twist;
   const Lanes squares = pair.omega[0] * pair.omega[0] + pair.omega[1] * pair.omega[1];
-  const Lanes slope_off = bounds.error_df, two_margins = bounds.error_f;
-  // The first step is one over which f'' changes f by no more than this; steps adapt.
-  constexpr float first_bend = 0.2f;
+  const Lanes sixth(1.0f / 6);
   const Lanes least = Lanes(0x1p-9f) / speed;
-  const Lanes step = square_root(Lanes(8 * first_bend) / bend);
+  // Over half a step f'' changes f by no more than this: longer ones are seldom free, and what a
+  // step leaves is looked at again.
+  constexpr float most_bend = 3;
+  const Lanes step = square_root(Lanes(8 * most_bend) / bounds.bend);
   // Still to be looked at: from low to high, and from next on.
   Lanes high = minimum(low + step, until), next = high;
   Mask searching = (counting() < Lanes(static_cast<float>(end - k))) & (!apart) & (low <= until);
@@ -278,41 +294,53 @@ inline std::size_t isolate_lanes(const Seeker& seeker, const PairColumns& pairs,
     const Mask known = bounds.trusted & (e.gap < Lanes(0x1p10f));
 
     // Two bounds, from below, on how far the needles are from a contact up to h before and after
-    // the middle, both concave in time: f with its sign, and along the gap that they have now.
-    const Lanes size = absolute(e.f), rising = select(e.f < zero, -e.df, e.df);
-    const Lanes f_now = size - two_margins;
-    const Lanes f_off =
-        f_now - h * slope_off -
-        h * h * minimum(half * bend, half * absolute(e.ddf) + h * twist + margin * bend);
-    const Lanes f_change = h * rising;
-    const Lanes gap_off = two_margins * e.gap;
-    const Lanes g_now =
-        (e.centre - half * (absolute(e.director[0]) + absolute(e.director[1]))) - gap_off;
-    const Lanes g_off = (e.centre - Lanes(0.25f) * squares * h * h * e.gap) - gap_off;
-    const Lanes turned[2] = {h * e.turning[0], h * e.turning[1]}, moved = h * e.velocity;
+    // the middle: f with its sign, and along the gap that they have now. Either is a value less
+    // what it falls by with time and with the square of time.
+    const Mask negative = e.f < zero;
+    const Lanes f_now = absolute(e.f) - bounds.error_f - h * bounds.error_df;
+    const Lanes f_rises = h * select(negative, -e.df, e.df);
+    const Lanes f_bends = half * (bounds.error_ddf - select(negative, -e.ddf, e.ddf)) +
+                          h * (sixth * (absolute(e.dddf) + bounds.error_dddf) + h * bounds.coil);
+    const Lanes f_bent = h * h * maximum(f_bends, zero);
+
     const auto along_gap = [&](Lanes centre, Lanes a, Lanes b) NEEDLEWORK_TARGET {
       return centre - half * (absolute(a) + absolute(b));
     };
-    const Lanes f_before = f_off - f_change, f_after = f_off + f_change;
+    const Lanes moved = h * e.velocity, turned[2] = {h * e.turning[0], h * e.turning[1]};
+    const Lanes g = along_gap(e.centre, e.director[0], e.director[1]);
+    const Lanes g_now = g - bounds.error_f * e.gap;
     const Lanes g_before =
-        along_gap(g_off - moved, e.director[0] - turned[0], e.director[1] - turned[1]);
+        along_gap(e.centre - moved, e.director[0] - turned[0], e.director[1] - turned[1]) - g;
     const Lanes g_after =
-        along_gap(g_off + moved, e.director[0] + turned[0], e.director[1] + turned[1]);
-    // The share of h that is free of contacts on either side: up to where the chord of a bound,
-    // which lies below it, comes to 0.
-    const auto share = [&](Lanes here, Lanes there) NEEDLEWORK_TARGET {
-      return select(here > zero, select(there > zero, one, here / (here - there)), zero);
+        along_gap(e.centre + moved, e.director[0] + turned[0], e.director[1] + turned[1]) - g;
+    const Lanes g_bent = Lanes(0.25f) * squares * (h * h) * e.gap;
+
+    // The share of h in which a bound stays above 0: the root of now + rises x - bent x^2, rounded
+    // towards 0. What is not a number is not free.
+    const auto spread = [&](Lanes now, Lanes rises, Lanes bent) NEEDLEWORK_TARGET {
+      const Lanes twice = now + now;
+      return square_root(rises * rises + (twice + twice) * bent) * Lanes(1 + 0x1p-20f);
     };
-    const Lanes before =
-        select(known, maximum(share(f_now, f_before), share(g_now, g_before)), zero);
-    const Lanes after = select(known, maximum(share(f_now, f_after), share(g_now, g_after)), zero);
+    const auto share = [&](Lanes now, Lanes falls) NEEDLEWORK_TARGET {
+      const Lanes twice = now + now;
+      return select(now > zero, select(falls <= twice, one, twice / falls), zero);
+    };
+    const Lanes f_spread = spread(f_now, f_rises, f_bent);
+    const Lanes before = select(known,
+                                maximum(share(f_now, f_spread + f_rises),
+                                        share(g_now, spread(g_now, g_before, g_bent) - g_before)),
+                                zero);
+    const Lanes after = select(known,
+                               maximum(share(f_now, f_spread - f_rises),
+                                       share(g_now, spread(g_now, g_after, g_bent) - g_after)),
+                               zero);
     const Mask left = before >= one, right = after >= one, both = left & right;
 
     // With nothing of the first half left, the search goes on in the second, or after it; else in
     // what is left of the first half, and then in what is left of the second.
-    const Lanes freed = middle + h * after, wide = Lanes(4.0f) * h;
+    const Lanes freed = middle + h * after;
     low = select(left, select(right, next, freed), low);
-    high = select(both, minimum(next + wide, until), select(left, high, middle - h * before));
+    high = select(both, minimum(next + step, until), select(left, high, middle - h * before));
     next = select(both, high, select(left | right, next, freed));
 
     const Mask done = both & (low >= until);
