@@ -58,7 +58,9 @@ class CellGrid {
 
   std::int32_t wrap(std::int32_t c, int axis) const {
     const std::int32_t n = count_[axis];
-    if (0 <= c && c < n) return c;  // a division takes long
+    // A division takes long.
+    if (0 <= c && c < n) return c;
+    if (-n <= c && c < 0) return c + n;
     const std::int32_t m = c % n;
     return m < 0 ? m + n : m;
   }
@@ -134,7 +136,11 @@ class CellGrid {
   }
 
  private:
-  static std::int32_t floor(double x) { return static_cast<std::int32_t>(std::floor(x)); }
+  // std::floor is a call, or a dozen instructions, where processors need not have SSE4.
+  static std::int32_t floor(double x) {
+    const auto towards_zero = static_cast<std::int32_t>(x);
+    return towards_zero - (x < towards_zero);
+  }
 
   std::array<std::int32_t, 3> count_{};
   std::array<double, 3> side_{}, reciprocal_{};

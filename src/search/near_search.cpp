@@ -313,7 +313,10 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
     views_.resize(most);
     view_cells_.resize(most);
   }
-  view_count_ = 0;
+  // Copied, for what is stored might be these, as far as a compiler can tell.
+  const Block* const blocks = hulls.blocks.data();
+  kernels::CellView* view = views_.data();
+  Cell* view_cell = view_cells_.data();
   for (const auto& z : near_[2]) {
     for (const auto& y : near_[1]) {
       const float gap_squared = z.gap_squared + y.gap_squared;
@@ -322,13 +325,13 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
       for (const auto& x : near_[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
-        prefetch(&hulls.blocks[first]);
-        views_[view_count_] = {first, {x.offset, y.offset, z.offset}};
-        view_cells_[view_count_] = {x.cell, y.cell, z.cell};
-        ++view_count_;
+        prefetch(&blocks[first]);
+        *view++ = {first, {x.offset, y.offset, z.offset}};
+        *view_cell++ = {x.cell, y.cell, z.cell};
       }
     }
   }
+  view_count_ = static_cast<std::size_t>(view - views_.data());
   const std::size_t room = (view_count_ * hulls.longest_chain + 1) * kernels::block_size;
   if (2 * room > found_.size()) found_.resize(4 * room);
 }
