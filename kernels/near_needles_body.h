@@ -4,8 +4,8 @@
 // Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Centres are
 // within a few L (the caller's margin grows with its cells), directors come from sines and cosines
 // good to 2^-20 and phases good to 2^-23 of themselves, times are good to 2^-20 and count through
-// the speeds. Lengths below are off by less than `margin_of`, which has a reserve of more than
-// four.
+// the speeds. Lengths below are off by less than `margin` of LaneBounds, which has a reserve of
+// more than four.
 
 #include "kernels/vec3_body.h"
 
