@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Compares two builds of the program, run side by side on the paper's elastic scenes.
 
-    bench/versus.py build/release/needlework build/v3/needlework
+    bench/versus.py OLD NEW
     bench/versus.py OLD NEW --scene dense --repetitions 40
     bench/versus.py PROGRAM PROGRAM --second-without-huge-pages
     bench/versus.py PROGRAM PROGRAM --second engine.queue=bucket
