@@ -151,7 +151,7 @@ std::vector<Case> by_storage() {
 std::vector<Case> by_hulls() {
   std::vector<Case> out;
   for (const double k : {2.0, 6.0, 100.0}) {
-    for (const double density : {0.1, 0.72, 11.6, 50.0}) {
+    for (const double density : {0.1, 0.72, 2.0, 4.0, 11.6, 50.0}) {
       GasScene gas = gas_of(8000, density);
       gas.k = k;
       gas.name += fmt::format(",k={}", k);
