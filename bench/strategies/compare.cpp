@@ -65,10 +65,26 @@ std::string verdict_of(const Change& change) {
   return "unclear";
 }
 
+void require_common_case(const Results& before, const Results& after) {
+  for (const CaseResult& result : after.cases) {
+    if (find_case(before, result.name)) return;
+  }
+  throw InputError("--compare: no case in common: expected results of the same subset");
+}
+
+std::vector<std::string> unlike(const Results& before, const Results& after) {
+  std::vector<std::string> out;
+  for (const char* key : {"machine", "compiler", "flags"}) {
+    const std::string old = about_text(before.about, key), now = about_text(after.about, key);
+    if (old != now) out.push_back(fmt::format("{}: {} before, {} now", key, old, now));
+  }
+  return out;
+}
+
 Comparison compare(const Results& before, const Results& after) {
   Comparison out;
   out.json = Json::array();
-  std::size_t width = 0, compared = 0;
+  std::size_t width = 0;
   for (const CaseResult& result : after.cases) width = std::max(width, result.name.size());
   out.text = fmt::format("{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>21}  {}\n", "case", width,
                          "old us", "new us", "old/base", "new/base", "change", "95 %", "verdict");
@@ -79,7 +95,6 @@ Comparison compare(const Results& before, const Results& after) {
                               "-", now.median());
       continue;
     }
-    ++compared;
     if (now.is_baseline) {
       out.text += fmt::format("{:{}} {:9.2f} {:9.2f}  baseline, {} by itself\n", now.name, width,
                               old->median(), now.median(), percent(now.median() / old->median()));
@@ -104,9 +119,6 @@ Comparison compare(const Results& before, const Results& after) {
                         {"low", change.low},
                         {"high", number(change.high)},
                         {"verdict", verdict}});
-  }
-  if (compared == 0) {
-    throw InputError("--compare: no case in common: expected results of the same subset");
   }
   return out;
 }

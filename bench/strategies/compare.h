@@ -22,7 +22,7 @@ struct Change {
 /// The change from the values in `before` to those in `after`, by the differences of their
 /// logarithms pair by pair: their median (Hodges and Lehmann 1963) and the interval of Mann and
 /// Whitney's rank test, which supposes no distribution. The bounds are 0 and infinity when there
-/// are too few values, less than four each.
+/// are too few values: three and four, say.
 Change change_between(const std::vector<double>& before, const std::vector<double>& after);
 
 /// "faster", "slower", "same" or "unclear".
@@ -34,7 +34,11 @@ struct Comparison {
   bool differs = false;  ///< whether a case became faster or slower
 };
 
-/// Compares all cases that are in both. Throws InputError if there are none.
+/// Throws InputError if no case is in both; needs names only.
+void require_common_case(const Results& before, const Results& after);
+/// What else than the code may have changed the costs: machine, compiler, flags. A line for each.
+std::vector<std::string> unlike(const Results& before, const Results& after);
+/// Compares all cases that are in both.
 Comparison compare(const Results& before, const Results& after);
 
 }  // namespace needlework::bench

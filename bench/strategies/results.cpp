@@ -87,17 +87,17 @@ Results results_from(Json json) {
   return out;
 }
 
-std::string about_text(const Json& about, const char* key) {
-  const auto value = about.find(key);
-  if (value == about.end()) return "?";
-  return value->is_string() ? value->get<std::string>() : value->dump();
-}
-
 double per_collision(const CaseResult& result, const char* name) {
   return result.per_collision.value(name, std::nan(""));
 }
 
 }  // namespace
+
+std::string about_text(const Json& about, const char* key) {
+  const auto value = about.find(key);
+  if (value == about.end()) return "?";
+  return value->is_string() ? value->get<std::string>() : value->dump();
+}
 
 double CaseResult::best() const { return least(us_per_collision); }
 double CaseResult::median() const { return bench::median(us_per_collision); }

@@ -35,6 +35,9 @@ struct Results {
   const CaseResult& baseline_of(const CaseResult& result) const;
 };
 
+/// What is told under this key, "?" if nothing.
+std::string about_text(const nlohmann::ordered_json& about, const char* key);
+
 /// Time of the case over that of its baseline, by repetition.
 std::vector<double> relative_costs(const Results& results, const CaseResult& result);
 

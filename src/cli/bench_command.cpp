@@ -14,6 +14,7 @@
 #include "bench/strategies/compare.h"
 #include "bench/strategies/results.h"
 #include "src/cli/exit_codes.h"
+#include "src/cli/messages.h"
 #include "src/cli/number_in.h"
 #include "src/cli/output_path.h"
 #include "src/cli/resources.h"
@@ -99,11 +100,17 @@ void require_same_trajectories(const bench::Results& results) {
   }
 }
 
-bench::Results measure(const BenchArguments& arguments) {
-  const std::vector<bench::Case> cases = bench::subset_of(arguments.subset).cases();
+bench::Results nothing_measured(const BenchArguments& arguments) {
   bench::Results out;
   out.about = about(arguments);
-  for (const bench::Case& one : cases) out.cases.push_back(empty_result(one));
+  for (const bench::Case& one : bench::subset_of(arguments.subset).cases()) {
+    out.cases.push_back(empty_result(one));
+  }
+  return out;
+}
+
+void measure(const BenchArguments& arguments, bench::Results& out) {
+  const std::vector<bench::Case> cases = bench::subset_of(arguments.subset).cases();
   CaseProgress progress(arguments.quiet);
   for (int repetition = 1; repetition <= arguments.repetitions; ++repetition) {
     for (std::size_t n = 0; n < cases.size(); ++n) {
@@ -112,7 +119,6 @@ bench::Results measure(const BenchArguments& arguments) {
     }
     require_same_trajectories(out);
   }
-  return out;
 }
 
 void require_json_file(const BenchArguments& arguments) {
@@ -142,12 +148,18 @@ int list_subsets() {
 
 int run(const BenchArguments& arguments) {
   if (arguments.list) return list_subsets();
-  bench::subset_of(arguments.subset);
+  const bool measures = arguments.results.empty();
+  bench::Results results =
+      measures ? nothing_measured(arguments) : bench::read_results(arguments.results);
   require_json_file(arguments);
   std::optional<bench::Results> before;
-  if (!arguments.compare.empty()) before = bench::read_results(arguments.compare);
-  const bench::Results results =
-      arguments.results.empty() ? measure(arguments) : bench::read_results(arguments.results);
+  if (!arguments.compare.empty()) {
+    before = bench::read_results(arguments.compare);
+    // Before what may take an hour.
+    bench::require_common_case(*before, results);
+    for (const std::string& what : bench::unlike(*before, results)) print_warning(what);
+  }
+  if (measures) measure(arguments, results);
   Json json = json_of(results);
   std::optional<bench::Comparison> comparison;
   if (before) {

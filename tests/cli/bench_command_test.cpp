@@ -165,6 +165,24 @@ TEST_F(BenchCommand, TellsCasesThatOnlyOneHas) {
   const Outcome none = run("bench --results new.json --compare old.json");
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_TRUE(none.complains("no case in common"));
+  // Told before anything is measured: this would take a quarter of an hour.
+  const Outcome measured = run("bench smoke --min-time 200 --json new_too.json --compare old.json");
+  EXPECT_EQ(measured.exit_code, 3);
+  EXPECT_TRUE(measured.complains("no case in common"));
+}
+
+TEST_F(BenchCommand, TellsWhatElseMayHaveChangedCosts) {
+  json old = results_of(steady, steady), now = old;
+  old["machine"] = "A";
+  now["machine"] = "B";
+  old["compiler"] = now["compiler"] = "C";
+  now["flags"] = "-O3";
+  write("old.json", old.dump());
+  write("new.json", now.dump());
+  EXPECT_EQ(run("bench --results new.json --compare old.json").err,
+            "needlework: warning: machine: A before, B now\n"
+            "needlework: warning: flags: ? before, -O3 now\n");
+  EXPECT_EQ(run("bench --results new.json --compare new.json").err, "");
 }
 
 TEST_F(BenchCommand, RefusesWhatItCannotUse) {
