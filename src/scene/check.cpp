@@ -64,6 +64,18 @@ std::vector<std::string> output_warnings(const Scene& scene) {
   return list;
 }
 
+std::vector<std::string> size_warnings(const Scene::Engine& engine) {
+  std::vector<std::string> list;
+  const auto unused = [&](const char* key, double size) {
+    list.push_back(fmt::format("engine.{} = {}: has no effect on engine.search = {}", key, size,
+                               engine.search));
+  };
+  if (engine.cell_side && engine.search == "all-pairs") unused("cell_side", *engine.cell_side);
+  if (engine.capsule_radius && engine.search != "auto" && engine.search != "capsules")
+    unused("capsule_radius", *engine.capsule_radius);
+  return list;
+}
+
 }  // namespace
 
 std::vector<std::string> accuracy_warnings(const Scene::Engine& engine) {
@@ -103,6 +115,7 @@ std::vector<std::string> warnings(const Scene& scene) {
   add(collision_warnings(scene.collisions));
   add(until_warnings(scene));
   add(output_warnings(scene));
+  add(size_warnings(scene.engine));
   add(accuracy_warnings(scene.engine));
   return list;
 }

@@ -79,6 +79,18 @@ TEST(Warning, IsGivenForKnobsOfAccuracyWithoutEffect) {
   EXPECT_EQ(warned("accuracy = 'rigorous'\nescalation = 'never'"), Keys{"engine.accuracy"});
 }
 
+TEST(Warning, IsGivenForSizesThatASearchHasNot) {
+  const auto warned = [](const std::string& search) {
+    return warned_of("until.time = 1\n[engine]\ncell_side = 1\ncapsule_radius = 0.2\nsearch = '" +
+                     search + "'");
+  };
+  EXPECT_EQ(warned("auto"), Keys{});
+  EXPECT_EQ(warned("capsules"), Keys{});
+  EXPECT_EQ(warned("linked-cells"), Keys{"engine.capsule_radius"});
+  EXPECT_EQ(warned("linked-lists"), Keys{"engine.capsule_radius"});
+  EXPECT_EQ(warned("all-pairs"), (Keys{"engine.cell_side", "engine.capsule_radius"}));
+}
+
 TEST(Warning, IsGivenForOutputThatIsLost) {
   EXPECT_EQ(warned_of("until.time = 1\noutput.events = true"), Keys{"output.events"});
   EXPECT_EQ(warned_of("until.time = 1\noutput.frames = 2"), Keys{"output.frames"});
