@@ -24,7 +24,8 @@ enum class Escalation {
 struct Accuracy {
   Isolation isolation = Isolation::bounds;
   Escalation escalation = Escalation::undecided;
-  /// Searches follow pairs by lanes in float before double does. Else double follows them all.
+  /// Searches follow pairs by lanes in float before double does. Else double follows all whose
+  /// hulls or bounding spheres meet.
   bool float_filter = true;
   /// A root in double is done when a step is below this share of the time since the later
   /// record; 0: when rounding takes over.

@@ -17,7 +17,7 @@ constexpr double polish_above = 0x1p-39;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
 // Segments farther apart do not touch, however small f is; far above what rounding does to them,
-// and below the margins of every filter.
+// and below the margins of the filters by lanes.
 constexpr double touching = 0x1p-18;
 struct Root {
   DoubleDouble s;

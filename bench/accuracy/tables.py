@@ -68,11 +68,11 @@ def summary(data, names):
 BRIEF = {
     "fast": "double decides everything",
     "standard": "error bounds; double-double where they leave a decision open",
-    "rigorous": "interval arithmetic, times to half a unit; float for hulls only",
+    "rigorous": "interval arithmetic, times to half a unit; float for hulls and bounding spheres only",
     "rigorous, filter float": "the same behind filters in float",
     "sampling 1/4": "signs at equal steps, coarse",
     "sampling 1/32": "fine",
-    "root 1e-3": "contact times to a coarse tolerance; most cooling runs end in an error",
+    "root 1e-3": "contact times to a coarse tolerance; most dilute cooling runs end in an error",
 }
 
 

@@ -16,7 +16,7 @@ struct GasName {
 };
 inline constexpr GasName gases[] = {{"dilute", 0.72}, {"dense", 11.6}};
 
-/// The mean free time at this density and T = 1, about; how far searches look ahead.
+/// How far searches look ahead at this density and T = 1, about.
 double time_ahead(double density);
 
 /// Two needles whose bounding spheres meet within the time ahead.

@@ -1,5 +1,5 @@
 // Kernels of one pair in double, and in double-double where double cannot decide. Names are
-// KERNEL/GAS, items are pairs whose bounding spheres meet within the mean free time.
+// KERNEL/GAS, items are pairs whose bounding spheres meet within the time ahead.
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>

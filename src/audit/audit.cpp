@@ -13,7 +13,7 @@ namespace needlework::audit {
 namespace {
 
 constexpr std::size_t most_listed = 100;
-/// Times may be off by this share of the flight, or by four times the pair's condition limit.
+/// Times may be off by this share of the flight, and four times the pair's condition limit.
 constexpr double relative_tolerance = 1e-12;
 /// A collision before its contact is early; without a contact in this share of the time in which
 /// the pair changes, there is none.

@@ -70,8 +70,8 @@ class WinnerTree {
 
   /// The player with the least key. There is one.
   std::uint32_t winner() const { return winner_.back(); }
-  /// The player who would win without the winner, if the tree has more than one round and no keys
-  /// are equal; else any.
+  /// The least of those whom the winner beats in the final: often the next to win. Any player if
+  /// the tree has one round.
   std::uint32_t second() const {
     if (first_.size() == 1) return winner();
     const KeyLine& final = lines_.back();

@@ -10,7 +10,7 @@ enum ExitCode {
   bad_input = 3,
   invalid_state = 4,
   input_output_error = 5,
-  stopped = 75,  ///< by a signal or a time limit, after saving
+  stopped = 75,  ///< by a signal or a time limit, after saving if there is a file
 };
 
 }  // namespace needlework::cli

@@ -14,13 +14,13 @@ struct Counters {
   std::uint64_t resized = 0;     ///< times that search and sizes were chosen anew
   std::uint64_t renewals = 0;    ///< records renewed by their own clock
   std::uint64_t searches = 0;    ///< searches over all candidates of a needle
-  std::uint64_t candidates = 0;  ///< pairs proposed by the search
+  std::uint64_t candidates = 0;  ///< pairs that the search looked at
   std::uint64_t filtered = 0;    ///< of these, settled by a filter
   std::uint64_t isolated = 0;    ///< evaluations by lanes of the contact function in float
   std::uint64_t predicted = 0;   ///< pairs whose first contact was computed
   std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double
-  std::uint64_t touches = 0;     ///< third needles found touching at a renewal
+  std::uint64_t touches = 0;     ///< third needles found touching where a record is made anew
   // Of several threads; see README.md.
   std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
   std::uint64_t redone = 0;   ///< of these, done again by one thread

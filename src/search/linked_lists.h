@@ -1,7 +1,7 @@
 // Linked cells as the classical codes have them, and the paper: the box is cut into cells of side
-// about L, each with a linked list of its needles; needles in contact are in the same or in
-// neighbouring cells. Plain, and slow when dense, since a cell cannot be smaller than a needle: the
-// baseline of every benchmark.
+// about L, or larger where there would be more than two for each needle, each with a linked list of
+// its needles; needles in contact are in the same or in neighbouring cells. Plain, and slow when
+// dense, since a cell cannot be smaller than a needle: the baseline of every benchmark.
 #pragma once
 
 #include <vector>

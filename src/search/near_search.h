@@ -5,7 +5,8 @@
 // one of them is placed anew, and whoever is placed anew searches. So nothing has to be kept: no
 // lists, and no trace of a needle with its neighbours.
 //
-//   linked-cells  the hull is the cell, of side L or more; filtered by bounding spheres in flight.
+//   linked-cells  the hull is the cell and a fifth of its side around it; filtered by bounding
+//                 spheres in flight.
 //                 For dilute gases: needles stay long, and neighbours are few.
 //   capsules      the hull is a capsule of radius delta around the needle; filtered by the overlap
 //                 of capsules. For dense gases: the few needles next to this one are nearly all.
@@ -32,7 +33,8 @@ namespace needlework {
 
 /// Where all needles are: their hulls, and the cells that hold them. Several threads may use it at
 /// once, as long as none reads what another writes: placing a needle writes to the cells that it
-/// leaves and enters, finding its neighbours reads cells within `reach_in_cells` of its own.
+/// leaves and enters, finding its neighbours reads cells within `Phase::neighbours` of its own
+/// (src/engine/phase.h).
 struct Hulls {
   enum class Kind { cell, capsule };
 

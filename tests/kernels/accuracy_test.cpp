@@ -83,7 +83,7 @@ TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
     ++contacts;
     ASSERT_EQ(rigorous.side, standard.side);
     const ExactTime exact = exact_time(pair, rigorous.elapsed);
-    // Returns within 1e-8 of a length lie so near to the touch before that this is all there is.
+    // Returns within about 1e-6 lie so near to the touch before that this is all there is.
     // Nothing else does.
     if (!pair.touch.touching) {
       ASSERT_LE(exact.noise, Quad(0x1p-54) * exact.time);
