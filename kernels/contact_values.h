@@ -7,9 +7,9 @@
 #include <optional>
 #include <type_traits>
 
-#include "kernels/accuracy.h"
 #include "kernels/contact_function.h"
 #include "kernels/first_contact.h"
+#include "needlework/accuracy.h"
 
 namespace needlework::kernels {
 

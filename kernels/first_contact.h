@@ -12,8 +12,8 @@
 
 #include <cstdint>
 
-#include "kernels/accuracy.h"
 #include "kernels/contact_function.h"
+#include "needlework/accuracy.h"
 
 namespace needlework::kernels {
 

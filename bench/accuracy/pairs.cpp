@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "src/engine/accuracy.h"
-#include "src/error.h"
-#include "src/physics/predict.h"
+#include "needlework/error.h"
+#include "needlework/predict.h"
+#include "src/scene/accuracy.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"

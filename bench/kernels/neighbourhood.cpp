@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/engine/simulation.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
 #include "src/search/choice.h"
 
 namespace needlework::bench {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "src/cli/engine_choice.h"
-#include "src/error.h"
+#include "needlework/error.h"
+#include "src/runs/engine_choice.h"
 #include "src/search/choice.h"
 
 namespace needlework::bench {

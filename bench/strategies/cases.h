@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/scene.h"
+#include "needlework/scene.h"
 
 namespace needlework::bench {
 

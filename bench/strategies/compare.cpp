@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework::bench {
 namespace {

@@ -10,9 +10,10 @@
 #include <system_error>
 #include <type_traits>
 
-#include "src/cli/resources.h"
-#include "src/engine/simulation.h"
-#include "src/error.h"
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
+#include "src/runs/resources.h"
 
 namespace needlework::bench {
 namespace {

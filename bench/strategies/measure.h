@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/strategies/cases.h"
-#include "src/engine/counters.h"
+#include "needlework/counters.h"
 
 namespace needlework::bench {
 

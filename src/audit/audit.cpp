@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework::audit {
 namespace {
@@ -38,7 +38,7 @@ Collision in_epochs(Collision collision, double epoch_length) {
   collision.normal_velocity *= epoch_length;
   collision.energy_change *= epoch_length * epoch_length;
   for (double& p : collision.impulse) p *= epoch_length;
-  for (Aftermath& needle : collision.after) {
+  for (StateAfterCollision& needle : collision.after) {
     for (double& v : needle.velocity) v *= epoch_length;
     for (double& w : needle.angular_velocity) w *= epoch_length;
   }
@@ -161,7 +161,7 @@ void Audit::add(const Collision& reported) {
 void Audit::follow(Index a, Index b, const Instant& now, const Collision& collision) {
   for (const int i : {0, 1}) {
     const Index index = i == 0 ? a : b;
-    const Aftermath& after = collision.after[i];
+    const StateAfterCollision& after = collision.after[i];
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
                                     vector(after.orientation), vector(after.angular_velocity)});
     has_collided_[index] = true;

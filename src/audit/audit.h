@@ -14,11 +14,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "needlework/simulation.h"
 #include "src/audit/encounters.h"
 #include "src/audit/pair.h"
 #include "src/audit/rule.h"
 #include "src/audit/search.h"
-#include "src/engine/simulation.h"
 
 namespace needlework::audit {
 

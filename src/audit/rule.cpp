@@ -128,7 +128,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const std::array<Vector3, 2> w_after = {a.w + turn_first, b.w - turn_second};
   for (int i = 0; i < 2; ++i) {
     const Partner& before = needles[i];
-    const Aftermath& after = collision.after[i];
+    const StateAfterCollision& after = collision.after[i];
     Vector3 moved = before.r - to<Quad>(vector(after.position));
     for (int axis = 0; axis < 3; ++axis) {
       moved[axis] -= Quad(space.box[axis]) * nearest(Quad(moved[axis] / Quad(space.box[axis])));

@@ -1,8 +1,8 @@
 // The collision rule, checked: where the needles are and how they move after a collision.
 #pragma once
 
+#include "needlework/simulation.h"
 #include "src/audit/pair.h"
-#include "src/engine/simulation.h"
 
 namespace needlework::audit {
 

@@ -10,8 +10,8 @@
 
 #include "src/calendar/event_table.h"
 #include "src/calendar/winner_tree.h"
-#include "src/large_array.h"
-#include "src/prefetch.h"
+#include "src/memory/large_array.h"
+#include "src/memory/prefetch.h"
 
 namespace needlework {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/calendar/event.h"
-#include "src/large_array.h"
+#include "src/memory/large_array.h"
 
 namespace needlework {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/calendar/event_table.h"
-#include "src/large_array.h"
+#include "src/memory/large_array.h"
 
 namespace needlework {
 

@@ -8,21 +8,21 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "needlework/error.h"
+#include "needlework/simulation.h"
 #include "src/audit/audit.h"
 #include "src/cli/audit_state.h"
-#include "src/cli/exit_codes.h"
 #include "src/cli/json_number.h"
 #include "src/cli/messages.h"
 #include "src/cli/number_in.h"
-#include "src/cli/output_path.h"
-#include "src/cli/prepared_run.h"
 #include "src/cli/progress.h"
-#include "src/cli/resources.h"
-#include "src/cli/scene_source.h"
 #include "src/cli/signals.h"
-#include "src/engine/simulation.h"
-#include "src/error.h"
 #include "src/observe/completion.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/output_path.h"
+#include "src/runs/prepared_run.h"
+#include "src/runs/resources.h"
+#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {

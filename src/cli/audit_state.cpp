@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework::cli {
 namespace {

@@ -13,13 +13,13 @@
 #include "bench/strategies/cases.h"
 #include "bench/strategies/compare.h"
 #include "bench/strategies/results.h"
-#include "src/cli/exit_codes.h"
+#include "needlework/error.h"
 #include "src/cli/messages.h"
 #include "src/cli/number_in.h"
-#include "src/cli/output_path.h"
-#include "src/cli/resources.h"
 #include "src/cli/version.h"
-#include "src/error.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/output_path.h"
+#include "src/runs/resources.h"
 
 namespace needlework::cli {
 namespace {

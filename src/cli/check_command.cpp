@@ -4,11 +4,11 @@
 
 #include <memory>
 
-#include "src/cli/exit_codes.h"
-#include "src/cli/explanation.h"
 #include "src/cli/messages.h"
-#include "src/cli/output_path.h"
-#include "src/cli/scene_source.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/explanation.h"
+#include "src/runs/output_path.h"
+#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {

@@ -4,10 +4,10 @@
 #include <memory>
 #include <string>
 
-#include "src/cli/exit_codes.h"
-#include "src/cli/output_path.h"
-#include "src/io/h5md.h"
+#include "needlework/h5md.h"
 #include "src/io/vtkhdf.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/output_path.h"
 
 namespace needlework::cli {
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "src/cli/exit_codes.h"
-#include "src/io/h5md.h"
+#include "needlework/h5md.h"
+#include "src/runs/exit_codes.h"
 
 namespace needlework::cli {
 

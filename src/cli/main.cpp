@@ -8,9 +8,7 @@
 #include "src/cli/audit_command.h"
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
-#include "src/cli/exit_codes.h"
 #include "src/cli/export_command.h"
-#include "src/cli/failure.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
@@ -18,6 +16,8 @@
 #include "src/cli/sweep_command.h"
 #include "src/cli/theory_command.h"
 #include "src/cli/version.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/failure.h"
 
 namespace needlework::cli {
 namespace {

@@ -12,7 +12,7 @@
 #include <iostream>
 #include <system_error>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 
 namespace needlework {
 

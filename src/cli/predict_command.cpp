@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "src/cli/exit_codes.h"
+#include "needlework/error.h"
+#include "needlework/predict.h"
 #include "src/cli/messages.h"
 #include "src/cli/number_in.h"
 #include "src/cli/pairs_file.h"
-#include "src/engine/accuracy.h"
-#include "src/error.h"
-#include "src/physics/predict.h"
+#include "src/runs/exit_codes.h"
+#include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {

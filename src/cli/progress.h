@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 namespace needlework::cli {
 

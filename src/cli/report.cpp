@@ -5,10 +5,10 @@
 #include <span>
 
 #include "src/cli/json_number.h"
-#include "src/cli/resources.h"
-#include "src/cli/scene_source.h"
-#include "src/engine/accuracy.h"
 #include "src/observe/forecast.h"
+#include "src/runs/resources.h"
+#include "src/runs/scene_source.h"
+#include "src/scene/accuracy.h"
 
 namespace needlework::cli {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "src/cli/drive.h"
-#include "src/engine/simulation.h"
-#include "src/scene/scene.h"
-#include "src/theory/theory.h"
+#include "needlework/scene.h"
+#include "needlework/simulation.h"
+#include "needlework/theory.h"
+#include "src/runs/run_driver.h"
 
 namespace needlework::cli {
 

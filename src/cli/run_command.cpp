@@ -6,14 +6,14 @@
 #include <optional>
 #include <utility>
 
-#include "src/cli/drive.h"
-#include "src/cli/exit_codes.h"
 #include "src/cli/messages.h"
-#include "src/cli/output_path.h"
-#include "src/cli/prepared_run.h"
 #include "src/cli/report.h"
-#include "src/cli/scene_source.h"
 #include "src/cli/signals.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/output_path.h"
+#include "src/runs/prepared_run.h"
+#include "src/runs/run_driver.h"
+#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {

@@ -1,7 +1,7 @@
 // SIGINT and SIGTERM end a run in order.
 #pragma once
 
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 namespace needlework::cli {
 

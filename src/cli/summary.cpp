@@ -6,7 +6,7 @@
 
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
-#include "src/cli/scene_source.h"
+#include "src/runs/scene_source.h"
 
 namespace needlework::cli {
 namespace {

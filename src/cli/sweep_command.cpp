@@ -12,18 +12,18 @@
 #include <optional>
 #include <set>
 
-#include "src/cli/engine_choice.h"
-#include "src/cli/exit_codes.h"
+#include "needlework/error.h"
 #include "src/cli/messages.h"
-#include "src/cli/ranks.h"
-#include "src/cli/resources.h"
-#include "src/cli/sweep_folder.h"
 #include "src/cli/sweep_report.h"
-#include "src/cli/sweep_run.h"
-#include "src/error.h"
+#include "src/runs/engine_choice.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/ranks.h"
+#include "src/runs/resources.h"
+#include "src/runs/sweep_folder.h"
+#include "src/runs/sweep_grid.h"
+#include "src/runs/sweep_run.h"
+#include "src/runs/sweep_summary.h"
 #include "src/scene/check.h"
-#include "src/sweep/grid.h"
-#include "src/sweep/summary.h"
 
 namespace needlework::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "src/sweep/grid.h"
-#include "src/sweep/summary.h"
+#include "src/runs/sweep_grid.h"
+#include "src/runs/sweep_summary.h"
 
 namespace needlework::cli {
 

@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "src/cli/exit_codes.h"
+#include "needlework/theory.h"
 #include "src/cli/messages.h"
-#include "src/theory/theory.h"
+#include "src/runs/exit_codes.h"
 
 namespace needlework::cli {
 

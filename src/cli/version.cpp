@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "src/cli/engine_choice.h"
+#include "src/runs/engine_choice.h"
 
 namespace needlework::cli {
 

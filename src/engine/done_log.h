@@ -10,7 +10,7 @@
 
 #include "src/calendar/event_table.h"
 #include "src/engine/cell_box.h"
-#include "src/prefetch.h"
+#include "src/memory/prefetch.h"
 
 namespace needlework {
 

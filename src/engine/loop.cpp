@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework {
 

@@ -3,10 +3,10 @@
 
 #include <concepts>
 
+#include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/make_loop_with.h"
-#include "src/error.h"
 #include "src/search/all_pairs.h"
 #include "src/search/linked_lists.h"
 #include "src/search/near_search.h"

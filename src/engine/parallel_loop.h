@@ -31,12 +31,12 @@
 #include <string>
 #include <tuple>
 
+#include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/phase.h"
 #include "src/engine/phase_plan.h"
 #include "src/engine/zone_thread.h"
-#include "src/error.h"
 
 namespace needlework {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/cell_box.h"
 #include "src/engine/claims.h"
@@ -16,7 +17,6 @@
 #include "src/engine/mail.h"
 #include "src/engine/run.h"
 #include "src/engine/zones.h"
-#include "src/error.h"
 
 namespace needlework {
 

@@ -7,12 +7,12 @@
 
 #include "kernels/free_flight.h"
 #include "kernels/power_of_two.h"
-#include "src/engine/accuracy.h"
+#include "needlework/error.h"
 #include "src/engine/space_order.h"
-#include "src/error.h"
-#include "src/observe/exact_sum.h"
 #include "src/physics/director.h"
 #include "src/physics/mean_free_time.h"
+#include "src/scene/accuracy.h"
+#include "src/trajectory/exact_sum.h"
 
 namespace needlework {
 namespace {
@@ -137,7 +137,7 @@ void Run::open_window() {
 void Run::tell(Collision& report, Needle a, Needle b, std::vector<Collision>* later) const {
   const auto aftermath = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;
-    return Aftermath{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
+    return StateAfterCollision{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
   };
   report.after = {aftermath(a), aftermath(b)};
   if (later) {

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "kernels/isa.h"
-#include "src/engine/simulation.h"
-#include "src/engine/tally.h"
+#include "needlework/simulation.h"
 #include "src/physics/collision.h"
 #include "src/physics/gas.h"
+#include "src/trajectory/tally.h"
 
 namespace needlework {
 

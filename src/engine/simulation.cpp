@@ -1,14 +1,15 @@
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 #include <optional>
 
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/initial_state.h"
 #include "src/calendar/all.h"
 #include "src/calendar/choice.h"
-#include "src/engine/accuracy.h"
 #include "src/engine/make_loop_with.h"
 #include "src/engine/zones.h"
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
 #include "src/search/sizing.h"

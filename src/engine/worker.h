@@ -10,10 +10,10 @@
 #include <cmath>
 #include <string>
 
+#include "needlework/error.h"
 #include "src/engine/run.h"
 #include "src/engine/undo_log.h"
-#include "src/error.h"
-#include "src/prefetch.h"
+#include "src/memory/prefetch.h"
 
 namespace needlework {
 

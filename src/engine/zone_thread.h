@@ -11,9 +11,9 @@
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/patience.h"
 #include "src/engine/phase.h"
-#include "src/engine/tally.h"
 #include "src/engine/undo_log.h"
 #include "src/engine/worker.h"
+#include "src/trajectory/tally.h"
 
 namespace needlework {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/io/source.h"
 
 namespace needlework::io {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework::io::hdf5 {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "src/io/h5md.h"
+#include "needlework/h5md.h"
+#include "needlework/scene.h"
 #include "src/io/hdf5.h"
-#include "src/scene/scene.h"
 
 namespace needlework::io {
 

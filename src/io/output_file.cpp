@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 #if H5_VERSION_GE(1, 13, 0)
 #include <H5FDdevelop.h>

@@ -7,8 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/io/source.h"
 
 namespace needlework::io {

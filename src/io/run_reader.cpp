@@ -1,8 +1,8 @@
 // Series of finished runs.
 #include <algorithm>
 
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/io/source.h"
 
 namespace needlework::io {

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <system_error>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework::io {
 

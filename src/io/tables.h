@@ -9,10 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "src/engine/simulation.h"
+#include "needlework/collision.h"
+#include "needlework/scene.h"
+#include "needlework/state.h"
+#include "needlework/totals.h"
 #include "src/io/column.h"
 #include "src/io/hdf5.h"
-#include "src/scene/scene.h"
 
 namespace needlework::io {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "src/io/draft.h"
+#include "src/io/atomic_file.h"
 #include "src/io/hdf5.h"
 #include "src/io/output_file.h"
 
@@ -80,8 +80,8 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
 
 void write_vtkhdf(const std::string& path, bool force, const State& state) {
   const hdf5::Session session;
-  Draft draft(path, force);
-  OutputFile file(draft.temporary(), path, OutputFile::Use::in_one_go);
+  AtomicFile atomic(path, force);
+  OutputFile file(atomic.temporary(), path, OutputFile::Use::in_one_go);
   {
     const Handle root = create_group(file.get(), "VTKHDF", path);
     const std::array<std::int32_t, 2> version{1, 0};
@@ -91,7 +91,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state) {
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
   file.close();
-  draft.publish();
+  atomic.publish();
 }
 
 }  // namespace needlework::io

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "src/scene/scene.h"
+#include "needlework/scene.h"
+#include "needlework/state.h"
 
 namespace needlework::io {
 

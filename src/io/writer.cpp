@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/error.h"
-#include "src/io/draft.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "src/io/atomic_file.h"
 #include "src/io/hdf5.h"
 #include "src/io/layout.h"
 #include "src/io/output_file.h"
@@ -53,12 +53,12 @@ struct Writer::Implementation {
 Writer::Implementation::Implementation(const std::string& name, bool force, const Scene& scene,
                                        const RunInfo& run)
     : path(name) {
-  Draft draft(path, force);
-  file.emplace(draft.temporary(), path, OutputFile::Use::growing);
+  AtomicFile atomic(path, force);
+  file.emplace(atomic.temporary(), path, OutputFile::Use::growing);
   make_layout(file->get(), scene, run, path);
   file->start_swmr();
   open_datasets(scene.output.events);
-  draft.publish();
+  atomic.publish();
 }
 
 void Writer::Implementation::open_datasets(bool with_events) {

@@ -1,8 +1,8 @@
 // How much of a run is done: the basis of a forecast of its end.
 #pragma once
 
-#include "src/engine/simulation.h"
-#include "src/scene/scene.h"
+#include "needlework/scene.h"
+#include "needlework/totals.h"
 
 namespace needlework {
 

@@ -3,9 +3,10 @@
 
 #include <optional>
 
-#include "src/engine/simulation.h"
-#include "src/scene/scene.h"
-#include "src/theory/theory.h"
+#include "needlework/scene.h"
+#include "needlework/theory.h"
+#include "needlework/stop.h"
+#include "needlework/totals.h"
 
 namespace needlework {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/contact_function.h"
-#include "src/large_array.h"
+#include "src/memory/large_array.h"
 #include "src/physics/clock.h"
 
 namespace needlework {

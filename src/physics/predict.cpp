@@ -1,4 +1,4 @@
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "kernels/first_contact.h"
-#include "src/error.h"
+#include "needlework/error.h"
 #include "src/physics/director.h"
 
 namespace needlework {

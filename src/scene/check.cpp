@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework {
 namespace {

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "src/scene/scene.h"
+#include "needlework/scene.h"
+#include "needlework/state.h"
 
 namespace needlework {
 

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "src/error.h"
+#include "needlework/error.h"
 
 namespace needlework {
 

@@ -1,9 +1,10 @@
 // Draws initial states: the ideal-gas equilibrium of centres, directors and velocities.
+#include "needlework/initial_state.h"
+
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "src/engine/simulation.h"
 #include "src/scene/random.h"
 
 namespace needlework {

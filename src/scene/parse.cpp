@@ -1,4 +1,4 @@
-#include "src/scene/parse.h"
+#include "needlework/parse.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "src/scene/document.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"

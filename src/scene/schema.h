@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "needlework/scene.h"
 #include "src/scene/document.h"
-#include "src/scene/scene.h"
 
 namespace needlework {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "kernels/bounding_spheres.h"
-#include "src/engine/counters.h"
+#include "needlework/counters.h"
 #include "src/physics/gas.h"
 
 namespace needlework {

@@ -22,10 +22,10 @@
 #include <vector>
 
 #include "kernels/near_needles.h"
-#include "src/engine/counters.h"
-#include "src/large_array.h"
+#include "needlework/counters.h"
+#include "src/memory/large_array.h"
+#include "src/memory/prefetch.h"
 #include "src/physics/gas.h"
-#include "src/prefetch.h"
 #include "src/search/cell_grid.h"
 #include "src/search/setup.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 
 namespace needlework::theory {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "needlework/theory.h"
 #include "src/theory/cooling_law.h"
 #include "src/theory/requirements.h"
-#include "src/theory/theory.h"
 
 namespace needlework::theory {
 

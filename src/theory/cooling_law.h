@@ -2,8 +2,8 @@
 // of the cooling equations, for one gas.
 #pragma once
 
+#include "needlework/theory.h"
 #include "src/theory/contact_integrals.h"
-#include "src/theory/theory.h"
 
 namespace needlework::theory {
 

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 
 namespace needlework::theory {
 

@@ -1,5 +1,5 @@
 // Kinetic theory of the homogeneous needle gas: rates and ratios.
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/math/tools/roots.hpp>

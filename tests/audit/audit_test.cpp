@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "tests/support/reference_gas.h"
 #include "tests/support/runs.h"
 

@@ -5,7 +5,7 @@
 
 #include <tuple>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::cli {

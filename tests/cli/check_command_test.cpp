@@ -1,7 +1,7 @@
 // What `needlework check` and `needlework info` tell.
 #include <string>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/cli/program.h"
 
 namespace needlework {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 #include "tests/cli/program.h"
 #include "tests/support/pairs_csv.h"
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "kernels/isa.h"
-#include "src/io/h5md.h"
-#include "src/theory/theory.h"
+#include "needlework/h5md.h"
+#include "needlework/theory.h"
 #include "tests/cli/program.h"
 
 namespace needlework {

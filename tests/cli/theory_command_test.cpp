@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/cli/program.h"
 
 namespace needlework {

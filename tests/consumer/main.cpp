@@ -1,11 +1,11 @@
 // A program as someone else would write it: a scene in code, a callback, a look at the result.
-#include <needlework/engine/simulation.h>
 #include <needlework/error.h>
-#include <needlework/io/h5md.h>
-#include <needlework/physics/predict.h>
-#include <needlework/scene/parse.h>
-#include <needlework/scene/scene.h>
-#include <needlework/theory/theory.h>
+#include <needlework/h5md.h>
+#include <needlework/parse.h>
+#include <needlework/predict.h>
+#include <needlework/scene.h>
+#include <needlework/simulation.h>
+#include <needlework/theory.h>
 
 #include <cmath>
 #include <cstdint>

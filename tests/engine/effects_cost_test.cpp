@@ -11,7 +11,8 @@
 #include <regex>
 #include <string>
 
-#include "src/engine/simulation.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
 
 namespace {
 std::size_t bytes_allocated = 0;  // by new, in one thread

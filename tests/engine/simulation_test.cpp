@@ -1,5 +1,5 @@
 // The simulation as a client sees it.
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,8 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/initial_state.h"
 #include "tests/support/runs.h"
 
 namespace needlework {

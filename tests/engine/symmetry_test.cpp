@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include "needlework/initial_state.h"
 #include "tests/support/runs.h"
 
 namespace needlework {

@@ -9,10 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include "src/engine/simulation.h"
-#include "src/error.h"
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
+#include "needlework/parse.h"
+#include "needlework/simulation.h"
 #include "src/scene/check.h"
-#include "src/scene/parse.h"
 #include "src/scene/printable.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "tests/hard_cases/collapsing_pairs.h"
 #include "tests/support/quad_gas.h"
 #include "tests/support/runs.h"

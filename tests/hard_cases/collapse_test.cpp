@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "tests/hard_cases/collapsing_pairs.h"
 #include "tests/support/runs.h"
 #include "tests/support/searches.h"

@@ -1,7 +1,7 @@
 // States in which two needles bounce on each other ever faster.
 #pragma once
 
-#include "src/scene/scene.h"
+#include "needlework/scene.h"
 #include "tests/support/contact_state.h"
 
 namespace needlework::test {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "src/error.h"
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
 #include "tests/hard_cases/hard_scene.h"
 #include "tests/support/random.h"
 

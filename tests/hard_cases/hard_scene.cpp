@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/error.h"
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
 #include "tests/support/searches.h"
 
 namespace needlework::test {
@@ -43,7 +44,7 @@ class Chronicle {
                         std::isfinite(c.sin_angle) && std::isfinite(c.normal_velocity) &&
                         std::isfinite(c.energy_change) && is_finite(c.impulse);
     if (!finite) return testing::AssertionFailure() << "not finite";
-    for (const Aftermath& a : c.after) {
+    for (const StateAfterCollision& a : c.after) {
       if (!is_finite(a.position) || !is_finite(a.velocity) || !is_finite(a.orientation) ||
           !is_finite(a.angular_velocity)) {
         return testing::AssertionFailure() << "a record is not finite";

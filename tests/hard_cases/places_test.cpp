@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "src/error.h"
+#include "needlework/error.h"
 #include "tests/hard_cases/hard_scene.h"
 #include "tests/support/quad_gas.h"
 #include "tests/support/random.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "src/error.h"
-#include "src/io/h5md.h"
+#include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/io/hdf5.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // The levels of accuracy, and what each promises.
-#include "kernels/accuracy.h"
+#include "needlework/accuracy.h"
 
 #include <gtest/gtest.h>
 

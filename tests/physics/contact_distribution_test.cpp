@@ -22,7 +22,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 
 namespace needlework {

@@ -14,7 +14,7 @@
 #include <iostream>
 #include <string>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 

@@ -19,8 +19,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "src/error.h"
-#include "src/theory/theory.h"
+#include "needlework/error.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 

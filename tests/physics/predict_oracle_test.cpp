@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"

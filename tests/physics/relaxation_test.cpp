@@ -15,7 +15,7 @@
 #include <numbers>
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "needlework/theory.h"
 #include "src/physics/mean_free_time.h"
-#include "src/theory/theory.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 #include "tests/support/real.h"

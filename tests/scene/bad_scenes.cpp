@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/error.h"
-#include "src/scene/parse.h"
+#include "needlework/error.h"
+#include "needlework/parse.h"
 
 namespace needlework {
 namespace {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "src/error.h"
-#include "src/scene/parse.h"
+#include "needlework/error.h"
+#include "needlework/parse.h"
 
 namespace needlework {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/error.h"
-#include "src/scene/parse.h"
+#include "needlework/error.h"
+#include "needlework/parse.h"
 #include "src/scene/printable.h"
 #include "src/scene/toml_guard.h"
 

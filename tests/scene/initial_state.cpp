@@ -1,5 +1,7 @@
 // Initial states: exact temperatures and momentum, and the distributions they are drawn from.
 // Tolerances of statistical tests are 4 standard errors: one seed in 16000 fails one such test.
+#include "needlework/initial_state.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 namespace needlework {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "needlework/parse.h"
 #include "src/scene/check.h"
-#include "src/scene/parse.h"
 
 namespace needlework {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 
 namespace needlework::test {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "src/physics/predict.h"
+#include "needlework/predict.h"
 #include "tests/support/real.h"
 #include "tests/support/vector.h"
 

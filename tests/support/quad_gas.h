@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 #include "tests/support/contact_state.h"
 
 namespace needlework::test {

@@ -6,9 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "needlework/predict.h"
 #include "src/physics/collision.h"
 #include "src/physics/director.h"
-#include "src/physics/predict.h"
 #include "tests/support/kernel_pair.h"
 
 namespace needlework::test {
@@ -193,7 +193,7 @@ class Gas {
     body = {now, test::flight(vec3(r), u, v, w)};
   }
 
-  Aftermath after(const Body& body) const {
+  StateAfterCollision after(const Body& body) const {
     const FreeNeedle needle = at(body, body.time);
     return {needle.position, needle.velocity, needle.orientation, needle.angular_velocity};
   }

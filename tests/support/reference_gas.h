@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/engine/simulation.h"
+#include "needlework/simulation.h"
 
 namespace needlework::test {
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "src/engine/simulation.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
 
 namespace needlework::test {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "src/engine/counters.h"
+#include "needlework/counters.h"
+#include "needlework/scene.h"
 #include "src/physics/gas.h"
-#include "src/scene/scene.h"
 #include "src/search/cell_grid.h"
 #include "src/search/setup.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 
 namespace needlework::theory {
 namespace {

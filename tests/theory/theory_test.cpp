@@ -1,5 +1,5 @@
 // Rates and ratios of the kinetic theory, against published and independently computed numbers.
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 
 #include <gtest/gtest.h>
 

@@ -10,10 +10,11 @@
 #include <set>
 #include <string>
 
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
 #include "src/calendar/tournament.h"
 #include "src/engine/event_loop.h"
 #include "src/engine/parallel_loop.h"
-#include "src/error.h"
 #include "src/search/linked_lists.h"
 #include "src/search/near_search.h"
 #include "tests/support/same_run.h"

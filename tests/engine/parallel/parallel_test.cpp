@@ -5,8 +5,9 @@
 #include <cmath>
 #include <memory>
 
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
 #include "src/engine/parallel_loop.h"
-#include "src/error.h"
 #include "src/search/near_search.h"
 #include "tests/support/same_run.h"
 

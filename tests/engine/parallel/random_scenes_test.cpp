@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "needlework/initial_state.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {

@@ -2,6 +2,7 @@
 // earlier events than they should.
 #include <gtest/gtest.h>
 
+#include "needlework/initial_state.h"
 #include "src/engine/parallel_loop.h"
 #include "src/search/near_search.h"
 #include "tests/support/runs.h"

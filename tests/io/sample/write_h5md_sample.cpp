@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "src/io/h5md.h"
+#include "needlework/h5md.h"
 
 namespace {
 

@@ -1,0 +1,24 @@
+// The state of all needles at one instant, as arrays.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace needlework {
+
+/// Phase-space state of N needles as arrays of N x 3 numbers, row by row.
+struct State {
+  std::array<double, 3> box{};                          ///< edges [L]
+  std::vector<std::array<double, 3>> position;          ///< centres, wrapped or not [L]
+  std::vector<std::array<double, 3>> velocity;          ///< [L / time]
+  std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]
+  std::vector<std::array<double, 3>> angular_velocity;  ///< normal to the director [1 / time]
+  std::vector<std::array<std::int32_t, 3>> image;       ///< box crossings; empty: none
+  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 .. N-1
+
+  std::size_t size() const { return position.size(); }
+};
+
+}  // namespace needlework

@@ -1,0 +1,20 @@
+// Sums over all needles at one instant.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace needlework {
+
+/// Sums over all needles at one instant, independent of their order.
+struct Totals {
+  double time = 0;                   ///< since the start of the run
+  double t_tr = 0;                   ///< (2/3) <m v^2 / 2>
+  double t_rot = 0;                  ///< <I w^2 / 2>
+  double energy = 0;                 ///< per needle
+  std::array<double, 3> momentum{};  ///< total
+  std::uint64_t collisions = 0;      ///< since the start of the run
+  std::uint64_t tc_collisions = 0;
+};
+
+}  // namespace needlework

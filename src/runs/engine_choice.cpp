@@ -1,0 +1,96 @@
+#include "src/runs/engine_choice.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+#include "kernels/isa.h"
+#include "needlework/error.h"
+#include "src/scene/check.h"
+
+namespace needlework::cli {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names parallel_searches{"linked-cells", "capsules"};
+const Names parallel_queues{"cell-calendar"};
+
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string list(const Names& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+
+void require_instruction_set(const std::string& isa, const std::string& place) {
+  const Names names = instruction_sets();
+  if (isa != "auto" && !contains(names, isa)) {
+    throw InputError(
+        fmt::format("{}: expected auto or one that this CPU has ({})", place, list(names)));
+  }
+}
+
+// The first number of OMP_NUM_THREADS, which may be a list, or 1.
+int threads_of_environment() {
+  const char* text = std::getenv("OMP_NUM_THREADS");
+  if (!text) return 1;
+  char* end = nullptr;
+  const long threads = std::strtol(text, &end, 10);
+  if (end == text || (*end != '\0' && *end != ',' && *end != ' ')) return 1;
+  return static_cast<int>(std::clamp(threads, 1L, 1024L));
+}
+
+}  // namespace
+
+std::vector<std::string> instruction_sets() {
+  Names names;
+  for (const kernels::Isa isa : kernels::available()) names.emplace_back(kernels::name_of(isa));
+  return names;
+}
+
+void choose_engine(Scene& scene, const EngineFlags& flags) {
+  Scene::Engine& engine = scene.engine;
+  std::string isa_place = place_of(scene, "engine.isa", engine.isa);
+  const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
+  if (flags.isa) {
+    engine.isa = *flags.isa;
+    isa_place = "--isa " + engine.isa;
+  } else if (engine.isa == "auto" && isa_of_environment && *isa_of_environment) {
+    engine.isa = isa_of_environment;
+    isa_place = "NEEDLEWORK_ISA=" + engine.isa;
+  }
+  require_instruction_set(engine.isa, isa_place);
+
+  std::string threads_place =
+      place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
+  if (flags.threads) {
+    engine.threads = *flags.threads;
+    threads_place = fmt::format("--threads {}", *flags.threads);
+  }
+  const bool parallel = (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
+                        (engine.queue == "auto" || contains(parallel_queues, engine.queue));
+  if (engine.threads && *engine.threads > 1 && !parallel) {
+    throw InputError(
+        fmt::format("{}: expected 1 with search {} and queue {}; several threads need "
+                    "search {} and queue {}",
+                    threads_place, engine.search, engine.queue, list(parallel_searches),
+                    list(parallel_queues)));
+  }
+  const int most = omp_get_thread_limit();
+  if (engine.threads && *engine.threads > most) {
+    throw InputError(fmt::format(
+        "{}: expected at most {}, which is all that OMP_THREAD_LIMIT leaves", threads_place, most));
+  }
+  // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
+  if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
+}
+
+std::string resolved_isa(const Scene::Engine& engine) {
+  return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,56 @@
+#include "src/runs/estimates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "needlework/error.h"
+#include "src/cli/messages.h"
+#include "src/runs/engine_choice.h"
+#include "src/runs/resources.h"
+#include "src/scene/check.h"
+#include "src/search/choice.h"
+
+namespace needlework::cli {
+namespace {
+
+// Peak resident memory, measured from N = 1e3 to 1e6 with the searches by lanes, and what frames
+// add. The scalar search takes a quarter less.
+constexpr double base_bytes = 12e6;
+constexpr double bytes_per_needle = 580;
+constexpr double bytes_per_needle_of_a_frame = 100;
+
+}  // namespace
+
+double estimated_memory(const Scene& scene) {
+  const double per_needle =
+      bytes_per_needle + (scene.output.file.empty() ? 0 : bytes_per_needle_of_a_frame);
+  return base_bytes + per_needle * static_cast<double>(scene.needles.count);
+}
+
+double estimated_seconds_per_collision(const Scene& scene, double density) {
+  // Fits to n L^3 = 0.01 to 50 at N = 1e4. The number of candidates grows with the density, or with
+  // the number of needles, unless filtered by lanes. On the long way to the next collision of a
+  // dilute gas a needle leaves cells, whose side is about L or takes in some needles.
+  const std::string search = chosen_search(scene.engine.search, density);
+  const double count = static_cast<double>(scene.needles.count);
+  if (density == 0) return 0;  // nothing to collide with
+  if (search == "all-pairs") return 40e-6 + 0.042e-6 * count;
+  if (search == "linked-lists") return 40e-6 + 7e-6 * density + 0.9e-6 / density;
+  const double out_of_cache = 3e-6 * std::log10(std::max(1.0, count / 1e4));
+  const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
+  return (8e-6 + 0.5e-6 / std::cbrt(density * density) + out_of_cache) * slowness;
+}
+
+void require_memory(const Scene& scene) {
+  const double needed = estimated_memory(scene);
+  const double available = available_memory();
+  if (needed <= available) return;
+  throw InputError(
+      fmt::format("{}: expected fewer: the run needs about {} of memory, and {} are available here",
+                  place_of(scene, "needles.count", fmt::to_string(scene.needles.count)),
+                  bytes_text(needed), bytes_text(available)));
+}
+
+}  // namespace needlework::cli

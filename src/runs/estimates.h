@@ -1,0 +1,17 @@
+// What a run will need, told before it begins.
+#pragma once
+
+#include "needlework/scene.h"
+
+namespace needlework::cli {
+
+/// Memory of a run of this scene at its peak [bytes].
+double estimated_memory(const Scene& scene);
+
+/// Wall time per collision on one core of a server of 2.5 GHz [s]; density in [L^-3].
+double estimated_seconds_per_collision(const Scene& scene, double density);
+
+/// Throws InputError naming needles.count if the run needs more memory than there is.
+void require_memory(const Scene& scene);
+
+}  // namespace needlework::cli

@@ -1,0 +1,31 @@
+#include "src/runs/failure.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "needlework/error.h"
+
+namespace needlework::cli {
+
+Failure current_failure() {
+  try {
+    throw;
+  } catch (const InputError& error) {
+    return {bad_input, error.what()};
+  } catch (const InvalidStateError& error) {
+    return {invalid_state, error.what()};
+  } catch (const IoError& error) {
+    return {input_output_error, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {bad_input, "not enough memory: expected fewer needles (needles.count)"};
+  } catch (const std::system_error& error) {  // of printing
+    return {input_output_error, error.what()};
+  } catch (const std::exception& error) {
+    return {invalid_state, fmt::format("unexpected error: {}", error.what())};
+  }
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,35 @@
+#include "src/runs/output_path.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "needlework/error.h"
+
+namespace needlework::cli {
+
+void require_writable(const std::string& file, bool force, const std::string& place) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored)) {
+    throw IoError(fmt::format("{}: cannot be written: expected a folder that exists, not {}", place,
+                              folder.string()));
+  }
+  if (fs::exists(path, ignored)) {
+    if (!fs::is_regular_file(path, ignored)) {
+      throw IoError(place + ": cannot be written: expected an ordinary file");
+    }
+    if (!force) {
+      throw IoError(place + ": exists already: expected a new file, or --force to replace it");
+    }
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw IoError(fmt::format("{}: cannot be written: expected permission to write in {}", place,
+                              folder.string()));
+  }
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,60 @@
+#include "src/runs/prepared_run.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "needlework/error.h"
+#include "src/scene/accuracy.h"
+#include "src/scene/check.h"
+
+namespace needlework::cli {
+
+void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
+  if (scene.until.time) return;
+  Scene::Until at_once;
+  at_once.collisions_per_needle = 0;
+  if (simulation.advance(at_once) == Stop::nothing_can_happen) {
+    throw InputError(path + ": nothing can ever happen: expected needles that move, or until.time");
+  }
+}
+
+namespace {
+
+io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
+  const std::string& file = scene.output.file;
+  try {
+    return io::Writer(file, force, scene,
+                      io::RunInfo{.isa = simulation.isa(),
+                                  .threads = scene.engine.threads.value_or(1),
+                                  .epoch_length = simulation.epoch_length(),
+                                  .accuracy = accuracy_name(scene.engine)});
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
+                              error.what()));
+  }
+}
+
+}  // namespace
+
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path)
+    : scene_(std::move(loaded.scene)), simulation_(make_simulation(loaded)) {
+  loaded.initial.reset();
+  require_events(simulation_, scene_, path);
+  if (!scene_.output.file.empty()) writer_.emplace(open_output(simulation_, scene_, force));
+}
+
+Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
+  setup_.start();
+  Simulation simulation = loaded.initial ? Simulation(scene_, *loaded.initial) : Simulation(scene_);
+  setup_.stop();
+  return simulation;
+}
+
+Course PreparedRun::drive(Progress& progress) {
+  Course course = Drive(simulation_, scene_, writer_ ? &*writer_ : nullptr, progress).run();
+  if (writer_) writer_->close();
+  return course;
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,84 @@
+// The only file that knows MPI: its C interface, as far as a sweep needs it.
+#include "src/runs/ranks.h"
+
+#ifdef NEEDLEWORK_MPI
+#include <mpi.h>
+#endif
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+
+#include "needlework/error.h"
+#include "src/cli/messages.h"
+#include "src/runs/failure.h"
+
+namespace needlework::cli {
+namespace {
+
+// What launchers tell their processes: that of Open MPI, and the process managers of others.
+constexpr const char* marks[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_SIZE", "PMI_RANK"};
+
+bool launched() {
+  return std::any_of(std::begin(marks), std::end(marks),
+                     [](const char* mark) { return std::getenv(mark) != nullptr; });
+}
+
+}  // namespace
+
+#ifdef NEEDLEWORK_MPI
+
+Ranks::Ranks() {
+  if (!launched()) return;
+  int offered = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &offered);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &count_);
+}
+
+Ranks::~Ranks() {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  if (initialised) MPI_Finalize();
+}
+
+std::vector<int> Ranks::greatest(std::vector<int> values) const {
+  if (count_ == 1) return values;
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_INT, MPI_MAX,
+                MPI_COMM_WORLD);
+  return values;
+}
+
+#else
+
+Ranks::Ranks() {
+  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
+  if (!size) size = std::getenv("PMI_SIZE");
+  if (launched() && size && std::atoi(size) > 1) {
+    throw InputError("several MPI ranks: expected a program built with MPI, or --member K/M");
+  }
+}
+
+Ranks::~Ranks() = default;
+
+std::vector<int> Ranks::greatest(std::vector<int> values) const { return values; }
+
+#endif
+
+int Ranks::do_everywhere(const std::function<void()>& action) const {
+  Failure failure{ok, {}};
+  try {
+    action();
+  } catch (const std::exception&) {
+    failure = current_failure();
+  }
+  std::vector<int> codes(count_, ok);
+  codes[rank_] = failure.exit_code;
+  codes = greatest(codes);
+  const auto first = std::find_if(codes.begin(), codes.end(), [](int code) { return code != ok; });
+  if (first == codes.end()) return ok;
+  if (first - codes.begin() == rank_) print_error(failure.message);
+  return *first;
+}
+
+}  // namespace needlework::cli

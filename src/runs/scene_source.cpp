@@ -1,0 +1,89 @@
+#include "src/runs/scene_source.h"
+
+#include <cmath>
+#include <utility>
+
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "src/runs/estimates.h"
+#include "src/scene/check.h"
+
+namespace needlework::cli {
+namespace {
+
+double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
+
+// The last frame of initial.file; errors name the key, then the file and the place in it.
+State read_initial_state(const Scene& scene) {
+  const std::string& file = scene.initial.file;
+  const std::string place = place_of(scene, "initial.file", file);
+  try {
+    return io::read_last_frame(file);
+  } catch (const InputError& error) {
+    throw InputError(place + ": " + error.what());
+  } catch (const IoError& error) {
+    throw IoError(place + ": cannot be read: " + error.what());
+  }
+}
+
+}  // namespace
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("SCENE", arguments.path, "scene file (TOML)")->required();
+  command
+      .add_option("--set", arguments.overrides,
+                  "replace a key of the scene, such as needles.count=500; may be repeated")
+      ->option_text("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--threads", arguments.engine.threads, "number of threads")
+      ->option_text("N")
+      ->check(CLI::Range(1, 1024));
+  command
+      .add_option("--isa", arguments.engine.isa,
+                  "instruction set: auto, scalar, sse4, avx2 or avx512")
+      ->option_text("NAME");
+}
+
+LoadedScene load_scene(const SceneArguments& arguments) {
+  return complete_scene(read_scene(arguments.path, arguments.overrides), arguments.engine);
+}
+
+LoadedScene complete_scene(Scene given, const EngineFlags& flags) {
+  LoadedScene loaded{.scene = std::move(given), .initial = {}};
+  Scene& scene = loaded.scene;
+  choose_engine(scene, flags);
+  require_memory(scene);
+  if (!scene.initial.file.empty()) {
+    loaded.initial = read_initial_state(scene);
+    adopt_count_and_box(scene, *loaded.initial);
+    require_memory(scene);
+  }
+  return loaded;
+}
+
+Totals totals_of(const State& state, double k) {
+  Totals totals;
+  const double count = static_cast<double>(state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    totals.t_tr += square(state.velocity[i]) / (3 * count);
+    totals.t_rot += square(state.angular_velocity[i]) / (4 * k * count);
+    for (int axis = 0; axis < 3; ++axis) totals.momentum[axis] += state.velocity[i][axis];
+  }
+  totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  return totals;
+}
+
+bool starts_in_equilibrium(const Scene& scene) {
+  const Scene::Collisions& c = scene.collisions;
+  const Scene::Initial& initial = scene.initial;
+  return c.epsilon == 1 && std::abs(c.beta) == 1 && initial.file.empty() &&
+         initial.t_tr == initial.t_rot && initial.t_tr > 0 && scene.needles.count >= 2;
+}
+
+double density_of(const Scene& scene) {
+  const auto& box = scene.needles.box;
+  return static_cast<double>(scene.needles.count) / (box[0] * box[1] * box[2]);
+}
+
+}  // namespace needlework::cli

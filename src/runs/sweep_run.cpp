@@ -1,0 +1,179 @@
+#include "src/runs/sweep_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "needlework/error.h"
+#include "src/cli/messages.h"
+#include "src/cli/signals.h"
+#include "src/runs/estimates.h"
+#include "src/runs/explanation.h"
+#include "src/runs/failure.h"
+#include "src/runs/prepared_run.h"
+#include "src/runs/resources.h"
+
+namespace needlework::cli {
+namespace {
+
+/// What a member costs if nothing is known of it, and at least [s].
+constexpr double least_cost = 1e-3;
+
+/// How far all members are together; for several threads.
+class SweepProgress {
+ public:
+  SweepProgress(bool quiet, std::size_t members, double cost)
+      : line_(quiet), members_(members), cost_(cost) {}
+
+  /// Some more work is done, perhaps the last of a member.
+  void advance(double cost, bool finished) {
+    const std::lock_guard lock(mutex_);
+    done_ += cost;
+    finished_ += finished;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    if (!line_.is_due(elapsed.count())) return;
+    line_.show(elapsed.count(), std::clamp(done_ / cost_, 0.0, 1.0),
+               fmt::format("{} of {} members", finished_, members_));
+  }
+
+  void tell_error(const std::string& message) {
+    const std::lock_guard lock(mutex_);
+    line_.clear();
+    print_error(message);
+  }
+
+ private:
+  std::mutex mutex_;
+  ProgressLine line_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::size_t members_, finished_ = 0;
+  double cost_, done_ = 0;
+};
+
+/// The part of one member in it, from the beginning to the end of its life.
+class MemberProgress : public Progress {
+ public:
+  MemberProgress(SweepProgress& sweep, double cost) : sweep_(sweep), cost_(cost) {}
+  ~MemberProgress() override { sweep_.advance(cost_ - told_, true); }
+
+  bool is_due(double elapsed) const override { return elapsed >= next_; }
+  void show(double elapsed, double fraction, const Totals&, double) override {
+    next_ = elapsed + 1;
+    sweep_.advance(fraction * cost_ - told_, false);
+    told_ = fraction * cost_;
+  }
+
+ private:
+  SweepProgress& sweep_;
+  double cost_, told_ = 0, next_ = 1;
+};
+
+ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, Progress& progress) {
+  const SweepFolder& folder = runs.folder;
+  const Claim claim(folder, member);
+  if (!claim.granted()) return stopped;
+  // Another process may have been faster.
+  if (folder.state(member) == SweepFolder::State::finished) return ok;
+
+  Scene scene = member.scene;
+  scene.output.file = folder.unfinished_file(member);
+  const Course course = [&] {
+    try {
+      PreparedRun prepared(complete_scene(std::move(scene), {.threads = 1, .isa = runs.isa}), true,
+                           runs.grid.name);
+      return prepared.drive(progress);
+    } catch (...) {
+      folder.remove_unfinished(member);  // the disk may be full of it
+      throw;
+    }
+  }();
+  if (course.failure) {
+    folder.keep(member, SweepFolder::State::failed);
+    throw InvalidStateError(
+        fmt::format("{} (saved in {})", *course.failure, folder.failed_file(member)));
+  }
+  if (course.stop == Stop::interrupted) {
+    // It cannot go on from there on the same trajectory.
+    folder.remove_unfinished(member);
+    return stopped;
+  }
+  folder.keep(member, SweepFolder::State::finished);
+  return ok;
+}
+
+}  // namespace
+
+std::vector<double> estimated_costs(const sweep::Grid& grid) {
+  std::vector<double> costs;
+  for (const sweep::Member& member : grid.members) {
+    if (!costs.empty() && member.point == grid.members[costs.size() - 1].point) {
+      costs.push_back(costs.back());
+      continue;
+    }
+    const LoadedScene loaded{.scene = member.scene, .initial = {}};
+    const bool known = member.scene.initial.file.empty();
+    const double seconds = known ? Explanation(loaded).seconds : 0;
+    costs.push_back(std::isfinite(seconds) ? std::max(seconds, least_cost) : least_cost);
+  }
+  return costs;
+}
+
+std::vector<std::size_t> share_of(std::span<const std::size_t> members,
+                                  std::span<const double> costs, std::size_t k, std::size_t m) {
+  std::vector<std::size_t> longest_first(members.begin(), members.end());
+  std::stable_sort(longest_first.begin(), longest_first.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+  std::vector<double> loads(m, 0.0);
+  std::vector<std::size_t> share;
+  for (const std::size_t member : longest_first) {
+    const auto least = std::min_element(loads.begin(), loads.end());
+    *least += costs[member];
+    if (least - loads.begin() == static_cast<std::ptrdiff_t>(k)) share.push_back(member);
+  }
+  return share;
+}
+
+void run_members(const MemberRuns& runs, std::span<int> exit_codes) {
+  const double cost =
+      std::accumulate(runs.members.begin(), runs.members.end(), 0.0,
+                      [&](double sum, std::size_t member) { return sum + runs.costs[member]; });
+  SweepProgress all(runs.quiet, runs.members.size(), cost);
+  const SignalGuard guard;
+  const auto run_one = [&](std::size_t index) -> int {
+    if (SignalGuard::received()) return stopped;
+    const sweep::Member& member = runs.grid.members[index];
+    try {
+      MemberProgress progress(all, runs.costs[index]);
+      return run_member(runs, member, progress);
+    } catch (const std::exception&) {
+      const Failure failure = current_failure();
+      all.tell_error(fmt::format("member {}: {}", member.name, failure.message));
+      return failure.exit_code;
+    }
+  };
+#pragma omp parallel for schedule(dynamic, 1) num_threads(runs.threads)
+  for (std::size_t n = 0; n < runs.members.size(); ++n) {
+    exit_codes[runs.members[n]] = run_one(runs.members[n]);
+  }
+}
+
+void require_memory(const MemberRuns& runs) {
+  std::vector<double> needs;
+  for (const std::size_t member : runs.members) {
+    needs.push_back(estimated_memory(runs.grid.members[member].scene));
+  }
+  std::sort(needs.begin(), needs.end(), std::greater<>());
+  const std::size_t at_once = std::min<std::size_t>(runs.threads, needs.size());
+  const double needed = std::accumulate(needs.begin(), needs.begin() + at_once, 0.0);
+  if (needed <= available_memory()) return;
+  throw InputError(fmt::format(
+      "--threads {}: expected fewer: so many members at a time need about {} of memory, and {} are "
+      "available here",
+      runs.threads, bytes_text(needed), bytes_text(available_memory())));
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,146 @@
+#include "src/runs/sweep_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace needlework::sweep {
+namespace {
+
+using Run = io::RecordedRun;
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+double collisions_per_needle(const Run& run) {
+  const double count = static_cast<double>(run.needles);
+  return run.needles ? 2 * static_cast<double>(run.series.back().collisions) / count : undefined;
+}
+
+struct ResultOf {
+  const char* name;
+  double (*value)(const Run&);
+};
+
+constexpr ResultOf results[] = {
+    {"time", [](const Run& run) { return run.series.back().time; }},
+    {"collisions",
+     [](const Run& run) { return static_cast<double>(run.series.back().collisions); }},
+    {"tc_collisions",
+     [](const Run& run) { return static_cast<double>(run.series.back().tc_collisions); }},
+    {"collisions_per_needle", collisions_per_needle},
+    {"collision_rate",
+     [](const Run& run) {
+       const double time = run.series.back().time;
+       return time > 0 ? collisions_per_needle(run) / time : undefined;
+     }},
+    {"energy", [](const Run& run) { return run.series.back().energy; }},
+    {"energy_ratio",
+     [](const Run& run) {
+       const double initial = run.series.front().energy;
+       return initial > 0 ? run.series.back().energy / initial : undefined;
+     }},
+    {"t_tr", [](const Run& run) { return run.series.back().t_tr; }},
+    {"t_rot", [](const Run& run) { return run.series.back().t_rot; }},
+};
+
+struct SeriesOf {
+  const char* name;
+  std::size_t width;
+  double (*value)(const Totals&, std::size_t component);
+};
+
+constexpr SeriesOf all_series[] = {
+    {"t_tr", 1, [](const Totals& sample, std::size_t) { return sample.t_tr; }},
+    {"t_rot", 1, [](const Totals& sample, std::size_t) { return sample.t_rot; }},
+    {"energy", 1, [](const Totals& sample, std::size_t) { return sample.energy; }},
+    {"momentum", 3,
+     [](const Totals& sample, std::size_t component) { return sample.momentum[component]; }},
+    {"collisions", 1,
+     [](const Totals& sample, std::size_t) { return static_cast<double>(sample.collisions); }},
+    {"tc_collisions", 1,
+     [](const Totals& sample, std::size_t) { return static_cast<double>(sample.tc_collisions); }},
+};
+
+std::vector<double> times_of(const Run& run) {
+  std::vector<double> times;
+  for (const Totals& sample : run.series) times.push_back(sample.time);
+  // A run may end at the time of a sample, with a second one there.
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+std::vector<double> common_times(std::span<const Run> runs) {
+  std::vector<double> common;
+  for (const Run& run : runs) {
+    const std::vector<double> times = times_of(run);
+    if (&run == &runs.front()) {
+      common = times;
+      continue;
+    }
+    std::vector<double> both;
+    std::set_intersection(common.begin(), common.end(), times.begin(), times.end(),
+                          std::back_inserter(both));
+    common = std::move(both);
+  }
+  return common;
+}
+
+// The sample at a time that the run has; the first of two.
+const Totals& sample_at(const Run& run, double time) {
+  return *std::lower_bound(run.series.begin(), run.series.end(), time,
+                           [](const Totals& sample, double t) { return sample.time < t; });
+}
+
+Series series_over(const SeriesOf& kind, std::span<const Run> runs, std::span<const double> times) {
+  Series series{.name = kind.name, .width = kind.width, .estimates = {}};
+  std::vector<double> values(runs.size());
+  for (const double time : times) {
+    for (std::size_t component = 0; component < kind.width; ++component) {
+      std::transform(runs.begin(), runs.end(), values.begin(),
+                     [&](const Run& run) { return kind.value(sample_at(run, time), component); });
+      series.estimates.push_back(estimate(values));
+    }
+  }
+  return series;
+}
+
+void add_estimates(PointSummary& point, std::span<const Run> runs) {
+  std::vector<double> values(runs.size());
+  for (const ResultOf& result : results) {
+    std::transform(runs.begin(), runs.end(), values.begin(), result.value);
+    point.results.push_back({result.name, estimate(values)});
+  }
+  point.times = common_times(runs);
+  for (const SeriesOf& kind : all_series) {
+    point.series.push_back(series_over(kind, runs, point.times));
+  }
+}
+
+}  // namespace
+
+Estimate estimate(std::span<const double> values) {
+  const double n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double x : values) sum += x;
+  const double mean = values.empty() ? undefined : sum / n;
+  for (const double x : values) squares += (x - mean) * (x - mean);
+  return {mean, values.size() > 1 ? std::sqrt(squares / (n * (n - 1))) : undefined};
+}
+
+std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finished_run) {
+  std::vector<PointSummary> summary(grid.points());
+  for (std::size_t point = 0; point < summary.size(); ++point) {
+    std::vector<Run> runs;
+    for (std::size_t seed = 0; seed < grid.seeds.size(); ++seed) {
+      auto run = finished_run(grid.members[point * grid.seeds.size() + seed]);
+      if (!run) continue;
+      summary[point].seeds.push_back(grid.seeds[seed]);
+      runs.push_back(*std::move(run));
+    }
+    add_estimates(summary[point], runs);
+  }
+  return summary;
+}
+
+}  // namespace needlework::sweep
