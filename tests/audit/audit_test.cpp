@@ -58,7 +58,7 @@ struct EngineRun {
 
   EngineRun(const Scene& scene, double per_needle) {
     Simulation simulation(scene);
-    initial = simulation.state();
+    initial = simulation.copy();
     setup = setup_of(scene, simulation.epoch_length());
     simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
     Scene::Until until;

@@ -44,7 +44,7 @@ struct EngineRun {
 
   EngineRun(const Scene& scene, const State& state, double until) {
     Simulation simulation(scene, state);
-    initial = simulation.state();
+    initial = simulation.copy();
     epoch_length = simulation.epoch_length();
     simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
     try {
@@ -52,7 +52,7 @@ struct EngineRun {
     } catch (const InvalidStateError& error) {
       failure = error.what();
     }
-    end = simulation.state();
+    end = simulation.copy();
   }
 
   Real time_of(const Collision& c) const {

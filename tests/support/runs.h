@@ -54,7 +54,7 @@ inline Recorded record(const Scene& scene, const State& initial, double count) {
   Recorded out;
   simulation.on_collision([&](const Collision& c) { out.collisions.push_back(c); });
   simulation.advance(until_collisions(2 * count / static_cast<double>(initial.size())));
-  out.end = simulation.state();
+  out.end = simulation.copy();
   out.totals = simulation.totals();
   out.hash = simulation.trajectory_hash();
   out.epoch_length = simulation.epoch_length();
