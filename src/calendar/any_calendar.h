@@ -13,14 +13,20 @@ namespace needlework {
 /// Who is given the new event of a needle.
 class EventSink {
  public:
+  /// `by_block`: whether the block in set() matters.
+  explicit EventSink(bool by_block) : needs_block(by_block) {}
   virtual ~EventSink() = default;
   /// Replaces the event of event.owner, who is in this block now.
   virtual void set(const Event& event, BlockIndex block) = 0;
+
+  const bool needs_block;
 };
 
 /// Any model of the concept Calendar, by the same promises.
 class AnyCalendar : public EventSink {
  public:
+  using EventSink::EventSink;
+
   virtual const char* name() const = 0;
   virtual const Event& top() const = 0;
   virtual const Event& of(Needle i) const = 0;
@@ -33,7 +39,7 @@ class AnyCalendar : public EventSink {
 template <Calendar C>
 class CalendarOf final : public AnyCalendar {
  public:
-  CalendarOf() : calendar_(0, Clock(), 1) {}
+  CalendarOf() : AnyCalendar(C::by_block), calendar_(0, Clock(), 1) {}
 
   /// The calendar itself, for those who need more of it than every calendar has.
   C& get() { return calendar_; }

@@ -28,6 +28,7 @@ namespace needlework {
 class BucketCalendar {
  public:
   static constexpr const char* name = "bucket";
+  static constexpr bool by_block = false;
 
   BucketCalendar(std::size_t n, const Clock& clock, std::size_t = 1);
 

@@ -15,7 +15,8 @@ using BlockIndex = std::uint32_t;
 /// Holds exactly one event for each of n needles, at first one that never happens.
 ///
 /// `C(n, clock, blocks)` makes it for needles 0 to n - 1; `clock` is that of the events' times, and
-/// needles are in blocks 0 to blocks - 1. Calendars that do not group needles ignore blocks.
+/// needles are in blocks 0 to blocks - 1. Calendars that do not group needles ignore blocks, and
+/// say so by `by_block`.
 /// `set(event, block)` replaces the event of event.owner, who is in this block now; its time is
 /// >= 0 and may lie before top().
 /// `top()` is the least of all in the order of events; of equal ones, the two copies of one
@@ -30,6 +31,7 @@ template <class C>
 concept Calendar = requires(C calendar, const C& view, const Event& event, Needle i, std::size_t n,
                             const Clock& clock, BlockIndex block) {
   { C::name } -> std::convertible_to<const char*>;
+  { C::by_block } -> std::convertible_to<bool>;
   C(n, clock, n);
   { view.empty() } -> std::same_as<bool>;
   { view.top() } -> std::same_as<const Event&>;

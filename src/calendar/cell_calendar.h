@@ -29,6 +29,7 @@ namespace needlework {
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
+  static constexpr bool by_block = true;
   using Block = BlockIndex;
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};

@@ -10,6 +10,7 @@ namespace needlework {
 class IndexedHeap {
  public:
   static constexpr const char* name = "indexed-heap";
+  static constexpr bool by_block = false;
 
   IndexedHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), heap_(n) {
     for (Needle i{0}; i < n; ++i) heap_.set(i, events_.key(i), events_);

@@ -16,6 +16,7 @@ namespace needlework {
 class LazyHeap {
  public:
   static constexpr const char* name = "lazy-heap";
+  static constexpr bool by_block = false;
 
   LazyHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), version_(n) {
     rebuild();

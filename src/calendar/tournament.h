@@ -12,6 +12,7 @@ namespace needlework {
 class Tournament {
  public:
   static constexpr const char* name = "tournament";
+  static constexpr bool by_block = false;
 
   Tournament(std::size_t n, const Clock& clock, std::size_t = 1)
       : events_(n, clock), tree_(n, events_.key_of(Time::never())) {}

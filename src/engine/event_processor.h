@@ -49,7 +49,9 @@ class EventProcessor {
   /// Searches the contacts of needle i from now on and enters its next event. `just_hit`: the
   /// needle with which it has just collided.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, Needle just_hit = no_needle);
-  void enter(const Event& event) { calendar_.set(event, search_.cell_index(event.owner)); }
+  void enter(const Event& event) {
+    calendar_.set(event, calendar_.needs_block ? search_.cell_index(event.owner) : 0);
+  }
   /// Prefetches what an event of this needle will read.
   void prefetch(Needle i) const {
     needlework::prefetch(&gas_.records[i]);

@@ -19,7 +19,7 @@ namespace needlework {
 
 /// Puts events into the calendar, and notes the blocks that the event at hand has changed.
 struct ZoneChanges final : EventSink {
-  explicit ZoneChanges(CellCalendar& its_calendar) : calendar(its_calendar) {}
+  explicit ZoneChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
   void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
 
   CellCalendar& calendar;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "kernels/power_of_two.h"
@@ -12,18 +11,30 @@
 namespace needlework {
 namespace {
 
-// What the record of needle i says of touching the other with its record, if it does.
-std::optional<kernels::Touch> find_touch(const Gas& gas, Needle i, const Record& record,
-                                         Needle partner, const Record& other, const Shift& shift) {
-  if (record.touch_count == 0) return std::nullopt;
-  const Id id = gas.ids[partner];
-  const auto& first = record.first_touch;
-  if (first.is_with(id, other.serial, shift)) return first.touch();
-  if (record.touch_count == 1) return std::nullopt;
+// Looks for the touch with the other's record among those beyond the first.
+[[gnu::noinline]] bool find_further_touch(const Gas& gas, Needle i, const Record& record,
+                                          Id partner, const Record& other, const Shift& shift,
+                                          kernels::Touch& out) {
   for (const RecordedTouch& touch : gas.further_touches->of(gas.ids[i], record.serial)) {
-    if (touch.is_with(id, other.serial, shift)) return touch.touch();
+    if (!touch.is_with(partner, other.serial, shift)) continue;
+    out = touch.touch();
+    return true;
   }
-  return std::nullopt;
+  return false;
+}
+
+// Sets `out` to what the record of needle i says of touching the other with its record, if it does.
+[[gnu::always_inline]] inline bool find_touch(const Gas& gas, Needle i, const Record& record,
+                                              Needle partner, const Record& other,
+                                              const Shift& shift, kernels::Touch& out) {
+  if (record.touch_count == 0) return false;
+  const RecordedTouch& first = record.first_touch;
+  const Id id = gas.ids[partner];
+  if (first.is_with(id, other.serial, shift)) {
+    out = first.touch();
+    return true;
+  }
+  return record.touch_count > 1 && find_further_touch(gas, i, record, id, other, shift, out);
 }
 
 }  // namespace
@@ -43,10 +54,11 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   }
   pair.touch_within = gas.touch_tolerance();
   // The later record knows the touch; of two records made at one time, either may.
-  std::optional<kernels::Touch> touch;
-  if (record_a.time == start) touch = find_touch(gas, a, record_a, b, record_b, shift);
-  if (!touch && record_b.time == start) touch = find_touch(gas, b, record_b, a, record_a, -shift);
-  if (touch) pair.touch = *touch;
+  const bool found =
+      record_a.time == start && find_touch(gas, a, record_a, b, record_b, shift, pair.touch);
+  if (!found && record_b.time == start) {
+    find_touch(gas, b, record_b, a, record_a, -shift, pair.touch);
+  }
   return pair;
 }
 
