@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "needlework/error.h"
@@ -10,9 +11,55 @@
 namespace needlework::io::hdf5 {
 namespace {
 
-std::recursive_mutex& library_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
+// The error handling of the caller, from its construction to restore(). HDF5 has two kinds of error
+// handlers, and a handler of one kind cannot be read or set by the functions of the other. None of
+// the functions used here clears the error stack.
+class CallerErrors {
+ public:
+  CallerErrors() : stack_(H5Eget_current_stack()) {
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+    H5Eauto_is_v2(H5E_DEFAULT, &is_v2_);
+    if (!is_v2_) {
+      H5Eget_auto1(&handler_v1_, &data_);
+      H5Eset_auto1(nullptr, nullptr);
+      return;
+    }
+#endif
+    H5Eget_auto2(H5E_DEFAULT, &handler_v2_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+
+  void restore() {
+    if (stack_ >= 0) H5Eset_current_stack(stack_);  // closes stack_ too
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+    if (!is_v2_) {
+      H5Eset_auto1(handler_v1_, data_);
+      return;
+    }
+#endif
+    H5Eset_auto2(H5E_DEFAULT, handler_v2_, data_);
+  }
+
+ private:
+  hid_t stack_;
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+  unsigned is_v2_ = 1;
+  H5E_auto1_t handler_v1_ = nullptr;
+#endif
+  H5E_auto2_t handler_v2_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// What the sessions of the process share. The mutex protects the other members.
+struct Shared {
+  std::recursive_mutex mutex;
+  int sessions = 0;  // open ones, all of the thread that holds the mutex
+  std::optional<CallerErrors> caller;
+};
+
+Shared& shared() {
+  static Shared shared;
+  return shared;
 }
 
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
@@ -70,12 +117,15 @@ bool is_kind(hid_t parent, const std::string& name, H5I_type_t kind, const std::
 
 }  // namespace
 
-Session::Session() : lock_(library_mutex()) {
-  H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+Session::Session() : lock_(shared().mutex) {
+  if (shared().sessions++ == 0) shared().caller.emplace();
 }
 
-Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+Session::~Session() {
+  if (--shared().sessions > 0) return;
+  shared().caller->restore();
+  shared().caller.reset();
+}
 
 std::string last_error() {
   std::string text;

@@ -11,9 +11,13 @@
 
 namespace needlework::io::hdf5 {
 
-/// Held while HDF5 is used. The common build of HDF5 may not be entered by two threads at once, so
-/// sessions exclude each other in the whole process (one thread may nest them). HDF5 prints nothing
-/// meanwhile; the client's own error handler comes back afterwards.
+/// Exists while this library uses HDF5. Two things follow from it:
+///
+/// - One thread at a time uses HDF5, because not every build of HDF5 allows more. Sessions of
+///   different threads wait for each other; one thread may open a session within a session.
+/// - The caller's error handling stays as it was. During a session HDF5 calls no error handler, so
+///   that failures are reported by exceptions only. The end of the outermost session restores the
+///   error handler of the caller, its client data and the errors on the caller's error stack.
 class Session {
  public:
   Session();
@@ -23,8 +27,6 @@ class Session {
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;
-  H5E_auto2_t print_ = nullptr;
-  void* print_data_ = nullptr;
 };
 
 /// Why the last HDF5 call failed, in one line: the operating system's reason where there is one,

@@ -72,6 +72,7 @@ void Writer::Implementation::open_datasets(bool with_events) {
 
 void Writer::Implementation::commit() {
   if (pending_frames.empty() && pending_samples.empty() && pending_events.empty()) return;
+  const Session session;
   observables->append(pending_frames);
   series->append(pending_samples);
   if (events) events->append(pending_events);
@@ -86,6 +87,7 @@ void Writer::Implementation::commit() {
 }
 
 void Writer::Implementation::close() {
+  const Session session;
   commit();
   events.reset();
   series_clock.reset();
@@ -99,7 +101,6 @@ void Writer::Implementation::close() {
 template <class Action>
 void Writer::use(Action action) {
   if (!implementation_) throw std::logic_error("the writer was closed before");
-  const Session session;
   if (implementation_->failed) {
     throw IoError(implementation_->path + ": an earlier write to this file failed");
   }
@@ -145,6 +146,7 @@ void Writer::write_series(const Totals& totals) {
 
 void Writer::write_frame(const Totals& totals, const State& state) {
   use([&](Implementation& out) {
+    const Session session;
     out.frames->append(state);
     out.pending_frames.push_back(totals);
   });

@@ -423,16 +423,6 @@ TEST_F(Reading, FilesCutShortAreRefused) {
   }
 }
 
-TEST_F(Reading, ClientsErrorHandlingIsLeftAlone) {
-  H5E_auto2_t before, after;
-  void *data_before, *data_after;
-  H5Eget_auto2(H5E_DEFAULT, &before, &data_before);
-  EXPECT_THROW(read_last_frame(file("none.h5")), IoError);
-  H5Eget_auto2(H5E_DEFAULT, &after, &data_after);
-  EXPECT_EQ(before, after);
-  EXPECT_NE(after, nullptr);
-}
-
 TEST_F(Reading, DescriptionTellsWhatIsInAFile) {
   Writer writer(file("a.h5"), false, make_scene(7, true), {"avx2", 2, 0.125});
   for (int frame = 0; frame < 3; ++frame) writer.write_frame(make_totals(frame), make_state(7));
