@@ -31,12 +31,12 @@ void write_vectors(hid_t group, const char* name, const Vectors& vectors,
 }
 
 void write_counter(hid_t group, const char* name, std::size_t value, const std::string& place) {
-  // One number for each part of the grid, of which there is one.
+  // The format has one number for each part of the grid. This grid has one part.
   const auto count = static_cast<std::int64_t>(value);
   write_array<std::int64_t>(group, name, {1}, {&count, 1}, place);
 }
 
-// First the tail, then the tip of each needle.
+// The tail of each needle, then its tip.
 Vectors ends_of(const State& state) {
   Vectors ends;
   ends.reserve(2 * state.size());

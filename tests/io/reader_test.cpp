@@ -262,12 +262,12 @@ TEST_F(Reading, UnequalNumbersOfFramesAreRefused) {
                   file.put("/particles/all/velocity/value", {1, 2, 3}, {1, 2, 3, 4, 5, 6});
                 },
                 2),
-            "/particles/all/velocity/value: 1 frames: expected 2, as "
+            "/particles/all/velocity/value: 1 frames: expected 2, as in "
             "/particles/all/position/value");
   EXPECT_EQ(complaint([](HandMade& file) {
               file.put("/particles/all/velocity/step", {2}, {0, 1}, H5T_STD_I32LE);
             }),
-            "/particles/all/velocity/step: 2 steps: expected 1, one a row of "
+            "/particles/all/velocity/step: 2 steps: expected 1, one for each row of "
             "/particles/all/velocity/value");
 }
 
@@ -289,7 +289,7 @@ TEST_F(Reading, StepsOutOfOrderAreRefused) {
                   file.put("/particles/all/position/step", {3}, {0, 7, 5}, H5T_STD_I32LE);
                 },
                 3),
-            "/particles/all/position/step[2] = 5: expected 7 or more, the step before");
+            "/particles/all/position/step[2] = 5: expected 7 or more, which is the step before it");
 }
 
 TEST_F(Reading, WrongNumbersAreNamedWithTheirPlace) {
@@ -335,7 +335,7 @@ TEST_F(Reading, WrongIdsAreRefused) {
     return complaint([&](HandMade& file) { file.put("/particles/all/id", {2}, values, type); });
   };
   EXPECT_EQ(put({7, 7}, H5T_STD_I32LE),
-            "/particles/all/id[1] = 7: expected another id than that of entry 0");
+            "/particles/all/id[1] = 7: expected an id other than that of entry 0");
   EXPECT_EQ(put({7, -1}, H5T_STD_I32LE),
             "/particles/all/id[1] = -1: expected a whole number from 0 to 2^32 - 1");
   EXPECT_EQ(put({4294967296.0, 1}, H5T_STD_I64LE),
@@ -363,7 +363,7 @@ TEST_F(Reading, WrongBoxesAreRefused) {
   EXPECT_EQ(put({3}, {std::numeric_limits<double>::infinity(), 10, 1}),
             edges + ", axis 0 = inf: expected an edge above 0");
   EXPECT_EQ(put({2, 3}, {1, 1, 1, 1, 1, 1}, 4),
-            edges + ": 2 frames: expected 4, as /particles/all/position/value");
+            edges + ": 2 frames: expected 4, as in /particles/all/position/value");
 }
 
 TEST_F(Reading, BoxMustBePeriodic) {
@@ -379,12 +379,13 @@ TEST_F(Reading, BoxMustBePeriodic) {
 }
 
 TEST_F(Reading, OtherThanNumbersAreRefused) {
-  EXPECT_EQ(complaint([](HandMade& file) {
-              file.remove("/particles/all/velocity");
-              const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all", "");
-              hdf5::write_scalar(group.get(), "velocity", std::string("fast"), "");
-            }),
-            "/particles/all/velocity: no numbers in it: expected floating point or integers");
+  EXPECT_EQ(
+      complaint([](HandMade& file) {
+        file.remove("/particles/all/velocity");
+        const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all", "");
+        hdf5::write_scalar(group.get(), "velocity", std::string("fast"), "");
+      }),
+      "/particles/all/velocity: the values are not numbers: expected floating point or integers");
 }
 
 TEST_F(Reading, WhatIsNotAWholeHdf5FileIsNamed) {
