@@ -6,6 +6,7 @@
 #include <span>
 
 #include "src/io/column.h"
+#include "src/io/descriptions.h"
 
 namespace needlework::io {
 
@@ -146,6 +147,7 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   const Handle series = create_group(file, "series", place);
   make_totals(series.get(), make_step_and_time(series.get(), place), place);
   if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
+  write_descriptions(file, run_file_descriptions(), place);
 }
 
 }  // namespace needlework::io

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/io/atomic_file.h"
+#include "src/io/descriptions.h"
 #include "src/io/hdf5.h"
 #include "src/io/output_file.h"
 
@@ -90,6 +91,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state) {
     write_lines(root.get(), state, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
+  write_descriptions(file.get(), vtkhdf_descriptions(), path);
   file.close();
   atomic.publish();
 }
