@@ -102,6 +102,7 @@ class Overview {
 std::string Overview::write() {
   add("{}: {}", source_.path(), format_bytes(source_.bytes()));
   add_origin();
+  if (const std::string text = description("/"); !text.empty()) add("{}", text);
   add_particles();
   add_rows("/series", "sample");
   add_rows("/events", "collision");
@@ -163,8 +164,11 @@ void Overview::add_rows(const std::string& group, const char* kind) {
 
 void Overview::add_datasets() {
   add("");
-  add("Groups and datasets with their types, shapes and meanings. Each row of GROUP/value has its");
-  add("time in GROUP/time and the number of collisions so far in GROUP/step.");
+  add("Groups and datasets with their types, shapes and meanings.");
+  if (!ranges_shown_.empty()) {
+    add("Each row of GROUP/value has its time in GROUP/time and the collisions so far in "
+        "GROUP/step.");
+  }
   for (const std::string& name : children("/")) {
     if (name == "h5md" || name == "parameters") continue;
     add("");
