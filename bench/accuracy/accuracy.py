@@ -323,8 +323,8 @@ def measure_rates(bench, scale):
                 else:
                     rates.append(report["collision_rate"] / report["collision_rate_exact"] - 1)
             grid, curves, reports, failures = cooling_curves(bench, (
-                bench.scene(1000, density, {"time": 60 / density}, engine=SETTINGS[name], seed=seed,
-                            collisions=cooling) for seed in seeds))
+                bench.scene(1000, density, {"time": 60 * scale / density}, engine=SETTINGS[name],
+                            seed=seed, collisions=cooling) for seed in seeds))
             entry = {"gas": gas, "accuracy": name, "runs": len(rates),
                      "errors": sorted(errors | failures), "cooling_runs": len(reports)}
             if len(rates) > 1:
