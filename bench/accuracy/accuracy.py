@@ -392,7 +392,7 @@ def main():
     parser.add_argument("parts", nargs="*", help=", ".join([*PARTS, "tables"]))
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
     parser.add_argument("--machine", help="its name among the results")
-    parser.add_argument("--readme", action="store_true", help="put the short table into README.md")
+    parser.add_argument("--readme", action="store_true", help="put the short table into docs/accuracy.md")
     parser.add_argument("--scale", type=float, default=1, help="longer or shorter runs")
     arguments = parser.parse_args()
     parts = arguments.parts or list(PARTS)
@@ -410,7 +410,7 @@ def main():
     import tables
     tables.write(data, SETTINGS, folder)
     if arguments.readme:
-        readme.put_table("accuracy", "\n".join(tables.brief(data)), ROOT / "README.md")
+        readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
 
 
 if __name__ == "__main__":
