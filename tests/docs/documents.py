@@ -1,4 +1,5 @@
-"""Links among the documents lead somewhere, and the front page stays short."""
+"""Links among the documents lead somewhere, files that they name exist, and the front page stays
+short."""
 
 import re
 import unittest
@@ -9,6 +10,10 @@ from urllib.parse import unquote
 ROOT = Path(__file__).resolve().parents[2]
 LINK = re.compile(r"\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\"")
 CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.M | re.S)
+
+
+# A file of the project by its path, such as `src/scene/scene.h`; not NAME.h, which stands for many.
+FILE = re.compile(r"`((?:[a-z_.-]+/)+[a-z0-9_.-]+\.(?:h|cpp|py|toml|md|txt))`")
 
 
 def documents():
@@ -47,9 +52,18 @@ def broken_links(path):
             yield f"{path.relative_to(ROOT)}: {link}: expected a heading"
 
 
+def missing_files(path):
+    for name in FILE.findall(path.read_text()):
+        if not (ROOT / name).exists() and not (path.parent / name).exists():
+            yield f"{path.relative_to(ROOT)}: {name}: expected a file"
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertEqual([link for path in documents() for link in broken_links(path)], [])
+
+    def test_files_that_are_named_exist(self):
+        self.assertEqual([file for path in documents() for file in missing_files(path)], [])
 
     def test_documents_are_listed_in_their_index(self):
         index = (ROOT / "docs/README.md").read_text()
