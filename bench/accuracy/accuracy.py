@@ -403,7 +403,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join([*PARTS, "tables"]))
-    parser.add_argument("--readme", action="store_true", help="put the short table into README.md")
+    parser.add_argument("--readme", action="store_true", help="put the short table into docs/accuracy.md")
     measured.add_options(parser)
     arguments = parser.parse_args()
     unknown = set(arguments.parts) - {*PARTS, "tables"}
@@ -434,7 +434,7 @@ def main():
     if arguments.readme:
         if not {"cost", "audit", "pairs"} <= data.keys():
             sys.exit("--readme: expected cost, audit and pairs to be measured")
-        readme.put_table("accuracy", "\n".join(tables.brief(data)), measured.ROOT / "README.md")
+        readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
     measured.report_missing(store, missing, place)
 
 

@@ -73,14 +73,14 @@ def summary(data, names):
     return lines
 
 
-# Lines of the table in the main README, and what they are.
+# Lines of the table in docs/accuracy.md, and what they are.
 BRIEF = {
     "fast": "double decides everything",
     "standard": "error bounds; double-double where they leave a decision open",
-    "rigorous": "interval arithmetic, times to half a unit; float for hulls and bounding spheres only",
-    "rigorous, filter float": "the same behind filters in float",
-    "sampling 1/4": "signs at equal steps, coarse",
-    "sampling 1/32": "fine",
+    "rigorous": "interval arithmetic, times to half a unit in the last place; float for bounding volumes only",
+    "rigorous, filter float": "the same, behind filters in float",
+    "sampling 1/4": "signs at equal steps, coarse steps",
+    "sampling 1/32": "signs at equal steps, fine steps",
     "root 1e-3": "contact times to a coarse tolerance; most dilute cooling runs end in an error",
 }
 
