@@ -317,11 +317,11 @@ INSTANTIATE_TEST_SUITE_P(Isas, OnEveryIsa,
 
 // ---- the contact function, within its bounds ----
 
-class ContactFunctionByLanes : public testing::TestWithParam<test::PairFamily> {};
+class SimdContactFunction : public testing::TestWithParam<test::PairFamily> {};
 
 // Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
 // claim.
-TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
+TEST_P(SimdContactFunction, IsWithinBounds) {
   using C = ContactColumns;
   const test::PairFamily& family = GetParam();
   Random random(seed);
@@ -365,14 +365,14 @@ TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
   EXPECT_GT(near, count / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, ContactFunctionByLanes, testing::ValuesIn(test::pair_families()),
+INSTANTIATE_TEST_SUITE_P(Families, SimdContactFunction, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- no contact lost ----
 
 class Isolate : public testing::TestWithParam<test::PairFamily> {};
 
-TEST_P(Isolate, IsNeverLaterThanTheFirstContact) {
+TEST_P(Isolate, IsNeverTooLate) {
   const test::PairFamily& family = GetParam();
   const NearKernels& kernels = near_kernels(Isa::scalar);
   Random random(seed);

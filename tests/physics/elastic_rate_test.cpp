@@ -15,6 +15,7 @@
 #include <string>
 
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -63,6 +64,10 @@ std::ostream& operator<<(std::ostream& out, const Gas& gas) {
              << " needles, beta " << gas.beta << ", seed " << gas.seed;
 }
 
+std::string name_of(const testing::TestParamInfo<Gas>& info) {
+  return test::parameter_name({{"k", info.param.k}, {"n", info.param.density}});
+}
+
 class ElasticRate : public testing::TestWithParam<Gas> {};
 
 TEST_P(ElasticRate, IsExactInEquilibrium) {
@@ -84,11 +89,13 @@ INSTANTIATE_TEST_SUITE_P(Smooth, ElasticRate,
                                          Gas{6, 3, 500, 700}, Gas{6, 20, 200, 800},
                                          Gas{6, 50, 500, 1500}, Gas{6, 100, 1000, 1600},
                                          Gas{20, 0.1, 500, 900}, Gas{20, 0.72, 500, 1000},
-                                         Gas{20, 3, 500, 1100}, Gas{20, 20, 200, 1200}));
+                                         Gas{20, 3, 500, 1100}, Gas{20, 20, 200, 1200}),
+                         name_of);
 
 // Perfectly rough needles (beta = +1) conserve energy too, and their equilibrium is the same.
 INSTANTIATE_TEST_SUITE_P(Rough, ElasticRate,
-                         testing::Values(Gas{6, 0.72, 500, 1300, 1}, Gas{6, 3, 500, 1400, 1}));
+                         testing::Values(Gas{6, 0.72, 500, 1300, 1}, Gas{6, 3, 500, 1400, 1}),
+                         name_of);
 
 }  // namespace
 }  // namespace needlework

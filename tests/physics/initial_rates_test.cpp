@@ -21,6 +21,7 @@
 
 #include "needlework/error.h"
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -98,6 +99,15 @@ Rates measure(const Gas& gas, double time) {
   return out;
 }
 
+std::string name_of(const testing::TestParamInfo<Gas>& info) {
+  const theory::Gas& needles = info.param.needles;
+  return test::parameter_name({{"n", info.param.density},
+                               {"k", needles.k},
+                               {"epsilon", needles.epsilon},
+                               {"beta", needles.beta},
+                               {"q", info.param.q}});
+}
+
 class InitialRates : public testing::TestWithParam<Gas> {};
 
 TEST_P(InitialRates, AreExact) {
@@ -138,14 +148,16 @@ INSTANTIATE_TEST_SUITE_P(Smooth, InitialRates,
                          testing::Values(Gas{0.72, {6, 0.8, -1}, 1, 0.03, 3000, 10000},
                                          Gas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000},
                                          Gas{3, {6, 0.5, -1}, 3, 0.05, 1000, 30000},
-                                         Gas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}));
+                                         Gas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}),
+                         name_of);
 
 INSTANTIATE_TEST_SUITE_P(Rough, InitialRates,
                          testing::Values(Gas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
                                          Gas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
                                          Gas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
                                          Gas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000},
-                                         Gas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}));
+                                         Gas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
+                         name_of);
 
 }  // namespace
 }  // namespace needlework

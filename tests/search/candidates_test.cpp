@@ -49,7 +49,7 @@ struct Setting {
 
 class Contacts : public testing::TestWithParam<Setting> {};
 
-TEST_P(Contacts, AreProposedInTimeByEverySearch) {
+TEST_P(Contacts, AreProposedByEverySearch) {
   const Setting& s = GetParam();
   SCOPED_TRACE("seed " + std::to_string(seed));
   const double unit = 1 / (s.speeds.sigma * s.speeds.fast);
