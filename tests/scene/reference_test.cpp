@@ -20,14 +20,17 @@ Keys keys_of_schema() {
   return keys;
 }
 
-// Rows "| `key` | ..." beneath a heading "## [section]" or "## Top level".
+// Rows "| `key` | ..." beneath a heading "## [section]", "## [[section]]" or "## Top level".
 Keys keys_of_document() {
   std::ifstream file(NEEDLEWORK_SOURCE "/docs/scenes.md");
   EXPECT_TRUE(file) << NEEDLEWORK_SOURCE "/docs/scenes.md cannot be read";
   Keys keys;
   std::string section;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("## [")) section = line.substr(4, line.find(']') - 4);
+    if (line.starts_with("## [")) {
+      const std::size_t begin = line.find_first_not_of('[', 3);
+      section = line.substr(begin, line.find(']') - begin);
+    }
     if (!line.starts_with("| `")) continue;
     const std::string key = line.substr(3, line.find('`', 3) - 3);
     EXPECT_TRUE(keys.insert(section + "." + key).second) << section << "." << key << " twice";
