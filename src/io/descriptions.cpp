@@ -96,6 +96,7 @@ std::vector<Description> run_file_descriptions() {
       {"/parameters/epoch_length", "Length of an epoch, in which the times of events are counted",
        time, scalar},
       {"/parameters/k", "Shape of the needles, k = m L^2 / (2 I)", none, scalar},
+      {"/parameters/length", "Length of a needle", length, scalar},
       {"/parameters/epsilon", "Coefficient of normal restitution", none, scalar},
       {"/parameters/beta", "Coefficient of tangential restitution", none, scalar},
 
@@ -123,6 +124,8 @@ std::vector<Description> run_file_descriptions() {
       {"/particles/needles/id", "Identity of each needle, the same in all frames", none,
        "[needles]"},
       {"/particles/needles/mass", "Mass of each needle", "mass", "[needles]"},
+      {"/particles/needles/species",
+       "Species of each needle, counted from 0 in the order of the scene", none, "[needles]"},
 
       {"/observables", "Sums over all needles at the times of the frames", none, none},
       {"/series", "Sums over all needles at the times of the samples", none, none},

@@ -68,7 +68,16 @@ Handle make_box(hid_t needles, const std::string& place) {
   return box;
 }
 
-StepAndTime make_needles(hid_t group, std::uint64_t count, const std::string& place) {
+double mass_of(const Scene& scene) {
+  return scene.species.empty() ? 1.0 : scene.species.front().mass;
+}
+
+double length_of(const Scene& scene) {
+  return scene.species.empty() ? 1.0 : scene.species.front().length;
+}
+
+StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& place) {
+  const std::uint64_t count = scene.needles.count;
   const hsize_t rows = frames_per_chunk(count);
   const Shape row{count, 3};
   // H5MD demands that box and image share the step and time of position.
@@ -86,7 +95,10 @@ StepAndTime make_needles(hid_t group, std::uint64_t count, const std::string& pl
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
-  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, 1.0), place);
+  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, mass_of(scene)),
+                            place);
+  hdf5::write_array<std::uint8_t>(group, "species", {count}, std::vector<std::uint8_t>(count, 0),
+                                  place);
   return shared;
 }
 
@@ -131,6 +143,7 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("threads", static_cast<std::int32_t>(run.threads));
   write("epoch_length", run.epoch_length);
   write("k", scene.needles.k);
+  write("length", length_of(scene));
   write("epsilon", scene.collisions.epsilon);
   write("beta", scene.collisions.beta);
 }
@@ -141,8 +154,8 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_metadata(file, place);
   make_parameters(file, scene, run, place);
   const Handle particles = create_group(file, "particles", place);
-  const StepAndTime frames = make_needles(create_group(particles.get(), "needles", place).get(),
-                                          scene.needles.count, place);
+  const StepAndTime frames =
+      make_needles(create_group(particles.get(), "needles", place).get(), scene, place);
   make_totals(create_group(file, "observables", place).get(), frames, place);
   const Handle series = create_group(file, "series", place);
   make_totals(series.get(), make_step_and_time(series.get(), place), place);
