@@ -48,6 +48,28 @@ struct ParallelTuning {
   double least = PhasePlan::usual_least;  ///< collisions that make a phase worth sharing
 };
 
+/// Asks OpenMP for whole teams, and leaves its setting as found.
+class WholeTeams {
+ public:
+  WholeTeams() : dynamic_(omp_get_dynamic()) { omp_set_dynamic(0); }
+  ~WholeTeams() { omp_set_dynamic(dynamic_); }
+  WholeTeams(const WholeTeams&) = delete;
+  WholeTeams& operator=(const WholeTeams&) = delete;
+
+ private:
+  int dynamic_;
+};
+
+/// How many threads there are when so many are asked for.
+inline int team_of(int threads) {
+  const WholeTeams whole;
+  int team = 0;
+#pragma omp parallel num_threads(threads)
+#pragma omp single
+  team = omp_get_num_threads();
+  return team;
+}
+
 template <Search S, Model M>
 class ParallelLoop final : public EventLoop<S, M> {
   using Base = EventLoop<S, M>;
@@ -92,10 +114,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
       cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
       phase_(run, search_, cell_calendar_, threads, tuning.sight),
       plan_(run.gas.clock, tuning.least) {
-  int team = 0;
-#pragma omp parallel num_threads(threads)
-#pragma omp single
-  team = omp_get_num_threads();
+  const int team = team_of(threads);
   if (team != threads) {
     throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
                      std::to_string(team) +
@@ -165,19 +184,22 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   [[maybe_unused]] const Time base = search_.hulls().base;
   const TimeKey end_key = cell_calendar_.key_of(end);
   const int threads = static_cast<int>(threads_.size());
-#pragma omp parallel num_threads(threads)
   {
-    if (omp_get_num_threads() == threads) {
-      const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
-      try {
-        threads_[zone].work(end_key);
-      } catch (...) {
-        // Whatever it was, one thread will come to it, if it is so, with all that was before.
+    const WholeTeams whole;
+#pragma omp parallel num_threads(threads)
+    {
+      if (omp_get_num_threads() == threads) {
+        const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
+        try {
+          threads_[zone].work(end_key);
+        } catch (...) {
+          // Whatever it was, one thread will come to it, if it is so, with all that was before.
+          phase_.amiss = true;
+        }
+        phase_.claims.drop(zone);
+      } else {
         phase_.amiss = true;
       }
-      phase_.claims.drop(zone);
-    } else {
-      phase_.amiss = true;
     }
   }
   assert(search_.hulls().base == base);  // which no thread may change for the others
