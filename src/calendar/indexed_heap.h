@@ -1,4 +1,4 @@
-// A calendar as an indexed 4-ary heap: an event is replaced where it stands.
+// A calendar as an indexed 4-ary heap, in which events are replaced in place.
 #pragma once
 
 #include "src/calendar/calendar.h"
@@ -6,7 +6,7 @@
 
 namespace needlework {
 
-/// `set` is O(log n), `top` O(1). 84 bytes a needle.
+/// `set` is O(log n), `top` O(1). 84 bytes per needle.
 class IndexedHeap {
  public:
   static constexpr const char* name = "indexed-heap";

@@ -7,8 +7,8 @@
 
 namespace needlework {
 
-/// `set` is O(log n), and O(1) on average for an event that does not come up next; `top` O(1).
-/// 74 bytes a needle.
+/// `set` is O(log n), and O(1) on average for an event that does not become the next one. `top` is
+/// O(1). 74 bytes per needle.
 class Tournament {
  public:
   static constexpr const char* name = "tournament";
