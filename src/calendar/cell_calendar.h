@@ -33,7 +33,6 @@ class CellCalendar {
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};
 
-  CellCalendar(std::size_t n, const Clock& clock) : CellCalendar(n, clock, (n + 15) / 16) {}
   /// With so many blocks, over which the needles are spread by index until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
       : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
@@ -60,8 +59,6 @@ class CellCalendar {
     return i;
   }
 
-  void set(const Event& event) { set(event, block_of(event.owner)); }
-  /// As set(event), for an owner who is in this block now.
   void set(const Event& event, Block block) {
     changed_.clear();
     put(event, block, changed_);

@@ -17,7 +17,7 @@ class LazyHeap {
  public:
   static constexpr const char* name = "lazy-heap";
 
-  LazyHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), version_(n) {
+  LazyHeap(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock), version_(n) {
     rebuild();
   }
 
@@ -29,7 +29,7 @@ class LazyHeap {
   std::size_t entries() const { return heap_.size(); }
 
   Needle likely_next() const { return top().owner; }
-  void set(const Event& event, BlockIndex = 0) {
+  void set(const Event& event, BlockIndex) {
     events_.put(event);
     heap_.push({event, ++version_[event.owner]});
     if (heap_.size() > 2 * version_.size() + 8) rebuild();

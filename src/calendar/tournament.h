@@ -13,7 +13,7 @@ class Tournament {
  public:
   static constexpr const char* name = "tournament";
 
-  Tournament(std::size_t n, const Clock& clock, std::size_t = 1)
+  Tournament(std::size_t n, const Clock& clock, std::size_t)
       : events_(n, clock), tree_(n, events_.key_of(Time::never())) {}
 
   bool empty() const { return events_.size() == 0; }
@@ -25,7 +25,7 @@ class Tournament {
     return i;
   }
 
-  void set(const Event& event, BlockIndex = 0) {
+  void set(const Event& event, BlockIndex) {
     tree_.update(
         event.owner.index, events_.put(event),
         [&](std::uint32_t a, std::uint32_t b) { return events_.before(Needle(a), Needle(b)); },
