@@ -31,13 +31,13 @@ class BucketCalendar {
   static constexpr const char* name = "bucket";
   static constexpr bool by_block = false;
 
-  BucketCalendar(std::size_t n, const Clock& clock, std::size_t = 1);
+  BucketCalendar(std::size_t n, const Clock& clock, std::size_t);
 
   bool empty() const { return events_.size() == 0; }
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex = 0);
+  void set(const Event& event, BlockIndex);
 
   /// Number of events in heap, buckets and list, replaced ones included.
   std::size_t entries() const { return heap_.size() + filed_ + far_.size(); }

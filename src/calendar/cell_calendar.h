@@ -35,7 +35,6 @@ class CellCalendar {
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};
 
-  CellCalendar(std::size_t n, const Clock& clock) : CellCalendar(n, clock, (n + 15) / 16) {}
   /// Makes this number of blocks. Needles are distributed over them by index until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
       : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
@@ -62,8 +61,6 @@ class CellCalendar {
     return i;
   }
 
-  void set(const Event& event) { set(event, block_of(event.owner)); }
-  /// As set(event), for an owner that is in this block now.
   void set(const Event& event, Block block) {
     changed_.clear();
     put(event, block, changed_);
