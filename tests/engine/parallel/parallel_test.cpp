@@ -1,4 +1,4 @@
-// Runs on several threads are those on one, bit for bit, to the last collision.
+// Runs on several threads equal those on one, bit for bit, up to the last collision.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// Who runs when is up to the system, so a run is repeated, above all where threads give way to each
-// other at random.
+// The system decides which thread runs when, so a run is repeated, above all in builds in which
+// threads yield at random.
 TEST(Parallel, IsTheSameEveryTime) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
@@ -88,8 +88,8 @@ TEST(Parallel, IsTheSameEveryTime) {
   }
 }
 
-// Stretches of one thread may lie between phases of several, in which a gas cools: what was fast
-// then is not what is fast now.
+// Between phases of several threads one thread may work alone while the gas cools. The largest
+// speed of the last phase must then not be used unscaled.
 TEST(Parallel, GoesOnTogetherAfterALongTimeAlone) {
   Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
   const int steps = thin > 1 ? 20 : 100;
@@ -153,7 +153,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
   }
 }
 
-// An end by energy cannot be foreseen: the phase in which it lies is undone.
+// A limit on energy cannot be foreseen, so the phase that passes it is undone.
 TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   scene.engine.threads = 2;
@@ -162,8 +162,8 @@ TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   EXPECT_GE(simulation.counters().redone, 1u);
 }
 
-// The limit is a number of collisions and a bit: one more is needed, and no time is left for a
-// phase.
+// The limit is slightly above a number of collisions: one more is needed, and no time is left for
+// a phase.
 TEST(Parallel, EndsAtTheNextCollision) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   std::size_t with_a_bit = 0;
@@ -240,7 +240,7 @@ TEST(Parallel, StaysTogetherInTimeInALongBox) {
   EXPECT_LE(counters.redone, counters.phases / 4);
 }
 
-// Scenes so small that usually one thread does them alone.
+// Scenes so small that usually one thread processes them alone.
 TEST(Parallel, FewNeedlesToo) {
   for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
                         Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},
