@@ -1,4 +1,4 @@
-// Tests of the public interface of a simulation.
+// The simulation as a client sees it.
 #include "needlework/simulation.h"
 
 #include <gtest/gtest.h>
@@ -205,7 +205,7 @@ TEST(Simulation, GivesAWrappedStateWithImages) {
   EXPECT_GT(crossed, 100);
 }
 
-// Unwrapped centres move by v dt between two copies, no matter when they are wrapped.
+// Unwrapped centres move by v dt between looks, whatever is wrapped when.
 TEST(Simulation, MovesCentresWithTheirVelocities) {
   const Scene scene = test::scene_of(30, 3);
   Simulation simulation(scene);

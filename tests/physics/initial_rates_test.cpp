@@ -67,7 +67,7 @@ Rates measure(const Gas& gas, double time) {
   scene.collisions.beta = gas.needles.beta;
   Scene::Until until;
   until.time = time;
-  until.collisions_per_needle = 1;  // more than ten times the expected number
+  until.collisions_per_needle = 1;  // ten times what is expected, and more
   Rates out;
   Mean collisions, t_tr, t_rot, energy;
   for (int run = 0; run < gas.runs; ++run, ++scene.needles.seed) {
@@ -118,7 +118,7 @@ TEST_P(InitialRates, AreExact) {
   const double gamma = 2.0 / 3.0 * std::sqrt(std::numbers::pi) * gas.density;
   const double time = gas.duration / rate;
 
-  // The theory's mean over the run, less its value at the start.
+  // What the theory says of the mean over the run, less what it says of its start.
   const std::array taus{gamma * time};
   const Temperatures slope = theory::cooling_rates(gas.needles, start);
   const Temperatures end = theory::cooling_curve(gas.needles, start, taus)[0];

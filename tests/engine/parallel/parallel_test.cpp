@@ -118,8 +118,8 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_EQ(simulation.queue(), "cell-calendar");
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
-  EXPECT_GT(counters.foreign, 10u);  // collisions over the border
-  EXPECT_GT(counters.sorts, 0u);     // which divides the box anew
+  EXPECT_GT(counters.foreign, 10u);  // collisions across the border
+  EXPECT_GT(counters.sorts, 0u);     // after which the box is divided again
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {
@@ -178,8 +178,8 @@ TEST(Parallel, EndsAtTheNextCollision) {
   EXPECT_GT(with_a_bit, 30u);
 }
 
-// Called for short times on end, as the program does, a run does not try what was undone anew; and
-// needles that slide, with many more collisions than in thermal flight, make no endless phase.
+// A run that is advanced in many short calls does not repeat attempts that were undone. Needles
+// that slide, with many more collisions than in thermal flight, do not lead to an endless phase.
 TEST(Parallel, UndoesAPhaseOnlyOnce) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
@@ -201,13 +201,13 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   const Counters& counters = seen->counters();
   EXPECT_GT(counters.phases, 2u);
   EXPECT_LE(counters.redone, 3u);
-  // Each of 2^15 collisions at most, or twice that in vain.
+  // Each phase has at most 2^15 collisions, or twice that if it is undone.
   EXPECT_LE(counters.events, 2 * truth->counters().events);
 }
 
-// In rare gases a mean free time is longer than the times that the search can tell in float: phases
-// end before it has to begin them anew. Each end by energy undoes one, which is only right if what
-// the search knows of needles that were not put back is right at the time before.
+// In dilute gases a mean free time is longer than the times that the search can store in float, so
+// phases end before it has to rebase them. Each limit on energy undoes a phase. That is correct
+// only if the search's data of needles that were not restored hold at the earlier time as well.
 TEST(Parallel, RareGasesAreUndoneRightly) {
   const Scene scene =
       scene_of({"", 130, {1763.7097770949067, 2.01, 2.01}, 0.95, 0.0945871625986503, 1e-3, 6, 0});
@@ -228,8 +228,8 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   }
 }
 
-// Where zones hardly touch, nothing but a look at each other's clocks keeps threads so near in time
-// that it can be told who may have met.
+// If zones hardly touch, only the check of each other's times keeps threads so close in time that
+// it can be decided which needles may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;

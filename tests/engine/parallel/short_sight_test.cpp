@@ -1,5 +1,5 @@
-// Events processed in the wrong order are detected and undone. To produce some, these loops look
-// for earlier events within a shorter distance than they should.
+// Events done in the wrong order are found, and undone. To have some, these loops look less far for
+// earlier events than they should.
 #include <gtest/gtest.h>
 
 #include "needlework/initial_state.h"
@@ -16,7 +16,7 @@ Scene::Until mean_collisions(double mean) {
   return until;
 }
 
-// The fraction of phases that were undone. The trajectory is correct in any case.
+// How many of the phases were undone. The trajectory is right in any case.
 template <class Search>
 double redone(const Scene& scene, int threads, double sight, const Scene::Until& until,
               const std::string& truth) {
@@ -45,7 +45,7 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   }
 }
 
-// Here hardly anything else detects it.
+// Here hardly any other sign tells of it.
 TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
   const Scene::Until until = mean_collisions(12);
   const Scene scene = test::scene_of(2000, 5, 3);
