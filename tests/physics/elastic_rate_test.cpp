@@ -32,8 +32,8 @@ constexpr double collisions = 1.5e5, largest_error = 0.005;
 #endif
 constexpr int runs = 40;
 
-// Collisions per needle and unit time relative to the exact rate, from `runs` runs with about
-// `collisions` collisions together. A drawn state is in equilibrium, so no run has to equilibrate.
+// Collisions per needle and unit time over the exact rate, from `runs` runs of about `collisions`
+// collisions in all. A drawn state is one of the equilibrium, so none has to settle.
 Measured rate_over_exact(Scene scene) {
   const double count = static_cast<double>(scene.needles.count);
   const auto& box = scene.needles.box;

@@ -73,8 +73,8 @@ std::vector<SearchChoice> search_choices() {
     add(LinkedCells::name, isa, chosen, chosen);
     add(Capsules::name, isa, chosen, chosen);
   }
-  // Needles in small cells are found from several cells away, and large cells hold chains of
-  // blocks. Capsules may be thinner or thicker than the distance of needles.
+  // Small cells are seen from several cells away, wide ones hold chains of blocks; capsules may be
+  // thinner and thicker than needles are apart.
   for (const double side : {0.4, 1.0, 2.5}) add(LinkedCells::name, sets.back(), side, chosen);
   for (const double radius : {0.01, 0.3, 1.5}) add(Capsules::name, sets.back(), chosen, radius);
   add(Capsules::name, sets.back(), 0.4, 0.1);

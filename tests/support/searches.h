@@ -1,5 +1,5 @@
-// Every search, with every instruction set of this machine and some given sizes: behind one
-// interface for tests of the searches alone, and as keys of a scene.
+// Every search there is, with every instruction set of this machine and some sizes set by hand:
+// behind one interface for tests of the searches alone, and as keys of a scene.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@
 
 namespace needlework::test {
 
-/// A search by its name and its parameters.
+/// A search by its name, and what it is asked for.
 struct SearchChoice {
   std::string search;
   SearchSetup setup;
 
-  /// For names of tests: "capsules_avx2_radius_0p3".
+  /// As a test may be named: "capsules_avx2_radius_0p3".
   std::string name() const;
-  /// Whether the search uses SIMD with this setup's instruction set.
+  /// True for those that compute with this setup's instruction set.
   bool by_lanes() const;
   void apply(Scene& scene) const;
 };
@@ -33,7 +33,7 @@ inline void PrintTo(const SearchChoice& choice, std::ostream* out) { *out << cho
 /// All-pairs first.
 std::vector<SearchChoice> search_choices();
 
-/// The interface of a search, whatever its type.
+/// A search as src/search/all_pairs.h describes it, its type forgotten.
 class AnySearch {
  public:
   using Visit = std::function<double(Needle, const Shift&, double from, double to)>;

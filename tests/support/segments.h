@@ -1,4 +1,4 @@
-// Closest approach of two segments of length 1 by a slow and reliable method.
+// Closest approach of two segments of length 1, the slow and sure way.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,7 @@ struct NearestPoints {
   Vec3d gap;  ///< from the point on the second segment to that on the first
 };
 
-/// In many digits: from a tip of one and the nearest point of the other, or from two interior
-/// points.
+/// In many digits: a tip of one and the nearest point of the other, or two points within both.
 inline NearestPoints nearest_points(const Vec3d& r1, const Vec3d& u1, const Vec3d& r2,
                                     const Vec3d& u2) {
   using V = Vec3<Quad>;
