@@ -1,9 +1,9 @@
-// The calendars by themselves: time per event that is popped and replaced.
+// Measures calendars by themselves: the time for each event that is taken out and replaced.
 //
-// hold: the least event is replaced and that of one other needle, anywhere.
-// mix: what the engine does. A needle's next event is a horizon, at most a cell's flight ahead,
-// every other time (48 % of events dilute, 54 % dense), else a contact with a needle near it in
-// storage, which replaces both.
+// hold: replaces the earliest event, and the event of one other needle, chosen at random. mix:
+// follows the engine. In every other event (48 % of them in a dilute gas, 54 % in a dense one) a
+// needle's next event is a horizon, at most a cell's flight ahead. Otherwise it is a contact with
+// a needle near it in storage, which replaces the events of both.
 //
 // Names are MODEL/CALENDAR/NEEDLES; an iteration is an event.
 #include <benchmark/benchmark.h>
@@ -39,11 +39,11 @@ class Random {
   std::uint64_t state_ = 1;
 };
 
-// All times are in the first epoch, so that the clock's arithmetic is not what is measured.
+// All times are in the first epoch, so that the arithmetic of times is not measured.
 const Clock clock_of_play(0x1p40);
 Time later(Time now, double ahead) { return {now.epoch, now.offset + ahead}; }
 
-// Drawn beforehand, for the same reason.
+// Drawn beforehand, so that drawing is not measured either.
 const std::vector<double>& exponentials() {
   static const std::vector<double> drawn = [] {
     std::vector<double> x(1 << 16);

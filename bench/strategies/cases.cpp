@@ -25,7 +25,7 @@ struct Parts {
   bool operator==(const Parts&) const = default;
 };
 
-// The paper's own method: cells of side about L with linked lists, no lanes, a heap.
+// The method of the original paper: cells of side about L with linked lists, no SIMD, a heap.
 const Parts baseline{"linked-lists", "indexed-heap", "scalar"};
 
 std::string widest() { return cli::instruction_sets().back(); }
@@ -61,7 +61,7 @@ Case make_case(const GasScene& gas, const Parts& parts) {
   return out;
 }
 
-// Each gas by the baseline and by all others.
+// Each gas with the baseline and with all other parts.
 std::vector<Case> product(const std::vector<GasScene>& gases, const std::vector<Parts>& others) {
   std::vector<Case> out;
   for (const GasScene& gas : gases) {
@@ -93,7 +93,7 @@ std::vector<Parts> all_instruction_sets() {
   return out;
 }
 
-// From the baseline to the default, one part after the other.
+// From the baseline to the default, changing one part at a time.
 std::vector<Parts> all_steps() {
   return {{"auto", baseline.queue, baseline.isa},
           {"auto", baseline.queue, widest()},
@@ -124,7 +124,7 @@ std::vector<Case> by_size() {
   return product(gases, {searched_by("auto")});
 }
 
-// Every search by lanes with every queue.
+// Every search with SIMD, with every calendar.
 std::vector<Case> by_all() {
   std::vector<GasScene> gases;
   for (const std::uint64_t needles : {1000, 10000, 100000}) {
@@ -141,13 +141,14 @@ std::vector<Case> by_all() {
   return product(gases, parts);
 }
 
-// Needles drawn at random places, and so stored by id in no order at all.
+// Needles at random positions, which storage by id leaves in random order.
 std::vector<Case> by_storage() {
   return product({gas_of(10000, 0.72), gas_of(100000, 0.72), gas_of(1000000, 0.72)},
                  {searched_by("auto"), {"auto", "auto", widest(), "by-id"}});
 }
 
-// Sizes by hand around those chosen, for rods and for masses at the tips and at the centre.
+// Given sizes around the chosen ones, for uniform rods and for masses at the tips and at the
+// centre.
 std::vector<Case> by_hulls() {
   std::vector<Case> out;
   for (const double k : {2.0, 6.0, 100.0}) {
@@ -167,7 +168,7 @@ std::vector<Case> by_hulls() {
 }
 
 std::vector<Case> by_effects() {
-  // Inelastic needles without the t_c rule would end in the collapse of a pair.
+  // Without the t_c rule a pair of inelastic needles would collapse.
   const Scene::Collisions elastic, rough{.beta = 0, .tc = {}, .tc_relative = {}},
       inelastic{.epsilon = 0.9, .tc = {}, .tc_relative = 1e-3},
       all{.epsilon = 0.9, .beta = 0, .tc = {}, .tc_relative = 1e-3};
@@ -178,7 +179,8 @@ std::vector<Case> by_effects() {
                  {searched_by("auto")});
 }
 
-// A cloud of 37 needles to L^3 in a box of 0.064: with cells for what the box holds, and as chosen.
+// A cloud of density 37 in a box of density 0.064: with cells suited to the mean density, and with
+// the chosen size.
 std::vector<Case> by_cloud() {
   const GasScene gas{"cloud", 8000, 50};
   std::vector<Case> out = product({gas}, {searched_by("linked-cells"), searched_by("auto")});
@@ -187,7 +189,7 @@ std::vector<Case> by_cloud() {
   return out;
 }
 
-// Is over at once; for trying things out.
+// Finishes at once, to try things out.
 std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("auto")}); }
 
 }  // namespace

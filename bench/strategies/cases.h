@@ -1,4 +1,4 @@
-// What is measured: scenes and the parts of the engine that run them, in named subsets.
+// The measured cases: scenes and the parts of the engine that run them, in named subsets.
 #pragma once
 
 #include <string>
@@ -8,26 +8,26 @@
 
 namespace needlework::bench {
 
-/// One scene, run by one choice of the engine's parts.
+/// One scene, run with one choice of the engine's parts.
 struct Case {
   std::string scene_name;
   Scene scene;
-  double filled = 1;  ///< share of each edge of the box that needles begin in
+  double filled = 1;  ///< fraction of each edge of the box in which needles start
   bool is_baseline = false;
 
-  /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for, and what else is.
+  /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for, and other settings.
   std::string name() const;
 };
 
 struct Subset {
   std::string name, what;
-  std::vector<Case> (*cases)();  ///< by scene, each time the baseline first
+  std::vector<Case> (*cases)();  ///< ordered by scene, the baseline of each first
 };
 
-/// Those on offer; the first is the one that is meant when none is named.
+/// All subsets; the first one is the default.
 const std::vector<Subset>& subsets();
 
-/// Throws InputError, naming all, if there is none of this name.
+/// Throws InputError, listing all names, for an unknown name.
 const Subset& subset_of(const std::string& name);
 
 }  // namespace needlework::bench

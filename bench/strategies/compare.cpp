@@ -81,7 +81,7 @@ std::vector<std::string> unlike(const Results& before, const Results& after) {
 Comparison compare(const Results& before, const Results& after) {
   Comparison out;
   out.json = Json::array();
-  // The name of a case has a line of its own, so that long ones leave room for the numbers.
+  // The name of a case has a line of its own, so that long names fit.
   out.text = fmt::format("case\n{:>14} {:>9} {:>10} {:>10} {:>9} {:>21}  {}\n", "old us", "new us",
                          "old/base", "new/base", "change", "95 %", "verdict");
   for (const CaseResult& now : after.cases) {

@@ -20,7 +20,7 @@ namespace {
 
 using Text = std::array<char, 256>;
 
-// A sample as it goes through a pipe, with what went wrong if anything did.
+// A sample as it is sent through a pipe, with an error message if there is one.
 struct Message {
   double setup_s, cpu_s;
   std::uint64_t collisions, bytes;
@@ -91,7 +91,8 @@ Message measure_here(const Case& what, double min_time) {
   } catch (const std::exception& error) {
     message.error = text_of(error.what());
   }
-  const ssize_t written = write(pipe, &message, sizeof message);  // less than a pipe holds
+  const ssize_t written = write(pipe, &message, sizeof message);  // smaller than the capacity of a
+                                                                  // pipe
   _exit(written == sizeof message ? 0 : 1);
 }
 

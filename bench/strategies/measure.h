@@ -27,22 +27,24 @@ inline constexpr CounterName counter_names[] = {{"events", &Counters::events},
 
 /// One repetition of a case.
 struct Sample {
-  double setup_s = 0;            ///< CPU time until the first event can happen [s]
+  double setup_s = 0;            ///< CPU time until the first event can be processed [s]
   double cpu_s = 0;              ///< CPU time of the event loop [s]
-  std::uint64_t collisions = 0;  ///< in that time
-  Counters counters;             ///< of the same
-  std::uint64_t bytes = 0;       ///< most memory that the simulation held, set-up included
+  std::uint64_t collisions = 0;  ///< in cpu_s
+  Counters counters;             ///< in cpu_s
+  std::uint64_t bytes = 0;       ///< largest memory of the simulation, set-up included
   std::string search, queue, effects;
-  std::string warm_up_hash;  ///< of the trajectory up to where the clock starts
+  std::string warm_up_hash;  ///< trajectory hash when the measurement starts
 };
 
-/// Collisions per needle before the clock starts, and at least after. All needles are placed at the
-/// start, so that for nearly the first of these they leave their hulls too seldom.
+/// Collisions per needle before the measurement starts, and the least number in it. All needles
+/// are placed at the start, so during most of the first ones they leave their bounding volumes too
+/// rarely.
 inline constexpr double warm_up = 1, stretch = 0.5;
 
-/// Measures stretches until they have taken `min_time` seconds of CPU time; the collisions are the
-/// same each time but for their number. The process is forked, so that memory is its own and caches
-/// are as others have left them. Throws InvalidStateError when it fails.
+/// Measures stretches until they have used `min_time` seconds of CPU time. Repetitions have the
+/// same collisions, except for their number. The process is forked, so that its memory is
+/// separate; caches are as other processes have left them. Throws InvalidStateError if the
+/// measurement fails.
 Sample measure(const Case& what, double min_time);
 
 }  // namespace needlework::bench

@@ -21,7 +21,7 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw InputError(what);
 }
 
-// Far less than repetitions differ by, and short in a file.
+// Five digits are more precise than repetitions are, and short in a file.
 double five_digits(double x) { return std::stod(fmt::format("{:.5g}", x)); }
 
 // Three digits, in at most four characters up to 9999.

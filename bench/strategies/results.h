@@ -1,4 +1,5 @@
-// What measuring a subset gives: as a table, as JSON, and as a compact file that can be read again.
+// The results of measuring a subset: as a table, as JSON, and as a compact file that can be read
+// again.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,14 +10,14 @@
 
 namespace needlework::bench {
 
-/// One case. A compact file keeps name, is_baseline and us_per_collision.
+/// One case. A compact file stores name, is_baseline and us_per_collision.
 struct CaseResult {
   std::string name;  ///< of the case; begins with the name of its scene and '/'
   bool is_baseline = false;
   /// CPU time of the event loop [us], one value for each repetition, to five digits.
   std::vector<double> us_per_collision;
   std::string warm_up_hash;
-  /// All else that was measured, for --json alone; empty in results that were read.
+  /// All other measured values, for --json only; empty in results that were read from a file.
   nlohmann::ordered_json details = nlohmann::ordered_json::object();
 
   std::string scene() const;
@@ -36,28 +37,29 @@ struct Results {
 /// The text at this key, "?" if there is none.
 std::string about_text(const nlohmann::ordered_json& about, const char* key);
 
-/// Time of the case over that of its baseline, by repetition.
+/// Time of the case divided by that of its baseline, for each repetition.
 std::vector<double> relative_costs(const Results& results, const CaseResult& result);
 
 double median(std::vector<double> values);
 
-/// What is known of a case before it is measured.
+/// The result of a case before it is measured.
 CaseResult empty_result(const Case& one);
 
-/// Adds a repetition. Throws InvalidStateError if its trajectory is not that of those before.
+/// Adds a repetition. Throws InvalidStateError if its trajectory differs from that of previous
+/// ones.
 void add_sample(CaseResult& result, const Sample& sample);
 
-/// All that was measured.
+/// All measured values.
 nlohmann::ordered_json json_of(const Results& results);
 
-/// What read_results needs, and what says where it is from; one line for each case.
+/// The data for read_results and the origin of the results; one line for each case.
 std::string compact_text(const Results& results);
 
-/// Throws IoError for a file that cannot be read, and InputError for one without the content of
-/// compact_text.
+/// Throws IoError for a file that cannot be read, and InputError for one that compact_text has not
+/// written.
 Results read_results(const std::string& file);
 
-/// A table for people, one line for each case. Needs no more than a compact file has.
+/// A table for readers, one line for each case. The content of a compact file is enough.
 std::string table_of(const Results& results);
 
 }  // namespace needlework::bench

@@ -13,18 +13,18 @@ namespace needlework::audit {
 namespace {
 
 constexpr std::size_t most_listed = 100;
-/// Times may be off by this share of the flight, and four times the pair's condition limit.
+/// Times may be off by this fraction of the flight, plus four times the pair's condition limit.
 constexpr double relative_tolerance = 1e-12;
-/// A collision before its contact is early; without a contact in this share of the time in which
-/// the pair changes, there is none.
+/// A collision before its contact is early. Without a contact within this fraction of the time in
+/// which the pair changes, there is none.
 constexpr double early_reach = 0x1p-10;
-/// Needles that touch for longer than this share of that time, as far as rounding goes, may have
-/// come through each other in it.
+/// Needles that touch, to within rounding, for longer than this fraction of that time may have
+/// passed through each other.
 constexpr double longest_touch = 0x1p-10;
 
 Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
 
-// A good mixing function: the finaliser of SplitMix64.
+// A mixing function: the finaliser of SplitMix64.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
@@ -32,7 +32,7 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// With time in epochs.
+// The collision with times in epochs.
 Collision in_epochs(Collision collision, double epoch_length) {
   collision.offset /= epoch_length;
   collision.normal_velocity *= epoch_length;
@@ -76,7 +76,7 @@ Audit::Audit(const State& initial, const Setup& setup)
   has_collided_.assign(initial.size(), false);
 }
 
-// One that was interrupted before the first collision has nothing to go on from.
+// An audit that was interrupted before the first collision starts from the beginning.
 void Audit::resume(Checkpoint checkpoint) {
   if (checkpoint.tally.collisions > 0) resumed_ = std::move(checkpoint);
 }
@@ -106,7 +106,7 @@ Instant Audit::begin_of(Index i, Index j) const {
   return std::max(needles_[i].record.time, needles_[j].record.time);
 }
 
-// From the later of both records on.
+// Counted from the later of both records.
 Approach Audit::approach_of(Index i, Index j) const {
   const Record &a = needles_[i].record, &b = needles_[j].record;
   const Instant begin = std::max(a.time, b.time);
@@ -204,7 +204,7 @@ void Audit::check_order(const Instant& now, const Collision& collision) {
       now,
       {collision.first, collision.second, collision.shift[0], collision.shift[1],
        collision.shift[2]}};
-  // A collision may give rise to another at the same instant, with lower ids.
+  // A collision may cause another one at the same instant, with lower ids.
   const auto just_had = [&](std::uint32_t id) {
     const Index i = index_of(id);
     return has_collided_[i] && needles_[i].record.time == now;
@@ -228,7 +228,7 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
   }
 }
 
-// A relative contact time is in units that only the engine knows, so its word is taken.
+// A relative contact time is in units that only the engine knows, so its report is accepted.
 bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {
   if (!setup_.tc) return setup_.tc_relative && reported;
   for (const Index i : {a, b}) {
@@ -250,7 +250,7 @@ std::optional<Touch> Audit::take_touch(Index i, Index j) {
 
 namespace {
 
-// How the pair starts in this image, given its touch before.
+// How the pair's flight in this image starts, given its touch before.
 Start start_of(const Vector<double>& r, const std::optional<Touch>& touch) {
   if (!touch) return {};
   for (int axis = 0; axis < 3; ++axis) {
@@ -261,7 +261,7 @@ Start start_of(const Vector<double>& r, const std::optional<Touch>& touch) {
 
 }  // namespace
 
-// No contact of the pair until now.
+// Checks that the pair had no contact until now.
 void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (i > j) std::swap(i, j);
   if (!is_chosen(i, j)) return;
@@ -277,8 +277,8 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   });
 }
 
-// Of a pair that has collided now, before another collision of one of them: f goes on from 0, but
-// with another slope.
+// For a pair that has collided now, before another collision of one of its needles: f continues
+// from 0 with another slope.
 void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
   if (!(begin_of(i, j) == now)) return;
   const auto found = touches_.find(key_of(std::min(i, j), std::max(i, j)));
@@ -287,7 +287,7 @@ void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
   found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
 }
 
-// No contact until now, but for one now and here.
+// Checks that the pair had no contact until now, and has one now.
 void Audit::check_contact(Index a, Index b, const Instant& now) {
   ++tally_.checked;
   ++tally_.contacts;
@@ -314,7 +314,7 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   if (!met) report(Kind::spurious, a, b, now);
 }
 
-// By how much a contact at s may be off in time.
+// Uncertainty of the time of a contact at s.
 double Audit::tolerance(Pair& pair, double s) const {
   const Sample sample = pair.precise(s);
   return 4 * pair.limit(sample, s) / std::abs(sample.df) + relative_tolerance * std::abs(s) +
@@ -341,11 +341,11 @@ void Audit::check_apart(const Flown& flown) {
   bool undecided = false;
   for (auto finding = search.first(flown.encounter.begin, last); finding;
        finding = search.next(finding->end, last)) {
-    // What follows now may come first: the contact is due in the flight to come.
+    // An event at the same time may come first; the contact is then found in the next flight.
     const double early = finding->certain ? tolerance(pair, finding->end) : 0;
     if (to_the_end && finding->end >= duration - early) {
       const auto kind = finding->side != 0 ? Start::touching : Start::apart;
-      // Which counts as 0 if the contact is taken to be due, and was not.
+      // Counts as 0 if the contact is assumed to be due and was not.
       const double gap = pair.precise(duration).f;
       keep_touch(flown, {kind, finding->side, gap, std::abs(gap)});
       const bool brief = (finding->end - finding->begin) * pair.rate() < longest_touch;
@@ -383,11 +383,12 @@ void Audit::check_touching(const Flown& flown) {
       before = before->end < begin ? search.next(before->end, begin) : std::nullopt;
     }
   }
-  // This one. The touch in which the pair began is no other contact.
+  // The contact of this collision. The touch at which the pair started does not count.
   const bool at_start = begin <= 0 && start.kind != Start::apart;
   const int side = at_start ? start.side : search.sign(begin), after = search.sign(end);
   const int inside = search.on_needles(begin, end);
-  // Where f bends, it may not change sign within what its slope here says, though it vanishes now.
+  // If f is curved, it may vanish now without a change of sign within the range that its slope
+  // gives.
   const bool keeps_sign = side != 0 && side == after, off_contact = search.sign(duration) != 0;
   const bool none = !undecided && (inside < 0 || (keeps_sign && off_contact));
   const auto differs = [&](Kind kind, double s) {
@@ -405,7 +406,7 @@ void Audit::check_touching(const Flown& flown) {
   } else if (side == 0 || after == 0 || inside == 0 || keeps_sign) {
     undecided = true;
   }
-  // The needles stay on the side that they came from.
+  // The needles stay on the side from which they came.
   const double approaching = pair.precise(duration).df;
   if (!spurious) keep_touch(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
   settle(pair, undecided);

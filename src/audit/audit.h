@@ -1,9 +1,9 @@
-// The audit: checks a run, collision by collision, with physics of its own.
+// The audit: checks every collision of a run with an independent implementation of the physics.
 //
-// It gets the initial state and every collision, and follows each needle from one collision to the
-// next from the engine's own record, so that nothing is left to chaos. For each pair it certifies
-// that between their collisions the needles meet nowhere, and at each collision that they do.
-// Nothing of the engine's kernels, physics or search is used here.
+// It receives the initial state and every collision, and follows each needle from one collision to
+// the next. Each flight starts from the engine's own record, so that differences cannot grow by
+// chaos. For each pair it certifies that the needles do not touch between their collisions, and
+// that they touch at each collision. It uses nothing of the engine's kernels, physics or search.
 #pragma once
 
 #include <array>
@@ -27,76 +27,78 @@ inline constexpr std::array kinds = {Kind::missed, Kind::spurious,    Kind::late
                                      Kind::early,  Kind::wrong_order, Kind::wrong_rule};
 const char* name(Kind kind);
 
-/// A difference between the run and what the audit finds.
+/// A difference between the run and the result of the audit.
 struct Difference {
   Kind kind;
   double time = 0;  ///< of the collision, or of the contact that was missed [time]
-  std::uint32_t first = 0, second = 0;  ///< ids
+  std::uint32_t first = 0, second = 0;  ///< ids of the needles
 };
 
-/// What an audit has found so far.
+/// The results of an audit so far.
 struct Tally {
-  std::uint64_t collisions = 0;  ///< seen; order and rule are checked for each
-  std::uint64_t contacts = 0;    ///< of these, between pairs that are checked
-  std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either to the next
-  std::uint64_t escalated = 0;   ///< of these, such that needed more digits than double has
-  std::uint64_t undecided = 0;   ///< of these, such that depend on less than rounding can tell
+  std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
+  std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
+  std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
+                                 ///< next
+  std::uint64_t escalated = 0;   ///< flights that needed more digits than double has
+  std::uint64_t undecided = 0;   ///< flights whose result depends on less than rounding errors
   std::array<std::uint64_t, kinds.size()> differences{};
-  std::vector<Difference> listed;  ///< the first of the differences
+  std::vector<Difference> listed;  ///< the first differences
 
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
-  /// The share of collisions that may differ in this way, at most, with 95 % confidence: an upper
-  /// Poisson limit, 3 / n when none of n does. NaN without collisions.
+  /// Upper limit, with 95 % confidence, on the fraction of collisions that differ in this way: a
+  /// Poisson limit, 3 / n if none of n does. NaN without collisions.
   double bound95(Kind kind) const;
 };
 
-/// A pair at the end of a flight in which it came to touch.
+/// The state of a pair that touches at the end of a flight.
 struct Touch {
   Vector<double> r;  ///< r12
-  Start start;       ///< of its next flight
+  Start start;       ///< how its next flight starts
 };
 
-/// What an interrupted audit needs to go on.
+/// The data from which an interrupted audit continues.
 struct Checkpoint {
   Tally tally;
-  std::uint64_t fingerprint = 0;  ///< of the collisions so far
+  std::uint64_t fingerprint = 0;  ///< hash of the collisions so far
   std::unordered_map<std::uint64_t, Touch> touches;
 };
 
 struct Setup {
-  double epoch_length = 1;  ///< of the collisions' times; a power of two
+  double epoch_length = 1;  ///< unit of the collisions' times, a power of two
   Rule rule;
-  std::optional<double> tc;  ///< an absolute contact time, whose use can be checked
+  std::optional<double> tc;  ///< absolute contact time, whose use can be checked
   bool tc_relative = false;
-  double share = 1;        ///< of all pairs that are checked
-  std::uint64_t seed = 0;  ///< says which
+  double share = 1;        ///< fraction of all pairs that are checked
+  std::uint64_t seed = 0;  ///< selects these pairs
 };
 
 class Audit {
  public:
-  /// The state at time 0, as the engine has it, ids ascending.
+  /// `initial` is the state at time 0 as the engine has it, in order of id.
   Audit(const State& initial, const Setup& setup);
 
-  /// Takes up where another audit of the same run was interrupted: the collisions that it has
-  /// seen are to be added again and are not checked again.
+  /// Continues an interrupted audit of the same run. The collisions that it has seen must be added
+  /// again, and are not checked again.
   void resume(Checkpoint checkpoint);
   Checkpoint checkpoint() const;
 
-  /// The next collision. Throws InputError when an audit is resumed with collisions of another run.
+  /// Adds the next collision. Throws InputError if an audit is continued with collisions of
+  /// another run.
   void add(const Collision& collision);
-  /// The run has ended; checks the last flights, unless `stop` says so between two of them: then
-  /// false, and all is as before.
+  /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
+  /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
 
   const Tally& tally() const { return tally_; }
 
  private:
-  using Index = std::uint32_t;  // of needles, by ascending id
+  using Index = std::uint32_t;  // of needles, in order of id
 
-  // What two needles have flown since the later of their records, seen at one encounter.
+  // The motion of two needles since the later of their records, for one encounter.
   struct Flown {
-    Index first, second;  // ascending
+    Index first, second;  // in ascending order
     const Approach& approach;
     const Encounter& encounter;
     double duration;
@@ -106,7 +108,7 @@ class Audit {
   Index index_of(std::uint32_t id) const;
   bool is_chosen(Index i, Index j) const;
   double since_start(const Instant& time) const;
-  Instant begin_of(Index i, Index j) const;  ///< the later of both records
+  Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records
   Approach approach_of(Index i, Index j) const;
   void check_order(const Instant& now, const Collision& collision);
   void check_rule(Index a, Index b, const Instant& now, const Collision& collision);
@@ -133,7 +135,7 @@ class Audit {
   Tally tally_;
   std::uint64_t fingerprint_ = 0;
   std::optional<Checkpoint> resumed_;
-  double slack_ = 0;  ///< by which the end of the run may be off [epochs]
+  double slack_ = 0;  ///< uncertainty of the end time of the run [epochs]
 };
 
 }  // namespace needlework::audit

@@ -1,8 +1,8 @@
 // Interval arithmetic: a number is known to lie within `radius` of `middle`.
 //
-// Every operation rounds its middle and adds to the radius what that may have lost, so that the
-// exact result for any numbers in the operands lies in the result. Over- and underflow are out of
-// scope: nothing here comes near them.
+// Every operation rounds its middle and adds a bound on the rounding error to the radius, so that
+// the result contains the exact results for all numbers in the operands. Overflow and underflow
+// are not handled, because no number here is near them.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace needlework::audit {
 
-/// Bound on the relative error of one operation. Quad's is doubled, as its software may be off by
-/// more than half a unit.
+/// Bound on the relative error of one operation. It is doubled for Quad, whose software may be off
+/// by more than half a unit.
 template <class Real>
 inline constexpr double unit_roundoff = 0x1p-112;
 template <>
@@ -24,7 +24,7 @@ struct Ball {
   double radius = 0;
 
   Ball() : middle(0) {}
-  Ball(double exact) : middle(exact) {}  // numbers mix with balls
+  Ball(double exact) : middle(exact) {}  // implicit, so that numbers and balls can be mixed
   Ball(const Real& value, double off) : middle(value), radius(off) {}
 };
 
@@ -34,7 +34,7 @@ double magnitude(const Real& a) {
   using std::abs;
   return static_cast<double>(abs(a));
 }
-/// Radii are sums of a few doubles; this covers their roundings and those of conversions.
+/// Covers the rounding errors of radii, which are sums of a few doubles, and of conversions.
 inline constexpr double upward = 1 + 0x1p-49;
 inline constexpr double downward = 1 - 0x1p-49;
 
@@ -73,14 +73,14 @@ Ball<Real> operator*(const Ball<Real>& a, const Ball<Real>& b) {
                  magnitude(a.middle) * b.radius + (magnitude(b.middle) + b.radius) * a.radius);
 }
 
-/// b does not contain 0.
+/// b must not contain 0.
 template <class Real>
 Ball<Real> operator/(const Ball<Real>& a, const Ball<Real>& b) {
   const Real quotient = a.middle / b.middle;
   return rounded(quotient, (a.radius + magnitude(quotient) * b.radius) / lower(b));
 }
 
-/// a is positive, or exactly 0.
+/// a must be positive, or exactly 0.
 template <class Real>
 Ball<Real> sqrt(const Ball<Real>& a) {
   using std::sqrt;
@@ -89,8 +89,8 @@ Ball<Real> sqrt(const Ball<Real>& a) {
   return rounded(root, a.radius / magnitude(root) + unit_roundoff<Real> * magnitude(root));
 }
 
-/// The libraries' sine and cosine are taken to be right within 4 units, and as much for each radian
-/// that software without a long pi may lose.
+/// Sine and cosine of the libraries are assumed to be correct within 4 units, plus 4 for each
+/// radian, which software without a long pi may lose.
 template <class Real>
 double trigonometric_error(const Ball<Real>& angle) {
   return angle.radius + unit_roundoff<Real> * (4 + 4 * magnitude(angle.middle));

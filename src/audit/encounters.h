@@ -1,4 +1,4 @@
-// Which periodic images of two needles come within reach of each other, and when.
+// Finds which periodic images of two needles come within reach of each other, and when.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace needlework::audit {
 
-/// The relative motion of two centres, r + v t. Here and below doubles do, as what they lose is far
-/// less than the margin of the reach.
+/// The relative motion of two centres, r + v t. Doubles suffice here, because their rounding
+/// errors are far smaller than the margin of the reach.
 struct Approach {
   Vector<double> r, v;
 };
@@ -28,7 +28,7 @@ struct Encounter {
   double begin, end;
 };
 
-/// Needles touch when their centres are within 1; with a margin for rounding. [L]
+/// Needles can touch when their centres are within 1; includes a margin for rounding. [L]
 inline constexpr double reach = 1 + 0x1p-20;
 
 /// Calls `found` for each encounter in [0, duration].
@@ -37,9 +37,9 @@ void for_each_encounter(const Approach& approach, double duration, const std::ar
                         Found&& found) {
   const double flown = norm(approach.v) * duration;
   const double pieces = std::max(1.0, std::ceil(flown));
-  std::vector<Shift> seen;  // by more than one piece
+  std::vector<Shift> seen;  // images found in more than one piece of the flight
   for (double piece = 0; piece < pieces; ++piece) {
-    // The images whose centres are that near in the middle of the piece.
+    // The images whose centres are near enough in the middle of the piece.
     const double near = reach + 0.5 * flown / pieces + 0x1p-20;
     const double middle = (piece + 0.5) / pieces * duration;
     int first[3], last[3];

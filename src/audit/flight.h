@@ -1,4 +1,4 @@
-// Free flight of one needle since its last collision, in any arithmetic.
+// Free flight of one needle since its last collision, for any type of numbers.
 #pragma once
 
 #include <compare>
@@ -9,9 +9,9 @@
 
 namespace needlework::audit {
 
-/// The time epoch + offset, in units of the engine's epochs; speeds are per epoch. As the length of
-/// these is a power of two near the mean free time, nothing is rounded, and no scene comes near
-/// under- or overflow.
+/// The time epoch + offset in units of the engine's epochs; speeds are per epoch. The length of an
+/// epoch is a power of two near the mean free time, so nothing is rounded, and no scene comes near
+/// overflow or underflow.
 struct Instant {
   std::int64_t epoch = 0;
   double offset = 0;
@@ -24,20 +24,20 @@ Ball<Real> elapsed(const Instant& from, const Instant& to) {
   return Ball<Real>(epochs) + (Ball<Real>(to.offset) - Ball<Real>(from.offset));
 }
 
-/// A needle as it left its last collision; these numbers are taken as exact.
+/// A needle just after its last collision. These numbers are considered exact.
 struct Record {
   Instant time;
   Vector<double> r, v, u, w;
 };
 
-/// Centre, director and its rate of change at one time.
+/// Centre, director and the director's rate of change at one time.
 template <class T>
 struct Pose {
   Vector<T> r, u, du;
 };
 
-/// r(t) = r + v t, u(t) = u cos(omega t) + side sin(omega t). The director is made a unit vector
-/// and the angular velocity normal to it.
+/// r(t) = r + v t, u(t) = u cos(omega t) + side sin(omega t). The director is normalised and the
+/// angular velocity made normal to it.
 template <class T>
 struct Flight {
   Vector<T> r, v, u, side;

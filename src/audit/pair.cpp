@@ -8,7 +8,8 @@ namespace {
 
 /// Half a unit in the last place of 1.
 constexpr double half_unit = 0x1p-53;
-/// Of numbers below this, and products of them, the engine's pairs of doubles lose digits. [L]
+/// For numbers below this, and their products, the engine's double-double arithmetic loses digits.
+/// [L]
 constexpr double underflow = 0x1p-960;
 
 template <class Number>
@@ -73,8 +74,8 @@ Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const 
   if (start.kind == Start::collided) {
     const Sample e = precise(0);
     offset_ = e.f;
-    // Centres that lie near each other lose digits of their distance in new records, and with them
-    // f', which that turns.
+    // Centres close to each other lose digits of their separation vector in new records, which
+    // changes f'.
     const double rounding =
         space.rounding() * rate() + 4 * half_unit * (velocity_[0] + velocity_[1]);
     if (e.df * start.side < 0 && std::abs(e.df) <= rounding) slope_ = e.df;
@@ -103,9 +104,9 @@ Sample Pair::precise(double s) {
   return evaluate(first, second, delay, shift_, space_.box, offset_, slope_, s);
 }
 
-// f is the sum of (r12(0) + v12 s) . (a x b) c1(s) c2(s): a is the first needle's director in its
-// record when c1 is the cosine of its angle since then, and the direction that it turns to when c1
-// is the sine; b and c2 are the second's.
+// f is the sum of (r12(0) + v12 s) . (a x b) c1(s) c2(s). If c1 is the cosine of the first
+// needle's angle since its record, a is its director in the record; if c1 is the sine, a is the
+// direction to which it turns. The same holds for b, c2 and the second needle.
 void Pair::find_coefficients() {
   if (coefficients_) return;
   const auto& [first, second, delay] = in_quad();
@@ -144,8 +145,8 @@ double Pair::bend(double begin, double end, double distance) const {
 }
 
 Pair::Uncertainty Pair::uncertainty(double s) const {
-  // Lengths whose rounding counts: the separation at s = 0, with the way there of the older record,
-  // and the way since.
+  // Lengths whose rounding matters: the separation at s = 0, including the flight of the older
+  // record until then, and the flight since.
   Uncertainty out{0, {}, distance_ + speed_ * std::abs(s)};
   bool renewed = false;
   for (int i = 0; i < 2; ++i) {
@@ -167,7 +168,7 @@ double Pair::limit(const Sample& sample, double s, double half) const {
     sum += by.directors[i] * std::min(moment, sample.distance + speed_ * half);
   }
   sum += 2 * half_unit * by.lengths;
-  // What both evaluations share drops out of f(s) - f(0).
+  // Errors that both evaluations share cancel in f(s) - f(0).
   if (start_.kind == Start::collided) {
     sum *= std::min(1.0, 4 * rate() * (std::abs(s) + half));
   }

@@ -1,4 +1,4 @@
-// 113-bit numbers. quadmath.h lies in GCC's private folder, so other compilers take a slower type.
+// 113-bit numbers. quadmath.h is in GCC's private folder, so other compilers use a slower type.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -24,12 +24,12 @@ Vector3 solve(const std::array<Vector3, 3>& m, const Vector3& b) {
          Quad(1 / determinant);
 }
 
-/// The most by which components differ.
+/// The largest difference of components.
 double difference(const Vector3& a, const std::array<double, 3>& b) {
   double most = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double off = magnitude(Quad(a[axis] - b[axis]));
-    most = off <= most ? most : off;  // what is not a number stays
+    most = off <= most ? most : off;  // keeps NaN
     if (std::isnan(off)) return off;
   }
   return most;
@@ -38,7 +38,7 @@ double difference(const Vector3& a, const std::array<double, 3>& b) {
 /// A needle at the moment of the collision.
 struct Partner {
   Vector3 r, u, v, w;
-  double age_in_lengths, age_in_radians;  ///< how far it has flown and turned since its record
+  double age_in_lengths, age_in_radians;  ///< distance flown and angle turned since its record
 
   Partner(const Needle& needle, const Instant& now) {
     const Flight<Number> flight(needle.record);
@@ -102,8 +102,8 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const Vector3 turn_first = cross(a.u, impulse) * Quad(inverse_inertia * s12);
   const Vector3 turn_second = cross(b.u, impulse) * Quad(inverse_inertia * s21);
 
-  // What rounding explains: half units of centres and directors, more of them the farther the
-  // needles came; the arms and the normal lose digits near parallel.
+  // Errors that rounding explains: half units of centres and directors, which grow with the
+  // distance flown. The arms and the normal lose digits near parallel directors.
   constexpr double unit = 0x1p-53;
   const double flown = a.age_in_lengths + b.age_in_lengths;
   const double turned = a.age_in_radians + b.age_in_radians;
@@ -112,14 +112,15 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const double stiffness = 2 + rule.k;
   const double geometry = flexible + (renewed ? space.rounding() / magnitude(sine) : 0);
   Excess excess;
-  // Renewals wrap centres, and the shift with them.
+  // Renewals wrap centres, and the shift changes with them.
   excess.add(right_image || renewed ? 0 : NAN, 1);
   excess.add(magnitude(Quad(s12 - collision.arm_first)), geometry);
   excess.add(magnitude(Quad(s21 - collision.arm_second)), geometry);
   excess.add(magnitude(Quad(sine - collision.sin_angle)), geometry);
   excess.add(magnitude(Quad(vn - collision.normal_velocity)), stiffness * geometry * speed);
   excess.add(difference(impulse, collision.impulse), stiffness * geometry * speed);
-  // The impulse works at the mean of the relative velocities before and after it, M dp apart.
+  // The energy change is the impulse times the mean of the relative velocities before and after
+  // it, which differ by M dp.
   const Vector3 kick = mass[0] * impulse[0] + mass[1] * impulse[1] + mass[2] * impulse[2];
   const Quad energy = dot(impulse, velocity + kick * Quad(0.5));
   excess.add(magnitude(Quad(energy - collision.energy_change)),

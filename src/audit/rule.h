@@ -1,4 +1,4 @@
-// The collision rule, checked: where the needles are and how they move after a collision.
+// Checks of the collision rule: the positions of the needles and their motion after a collision.
 #pragma once
 
 #include "needlework/simulation.h"
@@ -6,15 +6,15 @@
 
 namespace needlework::audit {
 
-/// Parameters of the rule; m = L = 1.
+/// Parameters of the collision rule; m = L = 1.
 struct Rule {
   double epsilon = 1, beta = -1;
   double k = 6;
 };
 
-/// By how much the report of a collision and the needles' records after it differ from the rule, at
-/// most, in units of what rounding may explain: above 1, something is wrong. `first` and `second`
-/// are the needles before, `now` is the time of the collision. Speeds are per epoch.
+/// Largest difference of a reported collision and of the records after it from the rule, in units
+/// of what rounding may explain; a value above 1 is an error. `first` and `second` are the needles
+/// before, `now` is the time of the collision. Speeds are per epoch.
 double excess_over_rule(const Needle& first, const Needle& second, const Instant& now,
                         const Collision& collision, const Rule& rule, const Space& space);
 

@@ -6,24 +6,24 @@
 namespace needlework::audit {
 namespace {
 
-/// Stretches of a flight after which f is taken to be small everywhere, as it is for needles in
-/// nearly one plane, and bounded by its coefficients.
+/// Number of intervals of a flight after which f is assumed to be small everywhere, as for needles
+/// nearly in one plane, and is bounded by its coefficients.
 constexpr int patience = 32;
-/// Stretches of a flight after which the rest counts as doubtful.
+/// Number of intervals of a flight after which the rest counts as doubtful.
 constexpr int most_stretches = 10000;
-/// Bounds made of a few doubles are enlarged by this.
+/// Factor by which bounds computed from a few doubles are enlarged.
 constexpr double enlarged = 1 + 0x1p-40;
 
 int sign_of(double a) { return (a > 0) - (a < 0); }
 
 }  // namespace
 
-// Bound on |f''| over the stretch.
+// Bound on |f''| over the interval.
 double Search::bend(const Sample& sample, double s, double half) const {
   return pair_.bend(s - half, s + half, sample.distance + pair_.speed() * half) * enlarged;
 }
 
-// No contact in the stretch: f keeps its sign, or a contact point stays off its needle.
+// Whether the interval has no contact: f keeps its sign, or a contact point stays off its needle.
 bool Search::is_free(const Sample& e, double s, double half) const {
   const double change =
       ((std::abs(e.df) + e.df_error) + 0.5 * bend(e, s, half) * half) * half * enlarged;
@@ -38,7 +38,7 @@ bool Search::is_free(const Sample& e, double s, double half) const {
   return false;
 }
 
-// All of the stretch lies within the condition limit.
+// Whether all of the interval is within the condition limit.
 bool Search::is_noise(const Sample& e, double s, double half) const {
   const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
   return std::abs(e.f) + change <= 2 * pair_.limit(e, s);
@@ -48,7 +48,7 @@ bool Search::is_monotone(const Sample& e, double s, double half) const {
   return std::abs(e.df) > e.df_error + bend(e, s, half) * half * enlarged;
 }
 
-// In the arithmetic that the size of what is looked for asks for.
+// A sample in the arithmetic that the required precision needs.
 Sample Search::sample_of(double s, double half) {
   const Sample e = pair_.sample(s);
   const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
@@ -65,7 +65,7 @@ int Search::sign(double s) {
 int Search::on_needles(double begin, double end) {
   const double half = 0.5 * (end - begin), middle = begin + half;
   const double w = pair_.spin(), v = pair_.speed();
-  // Both margins are at least those at the ends, less what they can bend between.
+  // Both margins are at least those at the ends, less the bound on their change in between.
   const auto inside = [&](double s, const Sample& e) {
     const double reach = e.distance + 2 * v * half;
     const double bent = 0.5 * w * (2 * w + 4 * v + 4 * reach * w) * half * half * enlarged;
@@ -87,13 +87,14 @@ int Search::on_needles(double begin, double end) {
   return inside(begin, pair_.precise(begin)) && inside(end, pair_.precise(end)) ? 1 : 0;
 }
 
-// A pair that begins with f = 0 leaves it by f'(0). Sets `left` to where the search goes on.
+// A pair that starts with f = 0 leaves it with slope f'(0). Sets `left` to where the search
+// continues.
 std::optional<Finding> Search::leave_start(double to, double& left) {
   const int side = pair_.start().side;
   const Sample e = pair_.precise(0);
   const double slope = std::max(0.0, std::abs(e.df) - e.df_error);
   const double soon = 0.5 / pair_.rate(), curvature = bend(e, 0, soon);
-  // Until then f' keeps its sign and half its size.
+  // Until then f' keeps its sign and at least half its size.
   left = std::min({to, soon, slope / (2 * curvature)});
   const bool monotone = left > 0 && sign(left) != 0;
   if (!monotone) {
@@ -102,7 +103,7 @@ std::optional<Finding> Search::leave_start(double to, double& left) {
     return Finding{false, 0, left, side};
   }
   if (side == 0 || sign(left) == side) return std::nullopt;
-  // On to the other side at once.
+  // The pair crosses to the other side at once.
   const double across = 4 * pair_.limit(e, 0) / slope;
   const double end = across < left && sign(across) == -side ? across : left;
   const int inside = on_needles(0, end);
@@ -117,7 +118,7 @@ std::optional<Finding> Search::first(double from, double to) {
   return left < to ? next(left, to) : std::nullopt;
 }
 
-// The root in a stretch in which f is monotone, with certain signs at its ends.
+// The root in an interval in which f is monotone with certain signs at its ends.
 std::optional<Finding> Search::cross(const Stretch& stretch, int side) {
   double low = stretch.begin, high = stretch.end;
   double s = low + 0.5 * (high - low), width = 0;
@@ -145,7 +146,7 @@ std::optional<Finding> Search::cross(const Stretch& stretch, int side) {
   return Finding{inside > 0, low, high, side};
 }
 
-// Where to halve: not where the sign of f is open, if that can be helped.
+// Where to halve the interval: if possible, not where the sign of f is open.
 double Search::cut(const Stretch& stretch) {
   const double length = stretch.end - stretch.begin;
   for (const double share : {0.5, 0.4375, 0.546875}) {

@@ -1,10 +1,10 @@
-// Where two needles touch between their collisions: certified where numbers can tell, and where
-// not, said to be doubtful.
+// Finds where two needles touch between their collisions. The result is certified if the numbers
+// determine it, and otherwise reported as doubtful.
 //
-// A stretch of time is settled by its middle and bounds on derivatives: f keeps its sign; or one of
-// the contact points stays off its needle; or f is monotone, and its signs at both ends tell.
-// Others are halved. Doubles with certain errors do nearly all of that, 113 bits the rest, so that
-// what is left open lies within the pair's condition limit.
+// An interval of time is decided by a sample in its middle and bounds on derivatives: f keeps its
+// sign, or one contact point stays off its needle, or f is monotone and its signs at both ends
+// decide. Other intervals are halved. Double with certified errors decides nearly all of them, and
+// 113 bits the rest, so that what remains open is within the pair's condition limit.
 #pragma once
 
 #include <optional>
@@ -14,29 +14,30 @@
 
 namespace needlework::audit {
 
-/// A stretch of time in which the needles touch or may do so.
+/// An interval of time in which the needles touch or may touch.
 struct Finding {
-  bool certain = false;  ///< f changes sign, with both contact points on the needles; or may do so
+  bool certain = false;  ///< true: f changes sign with both contact points on the needles; false:
+                         ///< it may
   double begin = 0, end = 0;
-  int side = 0;  ///< sign of f before; 0 when that is open, or what has become of it
+  int side = 0;  ///< sign of f before; 0 if it is open
 };
 
 class Search {
  public:
   explicit Search(Pair& pair) : pair_(pair) {}
 
-  /// The first finding in [from, to]; a pair that begins touching is looked at from 0 on.
+  /// The first finding in [from, to]. A pair that starts touching is examined from 0 on.
   std::optional<Finding> first(double from, double to);
   /// The first finding in [from, to].
   std::optional<Finding> next(double from, double to);
 
   /// Sign of f, or 0 within twice the condition limit.
   int sign(double s);
-  /// Whether both contact points lie on the needles from `begin` to `end`, if f vanishes there:
-  /// 1 yes, -1 no, 0 within the condition limit.
+  /// Whether both contact points are on the needles from `begin` to `end` if f vanishes there: 1
+  /// yes, -1 no, 0 within the condition limit.
   int on_needles(double begin, double end);
 
-  int looked_at() const { return looked_at_; }  ///< stretches, so far
+  int looked_at() const { return looked_at_; }  ///< Number of intervals examined so far.
 
  private:
   struct Stretch {

@@ -1,4 +1,4 @@
-// Arrays of all needles, in pages so large that finding them takes little.
+// Arrays with an entry for each needle, in huge pages if possible.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace needlework {
 
-/// Asks the system for huge pages for what fills at least one: events jump all over the needles,
-/// and with 4 KiB pages each jump has to look up another. Where there are none, or they are
-/// forbidden, everything works as with small ones.
+/// Requests huge pages for arrays that fill at least one. Events access needles in random order,
+/// and with 4 KiB pages each access would need another address translation. Where huge pages are
+/// missing or forbidden, arrays use normal pages.
 template <class T>
 struct LargePages {
   using value_type = T;

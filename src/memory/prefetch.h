@@ -1,11 +1,11 @@
-// Asks for memory before it is needed. Has no effect but on time.
+// Requests memory before it is needed. Affects nothing but run time.
 #pragma once
 
 #include <cstddef>
 
 namespace needlework {
 
-/// Brings the cache lines of an object near.
+/// Prefetches the cache lines of an object.
 template <class T>
 void prefetch([[maybe_unused]] const T* object) {
 #ifdef __GNUC__

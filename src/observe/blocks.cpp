@@ -22,7 +22,7 @@ void BlockRate::add(double time) {
 
 BlockRate::Estimate BlockRate::estimate(double now) const {
   Estimate estimate;
-  // Without an event for long, there are more blocks than were ever counted in.
+  // After a long time without events there are more blocks than have counts.
   const double complete = std::floor(now / length_);
   if (!(complete >= 1)) return estimate;
   const auto counted = std::min(static_cast<std::size_t>(std::min(complete, 1e9)), counts_.size());

@@ -7,7 +7,7 @@
 namespace needlework {
 namespace {
 
-// The curve from theory on a logarithmic grid of tau, for inversion.
+// The theory's cooling curve on a logarithmic grid of tau, to be inverted.
 struct Curve {
   std::vector<double> tau, collisions, energy_ratio;
 
@@ -30,7 +30,8 @@ struct Curve {
     return {stop, tau[i], collisions[i], energy_ratio[i]};
   }
 
-  // Between points i - 1 and i, by powers of tau; before the first point, collisions grow with tau.
+  // Interpolates between points i - 1 and i by powers of tau. Before the first point, collisions
+  // are proportional to tau.
   Forecast between(std::size_t i, double weight, Stop stop) const {
     const auto mix = [&](const std::vector<double>& of, double start) {
       if (i == 0) return start + weight * (of[0] - start);
@@ -40,7 +41,8 @@ struct Curve {
   }
 };
 
-// Where `target` lies between two values, by powers; from the start (i = 0), by proportion.
+// The interpolation weight of `target` between two values: logarithmic, but linear for i = 0,
+// which is the start.
 double weight_of(double target, double before, double after) {
   if (before > 0) return std::log(target / before) / std::log(after / before);
   return target / after;

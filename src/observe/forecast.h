@@ -1,27 +1,27 @@
-// What kinetic theory expects of a run before it begins.
+// A forecast of a run by kinetic theory.
 #pragma once
 
 #include <optional>
 
 #include "needlework/scene.h"
-#include "needlework/theory.h"
 #include "needlework/stop.h"
+#include "needlework/theory.h"
 #include "needlework/totals.h"
 
 namespace needlework {
 
 /// Where a gas that stays homogeneous and Gaussian meets the first of its end conditions.
 struct Forecast {
-  Stop stop = Stop::time;            ///< the condition
+  Stop stop = Stop::time;            ///< the condition that is met
   double time = 0;                   ///< since the start of the run
-  double collisions_per_needle = 0;  ///< without those of the t_c rule
+  double collisions_per_needle = 0;  ///< without collisions by the t_c rule
   double energy_ratio = 1;           ///< E / E(0)
 };
 
-/// Time in units of the theory, tau / t = (2/3) sqrt(pi) n.
+/// Ratio tau / t = (2/3) sqrt(pi) n between the theory's time and the engine's.
 double theory_time_scale(double density);
 
-/// The forecast from these temperatures; none when no condition but wall_s is ever met.
+/// The forecast from these temperatures; empty if no condition but wall_s is ever met.
 std::optional<Forecast> forecast(const theory::Gas& gas, theory::Temperatures initial,
                                  double density, const Scene::Until& until);
 

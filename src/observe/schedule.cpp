@@ -9,7 +9,7 @@ Schedule Schedule::logarithmic(double per_decade, double start) {
   Schedule schedule;
   if (!(start > 0) || !std::isfinite(start)) return schedule;
   schedule.per_decade_ = per_decade;
-  // One too low rather than one too high, then up to the start: the logarithm is rounded.
+  // The logarithm is rounded, so this starts one too low and then increases to the start.
   schedule.n_ = std::ceil(std::log10(start) * per_decade) - 1;
   while (schedule.grid_time(schedule.n_) < start) ++schedule.n_;
   schedule.next_ = schedule.grid_time(schedule.n_);

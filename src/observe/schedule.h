@@ -1,4 +1,4 @@
-// When to sample a run.
+// The times at which a run is sampled.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +8,32 @@
 
 namespace needlework {
 
-/// Times of samples in increasing order, taken one by one.
+/// Times of samples in increasing order, returned one by one.
 class Schedule {
  public:
-  /// No times at all.
+  /// A schedule without times.
   Schedule() = default;
 
-  /// The times 10^(n / per_decade) for all whole n, from the first that is >= `start` on. The grid
-  /// does not depend on `start`, so runs of different seeds are sampled at the same times. No times
-  /// if `start` is not finite and positive.
+  /// The times 10^(n / per_decade) for all integers n, from the first one that is >= `start`. They
+  /// do not depend on `start` otherwise, so that runs with different seeds are sampled at the same
+  /// times. Without times if `start` is not finite and positive.
   static Schedule logarithmic(double per_decade, double start);
 
-  /// These times, which must increase.
+  /// The given times, which must increase.
   static Schedule at(std::vector<double> times);
 
-  /// The next time [time]; infinity when there is none left.
+  /// The next time [time], or infinity if there is none.
   double next() const { return next_; }
 
-  /// Drops all times up to and including `time`.
+  /// Removes all times up to and including `time`.
   void pass(double time);
 
  private:
   double grid_time(double n) const;
 
-  double per_decade_ = 0;  ///< 0: the times of the list
-  double n_ = 0;           ///< of the next time of the grid; a double, as it can be any size
+  double per_decade_ = 0;  ///< 0: a list of times
+  double n_ = 0;           ///< index of the next logarithmic time; a double, because it can be any
+                           ///< size
   std::vector<double> times_;
   std::size_t position_ = 0;
   double next_ = std::numeric_limits<double>::infinity();

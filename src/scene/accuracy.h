@@ -1,4 +1,4 @@
-// What a scene asks of the search for first contacts.
+// The accuracy settings of a scene.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace needlework {
 
-/// The level, with those knobs that the scene sets. Throws InputError for a name that does not
-/// exist.
+/// The settings of the level, with those that the scene sets by themselves. Throws InputError for
+/// an unknown name.
 Accuracy accuracy_of(const Scene::Engine& engine);
 
-/// Such as "standard" or "standard, isolation sampling".
+/// For example "standard" or "standard, isolation sampling".
 std::string accuracy_name(const Scene::Engine& engine);
 
 }  // namespace needlework

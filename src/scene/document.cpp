@@ -14,7 +14,7 @@
 namespace needlework {
 namespace {
 
-// Longest pieces of a message in bytes.
+// Largest lengths of the parts of a message [bytes].
 constexpr std::size_t name_limit = 1000;
 constexpr std::size_t key_limit = 40;
 constexpr std::size_t value_limit = 60;
@@ -44,7 +44,7 @@ Entry entry_of(std::string_view section, std::string_view key, const toml::node&
   entry.key = key;
   entry.value = value_of(node);
   entry.region = region_of(node);
-  // Such a table's place is its first key, which would not do as a value.
+  // The position of such a table is its first key, which cannot stand for its value.
   if (node.is_table() && !node.as_table()->is_inline())
     entry.region = {entry.region.line, entry.region.column, entry.region.line, entry.region.column};
   return entry;
@@ -58,7 +58,7 @@ Entry head_of(std::string_view section, const toml::node& node) {
   return entry;
 }
 
-// One [[section]] with its keys.
+// Appends one [[section]] with its keys.
 void append_repeated(std::string_view section, const toml::node& element,
                      std::vector<Entry>& entries) {
   entries.push_back(head_of(section, element));
@@ -86,13 +86,13 @@ std::vector<Entry> flattened(const toml::table& root) {
       entries.push_back(entry_of(name.str(), key.str(), value));
   }
   const auto place = [](const Entry& e) { return std::tuple(e.region.line, e.region.column); };
-  // Stable: the head of a table stays before a key at the same place, as in "until.time = 1".
+  // Stable: the header of a table stays before a key at the same position, as in "until.time = 1".
   std::stable_sort(entries.begin(), entries.end(),
                    [&](const Entry& a, const Entry& b) { return place(a) < place(b); });
   return entries;
 }
 
-// The TOML library's reason without the words that the message begins with anyway.
+// The TOML library's reason, without the words with which every message begins.
 std::string reason(std::string_view description) {
   constexpr std::string_view prefix = "Error while parsing ";
   std::string text(description);
@@ -116,7 +116,7 @@ bool is_bare_key(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), allowed);
 }
 
-// The value of an override: TOML when it is one value in TOML, else the bare string.
+// The value of an override: TOML if it is one value in TOML, otherwise a string.
 Value override_value(std::string_view text) {
   const std::string toml = "value = " + std::string(text);
   try {
@@ -190,7 +190,7 @@ InputError Document::missing(std::string_view what, std::string_view expected) c
       fmt::format("{}: {} is missing: {}", printable(name_, name_limit), what, expected));
 }
 
-// The text of a region; columns are code points, and a byte order mark is none of them.
+// The text of a region. Columns are code points, and a byte order mark does not count as one.
 std::string Document::source_of(const Region& region) const {
   const auto offset = [&](std::size_t line, std::size_t column) {
     std::size_t at = text_.starts_with("\xef\xbb\xbf") ? 3 : 0;

@@ -1,4 +1,4 @@
-// Draws initial states: the ideal-gas equilibrium of centres, directors and velocities.
+// Draws initial states: the equilibrium of an ideal gas in centres, directors and velocities.
 #include "needlework/initial_state.h"
 
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-// A sum with a running correction (Neumaier), so that a million terms lose no digits.
+// A sum with a running correction (Neumaier), so that a sum of a million terms loses no digits.
 class Sum {
  public:
   void add(double x) {
@@ -29,8 +29,8 @@ class Sum {
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// The part of a normal to the unit vector u. Twice, as the first pass leaves a rounding error of
-// the size of a, which matters where little of a is left.
+// The part of a normal to the unit vector u. Computed twice, because the first pass leaves a
+// rounding error of the size of a, which matters if the result is small.
 Vector normal_part(Vector a, const Vector& u) {
   for (int pass = 0; pass < 2; ++pass) {
     const double along = dot(a, u);
@@ -49,7 +49,7 @@ void remove_mean(std::vector<Vector>& vectors) {
     for (std::size_t i = 0; i < 3; ++i) v[i] -= mean[i];
 }
 
-// Scales all vectors by one factor, so that their mean square is as asked for.
+// Scales all vectors by one factor, so that they have the given mean square.
 void set_mean_square(std::vector<Vector>& vectors, double mean_square) {
   if (mean_square == 0) {
     for (Vector& v : vectors) v = {};  // a factor 0 would leave signs on the zeros

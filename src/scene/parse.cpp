@@ -22,8 +22,8 @@ std::string full_name(const Entry& entry) {
   return entry.section.empty() ? entry.key : entry.section + "." + entry.key;
 }
 
-// Whether an override takes the place of an earlier entry: of the same key, or of the alternative
-// that the file has chosen (see parse_scene).
+// Whether an override replaces an earlier entry: one of the same key, or the alternative in the
+// file (see parse_scene).
 bool replaces(const std::string& override_name, const Entry& entry) {
   if (entry.is_head) return false;
   const std::string name = full_name(entry);
@@ -56,7 +56,7 @@ void begin_species(Scene& scene, const Document& document, const Entry& head) {
   scene.species.emplace_back();
 }
 
-// The keys of [needles] and [initial] that the species stands for.
+// Sets the keys of [needles] and [initial] that the species replaces.
 void adopt_species(Scene& scene) {
   if (scene.species.empty()) return;
   const Scene::Species& species = scene.species.front();
@@ -71,7 +71,7 @@ void adopt_species(Scene& scene) {
   }
 }
 
-// What to expect instead of a key that excludes one given before it; empty when there is none.
+// The requirement that a key violates because an earlier key excludes it; empty if there is none.
 std::string_view conflict(const std::string& name, const std::set<std::string>& given) {
   const auto has = [&](const char* other) { return given.contains(other); };
   if ((name == "collisions.tc" && has("collisions.tc_relative")) ||
@@ -114,7 +114,7 @@ void require_what_is_needed(const Scene& scene, const Document& document,
                            "wall_s");
 }
 
-// The nearest image is the one in contact only in boxes of twice the needle length.
+// Only in boxes of at least twice the needle length is the nearest image the one in contact.
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
   const double length = scene.species.empty() ? 1 : scene.species.front().length;
   const double least = 2.01 * length;
@@ -125,7 +125,7 @@ void require_room(const Scene& scene, const Document& document, const Entry& box
                        : fmt::format("expected edges of at least {} (2.01 needle lengths)", least));
 }
 
-// The text as read, overrides appended as comments.
+// The text as read, with overrides appended as comments.
 std::string annotated(std::string_view text, std::span<const Override> overrides) {
   std::string result(text);
   if (!overrides.empty() && !result.empty() && result.back() != '\n') result += '\n';
@@ -180,7 +180,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
 }
 
 std::string read_scene_text(const std::string& path) {
-  // One byte more than is allowed shows what is too long.
+  // One byte more than allowed shows that the text is too long.
   constexpr std::size_t bytes = max_scene_bytes + 1;
   errno = 0;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(

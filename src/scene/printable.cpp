@@ -8,12 +8,12 @@ namespace needlework {
 namespace {
 
 struct CodePoint {
-  std::uint32_t value;  // only when valid
-  std::size_t bytes;    // 1 when invalid
+  std::uint32_t value;  // set only if valid
+  std::size_t bytes;    // 1 if invalid
   bool valid;
 };
 
-// The first code point of a text that is not empty; overlong forms and surrogates are invalid.
+// The first code point of a text that is not empty. Overlong forms and surrogates are invalid.
 CodePoint first_code_point(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const CodePoint invalid{0, 1, false};
@@ -32,7 +32,8 @@ CodePoint first_code_point(std::string_view text) {
   return {value, bytes, true};
 }
 
-// Control characters, line separators and marks that turn the direction of the text around.
+// Whether it is a control character, a line separator or a mark that changes the direction of the
+// text.
 bool needs_escape(std::uint32_t c) {
   return c < 0x20 || (c >= 0x7f && c < 0xa0) || (c >= 0x2028 && c <= 0x202e) ||
          (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
@@ -53,7 +54,7 @@ std::string escaped(CodePoint c, unsigned char first_byte) {
 std::string printable(std::string_view text, std::size_t limit) {
   constexpr std::string_view dots = "...";
   std::string out;
-  std::size_t cut = 0;  // where `out` ends when the dots have to follow
+  std::size_t cut = 0;  // length to which `out` is cut if dots have to follow
   while (!text.empty()) {
     const CodePoint c = first_code_point(text);
     if (c.valid && !needs_escape(c.value))

@@ -1,4 +1,4 @@
-// Makes text from outside fit to be shown in a message: no control characters, not too long.
+// Makes text from outside safe to show in a message: without control characters, and not too long.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace needlework {
 
-/// `text` with control characters, bidirectional marks and bytes that are no UTF-8 as escapes
-/// (\n, \t, \x1b, \u202e), cut to at most `limit` bytes, the last three of which then are dots.
+/// `text` with control characters, bidirectional marks and invalid UTF-8 replaced by escapes (\n,
+/// \t, \x1b, \u202e). It is cut to at most `limit` bytes, the last three of which are then dots.
 std::string printable(std::string_view text, std::size_t limit = std::string_view::npos);
 
-/// Whether `text` is UTF-8 without anything that `printable` would escape.
+/// Whether `text` is valid UTF-8 without anything that `printable` would escape.
 bool is_printable(std::string_view text);
 
 }  // namespace needlework

@@ -8,8 +8,8 @@
 namespace needlework {
 
 double natural_log(double x) {
-  // x = 2^exponent m with m in [sqrt(1/2), sqrt(2)); ln m = 2 artanh f with f = (m - 1) / (m + 1),
-  // |f| < 0.1716, so that the series ends below 1e-18 of its first term.
+  // x = 2^exponent m with m in [sqrt(1/2), sqrt(2)). ln m = 2 artanh f with f = (m - 1) / (m + 1)
+  // and |f| < 0.1716, so that the truncated series is accurate to 1e-18 of its first term.
   constexpr std::uint64_t fraction_bits = (std::uint64_t{1} << 52) - 1;
   constexpr std::uint64_t exponent_of_one = std::uint64_t{1023} << 52;
   const auto bits = std::bit_cast<std::uint64_t>(x);

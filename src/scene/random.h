@@ -1,6 +1,6 @@
-// Random numbers of one needle: a counter-based stream that depends on the seed and the needle's id
-// only, the same bits on every machine. Nothing here calls the C library's log, sin or exp, which
-// choose among differently rounding variants by CPU.
+// The random numbers of one needle: a counter-based stream that depends only on the seed and the
+// needle's id, with the same bits on every machine. It avoids the C library's log, sin and exp,
+// which select variants with different rounding by CPU.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace needlework {
 
-/// The natural logarithm of a positive normal number, within 2 ulp, by + - * / alone.
+/// The natural logarithm of a positive normal number, within 2 ulp, computed with + - * / only.
 double natural_log(double x);
 
 /// A stream of deviates: Philox-4x64-10 (Salmon et al., SC 2011) with the seed as key and (block,
-/// id) as counter. Copies go on independently.
+/// id) as counter. Copies continue independently.
 class NeedleRandom {
  public:
   NeedleRandom(std::uint64_t seed, std::uint64_t id) : seed_(seed), id_(id) {}
@@ -21,14 +21,15 @@ class NeedleRandom {
   /// Uniform on [0, 1), a multiple of 2^-53.
   double uniform();
 
-  /// Uniform on the unit sphere, of length 1 within 2 ulp (Marsaglia, Ann. Math. Stat. 43, 645).
+  /// Uniform on the unit sphere, with length 1 within 2 ulp (Marsaglia, Ann. Math. Stat. 43, 645).
   std::array<double, 3> direction();
 
   /// Three independent standard normal deviates (Marsaglia's polar method).
   std::array<double, 3> normal();
 
  private:
-  /// A point in the open unit disc without its centre, and its squared distance from there.
+  /// A point in the open unit disc other than its centre, and its squared distance from the
+  /// centre.
   struct DiscPoint {
     double x, y, squared;
   };

@@ -23,8 +23,8 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double smallest_positive = std::numeric_limits<double>::denorm_min();
 
-// Limits beyond which squares and products of physical numbers would leave the range of a double,
-// or positions could not resolve a needle.
+// Limits beyond which squares and products of physical quantities would exceed the range of a
+// double, or positions could not resolve a needle.
 constexpr double largest_edge = 1e9;
 constexpr double least_edge = 2.01e-6;  // of the shortest needles; see require_room()
 constexpr double least_temperature = 1e-200;
@@ -35,7 +35,7 @@ constexpr std::uint64_t most_needles = (std::uint64_t{1} << 32) - 2;  // ids are
 constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t most_threads = 1024;
 
-// Stores a value that was read; false when there is none.
+// Stores a value that was read. Returns false if there is none.
 template <typename T, typename U>
 bool store(T& target, std::optional<U> value) {
   if (value) target = static_cast<T>(*std::move(value));
@@ -125,7 +125,7 @@ std::optional<std::vector<std::string>> observables(const Value& value) {
 
 using V = const Value&;
 
-// In the order of their documentation; messages list keys in it.
+// In the order of their documentation, in which messages list them.
 constexpr SceneKey keys[] = {
     {"", "title", "a string without control characters",
      [](Scene& s, V v) { return store(s.title, text(v)); }},
@@ -291,7 +291,7 @@ std::string expected_instead(const Entry& unknown) {
   const std::vector<std::string_view> names = keys_of(unknown.section);
   const std::string_view nearest = nearest_word(unknown.key, names);
   std::string suggestion(nearest);
-  // Without a likely slip within the section: the right key in the wrong section.
+  // If no key of the section is similar, looks for the same key in another section.
   for (const SceneKey& k : keys) {
     if (!nearest.empty() || k.key != unknown.key) continue;
     suggestion += suggestion.empty() ? "" : " or ";

@@ -1,4 +1,4 @@
-// The keys that a scene file may hold, and what each of them must be.
+// The keys that a scene file may contain, and the requirements on their values.
 #pragma once
 
 #include <span>
@@ -14,23 +14,24 @@ namespace needlework {
 struct SceneKey {
   std::string_view section;  ///< empty for a key outside all sections
   std::string_view key;
-  std::string_view expected;  ///< what a value must be, for messages
-  /// Puts the value into the scene; false, and the scene as it was, when it is not as expected.
+  std::string_view expected;  ///< the requirement on the value, for messages
+  /// Stores the value in the scene. Returns false, and leaves the scene unchanged, if the value
+  /// does not meet the requirement.
   bool (*read)(Scene& scene, const Value& value);
 };
 
-/// All of them, in the order of their documentation.
+/// All keys, in the order of their documentation.
 std::span<const SceneKey> scene_keys();
 
-/// The key of that name, or null.
+/// The key of that name, or null if there is none.
 const SceneKey* find_scene_key(std::string_view section, std::string_view key);
 
 bool is_scene_section(std::string_view section);
 
-/// All of them, in the order of their documentation.
+/// All sections, in the order of their documentation.
 std::span<const std::string_view> scene_sections();
 
-/// What to expect instead of an unknown section, an unknown key, or a section that is no table:
+/// What to expect instead of an unknown section, an unknown key, or a section that is not a table:
 /// "expected ..., did you mean ...?".
 std::string expected_instead(const Entry& unknown);
 

@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string_view nearest_word(std::string_view unknown, std::span<const std::string_view> known) {
-  constexpr std::size_t longest = 64;  // beyond it, nothing known is near
+  constexpr std::size_t longest = 64;  // longer words are not similar to any known one
   if (unknown.size() > longest) return {};
   std::string_view nearest;
   std::size_t least = std::max<std::size_t>(1, (unknown.size() + 1) / 3) + 1;

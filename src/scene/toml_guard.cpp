@@ -15,15 +15,15 @@ bool is_digit(std::string_view text, std::size_t at) {
   return at < text.size() && text[at] >= '0' && text[at] <= '9';
 }
 
-// The bytes of the character that begins at `begin`, as far as they can be told.
+// The bytes of the character that begins at `begin`, as far as it is valid.
 std::string_view character(std::string_view text, std::size_t begin) {
   std::size_t end = begin + 1;
   while (end < text.size() && end < begin + 4 && (text[end] & '\xc0') == '\x80') ++end;
   return text.substr(begin, end - begin);
 }
 
-// Follows TOML closely enough to know where a string begins; in text that is no TOML, as far as the
-// parser follows it.
+// Follows the syntax of TOML closely enough to know where a string begins. In text that is not
+// TOML, follows it as far as the parser does.
 class Scanner {
  public:
   explicit Scanner(std::string_view toml) : toml_(toml) {
@@ -47,9 +47,9 @@ class Scanner {
   }
 
  private:
-  enum class Next { key, value, end };  // end: of what a value stands in
+  enum class Next { key, value, end };  // end: the end of the value or of what contains it
 
-  // Outside strings, comments and bare values.
+  // Handles a character outside strings, comments and bare values.
   void step_over(char c) {
     constexpr std::string_view behind_values = " \t\r\n,]}";
     if (beyond_ascii(c)) return report_character("expected ASCII outside quotes and comments");
@@ -83,8 +83,9 @@ class Scanner {
 
   bool in_array() const { return !open_.empty() && open_.back() == '['; }
 
-  // A number, a date, or what the parser takes for one before it finds the error. A date goes on
-  // behind a space with the two digits of an hour; behind other values they are an error anyway.
+  // Skips a number, a date, or what the parser takes for one before it finds the error. A date may
+  // continue after a space with the two digits of an hour; after other values they are an error
+  // anyway.
   void skip_bare_value() {
     constexpr std::string_view ends = " \t\r\n#,]}";
     for (; at_ < toml_.size(); ++at_) {
@@ -103,10 +104,10 @@ class Scanner {
     const bool triple = opening == std::string_view(quote == '"' ? R"(""")" : "'''");
     at_ += triple ? 3 : 1;
     if (next_ == Next::value) begin(Next::end);
-    int quotes = 0;  // in a row
+    int quotes = 0;  // number of consecutive quotes
     for (; at_ < toml_.size() && !hazard_; ++at_) {
       const char c = toml_[at_];
-      if (c == '\n' && !triple) return;  // an error; the line ends as any other
+      if (c == '\n' && !triple) return;  // a syntax error; the line ends like any other
       if (c == '\n') ++line_;
       quotes = c == quote ? quotes + 1 : 0;
       if (quotes == (triple ? 3 : 1)) {
@@ -120,7 +121,7 @@ class Scanner {
     }
   }
 
-  // Leaves at_ on the last character that belongs to the escape.
+  // Leaves at_ on the last character of the escape.
   void skip_escape(bool triple) {
     constexpr std::string_view white_space = " \t\r\n";
     const auto next_is_space = [&] {
@@ -145,8 +146,8 @@ class Scanner {
   std::size_t at_ = 0;
   std::size_t line_ = 1;
   Next next_ = Next::key;
-  std::string open_;      // brackets: '[' array, '{' table, 'h' head of a table
-  std::size_t dots_ = 0;  // in the present key
+  std::string open_;      // open brackets: '[' array, '{' table, 'h' header of a table
+  std::size_t dots_ = 0;  // number of dots in the present key
   std::optional<TomlHazard> hazard_;
 };
 

@@ -1,4 +1,4 @@
-// Keeps from the TOML parser (toml++ 3.3) the text that it cannot read safely.
+// Rejects text that the TOML parser (toml++ 3.3) cannot read safely.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@ namespace needlework {
 /// No scene needs more than two levels.
 inline constexpr std::size_t max_nesting = 16;
 
-/// Why a text must not be parsed.
+/// The reason why a text must not be parsed.
 struct TomlHazard {
-  std::size_t line;    ///< from 1
-  std::string reason;  ///< without control characters, "expected ..." in it
+  std::size_t line;    ///< counted from 1
+  std::string reason;  ///< contains "expected ..." and no control characters
 };
 
-/// The first hazard in a text; none in text that is safe to parse, be it TOML or not. Text behind
-/// the first syntax error does not matter, as the parser gives up there. Hazards are
-/// - brackets or dotted keys more than `max_nesting` deep: the parser lets go of tables by
-///   recursion, so that a key of some 100 kB full of dots overflows the stack;
-/// - characters beyond ASCII outside quotes and comments, which are an error anyway, or after a
-///   backslash that ends a line of a """string""", which is allowed: asked whether such a character
-///   is white space, the parser reaches code that is marked as unreachable;
-/// - anything but an end behind a value, which is an error anyway: behind what begins as a date and
-///   its time the parser looks ahead, into strings as well.
+/// The first hazard in a text, or nothing if the text is safe to parse, valid TOML or not. Text
+/// after the first syntax error does not matter, because the parser stops there. Hazards are:
+/// - Brackets or dotted keys more than `max_nesting` deep. The parser destroys tables recursively,
+///   so that a key of some 100 kB of dots overflows the stack.
+/// - Characters beyond ASCII outside quotes and comments, which are an error anyway, or after a
+///   backslash that ends a line of a """string""", which is allowed. Deciding whether such a
+///   character is white space, the parser runs into code that is marked as unreachable.
+/// - Anything but an end after a value, which is an error anyway. After what begins like a date
+///   with a time the parser looks ahead, even into strings.
 std::optional<TomlHazard> find_toml_hazard(std::string_view toml);
 
 }  // namespace needlework

@@ -1,4 +1,4 @@
-// Integrals over all the ways in which two needles can touch.
+// Integrals over all configurations in which two needles touch.
 #include "src/theory/contact_integrals.h"
 
 #include <cmath>
@@ -30,10 +30,10 @@ Shares normal_shares(double mu) {
 }
 
 /// In the plane of the needles, mu takes the two eigenvalues of k (s12^2 P1 + s21^2 P2), P = 1 - u
-/// u: their sum is e = a + b and their product a b sin^2(theta), a = k s12^2, b = k s21^2. So the
-/// sums of the shares are rational in sin^2(theta), and their averages over the density (2/pi)
-/// sin^2(theta) elementary. With p = 1 + e and w = (1 + a)(1 + b), d = p + a b sin^2(theta): the
-/// averages of 1/d^2, (a b sin^2)/d^2 and (a b sin^2)^2/d^2 are c0, c1 and c2 below, written
+/// u. Their sum is e = a + b and their product a b sin^2(theta), with a = k s12^2, b = k s21^2. So
+/// the sums of the shares are rational in sin^2(theta), and their averages over the density (2/pi)
+/// sin^2(theta) are elementary. With p = 1 + e, w = (1 + a)(1 + b) and d = p + a b sin^2(theta),
+/// the averages of 1/d^2, (a b sin^2)/d^2 and (a b sin^2)^2/d^2 are c0, c1 and c2 below, written
 /// without cancellation.
 Shares tangential_shares(double a, double b) {
   const double e = a + b;
@@ -68,13 +68,14 @@ Shares tangential_arc(double k, double r, double least_angle) {
 }  // namespace
 
 ContactIntegrals::ContactIntegrals(double k, bool tangential) : k_(k) {
-  // Whole circles. The weight g has a feature at r = sqrt(T_tr / (k T_rot)), anywhere; the rest at
-  // 1 / sqrt(k). The disk below `finest` is 1e-12 of all contacts even when large arms are cut off.
+  // Whole circles. The weight g has a feature at r = sqrt(T_tr / (k T_rot)), which may be
+  // anywhere, and the other factors at 1 / sqrt(k). The disk below `finest` holds 1e-12 of all
+  // contacts even if large arms are cut off.
   const double finest = 1e-6 / std::sqrt(1.0 + k);
   for (const auto& [r, weight] : graded_rule(0.5, finest)) add_ring(r, 0.0, r * weight, tangential);
 
-  // Circles cut by the sides of the square. They start at an angle x off an axis where
-  // r cos(x) = 1/2, and in x, other than in r, everything is smooth: r dr = sin(x)/(4 cos^3(x)) dx.
+  // Circles cut by the sides of the square. They start at an angle x from an axis, where r cos(x)
+  // = 1/2. All factors are smooth in x, but not in r: r dr = sin(x)/(4 cos^3(x)) dx.
   for (const auto& [x, weight] : graded_rule(quarter_pi, 0.25 / std::sqrt(1.0 + k))) {
     const double r = 0.5 / std::cos(x);
     add_ring(r, x, 2.0 * r * r * r * std::sin(x) * weight, tangential);

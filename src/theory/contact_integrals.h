@@ -1,4 +1,4 @@
-// Integrals over all the ways in which two needles can touch, for Gaussian velocities. Collision
+// Integrals over all configurations in which two needles touch, for Gaussian velocities. Collision
 // rate and cooling rates are linear in them.
 #pragma once
 
@@ -12,25 +12,26 @@ namespace needlework::theory {
 /// two point masses, joined by an inverse mass e.M e = 2 (1 + mu): 2 from the translation and 2 mu
 /// from the rotation. The shares say how an impulse along e divides between them. [1]
 struct Shares {
-  double translation = 0.0;  ///< 1 / (1 + mu)^2: what the translation loses by itself
-  double exchange = 0.0;     ///< mu / (1 + mu)^2: what passes between translation and rotation
-  double rotation = 0.0;     ///< mu^2 / (1 + mu)^2: what the rotation loses by itself
+  double translation = 0.0;  ///< 1 / (1 + mu)^2: loss of the translation by itself
+  double exchange = 0.0;     ///< mu / (1 + mu)^2: exchange between translation and rotation
+  double rotation = 0.0;     ///< mu^2 / (1 + mu)^2: loss of the rotation by itself
 };
 
-/// What the collisions at given temperatures add up to. Each is an integral over the unit square of
-/// arms, with the weight g = sqrt(T_tr + T_rot k r^2) with which contacts happen there.
+/// Sums over the collisions at given temperatures. Each is an integral over the unit square of
+/// arms with the weight g = sqrt(T_tr + T_rot k r^2), which is proportional to the rate of
+/// contacts.
 struct ContactSums {
-  double flux = 0.0;  ///< of g alone
-  Shares normal;      ///< of g times the shares along the normal, mu = k r^2
-  Shares tangential;  ///< of g times the shares along both principal directions of the plane of the
-                      ///< needles, averaged over the angle between them
+  double flux = 0.0;  ///< integral of g
+  Shares normal;      ///< integral of g times the shares along the normal, mu = k r^2
+  Shares tangential;  ///< integral of g times the shares along both principal directions of the
+                      ///< plane of the needles, averaged over the angle between them
 };
 
-/// The integrals for one k. Everything but g is tabulated once, and g depends on r alone: sums()
-/// costs a few hundred square roots. Immutable, so threads may share it.
+/// The integrals for one k. All factors but g are tabulated once, and g depends on r alone, so
+/// sums() costs a few hundred square roots. Immutable, so threads may share it.
 class ContactIntegrals {
  public:
-  /// Without `tangential` those sums stay 0: smooth needles (beta = -1) have no use for them.
+  /// Without `tangential` the tangential sums stay 0; smooth needles (beta = -1) do not need them.
   /// Needs k > 0.
   ContactIntegrals(double k, bool tangential);
 
@@ -38,7 +39,7 @@ class ContactIntegrals {
   ContactSums sums(Temperatures temperatures) const;
 
  private:
-  /// All contacts at one distance r of (s12, s21) from the middles of the needles.
+  /// All contacts at one distance r of (s12, s21) from the centres of the needles.
   struct Ring {
     double k_r2;    ///< k r^2
     double weight;  ///< area of the ring

@@ -1,4 +1,5 @@
-// The cooling curve: the temperatures of a gas that stays Gaussian and homogeneous, against time.
+// The cooling curve: the temperatures of a gas that stays Gaussian and homogeneous, as functions
+// of time.
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
@@ -14,18 +15,18 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-/// What is integrated: the share of the energy that is rotational, the logarithm of the energy (it
-/// falls by many decades), and the collisions per needle. The share obeys an equation of its own,
-/// ends included: neither T_tr = 0 nor T_rot = 0 is special.
+/// The integrated variables: the rotational share of the energy, the logarithm of the energy,
+/// which falls by many decades, and the collisions per needle. The share has an equation of its
+/// own that also holds at its ends, so neither T_tr = 0 nor T_rot = 0 is special.
 using State = std::vector<double>;
 enum Component { rotational_share, log_energy, collisions, component_count };
 
 Temperatures split(double share) { return {.t_tr = (1.0 - share) / 1.5, .t_rot = share}; }
 
-/// The gas on its way through time, in units where the initial energy per needle is 1. First the
-/// ratio of the temperatures relaxes, within a few collisions per needle; that is integrated. When
-/// it has, the rates are constant but for the energy's own decay, and the rest of the curve, to any
-/// age, is Haff's law: exact, and free of the stiffness that the relaxed ratio would bring.
+/// The gas as a function of time, in units where the initial energy per needle is 1. At first the
+/// ratio of the temperatures relaxes within a few collisions per needle, which is integrated
+/// numerically. From then on the rates change only because the energy decays, and the rest of the
+/// curve is Haff's law to any time: exact, and without the stiffness of the relaxed ratio.
 class CoolingGas {
  public:
   CoolingGas(const Gas& gas, Temperatures initial)
@@ -33,7 +34,7 @@ class CoolingGas {
     state_[rotational_share] = initial.t_rot / initial.energy();
   }
 
-  /// Goes on to a time not before the present one.
+  /// Advances to a time that is not before the present one.
   void advance(double tau) {
     while (tau_ < tau) {
       if (std::abs(state_[rotational_share] - final_share_) <= relaxed * final_share_) {
@@ -47,8 +48,8 @@ class CoolingGas {
   const State& state() const { return state_; }
 
  private:
-  /// Not Fehlberg 7(8): its error estimate does not see a slope that changes with time alone, which
-  /// is nearly what is left once the ratio has relaxed.
+  /// Fehlberg 7(8) is not suitable: its error estimate does not see a slope that depends on time
+  /// alone, which is nearly what remains once the ratio has relaxed.
   using Stepper = odeint::runge_kutta_dopri5<State>;
   static constexpr double absolute_tolerance = 1e-15;
   static constexpr double relative_tolerance = 1e-13;
@@ -57,7 +58,7 @@ class CoolingGas {
   static double share_at(double q) { return q / (1.5 + q); }
 
   void differentiate(const State& state, State& slope) const {
-    // The stages of a step too long, which will be rejected, can lie outside.
+    // If a step is too long and will be rejected, its stages can lie outside [0, 1].
     const double share = std::clamp(state[rotational_share], 0.0, 1.0);
     const double root_energy = std::exp(0.5 * state[log_energy]);
     const auto [change, collision_rate] = law_.rates(split(share));
@@ -75,7 +76,8 @@ class CoolingGas {
       stepper_.try_step(system, state_, tau_, step_);
       return;
     }
-    double last_step = remaining;  // cut short by the end: no reason to go on with short steps
+    double last_step = remaining;  // shortened by the end of the interval, which is no reason to
+                                   // continue with short steps
     if (stepper_.try_step(system, state_, tau_, last_step) == odeint::success) {
       tau_ = end;
     } else {

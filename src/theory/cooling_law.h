@@ -1,5 +1,5 @@
-// How fast a Gaussian, homogeneous gas of needles changes its two temperatures: the right-hand side
-// of the cooling equations, for one gas.
+// Rates of change of the two temperatures of a Gaussian, homogeneous gas of needles: the
+// right-hand side of the cooling equations.
 #pragma once
 
 #include "needlework/theory.h"
@@ -10,10 +10,10 @@ namespace needlework::theory {
 /// The rates of the gas at one instant, per unit of tau.
 struct Rates {
   Temperatures temperatures;  ///< d(T_tr, T_rot) / d tau
-  double collisions;          ///< that one needle takes part in
+  double collisions;          ///< collisions of one needle
 };
 
-/// The cooling law of one gas, with its integrals tabulated. Immutable, so threads may share it.
+/// The cooling law of one gas, with tabulated integrals. Immutable, so threads may share it.
 class CoolingLaw {
  public:
   /// Throws std::invalid_argument for numbers out of range.
@@ -23,10 +23,10 @@ class CoolingLaw {
   /// temperature by x^(3/2) and the collisions by x^(1/2).
   Rates rates(Temperatures now) const;
 
-  /// The q = T_rot / T_tr that no longer changes, and that every state tends to.
+  /// The ratio q = T_rot / T_tr that is constant in time, to which every state tends.
   double stationary_q() const;
 
-  /// No collision loses energy.
+  /// Whether no collision loses energy.
   bool is_elastic() const;
 
  private:

@@ -1,4 +1,4 @@
-// What the theory asks of the numbers it is given.
+// Checks of the theory's arguments.
 #include "src/theory/requirements.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void require_not_negative(std::string_view name, double value) {
 }
 
 void require_valid(const Gas& gas) {
-  // Far beyond any mass distribution; further out, squares and cubes of k over- and underflow.
+  // Far beyond any mass distribution; farther out, squares and cubes of k overflow or underflow.
   require(gas.k >= 1e-12 && gas.k <= 1e12, "k", gas.k, "a number in [1e-12, 1e12]");
   require(gas.epsilon >= 0.0 && gas.epsilon <= 1.0, "epsilon", gas.epsilon, "a number in [0, 1]");
   require(gas.beta >= -1.0 && gas.beta <= 1.0, "beta", gas.beta, "a number in [-1, 1]");

@@ -1,5 +1,5 @@
-// What the theory asks of the numbers it is given. All throw std::invalid_argument, with a message
-// that reads "NAME = VALUE: expected ...".
+// Checks of the theory's arguments. All throw std::invalid_argument with a message "NAME = VALUE:
+// expected ...".
 #pragma once
 
 #include <string_view>

@@ -43,7 +43,7 @@ double equilibrium_rate(double count, double volume, double total_energy, double
   require_not_negative("total_energy", total_energy);
   const double degrees = 5.0 * count - 3.0;
   const double temperature = 2.0 * total_energy / degrees;
-  // The mean speed over its canonical value, when velocities lie on a sphere in `degrees`
+  // The mean speed relative to its canonical value, if velocities lie on a sphere in `degrees`
   // dimensions.
   const double microcanonical =
       std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5);
@@ -63,7 +63,8 @@ double asymptotic_ratio(const Gas& gas) {
 }
 
 double equipartition_k() {
-  // At q = 1 both rates of a smooth gas are proportional to 1 - epsilon^2: any epsilon will do.
+  // At q = 1 both rates of a smooth gas are proportional to 1 - epsilon^2, so any epsilon gives
+  // the same k.
   const auto drift = [](double k) {
     const Temperatures change =
         cooling_rates({.k = k, .epsilon = 0.0, .beta = -1.0}, {.t_tr = 1.0, .t_rot = 1.0});

@@ -1,5 +1,5 @@
-// Sums that do not depend on the order of their terms: every term is rounded once to a common
-// fixed-point grid and the integers are added.
+// Sums that do not depend on the order of their terms: each term is rounded to a common
+// fixed-point grid, and the integers are added.
 #pragma once
 
 #include <cmath>
@@ -12,14 +12,15 @@ namespace needlework {
 __extension__ using Int128 = __int128;
 __extension__ using UnsignedInt128 = unsigned __int128;
 
-/// Sum of terms none of which exceeds `largest` in magnitude. Fewer than 2^60 terms; the error is
-/// below the number of terms times largest 2^-60.
+/// A sum of fewer than 2^60 terms, none larger than `largest` in magnitude. The error is below the
+/// number of terms times largest 2^-60.
 class ExactSum {
  public:
   explicit ExactSum(double largest) : exponent_(largest > 0 ? exponent_of(largest) : 0) {}
 
   void add(double term) {
-    // 2^60 grid points per `largest`: what is cut off is the same for any order.
+    // There are 2^60 grid points per `largest`. Each term is truncated by itself, so the order
+    // does not matter.
     total_ += static_cast<std::int64_t>(times_power_of_two(term, 60 - exponent_));
   }
   double value() const {

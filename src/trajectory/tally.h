@@ -1,5 +1,5 @@
-// What a thread adds up while it makes events happen. Sums, so that those of several threads can be
-// added, in any order.
+// Totals that a thread accumulates while it processes events. They are sums, so that those of
+// several threads can be added in any order.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@ namespace needlework {
 
 struct Tally {
   std::uint64_t collisions = 0, tc_collisions = 0;
-  std::int64_t energy = 0;  ///< change of the energy, in quanta of the window
+  std::int64_t energy = 0;  ///< change of the total energy, in quanta of the window
   TrajectoryHash hash;
   Counters counters;
-  Time instant;                  ///< of the last collision
-  std::uint64_t at_instant = 0;  ///< collisions at that instant
+  Time instant;                  ///< time of the last collision
+  std::uint64_t at_instant = 0;  ///< number of collisions at that time
 
-  /// Moves what `other` has into this one, but for its instant: what follows is later.
+  /// Moves the sums of `other` into this object. Not its last instant, because later events have
+  /// later times.
   void take(Tally& other) {
     collisions += other.collisions;
     tc_collisions += other.tc_collisions;

@@ -1,5 +1,5 @@
-// A fingerprint of a trajectory: the sum of a mix of every collision, so that it does not depend on
-// the order in which threads report them.
+// A hash of a trajectory: the sum of a hash of every collision, which does not depend on the order
+// in which threads report them.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace needlework {
 
 class TrajectoryHash {
  public:
-  // A call, lest it swell the loops.
+  // Not inlined, because it would enlarge the event loops.
   [[gnu::noinline]] void add(const Collision& c) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     const auto word = [](std::int32_t x) { return static_cast<std::uint64_t>(x); };

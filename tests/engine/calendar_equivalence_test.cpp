@@ -35,7 +35,8 @@ TYPED_TEST(CalendarEquivalence, GivesTheEventsOfTheLazyHeap) {
   }
 }
 
-// The order in which needles are stored, and when it is made anew, is seen in no bit either.
+// Neither the order in which needles are stored, nor the times at which it is updated, changes any
+// bit.
 TEST(StorageEquivalence, OrderOfStorageChangesNothing) {
   Scene scene = test::scene_of(300, 6, 4);
   const test::Recorded sorted = test::record(scene, 3000);

@@ -1,5 +1,5 @@
-// There is one trajectory of a scene: of every search with every queue on every instruction set, on
-// several threads, and by every compiler and build, as its hash is written down here.
+// A scene has one trajectory: with every search, every calendar and every instruction set, on
+// several threads, and with every compiler and build, because its hash is stored here.
 #include <gtest/gtest.h>
 
 #include "kernels/isa.h"
@@ -54,7 +54,7 @@ TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
   }
 }
 
-// The kernels asked for are those in use: the wider the vectors, the fewer steps by lanes.
+// The requested kernels are in use: the wider the vectors, the fewer SIMD steps.
 TEST(OneTrajectory, IsFollowedInFewerStepsByWiderVectors) {
   Scene scene = cooling_scene();
   std::uint64_t before = 0;
@@ -68,7 +68,7 @@ TEST(OneTrajectory, IsFollowedInFewerStepsByWiderVectors) {
       EXPECT_LT(static_cast<double>(steps), 0.9 * static_cast<double>(before));
     }
     before = steps;
-    EXPECT_GT(simulation.counters().sorts, 0u);  // which no bit depends on either
+    EXPECT_GT(simulation.counters().sorts, 0u);  // no bit depends on sorting either
     EXPECT_EQ(simulation.isa(), scene.engine.isa);
   }
 }

@@ -1,4 +1,5 @@
-// Every search on every instruction set gives the same events, bit for bit: all-pairs is the truth.
+// Every search on every instruction set gives the same events, bit for bit. All-pairs is the
+// reference.
 #include <gtest/gtest.h>
 
 #include "tests/support/same_run.h"
@@ -15,7 +16,7 @@ struct Case {
   std::array<double, 3> box;
   double epsilon, beta, tc_relative, t_rot;
   double collisions;
-  double energy = 10;  ///< per needle, to have fallen below
+  double energy = 10;  ///< per needle, at which the run ends
 };
 
 class SearchEquivalence : public testing::TestWithParam<Case> {};
@@ -64,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 300}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// A needle that a hull hides from another is met once in a thousand collisions. Hulls reach
-// farthest beyond their cells where gases are dilute.
+// If bounding volumes hid a needle from another, it would show about once in a thousand
+// collisions. They extend farthest beyond their cells in dilute gases.
 TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions) {
   for (const double box : {100.0, 46.0, 14.0, 5.57}) {
     Scene scene = test::scene_of(2000, box, 1);

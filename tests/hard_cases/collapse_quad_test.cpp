@@ -72,7 +72,7 @@ double energy_of(const State& state, double k = 6) {
   return sum;
 }
 
-/// How far two runs are apart at most.
+/// The largest differences between two runs.
 struct Worst {
   double time = 0, arm = 0, velocity = 0, energy = 0;
 
@@ -84,13 +84,13 @@ struct Worst {
   }
 };
 
-/// The engine beside an exact run, and beside it an exact run whose records are rounded as the
-/// engine's are: by so much numbers in double must differ, whatever computes them.
+/// Compares the engine with an exact run, and that run with one whose records are rounded like the
+/// engine's. The latter difference is unavoidable in double.
 struct Comparison {
   Worst engine, rounded;
   std::size_t collisions = 0, by_rule = 0;
 
-  /// Goes through the engine's collisions and leaves `truth` behind the last.
+  /// Goes through the engine's collisions, and leaves `truth` just after the last.
   void follow(const EngineRun& run, QuadGas& truth, QuadGas twin, double until) {
     bool together = true;
     for (const Collision& c : run.collisions) {
@@ -123,7 +123,7 @@ struct Comparison {
         engine.velocity, rounded.velocity, engine.energy, rounded.energy);
   }
 
-  /// The engine is at most `factor` times farther off than rounding alone, both at their worst.
+  /// The engine's largest error is at most `factor` times that of rounding alone.
   void expect_near(double factor) const {
     const auto near = [&](double off, double rounding, const char* what) {
       EXPECT_LE(off, std::max(1e-13, factor * rounding)) << what;
@@ -135,7 +135,7 @@ struct Comparison {
   }
 };
 
-// Lets all bounces happen that quad resolves, whose times add up to the end of the collapse.
+// Processes all bounces that quad resolves, whose times add up to the end of the collapse.
 void collapse(QuadGas& gas, double until) {
   for (int bounce = 0; bounce < 5000; ++bounce) {
     const Real before = gas.time();
@@ -158,8 +158,8 @@ class CollapseInQuad : public testing::TestWithParam<Rule> {
   }
 };
 
-// Without a contact time: every bounce, until the run says that the next is below what double
-// resolves. Then the collapse is all but over: `rest` is the time that it would still take.
+// Without a contact time: every bounce is compared, until the run reports that the next is below
+// what double resolves. Then the collapse is almost over: `rest` is the time until its end.
 TEST_P(CollapseInQuad, IsFollowedToItsEnd) {
   const double until = 1;
   Random random(11);
@@ -186,15 +186,15 @@ TEST_P(CollapseInQuad, IsFollowedToItsEnd) {
   all.print(name());
   std::printf("%d collapsed, rest at most %.1e\n", collapsed, rest);
   all.expect_near(8);
-  // Smooth needles push with a force that lasts, rough ones come to rest on each other: their gaps
-  // shrink with the cube of time, which double resolves less of.
+  // Smooth needles push with a lasting force, and rough ones come to rest on each other. The gaps
+  // of these shrink with the cube of time, so that double resolves less of it.
   EXPECT_LT(rest, GetParam().beta == -1 ? 1e-10 : 1e-5);
   if (GetParam().beta <= 0 && GetParam().epsilon < 0.7) {
     EXPECT_GT(collapsed, 0);
   }
 }
 
-// With one, all bounces through the sliding contact to its end, and the flight apart behind it.
+// With a contact time: all bounces, the sliding contact to its end, and the flight after it.
 TEST_P(CollapseInQuad, WithContactTimeIsTheSame) {
   const double until = 2;
   Random random(12);
@@ -222,8 +222,8 @@ INSTANTIATE_TEST_SUITE_P(
       return test::parameter_name({{"epsilon", rule.epsilon}, {"beta", rule.beta}});
     });
 
-// A third needle that strikes one of a collapsing pair between two of its bounces, however close
-// they have come: the records are made anew while the pair is a hair's breadth apart.
+// A third needle strikes one of a collapsing pair between two of its bounces, which may be very
+// close. The records are then replaced while the gap of the pair is very small.
 State struck_pair(Random& random, double epsilon, int bounces) {
   for (;;) {
     State state = draw_collapsing_pair(random);
@@ -235,7 +235,7 @@ State struck_pair(Random& random, double epsilon, int bounces) {
       if (!bounce) break;
       last = bounce->time;
     }
-    // Bounces shrink by epsilon: this is well before the next.
+    // Intervals between bounces shrink by epsilon, so this is well before the next.
     const Real gap = (last - before) * epsilon, then = last + gap * Real(random.uniform(0.1, 0.9));
     if (last == 0 || gap > 0.05) continue;
     pair.collide(then);
@@ -266,7 +266,8 @@ TEST(CollapseOfThree, IsTheSameInQuad) {
       Random random(13);
       Comparison all;
       int struck = 0, collapsed = 0;
-      double shortest = 1;  // time between two bounces of a pair with a strike between them
+      double shortest = 1;  // shortest time between two bounces of a pair with a strike between
+                            // them
       for (int n = 0; n < 30 / thin; ++n) {
         SCOPED_TRACE("t_c " + std::to_string(tc) + ", epsilon " + std::to_string(epsilon) +
                      ", case " + std::to_string(n));
@@ -300,8 +301,8 @@ TEST(CollapseOfThree, IsTheSameInQuad) {
   }
 }
 
-// What the engine does about a sliding contact: tiny elastic bounces, of length t_c at most. What
-// is meant: contact points that stay on each other, held there by a force along the normal.
+// The engine represents a sliding contact by tiny elastic bounces, with intervals of at most t_c.
+// The exact motion keeps the contact points together by a force along the normal.
 struct Slide {
   QuadSlide slide;
   Real begin;

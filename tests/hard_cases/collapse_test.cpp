@@ -1,4 +1,5 @@
-// Pairs that bounce on each other ever faster: they must never hang, leap, or pass through.
+// Pairs that bounce on each other faster and faster must never hang, jump, or pass through each
+// other.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -15,8 +16,8 @@ namespace {
 using test::collapsing_pair;
 using test::until_time;
 
-// How two needles stand to each other: the contact function and the arms of the nearest points of
-// their lines.
+// The relation of two needles: the contact function, and the arms of the nearest points of their
+// lines.
 struct Standing {
   double gap;
   double arm_first, arm_second;
@@ -32,7 +33,7 @@ Standing standing(const State& s) {
   return {r.dot(x), b.cross(r).dot(x) / x.squaredNorm(), a.cross(r).dot(x) / x.squaredNorm()};
 }
 
-// Watches a pair at small steps: with both arms inside, the gap never changes its sign.
+// Checks a pair at small steps: while both arms are inside, the gap must not change its sign.
 class SideWatch {
  public:
   ::testing::AssertionResult keeps_side(const State& state) {
@@ -40,7 +41,7 @@ class SideWatch {
     const bool through = before_.inside() && now.inside() && before_.gap * now.gap < 0 &&
                          std::min(std::abs(before_.gap), std::abs(now.gap)) > 1e-13;
     const double was = before_.gap;
-    // A gap that is rounding says nothing; the side is the one before.
+    // A gap within rounding gives no side, so the previous one is kept.
     if (!now.inside() || std::abs(now.gap) > 1e-13) before_ = now;
     if (!through) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << "gap from " << was << " to " << now.gap;
@@ -114,8 +115,8 @@ TEST(Collapse, IsTheSameForEverySearch) {
   }
 }
 
-// A third needle strikes one of the pair in the middle of the collapse, at a random instant; the
-// records are made anew while the pair touches to within rounding.
+// A third needle strikes one of the pair during the collapse, at a random instant. The records are
+// replaced while the pair touches to within rounding.
 TEST(Collapse, StruckByAThirdNeedleStaysOnItsSide) {
   std::uint64_t touches = 0;
   int struck = 0;
@@ -124,8 +125,8 @@ TEST(Collapse, StruckByAThirdNeedleStaysOnItsSide) {
     scene.collisions.epsilon = 0.5;
     scene.collisions.tc = 2e-8;  // gaps of 1e-16: below the rounding of the records
     State state = collapsing_pair(0.05);
-    // The third comes from above on needle 0, across its far arm, soon after the pair has
-    // collapsed; where needle 0 will be by then, a rehearsal without the third tells.
+    // The third needle comes from above onto needle 0, across its far arm, soon after the pair has
+    // collapsed. A run without the third needle gives the position of needle 0 at that time.
     const double arrival = 0.084024 + 1e-6 * n;
     Simulation rehearsal(scene, state);
     rehearsal.advance(until_time(arrival));

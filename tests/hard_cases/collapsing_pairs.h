@@ -1,4 +1,4 @@
-// States in which two needles bounce on each other ever faster.
+// States in which two needles bounce on each other faster and faster.
 #pragma once
 
 #include "needlework/scene.h"
@@ -6,8 +6,8 @@
 
 namespace needlework::test {
 
-/// Needle 0 along x, above needle 1 along y, which turns its contact point towards it while it
-/// slides along: the gap's acceleration is -2 w v_y < 0 all the while.
+/// Needle 0 is along x, above needle 1 along y. Needle 1 turns its contact point towards needle 0,
+/// which slides along it, so that the gap's acceleration is always -2 w v_y < 0.
 inline State collapsing_pair(double approach) {
   State state;
   state.box = {6, 6, 6};
@@ -18,8 +18,8 @@ inline State collapsing_pair(double approach) {
   return state;
 }
 
-/// Any two needles shortly before a contact to which their rotation drives them back: bounces of
-/// some hundredths of a time unit, which shrink.
+/// Two random needles shortly before a contact to which their rotation drives them back. Times
+/// between bounces start at some hundredths of a time unit and shrink.
 inline State draw_collapsing_pair(Random& random) {
   for (;;) {
     const double arm = random.uniform(-0.35, 0.35), other = random.uniform(-0.35, 0.35);
@@ -29,7 +29,7 @@ inline State draw_collapsing_pair(Random& random) {
     push(pair, -slopes(pair).f1 / sine);
     const Real acceleration = slopes(pair).f2 / sine;
     if (abs(acceleration) < 0.5) continue;
-    // f comes from the side to which f'' drives.
+    // f approaches from the side towards which f'' drives.
     push(pair, acceleration * Real(random.uniform(0.005, 0.02)));
     const NeedlePair before = before_contact(pair, 0.01, 1);
     State state;

@@ -54,8 +54,8 @@ TEST(FewNeedles, TwoOrThreeMeetAndCool) {
   }
 }
 
-// In the end they are so slow that the next collision lies beyond all times that can be told, which
-// end at 2^62 mean free times of the start.
+// In the end they are so slow that the next collision is later than all representable times, which
+// end at 2^62 initial mean free times.
 TEST(FewNeedles, TwoMayCoolUntilNothingHappensAnyMore) {
   Scene scene = scene_of(2, 2.01, 78);
   scene.collisions.epsilon = 0.5;
@@ -89,7 +89,7 @@ TEST(AtRest, NothingHappens) {
   EXPECT_EQ(run_hard(resting, state, until_collisions(1)).stop, Stop::nothing_can_happen);
 }
 
-// One needle moves among many at rest, and wakes them up.
+// One needle moves among many at rest, and sets them in motion.
 TEST(AtRest, AllButOneAreWokenUp) {
   Scene resting = gas(60, 4);
   resting.initial.t_tr = resting.initial.t_rot = 0;
@@ -107,7 +107,8 @@ TEST(AtRest, AllButOneAreWokenUp) {
   }
 }
 
-// Needles that only fly or only turn, none of which may be divided by 0; and scales far apart.
+// Needles that only fly or only rotate, so that nothing may be divided by 0; and very different
+// scales.
 TEST(Scales, OfFlightAndRotationMayBeFarApart) {
   for (const auto& [t_tr, t_rot] : std::vector<std::array<double, 2>>{
            {1, 0}, {0, 1}, {1, 1e-12}, {1e-12, 1}, {1, 1e-300}, {1e-300, 1}, {1, 5e-324}}) {
@@ -116,7 +117,8 @@ TEST(Scales, OfFlightAndRotationMayBeFarApart) {
     scene.initial.t_rot = t_rot;
     SCOPED_TRACE("T_tr " + std::to_string(std::log10(t_tr)) + ", T_rot " +
                  std::to_string(std::log10(t_rot)));
-    // Audited where the audit, which is not made for rotation on the spot, takes no minutes.
+    // Audited only where the audit, which is not made for rotation on the spot, does not take
+    // minutes.
     const Watch watch{.everywhere = false,
                       .undecided = 2,
                       .audited = t_tr == 1 && (t_rot == 0 || t_rot > 1e-100)};
@@ -161,7 +163,7 @@ TEST(Restitution, MayBeAnyOfItsRange) {
   }
 }
 
-// Each collapse in a cooling gas without a contact time is told, by pair, time and gap.
+// Each collapse in a cooling gas without a contact time is reported with pair, time and gap.
 TEST(Restitution, WithoutContactTimeEndsInAClearError) {
   for (const double epsilon : {0.0, 0.2, 0.6}) {
     for (const double beta : {-1.0, 0.0}) {
@@ -171,7 +173,7 @@ TEST(Restitution, WithoutContactTimeEndsInAClearError) {
       SCOPED_TRACE(name_of(scene));
       const HardRun run =
           run_hard(scene, until_collisions(200.0 / thin), {.everywhere = false, .audited = false});
-      // Rough needles lose their energy before they collapse, but for epsilon = 0.
+      // Rough needles lose their energy before they collapse, except for epsilon = 0.
       if (thin == 1 && (beta == -1 || epsilon == 0)) {
         EXPECT_TRUE(run.failed());
       }
@@ -192,7 +194,7 @@ TEST(Density, MayBeTwoHundred) {
   EXPECT_GE(run.end.size() / std::pow(2.02, 3), 200 / thin);
 }
 
-// To 1e-30 of the energy, at times of 1e15: the clock resolves as at the start.
+// To 1e-30 of the energy, at times of 1e15: the resolution of time is the same as at the start.
 TEST(LongTimes, EnergyFallsBy30Decades) {
   Scene scene = gas(40, 3);
   scene.collisions.epsilon = 0.6;
@@ -208,7 +210,7 @@ TEST(LongTimes, EnergyFallsBy30Decades) {
               static_cast<std::size_t>(run.last.tc_collisions));
 }
 
-// A contact long foreseen: the time is that of the quotient.
+// A contact that is predicted long before: its time is that of the quotient.
 TEST(LongTimes, AContactAt1e15IsOnTime) {
   for (const double speed : {1e-15, 0x1p-50, 3e-16}) {
     State state = empty_state({4, 4, 4});
@@ -220,7 +222,8 @@ TEST(LongTimes, AContactAt1e15IsOnTime) {
   }
 }
 
-// All velocities times a power of two: the same trajectory, bit for bit, to the ends of the range.
+// All velocities times a power of two give the same trajectory, bit for bit, up to the ends of the
+// range.
 TEST(Scaling, ByPowersOfTwoToTheEndsOfTheRange) {
   Scene scene = gas(100, 4);
   scene.collisions.epsilon = 0.8;
@@ -247,8 +250,8 @@ TEST(Scaling, ByPowersOfTwoToTheEndsOfTheRange) {
   }
 }
 
-// Where squares of velocities leave the range of doubles: the right events, or an error that says
-// so.
+// If squares of velocities overflow or underflow, the events are right or there is an error that
+// says so.
 TEST(Scaling, BeyondTheRangeIsAClearErrorOrRight) {
   for (const double temperature : {1e300, 1e307, 1e-300, 1e-306, 1e-310, 1e-320, 5e-324}) {
     Scene scene = gas(40, 3);
@@ -289,10 +292,10 @@ TEST(Subnormal, ComponentsChangeNothing) {
       state.angular_velocity[i][other] = random.normal();
     }
   }
-  // Of many pairs f is subnormal from the start, and goes on from there.
+  // For many pairs f is subnormal at the start.
   const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.undecided = 800});
   EXPECT_EQ(run.stop, Stop::collisions);
-  // Directors given by subnormal numbers alone.
+  // Directors given by subnormal numbers only.
   for (auto& u : state.orientation) {
     u = {least * 3, -least * 5000, least * static_cast<double>(random.below(10000))};
   }

@@ -12,14 +12,14 @@
 namespace needlework::test {
 namespace {
 
-// Runs of more collisions are not made at `rigorous` too, which would take minutes.
+// Runs with more collisions are not repeated at `rigorous`, which would take minutes.
 constexpr std::size_t most_rigorous = 2000;
 
 bool is_finite(const std::array<double, 3>& a) {
   return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-// Follows a run by its collisions.
+// Checks a run by its collisions.
 class Chronicle {
  public:
   Chronicle(const Scene& scene, const Simulation& simulation, const Scene::Until& until)
@@ -38,7 +38,7 @@ class Chronicle {
     }
   }
 
-  // Whether all is well with a collision.
+  // Whether a collision is valid.
   testing::AssertionResult take(const Collision& c) {
     const bool finite = std::isfinite(c.offset) && std::isfinite(c.time) &&
                         std::isfinite(c.sin_angle) && std::isfinite(c.normal_velocity) &&
@@ -133,7 +133,8 @@ void expect_sound(const HardRun& run, const Scene& scene) {
     EXPECT_TRUE(scene.until.time == std::nullopt || run.time == *scene.until.time);
   }
   EXPECT_LE(run.last.energy, run.first.energy * (1 + 1e-12));
-  const double most = std::sqrt(2 * count * run.first.energy);  // that one needle can have
+  const double most = std::sqrt(2 * count * run.first.energy);  // largest momentum that one needle
+                                                                // can have
   const double collisions = static_cast<double>(run.collisions.size());
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(run.last.momentum[axis], run.first.momentum[axis],

@@ -1,4 +1,4 @@
-// Runs a scene by every search and on two threads, watches each collision, and has it audited.
+// Runs a scene with every search and on two threads, checks each collision, and audits the run.
 #pragma once
 
 #include <functional>
@@ -10,23 +10,25 @@
 
 namespace needlework::test {
 
-/// How a hard scene is looked at.
+/// How a hard scene is checked.
 struct Watch {
-  bool everywhere = true;  ///< by every search and size; else by the best known few
-  double share = 1;        ///< of pairs that are audited
-  /// Flights of pairs that rounding may decide, of those checked.
+  bool everywhere = true;  ///< with every search and size; otherwise with a few of them
+  double share = 1;        ///< fraction of pairs that are audited
+  /// Number of flights of pairs whose result may depend on rounding, among those checked.
   std::uint64_t undecided = 0;
-  bool by_rounding = false;  ///< which decides so much that levels of accuracy may end otherwise
-  /// The audit's collision rule squares the energies: not for velocities near the ends of range.
+  bool by_rounding = false;  ///< rounding decides so much that levels of accuracy may give
+                             ///< different ends
+  /// The audit's collision rule squares energies, so it cannot be used for velocities near the
+  /// ends of the range.
   bool audited = true;
 };
 
-/// What came of it: of the run by all-pairs, which all others equal.
+/// The results of the run with all-pairs, which all other runs equal.
 struct HardRun {
   std::vector<Collision> collisions;
   State initial, end;
   Totals first, last;
-  Stop stop = Stop::interrupted;  ///< that is left when it failed
+  Stop stop = Stop::interrupted;  ///< stays so if the run failed
   std::string failure;            ///< message of InvalidStateError
   double time = 0;
   std::string hash;
@@ -37,9 +39,10 @@ struct HardRun {
 };
 
 /// Runs from a state until an end. Expects of each collision: finite numbers, arms on the needles,
-/// a clock that neither goes back nor leaps past the end, energy that never grows; of the whole:
-/// the energy that the collisions say, the momentum kept, all needles in the box; of the audit:
-/// nothing missed, wrong, late; of every search, and of two threads: the same.
+/// a time that neither decreases nor exceeds the end, energy that never grows. Expects of the
+/// whole run: the energy that follows from the collisions, conserved momentum, all needles in the
+/// box. Expects of the audit: nothing missed, wrong or late. Expects the same of every search, and
+/// of two threads.
 HardRun run_hard(const Scene& scene, const State& state, const Scene::Until& until,
                  const Watch& watch = {});
 HardRun run_hard(const Scene& scene, const Scene::Until& until, const Watch& watch = {});

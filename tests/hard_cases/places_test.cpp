@@ -1,5 +1,5 @@
-// Scenes whose needles are in hard places: at borders, in the least box, all at one point, in one
-// plane, or meeting at one instant.
+// Scenes with needles in difficult places: at borders, in the smallest box, all at one point, in
+// one plane, or meeting at one instant.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,13 +57,13 @@ TEST(LeastBox, KeepsEveryCollision) {
   }
 }
 
-// In the least box needle 1 is near to needle 0 on both sides: their collisions alternate between
+// In the smallest box needle 1 is near needle 0 on both sides: their collisions alternate between
 // two images.
 TEST(LeastBox, TwoNeedlesMeetThroughTwoImages) {
   State state = empty_state({2.01, 2.01, 2.01});
   add_needle(state, {0.5, 1, 1}, {0, 1, 0}, {0.5, 0, 0}, {0, 0, 0});
   add_needle(state, {1.505, 1, 1}, {0, 0, 1}, {-0.5, 0, 0}, {0, 0, 0});
-  // Bouncing centre on centre they exchange velocities and meet on the other side.
+  // When the centres collide, the needles exchange velocities and meet on the other side.
   const HardRun run = run_hard(elastic(), state, until_time(50.0 / thin));
   ASSERT_EQ(run.collisions.size(), thin == 1 ? 25u : 3u);
   for (std::size_t n = 1; n < run.collisions.size(); ++n) {
@@ -89,10 +89,10 @@ TEST(LeastBox, TwoNeedlesMeetThroughTwoImages) {
 }
 
 // Centres on borders of box and cells, to the last bit on either side, moving along the border,
-// towards it, or at rest. Boxes of 8 have cells of 1 and 2 among those that the searches use.
-// Some centres coincide, or are apart by the least of numbers, at rest or turning in one place:
-// such pairs begin on their contact. Of these seeds, the second to fourth have shown lost
-// collisions, the last three what the audit has to know of such places.
+// towards it, or at rest. Boxes of 8 have cells of 1 and 2 among those that the searches use. Some
+// centres coincide, or are apart by the smallest number, at rest or rotating in one place: such
+// pairs start at contact. The second to fourth of these seeds have shown lost collisions, the last
+// three what the audit has to handle in such places.
 class Borders : public testing::TestWithParam<std::uint64_t> {};
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Borders,
@@ -136,9 +136,9 @@ TEST_P(Borders, AreDecidedToTheLastBit) {
   }
 }
 
-// Whether no pair has come through each other between two states that are close in time: where the
-// lines meet on both needles in both, and cross at an angle, the side is the same. Returns for
-// how many pairs that could be told.
+// Checks that no pair has passed through each other between two states that are close in time: if
+// the lines meet within both needles in both states, at an angle, the side must be the same.
+// Returns the number of pairs for which this could be checked.
 int expect_same_sides(const State& before, const State& after) {
   int pairs = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -163,8 +163,8 @@ int expect_same_sides(const State& before, const State& after) {
   return pairs;
 }
 
-// Two needles turn about one centre, at rest: they stand on a contact all the while, on no side of
-// it, until a third strikes one of them.
+// Two needles rotate about one centre, at rest: they are always at contact without a side, until a
+// third needle strikes one of them.
 TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
   constexpr int steps = 512, scenes = 10;
   int told = 0;
@@ -196,11 +196,11 @@ TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
   EXPECT_GT(told, scenes * steps / 10);
 }
 
-// Needles that do not rotate, whose contact points all come to one point at one time.
+// Needles without rotation whose contact points all meet in one point at one time.
 class ManyThroughOnePointTogether : public testing::TestWithParam<std::uint64_t> {};
 
-// With the second and third, a needle came through another by rounding alone; the fourth takes
-// up to 189 collisions at one instant.
+// With the second and third seeds, a needle passed through another by rounding alone; the fourth
+// has up to 189 collisions at one instant.
 INSTANTIATE_TEST_SUITE_P(Seeds, ManyThroughOnePointTogether,
                          testing::Values(seed, seed + 1000003, seed + 2 * 1000003,
                                          seed + 3 * 1000003));
@@ -216,7 +216,7 @@ TEST_P(ManyThroughOnePointTogether, KeepTheirSides) {
         const Three r = Three{3, 3, 3} - random.uniform(-0.45, 0.45) * u - v;
         add_needle(state, r, u, v, {0, 0, 0});
       }
-      // What happens within rounding of one place and time, rounding decides; with 20 needles the
+      // Rounding decides the order of events that are equal to within rounding. With 20 needles the
       // audit would take minutes.
       const Scene scene = cools ? cooling() : elastic();
       const Watch watch{
@@ -230,7 +230,7 @@ TEST_P(ManyThroughOnePointTogether, KeepTheirSides) {
   }
 }
 
-// They start there: every pair touches at time 0, to within rounding.
+// They start there: every pair touches at time 0 to within rounding.
 TEST(ManyThroughOnePoint, MayStartThere) {
   for (const int count : {2, 3, 8, 20}) {
     for (const double spin : {0.0, 3.0}) {
@@ -252,14 +252,14 @@ TEST(ManyThroughOnePoint, MayStartThere) {
   }
 }
 
-// Copies of one small gas, apart by powers of two: all its events happen at the same time, bit for
-// bit, in each copy, and are ordered by the needles' ids.
+// Copies of one small gas, displaced by powers of two. All its events happen at the same time in
+// each copy, bit for bit, and are ordered by the needles' ids.
 TEST(SimultaneousEvents, OfEqualCopiesAreOrderedById) {
   Random random(seed);
   State one = empty_state({32, 32, 4});
   for (int n = 0; n < 6; ++n) {
-    // On a grid of 2^-20, so that moving by whole numbers rounds nothing, for centres only move
-    // when the time comes.
+    // On a grid of 2^-20, so that displacement by whole numbers causes no rounding, because
+    // centres move only at events.
     const auto grid = [&](double low, double high) {
       return std::ldexp(std::round(std::ldexp(random.uniform(low, high), 20)), -20);
     };
@@ -284,7 +284,7 @@ TEST(SimultaneousEvents, OfEqualCopiesAreOrderedById) {
     ++equal;
     EXPECT_LT(std::pair(a.first, a.second), std::pair(b.first, b.second));
   }
-  // The first collision of each copy at least: later ones round elsewhere.
+  // At least the first collision of each copy; later ones round differently.
   EXPECT_GE(equal, 15u) << run.collisions.size();
 }
 
@@ -324,7 +324,7 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
         v[x] = random.normal();
         v[y] = random.normal();
         if (parallel) v[static_cast<std::size_t>(axis)] = random.normal();
-        // Parallel ones turn together, or not at all.
+        // Parallel needles rotate together, or not at all.
         w[static_cast<std::size_t>(axis)] =
             parallel ? (axis == 1 ? 1.5 : 0) : 3.4 * random.normal();
         add_needle(state, r, u, v, w);
@@ -337,7 +337,8 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
                   double(run.counters.evaluated) / double(run.counters.predicted),
                   double(run.counters.escalated) / double(run.counters.predicted),
                   size_t(run.counters.predicted));
-      // Nor do intervals, which forget that f is small everywhere, cut time to dust.
+      // Interval arithmetic, which does not use that f is small everywhere, must not divide time
+      // endlessly either.
       Scene scene = elastic();
       scene.needles.count = state.size();
       scene.engine.accuracy = "rigorous";
@@ -349,7 +350,7 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
   }
 }
 
-// Needles in one plane that no axis is normal to, but for rounding.
+// Needles in one plane, to within rounding, whose normal is along no axis.
 State one_tilted_plane(Random& random) {
   const Three e1 = random.direction();
   Three e2 = perpendicular(random.direction(), e1);
@@ -367,9 +368,9 @@ State one_tilted_plane(Random& random) {
   return state;
 }
 
-// Two of them rattle between a third's ends, where f is of the size of rounding for a hundred
-// collisions and more: what engine and audit do to go on from one flight to the next must be the
-// same.
+// Two of them bounce between the ends of a third, where f is of the size of rounding for a hundred
+// collisions and more. Engine and audit must then continue f from one flight to the next in the
+// same way.
 TEST(OnePlane, TiltedRattles) {
   std::size_t met = 0;
   for (const int plus : {1, 2 * 1000003}) {
@@ -414,7 +415,7 @@ TEST(OnePlane, TiltedGoesOnOrSaysWhyNot) {
       }
       const Counters counters = simulation.counters();
       met += simulation.totals().collisions;
-      // No stretch of time is cut to dust.
+      // Time is not divided endlessly.
       EXPECT_LT(double(counters.evaluated),
                 (level == "rigorous" ? 1e4 : 500) * double(counters.predicted));
     }

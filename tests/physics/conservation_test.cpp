@@ -1,4 +1,4 @@
-// What no collision changes stays the same to rounding over many of them.
+// Quantities that collisions conserve stay constant to rounding over many collisions.
 #include <gtest/gtest.h>
 
 #include <cmath>

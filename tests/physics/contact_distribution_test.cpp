@@ -9,12 +9,13 @@
 //   V_n^2 / (4 (1 + k (s12^2 + s21^2))) exceeds e with probability (1 - e / E)^((D - 1) / 2).
 // Contacts lost near the parallel configuration, near a tip or near grazing leave a dent at
 // sin theta -> 0, |s| -> 1/2 or |V_n| -> 0, so bins are fine there.
-// A pair that grazes (|V_n| -> 0) parts for good or, in half of all cases by time reversal, is
-// driven together again: then it meets about 1 / |V_n| times. Of the smallest |V_n| a few such
-// pairs are half of all contacts, and no run is long enough to tell their scatter. So below a
-// probability of 0.01 the number of contacts is only bounded, by those that part: half of the
-// law's. Tolerance: chi-square with a probability of at least 0.0027 (3 standard errors), for
-// variances as the blocks of the run show them, as a pair that has met likes to meet again.
+// A pair that grazes (|V_n| -> 0) either separates or, in half of all cases by time reversal, is
+// driven together again: then it meets about 1 / |V_n| times. A few such pairs make up half of all
+// contacts at the smallest |V_n|, and no run is long enough to estimate their scatter. So below a
+// probability of 0.01 the number of contacts is only bounded from below by the pairs that separate,
+// which are half of the law's. Tolerance: chi-square with a probability of at least 0.0027 (3
+// standard errors). The variances are those that the blocks of the run show, because a pair that
+// has met often meets again.
 #include <gtest/gtest.h>
 
 #include <array>

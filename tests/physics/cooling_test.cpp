@@ -1,12 +1,11 @@
-// A dilute inelastic gas cools as the kinetic theory says.
+// A dilute inelastic gas cools as kinetic theory predicts.
 //
-// Law: the homogeneous cooling curve (theory::cooling_curve: Huthmann, Aspelmeier, Zippelius), here
-// from needles that do not rotate, epsilon = 0.8, k = 6. It is approximate: it takes velocities for
-// Gaussian and forgets that pairs meet again.
-// Tolerance: 8 % of energy and of T_tr / T_rot, 6 % being theory's (seen in larger runs: up to 5 %
-// more energy, 3 % in the ratio, once the first ten collisions are over), the rest scatter of one
-// run, about 1.5 %. During the first ten collisions the ratio, which starts at infinity, is up to
-// 15 % above the theory.
+// Law: the homogeneous cooling curve (theory::cooling_curve: Huthmann, Aspelmeier, Zippelius),
+// here from needles that do not rotate, epsilon = 0.8, k = 6. It is approximate: it assumes
+// Gaussian velocities and ignores that pairs meet again. Tolerance: 8 % of energy and of T_tr /
+// T_rot. 6 % of it is for the theory (in larger runs: up to 5 % more energy, and 3 % in the ratio
+// after the first ten collisions), the rest for the scatter of one run, about 1.5 %. During the
+// first ten collisions the ratio, which starts at infinity, is up to 15 % above the theory.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +48,7 @@ TEST(Cooling, FollowsTheTheoryOverThreeDecadesOfEnergy) {
               << '\n';
     EXPECT_NEAR(energy, 1, 0.08) << "tau " << taus[i];
     EXPECT_NEAR(ratio, 1, taus[i] < 20 ? 0.2 : 0.08) << "tau " << taus[i];
-    // Pairs that bounce on each other add to the theory's collisions, and take little energy.
+    // Pairs that bounce repeatedly add to the theory's collisions, but lose little energy.
     EXPECT_GT(met, 1) << "tau " << taus[i];
     EXPECT_LT(met, 1.5) << "tau " << taus[i];
   }

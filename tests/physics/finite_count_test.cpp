@@ -1,9 +1,10 @@
-// The exact truths of equilibrium hold down to a handful of needles, with their finite-N terms.
+// Exact results for equilibrium hold for a few needles, with their finite-N terms.
 //
-// Laws, of the microcanonical ensemble with momentum 0 (3 (N - 1) translational and 2 N rotational
-// degrees of freedom): the rate is theory::equilibrium_rate, T_tr / T_rot is (N - 1) / N.
-// Tolerance: 3 standard errors, from the scatter of blocks, each more than 100 mean free times
-// long. What infinitely many needles would give must be far outside: the test sees these terms.
+// Laws, for the microcanonical ensemble with momentum 0 (3 (N - 1) translational and 2 N
+// rotational degrees of freedom): the rate is theory::equilibrium_rate, and T_tr / T_rot is (N -
+// 1) / N. Tolerance: 3 standard errors, from the scatter of blocks, each more than 100 mean free
+// times long. The values for infinitely many needles must be far outside, so that the test is
+// sensitive to these terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -73,7 +74,7 @@ TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
   EXPECT_TRUE(test::agrees(t_tr, 1, 3));
   EXPECT_TRUE(test::agrees(t_rot, 1, 3));
 
-  // Energy is conserved, so the two temperatures go up and down together.
+  // Energy is conserved, so the two temperatures are fully correlated.
   EXPECT_NEAR(run.t_tr.value / run.t_rot.value, (count - 1) / count,
               3 * (run.t_tr.error + run.t_rot.error));
   const double infinite = theory::collision_rate(count / volume, {1, 1}, scene.needles.k);

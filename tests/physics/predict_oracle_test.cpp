@@ -31,7 +31,7 @@ constexpr std::uint64_t seed = 20240611;
 #ifdef NDEBUG
 constexpr int thin = 1;
 #else
-constexpr int thin = 50;  // unoptimised: the same test on fewer pairs
+constexpr int thin = 50;  // unoptimised builds run the same test on fewer pairs
 #endif
 constexpr std::size_t thermal_count = 100000 / thin, hard_count = 10000 / thin;
 constexpr std::size_t symmetry_count = 2000 / thin;
@@ -45,7 +45,7 @@ OracleAnswer oracle(const NeedlePair& pair) {
   return first_contact(pair.first, pair.second, pair.horizon, pair.just_collided);
 }
 
-/// What came out over one family. "Over limit" means divided by what is allowed.
+/// Results for one family. "Over limit" means divided by the allowed error.
 struct Report {
   std::size_t pairs = 0, contacts = 0, near = 0, near_differs = 0;
   std::size_t wrong = 0, late = 0, arms_off = 0, undefined = 0;
@@ -159,8 +159,8 @@ TEST_P(PredictOracle, AgreesOnEveryPair) {
   if (!family.made_of_limits) {
     EXPECT_LT(static_cast<double>(report.near), 0.01 * static_cast<double>(report.pairs));
   }
-  // Few lie so near that the roundings of the records themselves decide: a family that arithmetic
-  // gives up on, rather than the numbers, would show here.
+  // In few pairs should the roundings of the records themselves decide. A family that the
+  // arithmetic cannot handle would show here.
   EXPECT_LE(static_cast<double>(report.near_differs), 2 + 0.05 * static_cast<double>(report.near));
 }
 
@@ -236,9 +236,9 @@ TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
   EXPECT_NEAR(engine(pair).time, 2.0 / 3, 1e-15);
 }
 
-/// Nearly parallel needles whose contact lies next to the root at which they are parallel: f bends
-/// back after less than rounding. Once lost, each by one way of isolation, as the extremum between
-/// the roots was left again after it had been found.
+/// Nearly parallel needles whose contact is next to the root at which they are parallel: f bends
+/// back by less than rounding. Each was once missed by one way of isolation, which left the
+/// extremum between the roots after it had found it.
 TEST(PredictOracleByHand, ContactsNextToParallelRootsAreFound) {
   std::vector<NeedlePair> pairs;
   {
@@ -278,7 +278,7 @@ TEST(PredictOracleByHand, ContactsNextToParallelRootsAreFound) {
   }
 }
 
-/// The harness must be able to fail: an answer wrong by a little is caught.
+/// The test must be able to fail: an answer with a small error is detected.
 TEST(PredictOracleByHand, WrongAnswersAreSeen) {
   NeedlePair pair;
   pair.first = {{0.25, -0.125, -0.5}, {1, 0, 0}, {0, 0, 0.75}, {0, 0, 0}};

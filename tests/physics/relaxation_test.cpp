@@ -1,13 +1,14 @@
-// Elastic needles bring translation and rotation to one temperature, at the rate of the theory.
+// In elastic needles translation and rotation relax to one temperature, at the rate of the theory.
 //
-// Law: the difference D = T_tr - T_rot decays at first at lambda = (5/2) gamma sqrt(T) times the
-// integral of k r^2 / (1 + k r^2)^(3/2) over the unit square, gamma = (2/3) sqrt(pi) n, if D is
-// small: the exact rates of a random state (theory::cooling_rates), linear in D. The theory goes on
-// as if the gas stayed Gaussian and uncorrelated (theory::cooling_curve); in truth pairs that have
-// just met meet again, and D decays more slowly: after 1 / lambda of a dilute gas, k = 6, it
-// is 1.16 times the theory's, as a Monte Carlo solution of the Boltzmann equation shows that
-// follows each pair until it has parted. Tolerance: 3 standard errors, from the scatter of runs
-// with different seeds; where the theory is approximate, what is stated there besides.
+// Law: the difference D = T_tr - T_rot initially decays with the rate lambda = (5/2) gamma sqrt(T)
+// times the integral of k r^2 / (1 + k r^2)^(3/2) over the unit square, gamma = (2/3) sqrt(pi) n,
+// if D is small. These are the exact rates of a random state (theory::cooling_rates), linear in D.
+// After the start the theory assumes that the gas stays Gaussian and uncorrelated
+// (theory::cooling_curve). In fact pairs that have just met meet again, and D decays more slowly:
+// after 1 / lambda in a dilute gas with k = 6 it is 1.16 times the theory's. This value is from a
+// Monte Carlo solution of the Boltzmann equation that follows each pair until it has separated.
+// Tolerance: 3 standard errors, from the scatter of runs with different seeds; where the theory is
+// approximate, also what is stated there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +30,8 @@ using theory::Temperatures;
 
 double gamma_of(double density) { return 2.0 / 3.0 * std::sqrt(std::numbers::pi) * density; }
 
-// lambda / gamma at T = 1, where the energy of a needle is 5/2. The integral by the midpoint rule.
+// lambda / gamma at T = 1, where the energy of a needle is 5/2. The integral is computed by the
+// midpoint rule.
 double relaxation_rate(double k) {
   constexpr int points = 500;
   double sum = 0;
@@ -80,7 +82,7 @@ std::ostream& operator<<(std::ostream& out, const Gas& gas) {
 
 class Relaxation : public testing::TestWithParam<Gas> {};
 
-// In 0.08 / lambda, a tenth of a mean free time of a dense gas, hardly a pair has met again.
+// In 0.08 / lambda, a tenth of a mean free time of a dense gas, hardly any pair has met again.
 TEST_P(Relaxation, StartsAtItsRate) {
   SCOPED_TRACE(GetParam());
   const double lambda = relaxation_rate(GetParam().k);
@@ -109,7 +111,8 @@ TEST_P(Relaxation, EndsInEquipartition) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Measured ratio = found[i] / (theory[i].t_tr - theory[i].t_rot);
     std::cout << "difference at " << taus[i] * lambda << " / lambda over theory: " << ratio << '\n';
-    // Slowed down by pairs that meet again, by 0.02 at the first, 0.16 at the last of these times.
+    // Slowed down by pairs that meet again: by 0.02 at the first and 0.16 at the last of these
+    // times.
     const double slower = std::vector{0.02, 0.05, 0.14}[i];
     EXPECT_NEAR(ratio.value, 1 + slower / 2, slower / 2 + 3 * ratio.error);
   }

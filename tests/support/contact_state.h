@@ -1,4 +1,5 @@
-// Pairs built around a contact: the state at the contact is chosen, then run backwards.
+// Pairs built around a contact: the state at the contact is chosen, and the motion is then run
+// backwards.
 #pragma once
 
 #include "tests/support/pair_families.h"
@@ -16,12 +17,12 @@ struct PairState {
   NeedleState first, second;
 };
 
-/// Free flight over `time`, which may be negative.
+/// The needle after free flight over `time`, which may be negative.
 NeedleState flown(const NeedleState& needle, const Real& time);
 NeedleState read(const FreeNeedle& needle);
 FreeNeedle rounded(const NeedleState& needle);
 
-/// What a contact state is drawn from.
+/// The parameters from which a contact state is drawn.
 struct ContactRecipe {
   double angle_sine = 0;  ///< |u1 x u2| below 0.2; 0: any directors
   std::array<double, 2> arms = {0, 0};
@@ -42,7 +43,7 @@ Vec<Real> contact_normal(const PairState& pair);
 /// Adds `change` times the contact normal to the relative velocity, half to each needle.
 void push(PairState& pair, const Real& change);
 
-/// The pair `time` before the state, rounded to doubles.
+/// The pair at `time` before the state, rounded to doubles.
 NeedlePair before_contact(const PairState& state, double time, double horizon);
 
 }  // namespace needlework::test

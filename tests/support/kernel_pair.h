@@ -1,4 +1,5 @@
-// Pairs as the kernels see them, held by value, and what leaves their contacts the same.
+// Pairs in the form that kernels use, held by value, and transformations that preserve their
+// contacts.
 #pragma once
 
 #include <cmath>
@@ -18,7 +19,7 @@ struct KernelPair {
   kernels::Touch touch;
   double touch_within = 0;
 
-  /// Refers to this pair, which must outlive it.
+  /// A view of this pair, which must outlive it.
   kernels::Pair view() const {
     return {.first = &first,
             .second = &second,
@@ -32,7 +33,7 @@ struct KernelPair {
 
 inline Vec3d vec3(const Vec<double>& a) { return {a[0], a[1], a[2]}; }
 
-/// A record: director normalised, angular velocity made normal to it.
+/// A record with normalised director, and with angular velocity normal to it.
 inline kernels::Flight flight(const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
   kernels::Flight out;
   out.r = r;
@@ -60,7 +61,7 @@ inline DoubleDouble power_of_two(const DoubleDouble& a, int power) {
   return {std::ldexp(a.hi, power), std::ldexp(a.lo, power)};
 }
 
-/// The contact function stays the same.
+/// The contact function is unchanged.
 inline KernelPair exchanged(KernelPair pair) {
   std::swap(pair.first, pair.second);
   std::swap(pair.elapsed_first, pair.elapsed_second);

@@ -36,8 +36,8 @@ Result solve(const FreeNeedle& first, const FreeNeedle& second, double horizon, 
   return {answer, search.undecided()};
 }
 
-/// Whether doubles can be trusted with a pair: no square and no product of three of its numbers
-/// leaves their range, and what is projected out of the angular velocities is no more than these.
+/// Whether doubles suffice for a pair: no square and no product of three of its numbers overflows
+/// or underflows, and the parts removed from the angular velocities are not larger than these.
 bool is_tame(const FreeNeedle& first, const FreeNeedle& second, double horizon) {
   const auto in_range = [](const Vec<double>& a) {
     const double most = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});

@@ -131,7 +131,7 @@ Curve<Real> make_curve(const Motion<Real>& motion) {
     for (int j = 0; j < 4; ++j) curve.c[k][j] += curve.d[k - 1][j];
     curve.d[k] = turned(curve.d[k - 1]);
   }
-  // The coefficients are wrong by some units of the vectors that they are made of.
+  // The error of the coefficients is some units of the vectors from which they are computed.
   const Real unit = 64 * unit_roundoff<Real>();
   const Real distance = norm(motion.separation), speed = norm(motion.velocity);
   Real power = 1, lower = 0;  // W^k and k W^(k-1)

@@ -18,7 +18,7 @@ inline double over(double numerator, double denominator) {
   return std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio;
 }
 
-/// What is known at one time of a pair, in double: only sizes matter here.
+/// The noise at one time of a pair, in double, because only sizes matter here.
 struct Noise {
   double inputs = 0;                              ///< noise_in of f
   double evaluation = 0;                          ///< err(f)

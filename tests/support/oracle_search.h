@@ -98,7 +98,7 @@ OracleAnswer OracleSearch<Real>::run() {
     answer_.outcome = Outcome::spheres_apart;
     return answer_;
   }
-  // f identically 0, or not to be told from it: in one plane for ever.
+  // f is identically 0, or cannot be distinguished from 0: the needles stay in one plane.
   const Real last = curve_.bound(0, begin_) + curve_.bound(0, end_);
   const bool nothing = last <= curve_.noise(0, begin_) + curve_.noise(0, end_);
   if (nothing) {

@@ -13,7 +13,7 @@ constexpr double rod_spin = 3.4641016151377544;  // sqrt(2k), k = 6: thermal at 
 
 double any_arm(Random& random) { return random.uniform(-0.5, 0.5); }
 
-/// A time for the built contact, and a horizon that now and then cuts it off.
+/// A time for the built contact, and a horizon that sometimes ends before it.
 NeedlePair before(const PairState& state, Random& random, double longest) {
   const double time = longest * random.uniform(0.05, 1);
   return before_contact(state, time, time * random.uniform(0.9, 3));
@@ -206,7 +206,7 @@ NeedlePair draw_mixed_scales(Random& random) {
   return before(state, random, fast ? 1e-4 : 1);
 }
 
-/// FNV-1a, so that families of one seed have nothing in common.
+/// FNV-1a, so that different families with the same seed are unrelated.
 std::uint64_t hash(std::string_view text) {
   std::uint64_t value = 0xcbf29ce484222325u;
   for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3u;

@@ -23,11 +23,11 @@ struct NeedlePair {
   std::optional<double> contact_time;
 };
 
-/// Decisions nearer than this to the other one, in units of the inputs' noise, may fall either way:
-/// directors are normalised in double by the engine, and by the oracle in many digits.
+/// Decisions closer than this to the opposite one, in units of the inputs' noise, may have either
+/// result: the engine normalises directors in double, and the oracle in many digits.
 inline constexpr double least_margin = 8;
 
-/// A family of pairs. `made_of_limits`: most pairs lie where rounding the inputs may flip the
+/// A family of pairs. `made_of_limits`: for most pairs rounding the inputs may reverse the
 /// decision, on purpose.
 struct PairFamily {
   std::string_view name;
@@ -51,8 +51,8 @@ struct PairFamily {
 /// - back-to-rounding: as just-collided, back after 1e-12 .. 1e-6
 const std::vector<PairFamily>& pair_families();
 
-/// `count` pairs, the same for equal `seed` on every machine. Throws std::invalid_argument for a
-/// name that does not exist.
+/// `count` pairs, which are the same for equal `seed` on every machine. Throws
+/// std::invalid_argument for an unknown name.
 std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed);
 
 /// Swaps the needles. The contact has the same time, arms swapped.

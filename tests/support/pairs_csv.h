@@ -10,10 +10,12 @@
 
 namespace needlework::test {
 
-/// "id,family,horizon,r1x,...,w2z,skip" with 17 significant digits, which give every double back.
+/// "id,family,horizon,r1x,...,w2z,skip" with 17 significant digits, from which every double can be
+/// recovered.
 std::string csv_line(std::size_t id, const NeedlePair& pair);
 
-/// The names of the columns as a comment, then one line a pair; ids count from `first_id`.
+/// Writes the names of the columns as a comment, then one line per pair; ids count from
+/// `first_id`.
 void write_pairs(std::ostream& out, std::span<const NeedlePair> pairs, std::size_t first_id = 0);
 
 }  // namespace needlework::test

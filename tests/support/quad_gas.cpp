@@ -6,8 +6,8 @@
 namespace needlework::test {
 namespace {
 
-// Orders of the series, and the longest stretch on which one is used, in units of 1 / (|v12| + |w1|
-// + |w2|): the rest is below 0.5^29 / 29! = 2e-40.
+// Orders of the series, and the longest interval on which one is used, in units of 1 / (|v12| +
+// |w1| + |w2|). The remainder is below 0.5^29 / 29! = 2e-40.
 constexpr int order = 28;
 const Real stretch = Real(1) / 2;
 
@@ -72,8 +72,8 @@ Real slope(const Series& a, const Real& t) {
   return sum;
 }
 
-// The root of a monotone series between two ends of different sign, by Newton's method, halving
-// where that leads out.
+// The root of a monotone series between two ends of different sign, by Newton's method, or by
+// halving where that leaves the interval.
 Real root_between(const Series& a, Real low, Real high) {
   const bool rises = value(a, high) > 0;
   Real t = (low + high) / 2;

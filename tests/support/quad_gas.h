@@ -1,5 +1,5 @@
-// A few needles in endless space, followed from collision to collision in quad precision, and two
-// that slide along each other. Shares nothing with the engine: contacts are roots of power series.
+// Follows a few needles in infinite space from collision to collision in quad precision, and two
+// that slide along each other. Shares no code with the engine: contacts are roots of power series.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@ namespace needlework::test {
 struct QuadRule {
   double k = 6, epsilon = 1, beta = -1;
   double tc = 0;  ///< contact time; 0: none
-  /// Whether what a collision leaves is rounded to doubles, which an engine in double cannot avoid.
-  /// The contact functions go on from the values that they had.
+  /// Whether the state after a collision is rounded to doubles, as in any engine in double. The
+  /// contact functions continue from their values before rounding.
   bool rounded = false;
 };
 
@@ -30,26 +30,28 @@ struct QuadCollision {
 /// The end of a sliding contact.
 struct QuadSlide {
   Real time;
-  bool over_a_tip;  ///< else the needles have come to part
+  bool over_a_tip;  ///< otherwise the needles have separated
   PairState end;
-  Real gap, normal_velocity;  ///< that should be 0; what the integration has lost
+  Real gap, normal_velocity;  ///< exactly 0 in theory; errors of the integration
 };
 
 class QuadGas {
  public:
-  /// From the state of a run. No periodic images: the needles must stay in the box.
+  /// Starts from the state of a run. There are no periodic images, so the needles must stay in the
+  /// box.
   QuadGas(const State& state, const QuadRule& rule);
 
-  /// Flies to the next contact up to `until` and collides there, else flies to `until`.
+  /// Moves to the next contact up to `until` and processes the collision, or moves to `until` if
+  /// there is none.
   std::optional<QuadCollision> collide(const Real& until);
 
   const Real& time() const { return time_; }
   Real energy() const;
   const std::vector<NeedleState>& needles() const { return needles_; }
 
-  /// What becomes of needles 0 and 1, which have just collided and separate by next to nothing,
-  /// when their contact points keep to each other: without friction, by a force along the normal
-  /// for as long as that is a push. `steps` per unit of time.
+  /// Follows needles 0 and 1, which have just collided and separate by almost nothing, while their
+  /// contact points stay together: without friction, held by a force along the normal until it
+  /// would have to pull. `steps` per unit of time.
   QuadSlide slide(int steps) const;
 
  private:
@@ -66,9 +68,9 @@ class QuadGas {
   Real time_ = 0;
   std::vector<std::optional<Real>> last_collision_;
   using Pair = std::pair<std::size_t, std::size_t>;  // ascending
-  /// The two that stand on their contact now, if any: f = 0.
+  /// The two that are at a contact now, if any: f = 0.
   std::optional<Pair> touching_;
-  std::map<Pair, Real> offsets_;  ///< added to f, for what rounding has changed
+  std::map<Pair, Real> offsets_;  ///< added to f to correct for rounding
 };
 
 /// s12 and s21 of the lines' nearest points.

@@ -62,7 +62,7 @@ class Random {
 
  private:
   static double logarithm(double x) {
-    // 64 bits say how to round to 53 in all but a few of a thousand cases.
+    // 64 bits determine the rounding to 53 in all but a few of a thousand cases.
     using Extended = long double;
     if constexpr (std::numeric_limits<Extended>::digits == 64) {
       const Extended value = std::log(Extended(x)), error = 0x1p-61L * std::abs(value);

@@ -14,9 +14,9 @@
 namespace needlework::test {
 namespace {
 
-/// How far ahead contacts are looked for at once [time].
+/// Length of time in which contacts are searched at once [time].
 constexpr double span = 0.25;
-/// Where the search goes on behind a contact that was passed over [time].
+/// Distance at which the search continues after a contact that was skipped [time].
 constexpr double past = 1e-9;
 
 struct Body {
@@ -112,7 +112,7 @@ class Gas {
       for (int y = -1; y <= 1; ++y) {
         for (int z = -1; z <= 1; ++z) {
           const std::array<std::int32_t, 3> shift{centre[0] + x, centre[1] + y, centre[2] + z};
-          // Both moved to where rounding is least.
+          // Both needles moved to where rounding is smallest.
           FreeNeedle near = first, image = second;
           for (int axis = 0; axis < 3; ++axis) {
             const DoubleDouble boxes = two_prod(shift[axis], scene_.needles.box[axis]);
@@ -202,7 +202,7 @@ class Gas {
   Fault fault_;
   std::vector<Body> bodies_;
   std::map<Key, double> last_;    ///< times of the pairs' last collisions
-  std::map<Key, double> passed_;  ///< until when contacts of a pair are not seen
+  std::map<Key, double> passed_;  ///< until when contacts of a pair are ignored
   int occasions_ = 0;
   ReferenceRun run_;
 };

@@ -1,4 +1,5 @@
-// A gas simulated by brute force, which can be told to err as engines do: what audits are tried on.
+// A gas simulated by brute force, with errors on request as an engine may make them. It serves to
+// test audits.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +9,16 @@
 
 namespace needlework::test {
 
-/// What goes wrong, at every `every`-th occasion. The history goes on consistently from there.
+/// An error that is made on every `every`-th occasion. The history continues consistently from
+/// there.
 struct Fault {
   enum Kind {
     none,
-    drop,         ///< a contact does not happen; the needles pass through each other
+    drop,         ///< a contact is skipped; the needles pass through each other
     delay,        ///< a collision happens later by `amount` of time, or earlier if negative
-    blind,        ///< the side after touching is lost: the pair's return, if it comes, is not seen
-    repeat,       ///< the side after touching is taken wrong: the pair collides again at once
-    restitution,  ///< the impulse is too large by the share `amount`
+    blind,        ///< the side after touching is lost: if the pair returns, that is not seen
+    repeat,       ///< the side after touching is wrong: the pair collides again at once
+    restitution,  ///< the impulse is too large by the fraction `amount`
   };
   Kind kind = none;
   int every = 1;
@@ -30,11 +32,11 @@ struct ReferenceRun {
   int planted = 0;  ///< faults
 };
 
-/// Epochs of the collisions' times, which are plain doubles: so long that no run is longer.
+/// Epoch length of the collisions' times, which are plain doubles: longer than any run.
 inline constexpr double reference_epoch = 32;
 
-/// Runs the scene from its drawn state until so many collisions have happened. Every pair of a few
-/// dozen needles is predicted anew for each of them.
+/// Runs the scene from its drawn state for this number of collisions. After each of them every
+/// pair of a few dozen needles is predicted again.
 ReferenceRun run_reference(const Scene& scene, int collisions, const Fault& fault);
 
 }  // namespace needlework::test

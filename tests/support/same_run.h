@@ -1,4 +1,4 @@
-// Whether two runs are the same, bit for bit.
+// Checks whether two runs are the same, bit for bit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 namespace needlework::test {
 
-/// By how much runs are cut short where checks make them slow.
+/// Factor by which runs are shortened where checks make them slow.
 #ifdef NDEBUG
 inline constexpr double thin = 1;
 #else

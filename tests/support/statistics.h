@@ -25,7 +25,7 @@ inline std::ostream& operator<<(std::ostream& out, const Measured& measured) {
   return out << measured.value << " +- " << measured.error;
 }
 
-/// Whether the measured number is within so many standard errors of what is expected.
+/// Whether the measured number is within this many standard errors of the expected one.
 inline testing::AssertionResult agrees(const Measured& measured, double expected, double errors) {
   // Not >, so that NaN fails.
   const bool good = std::abs(measured.value - expected) <= errors * measured.error;
@@ -34,7 +34,7 @@ inline testing::AssertionResult agrees(const Measured& measured, double expected
          << expected;
 }
 
-/// Mean of independent samples, be they runs with different seeds or long blocks of one run.
+/// Mean of independent samples, such as runs with different seeds or long blocks of one run.
 class Mean {
  public:
   void add(double sample) {
@@ -57,7 +57,7 @@ struct ChiSquare {
   std::size_t worst = 0;  ///< bin that deviates most
   double deviation = 0;   ///< of that bin, in standard errors
 
-  /// Probability of at least this value, were the law true.
+  /// Probability of a value at least this large, if the law is true.
   double probability() const { return boost::math::gamma_q(degrees / 2, value / 2); }
 };
 
@@ -67,10 +67,10 @@ inline std::ostream& operator<<(std::ostream& out, const ChiSquare& test) {
              << test.worst << " by " << test.deviation << " standard errors";
 }
 
-/// Counts in bins of known probabilities, taken in blocks of a run. Neighbouring samples are
-/// correlated, so each bin's variance is the multinomial one times what the scatter of the blocks
-/// shows to be above it, if anything. (The scatter alone would not do: a rare bin that stays empty
-/// has none.)
+/// Counts in bins of known probabilities, sampled in blocks of a run. Neighbouring samples are
+/// correlated, so each bin's variance is the multinomial one times a factor above 1 if the scatter
+/// of the blocks shows more. (The scatter alone would not do: a rare bin that stays empty has
+/// none.)
 class BlockHistogram {
  public:
   /// `probabilities` sum to 1.
@@ -121,7 +121,8 @@ class BlockHistogram {
   double samples_ = 0;
 };
 
-/// Bin of x among those that end at these ascending edges; beyond the last edge, the last bin.
+/// Bin of x among those that end at these ascending edges; values beyond the last edge are in the
+/// last bin.
 inline std::size_t bin_of(double x, const std::vector<double>& ends) {
   const auto end = std::upper_bound(ends.begin(), ends.end() - 1, x);
   return static_cast<std::size_t>(end - ends.begin());

@@ -1,4 +1,4 @@
-// A folder to write in.
+// A folder for the files of a test.
 #pragma once
 
 #include <cstdlib>
@@ -8,13 +8,13 @@
 
 namespace needlework::test {
 
-/// A new one, which no other test uses, also when tests run at the same time; gone with this
-/// object.
+/// A new folder that no other test uses, even if tests run at the same time. It is removed with
+/// this object.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "needlework-test-").string();
-    name.append(6, 'X');  // which mkdtemp() replaces
+    name.append(6, 'X');  // mkdtemp() replaces these
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     path_ = name;
   }

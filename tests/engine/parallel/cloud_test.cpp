@@ -1,5 +1,5 @@
-// A cloud of needles in a large box: what search and sizes suit it changes as it spreads. Its
-// trajectory is that of any search all along, on any number of threads.
+// A cloud of needles in a large box. The best search and sizes change as it spreads. Its
+// trajectory is that of any fixed search, on any number of threads.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -60,7 +60,7 @@ TEST(Cloud, IsFollowedAsItSpreads) {
   }
 }
 
-// What is set by hand stays so.
+// Given settings are never changed.
 TEST(Cloud, IsSearchedAsAskedFor) {
   Scene scene = test::scene_of(1000, 25);
   const State state = cloud(scene);
@@ -83,7 +83,7 @@ TEST(Cloud, IsSearchedAsAskedFor) {
   EXPECT_EQ(resized(scene), 0u);
 }
 
-// The run goes on with another loop at any time between two events.
+// One loop may replace another at any time between two events.
 TEST(Loops, MayFollowEachOther) {
   Scene scene = test::scene_of(600, 7, 8);
   scene.collisions.epsilon = 0.9;
@@ -193,7 +193,7 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
   EXPECT_EQ(told, expected);
 }
 
-// A loop that follows another does no more work than one that goes on.
+// A loop that replaces another does no more work than one that continues.
 TEST(Loops, GoOnWhereTheOthersLeft) {
   const Scene scene = test::scene_of(1000, 11);
   const auto searches_of_half = [&](bool by_another) {

@@ -1,4 +1,4 @@
-// The check that no event done before its turn could have mattered to one before it.
+// Tests the check that no event processed out of order could have affected an earlier one.
 #include "src/engine/done_log.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ const Vec3d here{4, 4, 4};
 constexpr double far = 3;
 constexpr double just = 1e-5;
 
-// Whether a needle with an event may have met the one with this other event, and the same with both
-// moved by parts of the box.
+// Whether a needle with an event may have met one with this other event. Gives the same result
+// with both moved by fractions of the box.
 bool may_have_met(const Done& mine, double speed, const Done& other) {
   std::optional<bool> out;
   for (const Vec3d& move : {Vec3d{0, 0, 0}, {3.9, 0, 0}, {0, 5.1, 0}, {0, 0, -3.8}, {-4, -4, -4}}) {
@@ -45,7 +45,7 @@ constexpr double reach = 1 + 0.25 * 3;
 TEST(DoneLog, KnowsHowFarNeedlesCanMeet) {
   EXPECT_NEAR(DoneLog::reach(key_at(1), key_at(1.25), 3), reach, just);
   EXPECT_GT(DoneLog::reach(key_at(1), key_at(1.25), 3), reach);
-  // With room for rounding, also that of the times.
+  // Includes a margin for rounding, also of the times.
   EXPECT_GT(DoneLog::reach(key_at(1), key_at(1), 0), 1);
   EXPECT_GT(DoneLog::reach(key_at(0x1p40), key_at(0x1p40), 0x1p20), 1 + 2 * 0x1p-53 * 0x1p60);
 }
@@ -56,7 +56,8 @@ TEST(DoneLog, FindsThoseThatMayHaveMet) {
        {Vec3d{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0.6, 0, -0.8}, {0.48, 0.6, 0.64}}) {
     EXPECT_TRUE(may_have_met(mine, 2, at(1.25, here + (reach - just) * way, 1)));
     EXPECT_FALSE(may_have_met(mine, 2, at(1.25, here + (reach + just) * way, 1)));
-    // What counts is how fast mine is since, and the other was before.
+    // Only the speeds of the first needle after its event, and of the other before its event,
+    // count.
     EXPECT_FALSE(may_have_met(at(1, here, 9), 2, at(1.25, here + (reach + just) * way, 1)));
     EXPECT_FALSE(may_have_met(mine, 2 - 1e-3, at(1.25, here + (reach - just) * way, 1)));
     EXPECT_FALSE(may_have_met(mine, 2, at(1.25 - 1e-3, here + (reach - just) * way, 1)));
@@ -119,7 +120,7 @@ TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
   EXPECT_FALSE(after(other_search, search));
 }
 
-// The window of the search is a bound that the caller knows; a wider one finds the same.
+// `farthest` is a bound that the caller knows; a larger one gives the same result.
 TEST(DoneLog, SearchesAsFarAsItIsTold) {
   DoneLog log(CellGrid(box, 0.7, 1000), box);
   log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1));

@@ -1,4 +1,4 @@
-// How far threads are in time.
+// How far threads are in simulated time.
 #include "src/engine/fronts.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 TimeKey key(double time) { return std::bit_cast<TimeKey>(time); }
 
-// Needles as fast as 0.5, in sight up to 1.2: centres of needles that touch are within 1, so there
-// is room for 0.2, half of it left for what is not yet seen.
+// Needles have speeds up to 0.5 and are seen up to 1.2. Centres of touching needles are within 1,
+// which leaves a margin of 0.2, half of it for what has not been seen yet.
 TEST(Fronts, AreTooFarAheadWhereOthersCouldComeNear) {
   Fronts fronts(2, 1.2);
   fronts.begin(0.5);
@@ -38,10 +38,11 @@ TEST(Fronts, GoByTheFastestNeedleThereIs) {
   EXPECT_TRUE(fronts.is_too_far_ahead(key(7.011)));
   fronts.begin(0.5);
   EXPECT_EQ(fronts.fastest(), 0);
-  EXPECT_TRUE(fronts.is_too_far_ahead(key(7)));  // nobody has told of any
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7)));  // no thread has published its next event
 }
 
-// Or all would wait, for ever: also where times are told less finely than needles move.
+// Otherwise all threads would wait for ever. Also if the resolution of time is coarser than the
+// motion of needles.
 TEST(Fronts, HindmostIsNeverAhead) {
   for (const double time : {0.0, 1e-300, 7.0, 1e20, 1e300}) {
     for (const double speed : {0.0, 1e-300, 1.0, 1e300, std::numeric_limits<double>::infinity(),
@@ -65,7 +66,7 @@ TEST(Fronts, TellHowFarLaterEventsMayMatter) {
   EXPECT_NEAR(fronts.reach_of_later(0, key(7), 1, true), 1 + 0.1 * 4, 1e-5);
   EXPECT_NEAR(fronts.reach_of_later(0, key(7), 4, true), 1 + 0.1 * 8, 1e-5);
   EXPECT_EQ(fronts.reach_of_later(1, key(7.1), 3, true), 0);
-  // One's own later ones matter to what is done out of order.
+  // A thread's own later events matter if it processes an earlier one out of order.
   EXPECT_FALSE(fronts.publish_event(1, key(6.9), 0.5));
   EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, false), 1 + 0.2 * 4, 1e-5);
   EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, true), 1 + 0.1 * 2, 1e-5);

@@ -1,4 +1,4 @@
-// Mail between threads, and how they find that nothing is left to do.
+// Mail between threads, and how they detect that no event is left to process.
 #include "src/engine/mail.h"
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ TEST(Mail, IsNotWaitedForWhenThePhaseIsGivenUp) {
   EXPECT_TRUE(mail.rest(0, given_up, patient));
 }
 
-// A rests first; B sends it work, which A does and sends work back: neither may leave before all of
-// it has been done, however they are interleaved.
+// A rests first. B sends it work, which A does and then sends work back. Neither may stop before
+// all work is done, in whatever order they run.
 TEST(Mail, EndsWhenAllRestAndNoneIsUnderWay) {
   for (int repetition = 0; repetition < 200; ++repetition) {
     Mail mail(2);

@@ -1,4 +1,4 @@
-// Runs on several threads are those on one, bit for bit, to the last collision.
+// Runs on several threads equal those on one, bit for bit, up to the last collision.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// Who runs when is up to the system, so a run is repeated, above all where threads give way to each
-// other at random.
+// The system decides which thread runs when, so a run is repeated, above all in builds in which
+// threads yield at random.
 TEST(Parallel, IsTheSameEveryTime) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
@@ -96,8 +96,8 @@ TEST(Parallel, IsTheSameEveryTime) {
   }
 }
 
-// Stretches of one thread may lie between phases of several, in which a gas cools: what was fast
-// then is not what is fast now.
+// Between phases of several threads one thread may work alone while the gas cools. The largest
+// speed of the last phase must then not be used unscaled.
 TEST(Parallel, GoesOnTogetherAfterALongTimeAlone) {
   Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
   const int steps = thin > 1 ? 20 : 100;
@@ -126,8 +126,8 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_EQ(simulation.queue(), "cell-calendar");
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
-  EXPECT_GT(counters.foreign, 10u);  // collisions over the border
-  EXPECT_GT(counters.sorts, 0u);     // which divides the box anew
+  EXPECT_GT(counters.foreign, 10u);  // collisions across the border
+  EXPECT_GT(counters.sorts, 0u);     // after which the box is divided again
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {
@@ -161,7 +161,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
   }
 }
 
-// An end by energy cannot be foreseen: the phase in which it lies is undone.
+// A limit on energy cannot be foreseen, so the phase that passes it is undone.
 TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   scene.engine.threads = 2;
@@ -170,8 +170,8 @@ TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   EXPECT_GE(simulation.counters().redone, 1u);
 }
 
-// The limit is a number of collisions and a bit: one more is needed, and no time is left for a
-// phase.
+// The limit is slightly above a number of collisions: one more is needed, and no time is left for
+// a phase.
 TEST(Parallel, EndsAtTheNextCollision) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   std::size_t with_a_bit = 0;
@@ -186,8 +186,8 @@ TEST(Parallel, EndsAtTheNextCollision) {
   EXPECT_GT(with_a_bit, 30u);
 }
 
-// Called for short times on end, as the program does, a run does not try what was undone anew; and
-// needles that slide, with many more collisions than in thermal flight, make no endless phase.
+// A run that is advanced in many short calls does not repeat attempts that were undone. Needles
+// that slide, with many more collisions than in thermal flight, do not lead to an endless phase.
 TEST(Parallel, UndoesAPhaseOnlyOnce) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
@@ -209,13 +209,13 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   const Counters& counters = seen->counters();
   EXPECT_GT(counters.phases, 2u);
   EXPECT_LE(counters.redone, 3u);
-  // Each of 2^15 collisions at most, or twice that in vain.
+  // Each phase has at most 2^15 collisions, or twice that if it is undone.
   EXPECT_LE(counters.events, 2 * truth->counters().events);
 }
 
-// In rare gases a mean free time is longer than the times that the search can tell in float: phases
-// end before it has to begin them anew. Each end by energy undoes one, which is only right if what
-// the search knows of needles that were not put back is right at the time before.
+// In dilute gases a mean free time is longer than the times that the search can store in float, so
+// phases end before it has to rebase them. Each limit on energy undoes a phase. That is correct
+// only if the search's data of needles that were not restored hold at the earlier time as well.
 TEST(Parallel, RareGasesAreUndoneRightly) {
   const Scene scene =
       scene_of({"", 130, {1763.7097770949067, 2.01, 2.01}, 0.95, 0.0945871625986503, 1e-3, 6, 0});
@@ -235,8 +235,8 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   }
 }
 
-// Where zones hardly touch, nothing but a look at each other's clocks keeps threads so near in time
-// that it can be told who may have met.
+// If zones hardly touch, only the check of each other's times keeps threads so close in time that
+// it can be decided which needles may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;
@@ -247,7 +247,7 @@ TEST(Parallel, StaysTogetherInTimeInALongBox) {
   EXPECT_LE(counters.redone, counters.phases / 4);
 }
 
-// Scenes so small that usually one thread does them alone.
+// Scenes so small that usually one thread processes them alone.
 TEST(Parallel, FewNeedlesToo) {
   for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
                         Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},

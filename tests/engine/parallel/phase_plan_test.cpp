@@ -1,4 +1,4 @@
-// How long threads go on before they meet.
+// How phases are planned.
 #include "src/engine/phase_plan.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ Time at(double time) { return clock.add({}, time); }
 
 class PhasePlanTest : public testing::Test {
  protected:
-  // Of a run without end in sight, with so many collisions per time.
+  // A run without a limit on collisions, with this number of collisions per time.
   PhasePlan::Outlook outlook(double next, double rate, double left = infinity) const {
     return {at(next), at(1e6), at(1e6), left, rate};
   }
@@ -62,7 +62,7 @@ TEST_F(PhasePlanTest, LeavesToOneThreadWhatIsTooLittle) {
   expect_alone(soon, 1e6);
   soon.ready = at(2);
   expect_alone(soon, 1e6);
-  // So many collisions that a phase is shorter than times can tell.
+  // With so many collisions a phase is shorter than the resolution of time.
   expect_alone(outlook(3.5, 1e300), 1e6);
 }
 
@@ -97,7 +97,7 @@ TEST_F(PhasePlanTest, TriesMoreAndMoreSeldomWhereAllIsInVain) {
   expect_alone(outlook(3, 0x1p13), 7);
   for (int n = 0; n < 20; ++n) plan.undone(at(0), at(1));
   expect_alone(outlook(0, 0x1p13), 1001);
-  // Not shorter than what is worth it.
+  // Not shorter than what is worth sharing.
   expect_together(outlook(1001, 64), 1002);
   plan.kept();
   plan.undone(at(1002), at(1003));
@@ -109,12 +109,13 @@ TEST_F(PhasePlanTest, GoesByTheCollisionsThatThereAre) {
   expect_together(outlook(0, 0x1p15 / 3), 1);
   plan.counted(500, 1000);
   expect_together(outlook(0, 0x1p15), 2);
-  // Too few to go by.
+  // Too few collisions for an estimate.
   plan.counted(63, 1e6);
   expect_together(outlook(0, 0x1p15), 2);
 }
 
-// Broken off at twice as many as expected; that says nothing of the threads.
+// A phase is abandoned at twice the expected collisions, which does not indicate a problem of the
+// threads.
 TEST_F(PhasePlanTest, TriesLessAtOnceAfterTooManyCollisions) {
   EXPECT_GT(plan.most_of_a_thread(), 0x1p16);
   EXPECT_LT(plan.most_of_a_thread(), 0x1p17);

@@ -15,7 +15,7 @@
 namespace needlework {
 namespace {
 
-// Draws that are the same with every standard library.
+// Random numbers that are the same with every standard library.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : bits_(seed) {}
@@ -37,7 +37,7 @@ class Draw {
 struct Drawn {
   Scene scene;
   Scene::Until until;
-  double gathered = 1;  ///< share of each edge of the box that needles begin in
+  double gathered = 1;  ///< fraction of each edge of the box in which needles start
 
   State state() const {
     State out = draw_initial_state(scene);
@@ -77,7 +77,7 @@ Drawn draw(std::uint64_t seed) {
   return {scene, until, gathered};
 }
 
-// As it has to be on any number of threads.
+// The end of a run, which must be the same on any number of threads.
 struct End {
   Stop stop;
   std::uint64_t collisions;
@@ -91,7 +91,8 @@ void PrintTo(const End& end, std::ostream* out) {
        << end.time << ", energy " << end.energy << ", hash " << end.hash;
 }
 
-// `slice`: wall time of a call [s]; 0: all in one. Adds what was done to `counters`.
+// `slice` is the wall time of one call; 0: the whole run in one call. Adds the counters of the run
+// to `counters`.
 End run(Drawn drawn, int threads, double slice, Counters& counters) {
   drawn.scene.engine.threads = threads;
   if (slice > 0) drawn.until.wall_s = slice;

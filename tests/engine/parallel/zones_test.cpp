@@ -16,7 +16,7 @@ std::size_t size_of(const CellCounts& cells) {
   return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2];
 }
 
-/// Of cells of side 1.
+/// For cells of side 1.
 std::array<double, 3> box_of(const CellCounts& cells) {
   return {static_cast<double>(cells[0]), static_cast<double>(cells[1]),
           static_cast<double>(cells[2])};
@@ -50,7 +50,7 @@ TEST(Zones, GetTheirShareOfTheNeedles) {
   }
 }
 
-// Of as many cells as is asked for, zones get equal parts, to a cell.
+// If zones can have equal numbers of cells, they do, to within one cell.
 TEST(Zones, AreEqualWhereCellsAllowIt) {
   int seen = 0;
   for (const std::array<double, 3> box :
