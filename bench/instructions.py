@@ -38,8 +38,8 @@ SKIPPED = 77  # exit code that ctest takes for a skipped test
 
 # Where instructions go, by the first of these patterns that a function's name has.
 SHARES = {
-    "neighbours by lanes (`approaching`, `overlapping`)": r"::(approaching|overlapping)$",
-    "following the pairs that are left, by lanes (`isolate`)": r"::isolate",
+    "neighbours by SIMD (`approaching`, `overlapping`)": r"::(approaching|overlapping)$",
+    "following the pairs that are left, by SIMD (`bracket`)": r"::bracket",
     "cells to look into (`look_around`)": r"::look_around|append_near",
     "motions into columns, candidates in order": r"candidates|Candidate|pair_columns|fill_pairs",
     "placing needles in cells": r"NearSearch::place|Hulls::",

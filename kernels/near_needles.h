@@ -23,7 +23,7 @@ inline constexpr float longest_time = 8;       ///< of the times below, see thei
 
 /// Up to 16 needles of one cell, in columns: where they have been placed, relative to the corner of
 /// the cell. Cells with more needles chain blocks.
-struct alignas(64) Block {
+struct alignas(64) NeedleBlock {
   enum Column { x, y, z, a_x, a_y, a_z, time, columns };
 
   float column[columns][block_size];  ///< centre; director or velocity; time of the centre
@@ -54,7 +54,7 @@ struct CellView {
 
 /// The cells around a needle.
 struct Surroundings {
-  const Block* blocks;
+  const NeedleBlock* blocks;
   const BlockLink* links;  ///< one for each block
   const CellView* cells;
   std::size_t cell_count;
@@ -78,7 +78,7 @@ struct Seeker {
 };
 
 /// Pairs to be looked at more closely, in columns: the second needle as seen from the seeker.
-/// Columns have room for two blocks more, which isolate() overwrites.
+/// Columns have room for two blocks more, which bracket() overwrites.
 struct PairColumns {
   enum Column {
     r_x,
@@ -105,7 +105,7 @@ struct PairColumns {
 
 /// The contact function of pairs, in columns with room for one block more than there are pairs. The
 /// error bounds hold where the bounding spheres overlap and phases, |w| times the time since a
-/// needle's u and p, are below 2^12 in sum; elsewhere isolate() does not use them.
+/// needle's u and p, are below 2^12 in sum; elsewhere bracket() does not use them.
 struct ContactColumns {
   enum Column {
     f,
@@ -140,11 +140,11 @@ struct NearKernels {
   /// Needles whose bounding spheres come to overlap the seeker's in the time ahead; their columns
   /// a are velocities.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
-  /// What isolate() knows of the first n pairs at time s from now.
+  /// What bracket() knows of the first n pairs at time s from now.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
                            const ContactColumns& out);
   /// Sets `from` of the first n pairs. Returns the evaluations of the contact function, by lanes.
-  std::size_t (*isolate)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
+  std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };
 
 /// Kernels of an instruction set that is available().

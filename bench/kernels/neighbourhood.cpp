@@ -10,10 +10,10 @@
 namespace needlework::bench {
 namespace {
 
-using kernels::Block;
 using kernels::BlockLink;
 using kernels::Flight;
 using kernels::Motion;
+using kernels::NeedleBlock;
 using kernels::Seeker;
 
 constexpr std::uint64_t needles_drawn = 4000;
@@ -148,10 +148,10 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
     const Vec3d r = needle.r - corner_of(needle.r);
     const Vec3d& a = columns == Columns::directors ? needle.u : needle.v;
     for (int axis = 0; axis < 3; ++axis) {
-      blocks[b].column[Block::x + axis][lane] = static_cast<float>(component(r, axis));
-      blocks[b].column[Block::a_x + axis][lane] = static_cast<float>(component(a, axis));
+      blocks[b].column[NeedleBlock::x + axis][lane] = static_cast<float>(component(r, axis));
+      blocks[b].column[NeedleBlock::a_x + axis][lane] = static_cast<float>(component(a, axis));
     }
-    blocks[b].column[Block::time][lane] = 0;
+    blocks[b].column[NeedleBlock::time][lane] = 0;
     blocks[b].needle[lane] = i;
   }
 

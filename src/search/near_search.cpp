@@ -12,9 +12,9 @@
 namespace needlework {
 namespace {
 
-using kernels::Block;
 using kernels::BlockLink;
 using kernels::Motion;
+using kernels::NeedleBlock;
 using kernels::PairColumns;
 
 // A needle stays in its cell until it is out of it by so much of the cell's side: one that goes to
@@ -193,10 +193,10 @@ void Hulls::set_motion(Needle i, Time now) {
 // Writes the needle's entry into the block of its cell.
 void Hulls::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
   const Place& place = places[i];
-  Block& block = blocks[place.block];
+  NeedleBlock& block = blocks[place.block];
   const Vec3d r = centre - grid.corner(place.cell);
-  const double values[Block::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
-  for (int column = 0; column < Block::columns; ++column) {
+  const double values[NeedleBlock::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
+  for (int column = 0; column < NeedleBlock::columns; ++column) {
     block.column[column][place.lane] = static_cast<float>(values[column]);
   }
   block.needle[place.lane] = i;
@@ -246,8 +246,8 @@ void Hulls::leave(Needle i) {
   const std::uint32_t lane = --links[last].size;
   const Needle moved = blocks[last].needle[lane];
   if (moved != i) {
-    Block& to = blocks[place.block];
-    for (int column = 0; column < Block::columns; ++column) {
+    NeedleBlock& to = blocks[place.block];
+    for (int column = 0; column < NeedleBlock::columns; ++column) {
       to.column[column][place.lane] = blocks[last].column[column][lane];
     }
     to.needle[place.lane] = moved;
@@ -314,7 +314,7 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
     view_cells_.resize(most);
   }
   // Copied, for what is stored might be these, as far as a compiler can tell.
-  const Block* const blocks = hulls.blocks.data();
+  const NeedleBlock* const blocks = hulls.blocks.data();
   kernels::CellView* view = views_.data();
   Cell* view_cell = view_cells_.data();
   for (const auto& z : near_[2]) {
@@ -346,8 +346,8 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   seeker.needle = i;
   const Hulls::Place& place = hulls.places[i];
   for (int axis = 0; axis < 3; ++axis) {
-    seeker.r[axis] = hulls.blocks[place.block].column[Block::x + axis][place.lane];
-    seeker.u[axis] = hulls.blocks[place.block].column[Block::a_x + axis][place.lane];
+    seeker.r[axis] = hulls.blocks[place.block].column[NeedleBlock::x + axis][place.lane];
+    seeker.u[axis] = hulls.blocks[place.block].column[NeedleBlock::a_x + axis][place.lane];
   }
   look_around(seeker, place.cell, ahead);
   const kernels::Surroundings around{hulls.blocks.data(), hulls.links.data(), views_.data(),
@@ -382,7 +382,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
     for (std::size_t k = 0; k < count; ++k) {
       pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
     }
-    counters_.isolated += kernels_.isolate(seeker, pairs, count);
+    counters_.isolated += kernels_.bracket(seeker, pairs, count);
     for (std::size_t k = 0; k < count; ++k) {
       const float from = pairs.column[PairColumns::from][k];
       const bool met = from <= seeker.ahead;

@@ -11,7 +11,7 @@
 //   capsules      the hull is a capsule of radius delta around the needle; filtered by the overlap
 //                 of capsules. For dense gases: the few needles next to this one are nearly all.
 //
-// What a filter passes is looked at once more, by lanes: isolate() of kernels/near_needles.h
+// What a filter passes is looked at once more, by lanes: bracket() of kernels/near_needles.h
 // follows both needles until they cannot meet, or to where they may.
 #pragma once
 
@@ -65,7 +65,8 @@ struct Hulls {
   Time base;         ///< from which times in blocks and motions count
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
-  LargeArray<kernels::Block> blocks;  ///< first those of the cells, then those chained to them
+  LargeArray<kernels::NeedleBlock>
+      blocks;  ///< first those of the cells, then those chained to them
   LargeArray<kernels::BlockLink> links;
   std::vector<std::uint32_t> free_blocks;
   std::mutex chaining;  ///< held while blocks are taken from or given to the free ones

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/kernels/scalar_lanes.h"
+#include "tests/kernels/exposed_simd.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 #include "tests/support/segments.h"
@@ -33,7 +33,7 @@ double in_double(const Segments& s) {
 }
 
 double in_float(const Segments& s) {
-  using scalar::Lanes;
+  using scalar::Floats;
   using V = scalar::exposed::V3;
   const auto lanes = [](const Vec3d& a) {
     return V{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
@@ -110,7 +110,7 @@ void expect_right(float angle) {
   EXPECT_NEAR(turned.cosine.v, std::cos(exact), 0x1p-20) << std::hexfloat << angle;
 }
 
-TEST(SineCosineOfLanes, IsGoodTo20BitsForAnglesBelow4096) {
+TEST(SineCosineOfFloats, IsGoodTo20BitsForAnglesBelow4096) {
   Random random(seed);
   for (int n = 0; n < 2000000 / thin; ++n) {
     const double size = random.coin() ? 0x1p12 * random.uniform()

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "kernels/first_contact.h"
-#include "tests/kernels/lane_pairs.h"
+#include "tests/kernels/simd_pairs.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
@@ -24,8 +24,8 @@ static void PrintTo(Isa isa, std::ostream* out) { *out << name_of(isa); }
 
 namespace {
 
+using test::bracketed;
 using test::draw_pairs;
-using test::isolated;
 using test::KernelPair;
 using test::motion_of;
 using test::PairRow;
@@ -44,7 +44,7 @@ constexpr std::size_t thin = 20;
 
 /// Blocks of needles in cells around a seeker, whatever they hold.
 struct Neighbourhood {
-  std::vector<Block> blocks;
+  std::vector<NeedleBlock> blocks;
   std::vector<BlockLink> links;
   std::vector<CellView> cells;
   Seeker seeker{};
@@ -65,7 +65,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhoo
 }
 
 /// Numbers for one needle in a block.
-using BlockRow = std::array<float, Block::columns>;
+using BlockRow = std::array<float, NeedleBlock::columns>;
 
 /// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
 /// stands beyond the last needle of a block is not a number.
@@ -77,7 +77,7 @@ Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<Block
     const auto first = static_cast<std::uint32_t>(out.blocks.size());
     out.cells.push_back({first, {}});
     for (int chained = random.below(3); chained >= 0; --chained) {
-      Block& block = out.blocks.emplace_back();
+      NeedleBlock& block = out.blocks.emplace_back();
       for (auto& column : block.column) {
         std::fill(std::begin(column), std::end(column), std::numeric_limits<float>::quiet_NaN());
       }
@@ -87,7 +87,7 @@ Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<Block
       link.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, rows.size() - next));
       if (chained > 0) link.next = static_cast<std::uint32_t>(out.blocks.size());
       for (std::uint32_t lane = 0; lane < link.size; ++lane, ++next) {
-        for (int c = 0; c < Block::columns; ++c) block.column[c][lane] = rows[next][c];
+        for (int c = 0; c < NeedleBlock::columns; ++c) block.column[c][lane] = rows[next][c];
         block.needle[lane] = static_cast<std::uint32_t>(next + 1);
       }
     }
@@ -121,7 +121,7 @@ std::vector<std::uint32_t> bits(const Values& values) {
 }
 
 /// One pair of a family, the first needle seeking.
-struct LanePair {
+struct SimdPair {
   KernelPair pair;
   Contact truth;
   double unit;
@@ -129,8 +129,8 @@ struct LanePair {
   PairRow row;
 };
 
-LanePair lane_pair(Random& random, const test::NeedlePair& drawn) {
-  LanePair out;
+SimdPair simd_pair(Random& random, const test::NeedlePair& drawn) {
+  SimdPair out;
   out.pair = kernel_pair(drawn);
   if (drawn.just_collided) {
     const int side = side_after(out.pair.view());
@@ -142,7 +142,7 @@ LanePair lane_pair(Random& random, const test::NeedlePair& drawn) {
   // The gas may be faster or slower than this pair, and the partner placed some time ago.
   out.unit = unit_of(out.pair.first, out.pair.second) * std::ldexp(1.0, random.below(5) - 2);
   const double age = random.coin() ? 0 : random.uniform(0, 4) / out.unit;
-  const auto until = static_cast<float>(horizon * out.unit) + test::lane_time_margin;
+  const auto until = static_cast<float>(horizon * out.unit) + test::simd_time_margin;
   out.seeker = seeker_of(motion_of(out.pair.first, 0, out.unit), until);
   const Motion other = motion_of(out.pair.second, -age, out.unit);
   const double from = out.truth.found && random.below(4) == 0
@@ -179,8 +179,8 @@ class OnEveryIsa : public testing::TestWithParam<Isa> {
 
   /// The same as the twin, and in any order.
   void expect_same(Random& random, const Seeker& seeker, const std::vector<PairRow>& rows) {
-    const std::vector<float> truth = isolated(twin(), seeker, rows);
-    EXPECT_EQ(bits(isolated(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
+    const std::vector<float> truth = bracketed(twin(), seeker, rows);
+    EXPECT_EQ(bits(bracketed(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
     const auto s = static_cast<float>(random.uniform());
     const auto values = test::contact_functions(kernels(), seeker, rows, s);
     const auto expected_values = test::contact_functions(twin(), seeker, rows, s);
@@ -198,7 +198,7 @@ class OnEveryIsa : public testing::TestWithParam<Isa> {
       shuffled.push_back(rows[n]);
       expected.push_back(truth[n]);
     }
-    EXPECT_EQ(bits(isolated(kernels(), seeker, shuffled)), bits(expected)) << "seed " << seed;
+    EXPECT_EQ(bits(bracketed(kernels(), seeker, shuffled)), bits(expected)) << "seed " << seed;
   }
 };
 
@@ -210,7 +210,7 @@ TEST_P(OnEveryIsa, HasItsOwnKernels) {
 
 // Partners from every family for one seeker: what they were built around is lost but for the first,
 // directors and speeds of all kinds stay.
-TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
+TEST_P(OnEveryIsa, BracketsToTheSameBits) {
   Random random(seed);
   std::size_t ruled_out = 0, pairs = 0;
   for (const std::size_t count : {1, 2, 7, 8, 9, 15, 16, 17, 33, 100}) {
@@ -219,14 +219,14 @@ TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
       Seeker seeker{};
       for (const std::string_view family : family_names()) {
         for (const test::NeedlePair& drawn : draw_pairs(family, 1 + count / 11, random.bits())) {
-          const LanePair pair = lane_pair(random, drawn);
+          const SimdPair pair = simd_pair(random, drawn);
           if (rows.empty()) seeker = pair.seeker;
           rows.push_back(pair.row);
         }
       }
       rows.resize(count, rows.front());
       expect_same(random, seeker, rows);
-      for (const float from : isolated(twin(), seeker, rows)) ruled_out += std::isinf(from);
+      for (const float from : bracketed(twin(), seeker, rows)) ruled_out += std::isinf(from);
       pairs += count;
     }
     ASSERT_FALSE(HasFailure()) << count << " pairs";
@@ -235,7 +235,7 @@ TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
   EXPECT_LT(ruled_out, pairs * 9 / 10);
 }
 
-TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
+TEST_P(OnEveryIsa, BracketsAnyNumbersToTheSameBits) {
   Random random(seed);
   for (std::size_t n = 0; n < 3000 / thin; ++n) {
     // From all sane but for one column to all wild.
@@ -258,7 +258,7 @@ TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
       for (int c = 0; c < PairColumns::columns; ++c) row[c] = draw(c);
     }
     expect_same(random, seeker, rows);
-    for (const float from : isolated(twin(), seeker, rows)) ASSERT_GE(from, 0);
+    for (const float from : bracketed(twin(), seeker, rows)) ASSERT_GE(from, 0);
     ASSERT_FALSE(HasFailure()) << n;
   }
 }
@@ -317,11 +317,11 @@ INSTANTIATE_TEST_SUITE_P(Isas, OnEveryIsa,
 
 // ---- the contact function, within its bounds ----
 
-class ContactFunctionByLanes : public testing::TestWithParam<test::PairFamily> {};
+class ContactFunctionBySimd : public testing::TestWithParam<test::PairFamily> {};
 
 // Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
 // claim.
-TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
+TEST_P(ContactFunctionBySimd, IsWithinItsErrorBounds) {
   using C = ContactColumns;
   const test::PairFamily& family = GetParam();
   Random random(seed);
@@ -329,7 +329,7 @@ TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
   std::size_t near = 0;
   double worst[5] = {};
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 2)) {
-    const LanePair pair = lane_pair(random, drawn);
+    const SimdPair pair = simd_pair(random, drawn);
     const auto s = static_cast<float>(random.uniform()) * pair.row[PairColumns::until];
     const auto frame = make_frame<DoubleDouble>(pair.pair.view(), {true, 1 / pair.unit, pair.unit});
     const DoubleDouble at(static_cast<double>(s));
@@ -365,22 +365,22 @@ TEST_P(ContactFunctionByLanes, IsWithinItsErrorBounds) {
   EXPECT_GT(near, count / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, ContactFunctionByLanes, testing::ValuesIn(test::pair_families()),
+INSTANTIATE_TEST_SUITE_P(Families, ContactFunctionBySimd, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- no contact lost ----
 
-class Isolate : public testing::TestWithParam<test::PairFamily> {};
+class Bracket : public testing::TestWithParam<test::PairFamily> {};
 
-TEST_P(Isolate, IsNeverLaterThanTheFirstContact) {
+TEST_P(Bracket, IsNeverLaterThanTheFirstContact) {
   const test::PairFamily& family = GetParam();
   const NearKernels& kernels = near_kernels(Isa::scalar);
   Random random(seed);
   std::size_t contacts = 0, id = 0;
   const std::size_t count = (family.thermal ? 100000 : 10000) / thin;
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed)) {
-    const LanePair pair = lane_pair(random, drawn);
-    const double from = isolated(kernels, pair.seeker, {pair.row})[0];
+    const SimdPair pair = simd_pair(random, drawn);
+    const double from = bracketed(kernels, pair.seeker, {pair.row})[0];
     ++id;
     if (!pair.truth.found) continue;
     ++contacts;
@@ -398,13 +398,13 @@ TEST_P(Isolate, IsNeverLaterThanTheFirstContact) {
   EXPECT_GT(contacts, count / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Isolate, testing::ValuesIn(test::pair_families()),
+INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- most of the rest ruled out ----
 
 // 99.9 % of the pairs, and times before 98 % of the contacts by less than a tenth.
-TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
+TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
   Random random(seed);
   std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
   for (const test::NeedlePair& drawn : draw_pairs("thermal-k6", 20000 / thin, seed + 1)) {
@@ -419,7 +419,7 @@ TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
     const Seeker seeker = seeker_of(motion_of(kernel.first, 0, unit), until);
     const Motion other = motion_of(kernel.second, 0, unit);
     const double from =
-        isolated(near_kernels(Isa::scalar), seeker, {row_of(seeker, other, 0, until)})[0];
+        bracketed(near_kernels(Isa::scalar), seeker, {row_of(seeker, other, 0, until)})[0];
     if (truth.found) {
       ++contacts;
       close += from / unit > 0.9 * truth.elapsed.hi;
@@ -471,8 +471,8 @@ TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
       }
       const Vec3d gap = test::nearest_points(r, u, other, a).gap;
       distance.push_back(std::sqrt(dot(gap, gap)));
-      store(row.data() + Block::x, corner + other);
-      store(row.data() + Block::a_x, a);
+      store(row.data() + NeedleBlock::x, corner + other);
+      store(row.data() + NeedleBlock::a_x, a);
     }
     const Neighbourhood near = fill(random, seeker, rows);
     std::vector<bool> found(rows.size());
@@ -521,7 +521,7 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
     mine.r = vec3(random.direction()) * random.uniform(0, 3);
     mine.v = vec3(random.normal_vector(speed()));
     Seeker seeker =
-        seeker_of(motion_of(mine, 0, 1), static_cast<float>(ahead) + test::lane_time_margin);
+        seeker_of(motion_of(mine, 0, 1), static_cast<float>(ahead) + test::simd_time_margin);
     seeker.motion.time = seeker.now = static_cast<float>(now);
     std::vector<BlockRow> rows(40);
     std::vector<Flight> others(rows.size());
@@ -540,7 +540,7 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
       const Vec3d then = other.r - other.v * age - Vec3d{-4, -4, -4};
       const Vec3d v = other.v;
       const double values[] = {then.x, then.y, then.z, v.x, v.y, v.z, now - age};
-      for (int c = 0; c < Block::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
+      for (int c = 0; c < NeedleBlock::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
     }
     const Neighbourhood near = fill(random, seeker, rows);
     std::vector<bool> found(rows.size());

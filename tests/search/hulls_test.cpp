@@ -110,10 +110,10 @@ struct Moving {
   Segment hull(Needle i) const {
     const Hulls& hulls = search.hulls();
     const Hulls::Place& place = hulls.places[i];
-    const kernels::Block& block = hulls.blocks[place.block];
+    const kernels::NeedleBlock& block = hulls.blocks[place.block];
     EXPECT_EQ(block.needle[place.lane], i);
     const auto column = [&](int c) { return double{block.column[c][place.lane]}; };
-    using B = kernels::Block;
+    using B = kernels::NeedleBlock;
     return {hulls.grid.corner(place.cell) + Vec3d{column(B::x), column(B::y), column(B::z)},
             {column(B::a_x), column(B::a_y), column(B::a_z)}};
   }

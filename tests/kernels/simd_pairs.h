@@ -14,11 +14,11 @@
 
 namespace needlework::test {
 
-inline constexpr float lane_time_margin = 0x1p-18f;
+inline constexpr float simd_time_margin = 0x1p-18f;
 
 /// Cell in which needles of test pairs lie, and what a search takes as its margin then.
-inline constexpr double lane_cell_corner = -4, lane_cell_side = 8;
-inline constexpr float lane_margin = static_cast<float>(0x1p-16 + lane_cell_side * 0x1p-20);
+inline constexpr double simd_cell_corner = -4, simd_cell_side = 8;
+inline constexpr float simd_margin = static_cast<float>(0x1p-16 + simd_cell_side * 0x1p-20);
 
 /// The needle's motion at `elapsed` since its record, lengths from the corner of the cell, times in
 /// units of 1 / unit.
@@ -31,7 +31,7 @@ inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, 
   const SineCosine<double> turned = sine_cosine(flight.omega * elapsed);
   kernels::Motion out{};
   store(out.r, centre_after(flight, elapsed) -
-                   Vec3d{lane_cell_corner, lane_cell_corner, lane_cell_corner});
+                   Vec3d{simd_cell_corner, simd_cell_corner, simd_cell_corner});
   store(out.v, flight.v * (1 / unit));
   store(out.u, flight.u * turned.cosine + flight.p * turned.sine);
   store(out.p, flight.p * turned.cosine - flight.u * turned.sine);
@@ -58,7 +58,7 @@ inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead) {
   }
   out.now = motion.time;
   out.ahead = ahead;
-  out.margin = lane_margin;
+  out.margin = simd_margin;
   out.needle = 0;
   return out;
 }
@@ -84,7 +84,7 @@ inline PairRow row_of(const kernels::Seeker& seeker, const kernels::Motion& othe
   return row;
 }
 
-/// Pairs in columns. Lanes beyond them hold what a search may have left there.
+/// Pairs in columns. Floats beyond them hold what a search may have left there.
 class PairTable {
  public:
   explicit PairTable(const std::vector<PairRow>& rows)
@@ -108,13 +108,13 @@ class PairTable {
   std::vector<float> storage_;
 };
 
-/// What isolate() says of these pairs.
-inline std::vector<float> isolated(const kernels::NearKernels& kernels,
-                                   const kernels::Seeker& seeker,
-                                   const std::vector<PairRow>& rows) {
+/// What bracket() says of these pairs.
+inline std::vector<float> bracketed(const kernels::NearKernels& kernels,
+                                    const kernels::Seeker& seeker,
+                                    const std::vector<PairRow>& rows) {
   PairTable table(rows);
   const float* from = table.view().column[kernels::PairColumns::from];
-  kernels.isolate(seeker, table.view(), rows.size());
+  kernels.bracket(seeker, table.view(), rows.size());
   return {from, from + rows.size()};
 }
 
