@@ -1,4 +1,4 @@
-// The kernel of free_flight.h for one kind of lanes. Included in the namespace of each instruction
+// The kernel of free_flight.h. Included in the namespace of each instruction
 // set, which has Doubles and turned().
 
 #include "kernels/sine_cosine_body.h"

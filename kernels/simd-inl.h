@@ -1,5 +1,6 @@
-// Floats of float of the instruction set that is being compiled, with the operators of a number, so
-// that one source serves lanes and the scalar twin. Included once for each instruction set.
+// `Floats`: a vector of floats of the instruction set that is being compiled, with the operators of
+// a number, so that one source serves vectors and the scalar twin. Included once for each
+// instruction set.
 #if defined(NEEDLEWORK_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef NEEDLEWORK_SIMD_INL
 #undef NEEDLEWORK_SIMD_INL
@@ -40,8 +41,8 @@ struct Floats {
 inline constexpr std::size_t floats_at_once = hn::MaxLanes(Tag());
 HWY_INLINE Floats load_floats(const float* p) { return hn::LoadU(Tag(), p); }
 HWY_INLINE void store_floats(Floats a, float* p) { hn::StoreU(a.v, Tag(), p); }
-/// 0, 1, 2, ...
-HWY_INLINE Floats counting() { return hn::Iota(Tag(), 0.0f); }
+/// Holds for the first n lanes, or all of fewer.
+HWY_INLINE Mask first_lanes(std::size_t n) { return {hn::FirstN(Tag(), n)}; }
 
 HWY_INLINE Floats operator+(Floats a, Floats b) { return hn::Add(a.v, b.v); }
 HWY_INLINE Floats operator-(Floats a, Floats b) { return hn::Sub(a.v, b.v); }
@@ -62,8 +63,9 @@ HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m
 HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 
-/// The lanes for which a mask holds, brought together in front, in their order; what follows them
-/// is anything. (GCC 12 copies the tables of Highway's Compress onto the stack at each call.)
+/// Packs the lanes for which a mask holds to the front of a vector, in their order; the lanes
+/// behind them hold anything. (GCC 12 copies the tables of Highway's Compress onto the stack at
+/// each call.)
 struct Packing {
 #if HWY_TARGET == HWY_AVX3
   hn::Mask<Tag> chosen;
@@ -92,7 +94,7 @@ HWY_INLINE Floats packed(Floats a, const Packing& packing) {
 #endif
 }
 
-// Numbers without sign beside the lanes.
+// Unsigned integers in the bits of floats.
 HWY_INLINE Floats load_numbers(const std::uint32_t* p) {
   return hn::BitCast(Tag(), hn::LoadU(hn::RebindToUnsigned<Tag>(), p));
 }
@@ -108,8 +110,8 @@ HWY_INLINE Mask same_numbers(Floats a, Floats b) {
   return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
-/// Turns (cosine, sine) by k quarters of a circle, told by the last bits of `shifted`, 1.5 * 2^23 +
-/// k.
+/// Turns (cosine, sine) by k quarters of a circle, k in the last bits of `shifted`, which is
+/// 1.5 * 2^23 + k.
 HWY_INLINE void turn(Floats shifted, Floats& cosine, Floats& sine) {
   const hn::RebindToSigned<Tag> whole;
   const auto q = hn::BitCast(whole, shifted.v);

@@ -1,5 +1,5 @@
-// Floats of double of the instruction set that is being compiled, with what free flight needs of a
-// number. Included once for each instruction set; see simd-inl.h.
+// `Doubles`: a vector of doubles of the instruction set that is being compiled, with the operators
+// that free flight needs. Included once for each instruction set; see simd-inl.h.
 #if defined(NEEDLEWORK_SIMD_DOUBLE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef NEEDLEWORK_SIMD_DOUBLE_INL
 #undef NEEDLEWORK_SIMD_DOUBLE_INL
@@ -35,7 +35,7 @@ HWY_INLINE Doubles operator+(const Doubles& a, const Doubles& b) { return hn::Ad
 HWY_INLINE Doubles operator-(const Doubles& a, const Doubles& b) { return hn::Sub(a.v, b.v); }
 HWY_INLINE Doubles operator*(const Doubles& a, const Doubles& b) { return hn::Mul(a.v, b.v); }
 
-/// Turned by the quarters of a circle that the last bits of `shifted` tell.
+/// Turned by the quarters of a circle that the last bits of `shifted` count.
 HWY_INLINE SineCosine<Doubles> turned(const Doubles& shifted, const Doubles& sine,
                                       const Doubles& cosine) {
   const hn::RebindToUnsigned<DoubleTag> whole;

@@ -1,4 +1,5 @@
-// One lane with the interface of simd-inl.h: what makes the scalar twin of a kernel by lanes.
+// Vectors of one float with the interface of simd-inl.h: they make the scalar twin of a SIMD
+// kernel.
 #pragma once
 
 #include <bit>
@@ -26,7 +27,7 @@ struct Floats {
 inline constexpr std::size_t floats_at_once = 1;
 inline Floats load_floats(const float* p) { return *p; }
 inline void store_floats(Floats a, float* p) { *p = a.v; }
-inline Floats counting() { return 0.0f; }
+inline Mask first_lanes(std::size_t n) { return {n > 0}; }
 
 inline Floats operator+(Floats a, Floats b) { return a.v + b.v; }
 inline Floats operator-(Floats a, Floats b) { return a.v - b.v; }

@@ -63,6 +63,7 @@ Motion motion_of(const Flight& flight, const Vec3d& corner) {
   store(out.u, flight.u);
   store(out.p, flight.p);
   out.omega = static_cast<float>(flight.omega);
+  out.half = 0.5f;
   return out;
 }
 
@@ -73,6 +74,7 @@ Seeker seeker_of(const Motion& motion, double ahead, std::uint32_t needle) {
   std::copy(std::begin(motion.u), std::end(motion.u), out.u);
   out.ahead = static_cast<float>(ahead);
   out.margin = margin;
+  out.longest_half = 0.5f;
   out.needle = needle;
   return out;
 }
@@ -214,6 +216,7 @@ PairBatch::PairBatch(const std::vector<NearPair>& pairs, double time_ahead)
       to.column[C::p_x + axis][n] = static_cast<float>(component(second.p, axis));
     }
     to.column[C::omega][n] = static_cast<float>(second.omega);
+    to.column[C::half][n] = 0.5f;
     to.column[C::until][n] = seeker.ahead;
   }
 }

@@ -1,4 +1,4 @@
-// Kernels by lanes, each on all instruction sets of this CPU; scalar is the twin. Names are
+// SIMD kernels, each on all instruction sets of this CPU; scalar is the twin. Names are
 // KERNEL/GAS/ISA, items are pairs of needles (free-flight: needles). The answer is compared with
 // the twin's before the clock starts.
 #include <benchmark/benchmark.h>
@@ -197,7 +197,7 @@ const bool added = [] {
              {"overlapping", overlapping},
              {"approaching", approaching},
              {"contact-function", contact_function},
-             {"bracket", isolate}};
+             {"bracket", bracket}};
   for (const auto& kernel : all) {
     for (const GasName& gas : gases) {
       for (const Isa isa : kernels::available()) {

@@ -5,7 +5,7 @@
 
 namespace needlework {
 
-/// Brings the cache lines of an object near.
+/// Prefetches the cache lines of an object.
 template <class T>
 void prefetch([[maybe_unused]] const T* object) {
 #ifdef __GNUC__

@@ -46,10 +46,11 @@ kernels::Flight flight_of(const FreeNeedle& needle) {
 struct Window {
   double enter, exit;
 };
-Window near_window(const kernels::Flight& a, const kernels::Flight& b) {
+Window near_window(const kernels::Pair& pair) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Vec3d r = a.r - b.r, v = a.v - b.v;
-  const double reach = 1 + 0x1p-20 + 0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
+  const Vec3d r = pair.first->r - pair.second->r, v = pair.first->v - pair.second->v;
+  const double reach = (pair.half_first + pair.half_second) * (1 + 0x1p-20) +
+                       0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
   const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (scale == 0) return {dot(r, r) <= reach * reach ? 0 : infinity, infinity};
   const Vec3d d = v * (1 / scale);
@@ -74,7 +75,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const Window near = near_window(a, b);
+  const Window near = near_window(pair);
   const double end = near.enter + most_turned / (a.omega + b.omega);
   const kernels::Contact contact =
       kernels::first_contact(pair, 0, std::min(horizon, end), counters, accuracy);

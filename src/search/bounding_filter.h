@@ -25,7 +25,7 @@ class BoundingFilter {
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
     const Vec3d r =
         (centre_ - centre_after(other.flight, gas_.clock.difference(now_, other.time))) - image;
-    if (kernels::spheres_stay_apart(r, v_ - other.flight.v, ahead_)) {
+    if (kernels::spheres_stay_apart(r, v_ - other.flight.v, 1, ahead_)) {
       ++counters_.filtered;
     } else {
       ahead_ = visit(j, shift, 0.0, std::numeric_limits<double>::infinity());

@@ -50,7 +50,8 @@ void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
   static_assert(offsetof(Motion, r) == 0 && offsetof(Motion, v) == 12 &&
                 offsetof(Motion, u) == 24 && offsetof(Motion, p) == 36 &&
                 offsetof(Motion, omega) == 48 && offsetof(Motion, time) == 52 &&
-                offsetof(Motion, until) == 56 && offsetof(kernels::CellView, offset) == 4);
+                offsetof(Motion, until) == 56 && offsetof(Motion, half) == 60 &&
+                offsetof(kernels::CellView, offset) == 4);
   for (std::size_t k = 0; k < count; k += 4) {
     Four part[4][4], offset[4];  // of the motions; of the cells, after their block
     for (std::size_t i = 0; i < 4; ++i) {
@@ -78,6 +79,7 @@ void fill_pairs(const kernels::Seeker& seeker, const Motion* motions,
     put(C::u_y, part[1][3]);
     for (int n = 0; n < 4; ++n) put(C::u_z + n, part[2][n]);
     put(C::omega, part[3][0]);
+    put(C::half, part[3][3]);
     put(C::age, age);
     const Four left = part[3][2] - four(seeker.now), zero = four(0);
     const Four until = (left > zero ? left : zero) + four(static_cast<float>(time_margin));
@@ -188,6 +190,7 @@ void Hulls::set_motion(Needle i, Time now) {
   out.omega = static_cast<float>(flight.omega * per_unit);
   out.time = static_cast<float>(since_base(now));
   out.until = static_cast<float>(since_base(places[i].until) * roundup);
+  out.half = 0.5f;
 }
 
 // Writes the needle's entry into the block of its cell.
@@ -343,6 +346,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   seeker.now = seeker.motion.time;
   seeker.ahead = static_cast<float>(ahead * hulls.unit * roundup + time_margin);
   seeker.margin = hulls.margin;
+  seeker.longest_half = 0.5f;
   seeker.needle = i;
   const Hulls::Place& place = hulls.places[i];
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// Pairs of needles as the kernels by lanes see them: in float, with a unit of time, from a cell.
+// Pairs of needles as the SIMD kernels see them: in float, with a unit of time, from a cell.
 #pragma once
 
 #include <array>
@@ -20,9 +20,10 @@ inline constexpr float simd_time_margin = 0x1p-18f;
 inline constexpr double simd_cell_corner = -4, simd_cell_side = 8;
 inline constexpr float simd_margin = static_cast<float>(0x1p-16 + simd_cell_side * 0x1p-20);
 
-/// The needle's motion at `elapsed` since its record, lengths from the corner of the cell, times in
-/// units of 1 / unit.
-inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, double unit) {
+/// The motion at `elapsed` since its record of a needle of half length `half`, lengths from the
+/// corner of the cell, times in units of 1 / unit.
+inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, double unit,
+                                 double half = 0.5) {
   const auto store = [](float(&to)[3], const Vec3d& a) {
     to[0] = static_cast<float>(a.x);
     to[1] = static_cast<float>(a.y);
@@ -37,6 +38,7 @@ inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, 
   store(out.p, flight.p * turned.cosine - flight.u * turned.sine);
   out.omega = static_cast<float>(flight.omega / unit);
   out.time = static_cast<float>(elapsed * unit);
+  out.half = static_cast<float>(half);
   return out;
 }
 
@@ -49,7 +51,8 @@ inline double unit_of(const kernels::Flight& first, const kernels::Flight& secon
   return fastest > 0 ? std::ldexp(1.0, std::ilogb(fastest)) : 1;
 }
 
-inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead) {
+inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead,
+                                 double longest_half = 0.5) {
   kernels::Seeker out{};
   out.motion = motion;
   for (int axis = 0; axis < 3; ++axis) {
@@ -59,6 +62,7 @@ inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead) {
   out.now = motion.time;
   out.ahead = ahead;
   out.margin = simd_margin;
+  out.longest_half = static_cast<float>(longest_half);
   out.needle = 0;
   return out;
 }
@@ -78,6 +82,7 @@ inline PairRow row_of(const kernels::Seeker& seeker, const kernels::Motion& othe
     row[C::p_x + axis] = other.p[axis];
   }
   row[C::omega] = other.omega;
+  row[C::half] = other.half;
   row[C::age] = age;
   row[C::until] = until;
   row[C::from] = from;

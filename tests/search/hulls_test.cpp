@@ -71,7 +71,8 @@ double distance(const Vec3d& point, const Segment& axis) {
 
 double distance(const Segment& a, const Segment& b) {
   const Vec3d x = cross(a.u, b.u);
-  return std::sqrt(kernels::segment_distance_squared(a.r - b.r, a.u, b.u, x, dot(x, x)));
+  return std::sqrt(kernels::segment_distance_squared(a.r - b.r, a.u, b.u, x, dot(x, x),
+                                                     kernels::half_lengths(0.5, 0.5)));
 }
 
 // The least distance of two centres in the next `span`.
