@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds, and lets a first gas of needles cool.
+# Installs the Debian 12 packages that are missing, builds the program, and runs a first scene.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 
-install_packages
+install_packages build
+echo "Building needlework, which takes some minutes."
 configure_release OFF
 cmake --build --preset release
 echo

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Installs what is missing (Debian 12), builds with tests, and runs them, all but those called slow;
-# those of several threads once more under ThreadSanitizer.
+# Installs the Debian 12 packages that are missing, builds everything, and runs all tests that are
+# not labelled slow. Runs those of several threads once more under ThreadSanitizer.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 
-install_packages
+install_packages build mpi tests benchmarks
 configure_release ON
 cmake --build --preset release
 ctest --preset release --parallel "$(nproc)"
 
-cmake --preset tsan
+run_quietly cmake --preset tsan
 cmake --build --preset tsan
 ctest --preset tsan --parallel "$(nproc)"

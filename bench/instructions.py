@@ -3,9 +3,9 @@
 
 guard    compares the engine with the committed figures of instructions.json and fails when one has
          grown by more than 3 %; --update writes them anew.
-effects  counts what each effect costs when it is on; the table goes to results/effects.md and to the
-         README.md of the project.
-shares   tells where a collision's instructions go; the table goes to bench/README.md.
+effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
+         docs/performance.md.
+shares   tells where a collision's instructions go; the table goes to docs/performance.md.
 baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
@@ -38,10 +38,10 @@ SKIPPED = 77  # exit code that ctest takes for a skipped test
 
 # Where instructions go, by the first of these patterns that a function's name has.
 SHARES = {
-    "neighbours by SIMD (`approaching`, `overlapping`)": r"::(approaching|overlapping)$",
-    "following the pairs that are left, by SIMD (`bracket`)": r"::bracket",
-    "cells to look into (`look_around`)": r"::look_around|append_near",
-    "motions into columns, candidates in order": r"candidates|Candidate|pair_columns|fill_pairs",
+    "finding neighbours, SIMD": r"::(approaching|overlapping)$",
+    "following the pairs that are left, SIMD": r"::bracket",
+    "choosing the cells to look into": r"::look_around|append_near",
+    "transposing motions, sorting candidates": r"candidates|Candidate|pair_columns|fill_pairs",
     "placing needles in cells": r"NearSearch::place|Hulls::",
     "collisions and their records":
         r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
@@ -257,7 +257,7 @@ def effects(program, out):
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text)
     if out == EFFECTS_TABLE:
-        put_table("effects", text, BENCH.parent / "README.md")
+        put_table("effects", text, "performance.md")
     print(text, end="")
     return 0
 
@@ -292,9 +292,9 @@ def shares(program):
             f"{NEEDLES} needles, {isa}; {build['compiler']}, {build['flags']}.\n\n"
             + "\n".join(lines) + "\n")
     if COMMITTED.exists() and json.loads(COMMITTED.read_text())["build"] == build:
-        put_table("shares", text)
+        put_table("shares", text, "performance.md")
     else:
-        print("Not put into README.md: its tables are of another compiler or flags.\n")
+        print("Not put into docs/performance.md: its table is of another compiler or flags.\n")
     print(text, end="")
     return 0
 

@@ -1,113 +1,52 @@
 #!/usr/bin/python3
-"""Measures everything on this machine and makes the tables and the picture.
+"""Measures everything on this machine, one thread, and makes the tables and the picture.
 
-    bench/study.py                 all but matrix, 20 minutes; build first, with NEEDLEWORK_BENCH=ON
-    bench/study.py density size    some parts only
-    bench/study.py matrix          each search by each queue, 40 minutes
-    bench/study.py tables          no measuring: tables and picture anew from the files
+    bench/study.py                     all; goes on where it was stopped
+    bench/study.py density size        some parts only
+    bench/study.py --time-budget 60    for an hour; the same command goes on later
+    bench/study.py tables              no measuring: tables and picture of what there is
 
-Writes results/MACHINE-ISA/: one JSON file for each part, README.md and density.svg. A machine is
-called by its processor; --machine gives it another name.
+Build first, with NEEDLEWORK_BENCH=ON. Repetitions are interleaved: all cases of all parts are
+measured once, then all a second time, and so on; tables give the median and the range.
+Writes README.md, density.svg and a compact file for each part to bench/results/MACHINE-ISA/ when all
+parts are complete, of one commit and of the same build; until then to study/results/ in the folder
+of the build. What `needlework bench --compare` needs is in the compact files.
 """
 
 import argparse
 import json
-import math
 import re
-import subprocess
-import sys
-import tempfile
-from pathlib import Path
+import statistics
 
-BENCH = Path(__file__).resolve().parent
-ROOT = BENCH.parent
+import measured
+from measured import number, quotients, spread, table
 
-# Parts of the study that `needlework bench` measures, with the flags for it.
-SCENES = {
-    "steps": [],
-    "searches": [],
-    "queues": [],
-    "isa": [],
-    "density": [],
-    "size": ["--repetitions", "3"],  # a baseline of 1e6 needles takes its time
-    "matrix": ["--repetitions", "2", "--min-time", "0.5"],
-    "storage": ["--repetitions", "3"],
-    "hulls": ["--repetitions", "3"],
-    "cloud": ["--repetitions", "3"],
-    "effects": [],
-}
+# Parts that `needlework bench` measures, and how often: less often where 1e6 needles take their time.
+SCENES = {"steps": 7, "searches": 7, "queues": 7, "isa": 7, "density": 7, "size": 5, "storage": 5,
+          "hulls": 5, "cloud": 7, "effects": 7, "matrix": 3}
 # Parts that have an executable of their own, with Google Benchmark.
-ALONE = ["kernels", "calendars"]
+ALONE = {"kernels": 7, "calendars": 5}
 PROGRAM_OF = {"kernels": "bench_kernels", "calendars": "bench_queues"}
 
 
-def output_of(command):
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+def measure_scenes(build, part, quick):
+    """One repetition of a part by `needlework bench`."""
+    flags = ["--repetitions", "1", "--min-time", "0" if quick else "0.25"]
+    out = measured.output_of([str(build / "needlework"), "bench", part, *flags, "--json", "--quiet"])
+    return f"needlework bench {part}", json.loads(out)["cases"]
 
 
-def commit():
-    """The commit that is measured, and whether files differ from it."""
-    head = output_of(["git", "-C", str(ROOT), "rev-parse", "--short=12", "HEAD"]).strip()
-    changed = output_of(["git", "-C", str(ROOT), "status", "--porcelain", "--untracked-files=no",
-                         "--", ":!bench/results"])
-    return head + (" with changes" if changed.strip() else "")
-
-
-def write_json(path, content):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(content, indent=1) + "\n")
-    print(f"wrote {path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path}")
-
-
-def measure_scenes(build, part, flags):
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "results.json"
-        subprocess.run([str(build / "needlework"), "bench", part, "--json", str(file), *flags],
-                       check=True)
-        results = json.loads(file.read_text())
-    command = " ".join(["needlework", "bench", part, *flags])
-    return {"command": command, "commit": commit(), **results}
-
-
-def measure_alone(build, part, repetitions=3):
-    """Best of interleaved repetitions, by name."""
-    flags = [f"--benchmark_repetitions={repetitions}", "--benchmark_min_time=0.1",
-             "--benchmark_enable_random_interleaving=true", "--benchmark_format=json"]
-    program = str(build / PROGRAM_OF[part])
-    names = output_of([program, "--benchmark_list_tests"]).split()
-    raw = json.loads(output_of([program, *flags]))
-    best = {}
-    for one in raw["benchmarks"]:
-        if one["run_type"] != "iteration":
-            continue
-        rate = one["items_per_second"]
-        figures = {"ns_per_item": 1e9 / rate}
-        for counter in "pairs_per_cycle", "evaluations_per_pair":
-            if counter in one:
-                figures[counter] = one[counter]
-        name = one["run_name"].removesuffix("/repeats:%d" % repetitions)
-        if name not in best or figures["ns_per_item"] < best[name]["ns_per_item"]:
-            best[name] = figures
-    about = json.loads(output_of([str(build / "needlework"), "bench", "smoke", "--repetitions", "1",
-                                  "--min-time", "0", "--json"]))
-    return {"command": " ".join([PROGRAM_OF[part], *flags[:-1]]), "commit": commit(),
-            **{key: about[key] for key in ("machine", "cores", "compiler", "flags", "version",
-                                           "date")},
-            "best": {name: best[name] for name in names}}
-
-
-def table(header, rows):
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines) + "\n"
-
-
-def number(x):
-    """Three digits."""
-    if x == 0 or not math.isfinite(x):
-        return "-"
-    x = float(f"{x:.2e}")
-    digits = max(0, 2 - math.floor(math.log10(abs(x))))
-    return f"{x:.{digits}f}"
+def measure_alone(build, part, quick):
+    """One repetition of a part by Google Benchmark."""
+    flags = [f"--benchmark_min_time={0.001 if quick else 0.1}", "--benchmark_format=json"]
+    out = json.loads(measured.output_of([str(build / PROGRAM_OF[part]), *flags]))
+    cases = []
+    for one in out["benchmarks"]:
+        case = {"name": one["run_name"], "ns_per_item": [1e9 / one["items_per_second"]]}
+        if "pairs_per_cycle" in one:
+            case["pairs_per_cycle"] = [one["pairs_per_cycle"]]
+        cases.append(case)
+    return PROGRAM_OF[part], cases
 
 
 def engine_of(case):
@@ -116,246 +55,239 @@ def engine_of(case):
     return "/".join([words[1], words[2], words[4], *words[6:]])
 
 
-COUNTERS = ["events", "searches", "candidates", "evaluated", "rebuilds"]  # per collision
-
-
-def case_table(results):
-    rows = []
-    for case in results["cases"]:
-        per_collision = case["per_collision"]
-        rows.append([case["scene"], engine_of(case) + (" (baseline)" if case["baseline"] else ""),
-                     case["search"], number(case["best_us_per_collision"]),
-                     number(case["median_us_per_collision"]), number(case["times_baseline"]),
-                     f"{case['collisions_per_cpu_s']:.0f}",
-                     *(number(per_collision[name]) for name in COUNTERS),
-                     f"{min(case['bytes_per_needle']):.0f}", number(min(case["setup_s"]))])
-    return table(["scene", "search/queue/ISA", "search in use", "us per collision, best", "median",
-                  "times baseline", "collisions per CPU s", *COUNTERS,
-                  "bytes per needle", "set-up s"], rows)
-
-
-def by_scene(results):
+def by_scene(content):
     """Scene to {search as asked for, or "baseline": case}, in the order measured."""
     out = {}
-    for case in results["cases"]:
+    for case in content["cases"]:
         asked = "baseline" if case["baseline"] else case["name"].split("/")[1]
         out.setdefault(case["scene"], {})[asked] = case
     return out
 
 
-def density_table(results):
+def us(case):
+    return spread(case["us_per_collision"])
+
+
+def times(case, baseline):
+    """How many times less than the baseline a case takes, by repetition."""
+    if case is baseline:
+        return "1"
+    return spread(quotients(baseline["us_per_collision"], case["us_per_collision"]))
+
+
+def bytes_of(case):
+    return f"{statistics.median(case['bytes_per_needle']):.0f}"
+
+
+def case_table(content):
+    rows = []
+    for cases in baselines_first(content).values():
+        for case in cases:
+            engine = engine_of(case) + (" (baseline)" if case["baseline"] else "")
+            rows.append([case["scene"], engine, case["search"], us(case), times(case, cases[0]), bytes_of(case),
+                         spread(case["setup_s"])])
+    return table(["scene", "search/queue/ISA", "search in use", "us per collision",
+                  "times baseline", "bytes per needle", "set-up s"], rows)
+
+
+def baselines_first(content):
+    """Scene to its cases, of which the baseline is the first, as they were measured."""
+    out = {}
+    for case in content["cases"]:
+        out.setdefault(case["scene"], []).append(case)
+    return out
+
+
+def density_table(content):
     rows, cost = [], {}
-    for cases in by_scene(results).values():
-        best = {asked: case["best_us_per_collision"] for asked, case in cases.items()}
-        by_hand = min(best["linked-cells"], best["capsules"])
-        density = next(iter(cases.values()))["density"]
-        cost[density] = best["auto"]
-        rows.append([number(density), *(number(best[asked]) for asked in
-                                        ("baseline", "linked-cells", "capsules", "auto")),
-                     cases["auto"]["search"], f"{100 * (best['auto'] / by_hand - 1):+.0f} %",
-                     number(best["baseline"] / best["auto"]),
-                     *(number(cases["auto"]["per_collision"][name]) for name in COUNTERS)])
-    wide = [us for density, us in cost.items() if 0.49 < density < 51]
+    for cases in by_scene(content).values():
+        auto = cases["auto"]
+        cost[auto["density"]] = statistics.median(auto["us_per_collision"])
+        by_hand = min((cases[search] for search in ("linked-cells", "capsules")),
+                      key=lambda case: statistics.median(case["us_per_collision"]))
+        rows.append([number(auto["density"]), *(us(cases[asked]) for asked in
+                                                ("baseline", "linked-cells", "capsules", "auto")),
+                     auto["search"],
+                     spread(quotients(auto["us_per_collision"], by_hand["us_per_collision"])),
+                     times(auto, cases["baseline"])])
+    wide = [cost_here for density, cost_here in cost.items() if 0.49 < density < 51]
     text = table(["n L^3", "baseline", "linked-cells", "capsules", "auto", "which is",
-                  "auto over best by hand", "times baseline",
-                  *(f"{name}, auto" for name in COUNTERS)], rows)
-    return text + f"\nSpread of `auto` over n L^3 = 0.5 to 50: {number(max(wide) / min(wide))}.\n"
+                  "auto over best by hand", "times baseline"], rows)
+    return (text + f"\nGreatest over least median of `auto`, n L^3 = 0.5 to 50: "
+            f"{number(max(wide) / min(wide))}.\n")
 
 
-def size_table(results):
+def size_table(content):
     rows, cost = [], {}
-    for cases in by_scene(results).values():
+    for cases in by_scene(content).values():
         auto, baseline = cases["auto"], cases["baseline"]
-        needles, density = auto["needles"], auto["density"]
-        cost[needles, round(density, 2)] = auto["best_us_per_collision"]
-        rows.append([needles, number(density), number(baseline["best_us_per_collision"]),
-                     number(auto["best_us_per_collision"]), number(auto["times_baseline"]),
-                     f"{min(auto['bytes_per_needle']):.0f}", number(min(auto["setup_s"]))])
+        cost[auto["needles"], round(auto["density"], 2)] = auto["us_per_collision"]
+        rows.append([auto["needles"], number(auto["density"]), us(baseline), us(auto),
+                     times(auto, baseline), bytes_of(auto), spread(auto["setup_s"])])
     text = table(["needles", "n L^3", "baseline", "auto", "times baseline", "bytes per needle",
                   "set-up s"], rows)
-    if {(10**6, 0.72), (10**4, 0.72)} <= cost.keys():
-        ratio = cost[10**6, 0.72] / cost[10**4, 0.72]
-        text += f"\nCost at 1e6 needles over that at 1e4, n L^3 = 0.72: {number(ratio)}.\n"
-    return text
+    ratio = spread(quotients(cost[10**6, 0.72], cost[10**4, 0.72]))
+    return text + f"\nCost at 1e6 needles over that at 1e4, n L^3 = 0.72: {ratio}.\n"
 
 
-def hull_table(results):
-    """Sizes of hulls by hand, beside the one that the search chooses."""
-    scenes, baselines = {}, {}
-    for case in results["cases"]:
-        if case["baseline"]:
-            baselines[case["scene"]] = case["best_us_per_collision"]
-        else:
-            scenes.setdefault(case["scene"], []).append(case)
+def hull_table(content):
+    """Sizes of cells and capsules by hand, beside those that the search chooses."""
     rows = []
-    for scene, cases in scenes.items():
-        us = [case["best_us_per_collision"] for case in cases]
-        chosen = next(case["best_us_per_collision"] for case in cases
-                      if not re.search("/(side|radius):", case["name"]))
-        rows.append([scene, cases[0]["search"], *map(number, us),
-                     f"{100 * (chosen / min(us) - 1):.0f} %", number(baselines[scene])])
+    for scene, (baseline, *cases) in baselines_first(content).items():
+        chosen = next(case for case in cases if not re.search("/(side|radius):", case["name"]))
+        best = min(cases, key=lambda case: statistics.median(case["us_per_collision"]))
+        rows.append([scene, cases[0]["search"], *map(us, cases),
+                     spread(quotients(chosen["us_per_collision"], best["us_per_collision"])),
+                     us(baseline)])
     return table(["scene", "search", "half of it", "0.7", "0.85", "as chosen", "1.2", "1.4",
                   "twice", "chosen over best", "baseline"], rows)
 
 
-def matrix_table(results):
+def matrix_table(content):
     """One line for each gas and search: every queue; and for the better search, how far the
     tournament, which `auto` takes, is from the best."""
-    scenes, spreads = {}, []
-    for case in results["cases"]:
-        scenes.setdefault(case["scene"], []).append(case)
-        spreads.append(max(case["us_per_collision"]) / min(case["us_per_collision"]))
     rows, queues = [], []
-    for scene, cases in scenes.items():
-        us = {tuple(case["name"].split("/")[1:3]): case["best_us_per_collision"] for case in cases
-              if not case["baseline"]}
-        baseline = next(case["best_us_per_collision"] for case in cases if case["baseline"])
-        queues = list(dict.fromkeys(queue for _, queue in us))
-        best = min(us.values())
-        for search in dict.fromkeys(search for search, _ in us):
-            mine = us[search, "tournament"]
-            better = best in (us[search, queue] for queue in queues)
-            over = f"{100 * (mine / best - 1):+.0f} %" if better else ""
-            rows.append([scene, search, *(number(us[search, queue]) for queue in queues), over,
-                         number(baseline), number(baseline / mine)])
-    repetitions = len(results["cases"][0]["us_per_collision"])
-    spread = sorted(spreads)[len(spreads) // 2]
+    for scene, (baseline, *cases) in baselines_first(content).items():
+        found = {tuple(case["name"].split("/")[1:3]): case for case in cases}
+        queues = list(dict.fromkeys(queue for _, queue in found))
+        best = min(cases, key=lambda case: statistics.median(case["us_per_collision"]))
+        for search in dict.fromkeys(search for search, _ in found):
+            mine = found[search, "tournament"]
+            better = best["name"].split("/")[1] == search
+            rows.append([scene, search, *(us(found[search, queue]) for queue in queues),
+                         spread(quotients(mine["us_per_collision"], best["us_per_collision"]))
+                         if better else "", us(baseline), times(mine, baseline)])
     return table(["scene", "search", *queues, "tournament over best", "baseline",
-                  "tournament, times baseline"], rows) + (
-        f"\nBest of {repetitions} repetitions each, which differ by {100 * (spread - 1):.0f} % at the "
-        f"median and by {100 * (max(spreads) - 1):.0f} % at most: queues that differ by less are not "
-        f"told apart here.\n")
+                  "tournament, times baseline"], rows)
 
 
-def kernel_table(results):
-    best = results["best"]
-    lanes = [name for name in best if name.count("/") == 2]
-    isas = list(dict.fromkeys(name.split("/")[2] for name in lanes))
+def kernel_table(content):
+    found = {case["name"]: case for case in content["cases"]}
+    by_isa = [name for name in found if name.count("/") == 2]
+    isas = list(dict.fromkeys(name.split("/")[2] for name in by_isa))
     rows = []
-    for kernel in dict.fromkeys(name.rsplit("/", 1)[0] for name in lanes):
-        ns = {isa: best[f"{kernel}/{isa}"]["ns_per_item"] for isa in isas}
-        rows.append([kernel, *(number(ns[isa]) for isa in isas),
-                     number(best[f"{kernel}/{isas[-1]}"]["pairs_per_cycle"]),
-                     number(ns["scalar"] / min(ns.values()))])
-    text = table(["by lanes", *isas, f"pairs per cycle, {isas[-1]}", "times scalar"], rows)
-    rows = [[name, number(one["ns_per_item"]), number(one["pairs_per_cycle"])]
-            for name, one in best.items() if name not in lanes]
+    for kernel in dict.fromkeys(name.rsplit("/", 1)[0] for name in by_isa):
+        ns = {isa: found[f"{kernel}/{isa}"]["ns_per_item"] for isa in isas}
+        best = min(ns.values(), key=statistics.median)
+        rows.append([kernel, *(spread(ns[isa]) for isa in isas),
+                     spread(found[f"{kernel}/{isas[-1]}"]["pairs_per_cycle"]),
+                     spread(quotients(ns["scalar"], best))])
+    text = table(["SIMD", *isas, f"pairs per cycle, {isas[-1]}", "times scalar"], rows)
+    rows = [[name, spread(case["ns_per_item"]), spread(case["pairs_per_cycle"])]
+            for name, case in found.items() if name not in by_isa]
     return text + "\n" + table(["in double", "ns per pair", "pairs per cycle"], rows)
 
 
-def calendar_table(results):
-    best = results["best"]
-    sizes = sorted({int(name.split("/")[2]) for name in best})
+def calendar_table(content):
+    found = {case["name"]: case["ns_per_item"] for case in content["cases"]}
+    sizes = sorted({int(name.split("/")[2]) for name in found})
     rows = [[row + (" (baseline)" if "indexed-heap" in row else ""),
-             *(number(best[f"{row}/{size}"]["ns_per_item"]) for size in sizes)]
-            for row in dict.fromkeys(name.rsplit("/", 1)[0] for name in best)]
+             *(spread(found[f"{row}/{size}"]) for size in sizes)]
+            for row in dict.fromkeys(name.rsplit("/", 1)[0] for name in found)]
     return table(["ns per event", *(f"{size:.0e}".replace("e+0", "e") for size in sizes)], rows)
 
 
-SECTIONS = [  # part, title, what makes its table
-    ("steps", "From the baseline on, step by step", case_table),
-    ("searches", "Searches", case_table),
-    ("density", "Density: us per collision of 10000 needles", density_table),
-    ("size", "Size: us per collision", size_table),
-    ("matrix", "Every search by every queue: us per collision", matrix_table),
-    ("storage", "Storage by place or by id", case_table),
-    ("hulls", "Sides of cells and radii of capsules: us per collision", hull_table),
-    ("cloud", "A cloud: cells for the whole box, and as chosen", case_table),
-    ("queues", "Queues", case_table),
-    ("isa", "Instruction sets", case_table),
-    ("effects", "Effects", case_table),
-    ("calendars", "Calendars by themselves", calendar_table),
-    ("kernels", "Kernels by themselves: ns per pair", kernel_table),
-]
+SECTIONS = {  # part: title, what makes its table
+    "steps": ("From the baseline on, step by step", case_table),
+    "searches": ("Searches", case_table),
+    "density": ("Density: us per collision of 10000 needles", density_table),
+    "size": ("Size: us per collision", size_table),
+    "matrix": ("Every search by every queue: us per collision", matrix_table),
+    "storage": ("Storage by place or by id", case_table),
+    "hulls": ("Sides of cells and radii of capsules: us per collision", hull_table),
+    "cloud": ("A cloud: cells for the whole box, and as chosen", case_table),
+    "queues": ("Queues", case_table),
+    "isa": ("Instruction sets", case_table),
+    "effects": ("Effects", case_table),
+    "calendars": ("Calendars by themselves", calendar_table),
+    "kernels": ("Kernels by themselves: ns per pair", kernel_table),
+}
 
 
-def draw_density(results, file):
-    import matplotlib
-
-    matplotlib.use("svg")
-    matplotlib.rcParams.update({"svg.hashsalt": "needlework", "font.size": 11})
-    from matplotlib import pyplot
+def draw_density(content, file):
+    pyplot = measured.pyplot()
     from matplotlib.ticker import FixedLocator, NullLocator
 
     figure, axes = pyplot.subplots(figsize=(6.4, 4.2))
+    axes.set_xscale("log")
+    axes.set_yscale("log")
     styles = {"baseline": ("0.45", "o", "classical method"), "linked-cells": ("C0", "s", None),
               "capsules": ("C3", "^", None)}
-    scenes = by_scene(results)
+    scenes = by_scene(content).values()
+    densities = [cases["baseline"]["density"] for cases in scenes]
     for asked, (colour, marker, label) in styles.items():
-        points = [(cases[asked]["density"], cases[asked]["best_us_per_collision"])
-                  for cases in scenes.values()]
-        axes.loglog(*zip(*points), color=colour, marker=marker)
-        axes.annotate(label or asked, points[-1], xytext=(8, 0), textcoords="offset points",
-                      color=colour, va="center")
-    axes.set_xlabel("needles per L$^3$")
+        middles = measured.bars(axes, densities,
+                                [cases[asked]["us_per_collision"] for cases in scenes],
+                                color=colour, marker=marker)
+        axes.annotate(label or asked, (densities[-1], middles[-1]), xytext=(8, 0),
+                      textcoords="offset points", color=colour, va="center")
+    axes.set_xlabel("needles per L³")
     axes.set_ylabel("CPU time per collision [µs]")
-    axes.set_title("10000 needles, one thread", fontsize=11)
+    what = "median and range of repetitions" if content["rounds"] > 1 else "one repetition"
+    axes.set_title(f"10000 needles, one thread; {what}", fontsize=10)
     axes.set_xlim(right=300)  # room for the names
     for axis, ticks in (axes.xaxis, [0.1, 0.5, 1, 5, 10, 50]), (axes.yaxis, [5, 10, 20, 50, 100, 200]):
         axis.set_major_locator(FixedLocator(ticks))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_locator(NullLocator())
     axes.grid(True, color="0.9")
-    for side in "top", "right":
-        axes.spines[side].set_visible(False)
-    figure.tight_layout()
-    figure.savefig(file, metadata={"Date": None})
+    measured.save_picture(figure, file)
 
 
-def make_tables(folder):
-    found = {part: json.loads((folder / f"{part}.json").read_text())
-             for part, _, _ in SECTIONS if (folder / f"{part}.json").exists()}
-    if not found:
-        sys.exit(f"{folder}: expected results; measure first")
-    text = f"# Measured on {folder.name}\n\nMade by `bench/study.py`; see [bench](../../README.md).\n"
-    if "density" in found:
-        draw_density(found["density"], folder / "density.svg")
+def write_results(contents, machine, folder):
+    """The tables, the picture and the compact files of what was measured, by part."""
+    text = (f"# Measured on {machine}\n\nMade by `bench/study.py`. Times are CPU times of the event "
+            f"loop; a figure is the median of the repetitions, with their range in parentheses. "
+            f"Quotients are taken within each repetition.\n")
+    if "density" in contents:
+        draw_density(contents["density"], folder / "density.svg")
         text += "\n![Time per collision against density](density.svg)\n"
-    for part, title, make in SECTIONS:
-        if part not in found:
+    for part, (title, make) in SECTIONS.items():
+        if part not in contents:
             continue
-        results = found[part]
-        text += (f"\n## {title}\n\n`{results['command']}`, commit {results['commit']}, "
-                 f"{results['date'][:10]}; {results['machine']}, {results['cores']} cores; "
-                 f"{results['compiler']}, {results['flags']}.\n\n{make(results)}")
+        content = contents[part]
+        text += f"\n## {title}\n\n{measured.origin(content)}\n\n{make(content)}"
+        about = {key: content[key] for key in content if key != "cases"}
+        if part in SCENES:
+            about = {"format": 2, "subset": part, **about}
+        measured.write_compact(folder / f"{part}.json", about, content["cases"],
+                               "us_per_collision" if part in SCENES else "ns_per_item")
     (folder / "README.md").write_text(text)
 
 
-def machine_name(build):
-    version = output_of([str(build / "needlework"), "--version"])
-    widest = re.search(r"^ISA +(.*)$", version, re.M)[1].split()[-1]
-    processor = re.search(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(), re.M)
-    words = re.sub(r"[^a-z0-9]+", "-", processor[1].lower() if processor else "machine").strip("-")
-    return f"{words}-{widest}"
-
-
 def main():
-    parts = [*SCENES, *ALONE]
+    all_parts = {**SCENES, **ALONE}
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", nargs="*", metavar="PART",
-                        help=f"{', '.join(parts)} or tables; all if none is named")
-    parser.add_argument("--build", type=Path, default=ROOT / "build/release")
-    parser.add_argument("--machine", help="name of the folder in results/")
-    parser.add_argument("--quick", action="store_true",
-                        help="one short repetition of each: to try the study itself")
+                        help=f"{', '.join(all_parts)} or tables; all if none is named")
+    parser.add_argument("--repetitions", type=int, metavar="N",
+                        help=f"at most so many; else {min(all_parts.values())} to "
+                             f"{max(all_parts.values())}, by part")
+    measured.add_options(parser)
     arguments = parser.parse_args()
-    chosen = arguments.parts or [part for part in parts if part != "matrix"]
-    unknown = set(chosen) - {*parts, "tables"}
+    unknown = set(arguments.parts) - {*all_parts, "tables"}
     if unknown:
-        parser.error(f"PART {' '.join(unknown)}: expected {', '.join(parts)} or tables")
-    folder = BENCH / "results" / (arguments.machine or machine_name(arguments.build))
-    for part in chosen:
-        if part in SCENES:
-            flags = ["--repetitions", "1", "--min-time", "0"] if arguments.quick else SCENES[part]
-            write_json(folder / f"{part}.json", measure_scenes(arguments.build, part, flags))
-        elif part in ALONE:
-            repetitions = 1 if arguments.quick else 3
-            write_json(folder / f"{part}.json",
-                       measure_alone(arguments.build, part, repetitions))
-    make_tables(folder)
-    print(f"wrote {folder}/README.md")
+        parser.error(f"PART {' '.join(sorted(unknown))}: expected {', '.join(all_parts)} or tables")
+    if arguments.repetitions is not None and arguments.repetitions < 1:
+        parser.error(f"--repetitions {arguments.repetitions}: expected at least 1")
+    store = measured.store_of(arguments)
+    most = arguments.repetitions or (1 if arguments.quick else max(all_parts.values()))
+
+    def jobs(names):
+        return {part: (min(most, all_parts[part]), lambda part=part: (
+            measure_scenes if part in SCENES else measure_alone)(
+                arguments.build, part, arguments.quick)) for part in names}
+
+    chosen = [part for part in arguments.parts or all_parts if part != "tables"]
+    if chosen:
+        measured.measure_rounds(store, jobs(chosen), 60 * arguments.time_budget)
+    missing = [part for part, (rounds, _) in jobs(all_parts).items() if store.rounds(part) < rounds]
+    machine = arguments.machine or measured.machine_name(arguments.build)
+    place = store.place(machine, not missing)
+    write_results(measured.kept_of(store, all_parts), machine, place)
+    measured.report_missing(store, missing, place)
 
 
 if __name__ == "__main__":
-    main()
+    measured.run(main)

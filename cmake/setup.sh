@@ -1,40 +1,67 @@
-# Set-up shared by the scripts: installs what is missing and configures the release build. Sourced
-# with bash, in the root of the project.
+# What quickstart.sh, test.sh and .ci/run share: they install what is missing and configure the
+# release build. Sourced with bash, in the root of the project.
 
-# Prints the packages of packages.txt that are not installed.
+# Prints the packages that packages.txt names in these sections and that are not installed.
 missing_packages() {
-  local package
-  while read -r package; do
-    dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null |
-      grep -qx installed || echo "$package"
-  done < <(grep -v '^#' packages.txt)
+  local section line
+  while read -r line; do
+    case $line in
+      '' | '#'*) ;;
+      '['*']') section=${line:1:-1} ;;
+      *)
+        [[ " $* " == *" $section "* ]] || continue
+        dpkg-query --show --showformat='${db:Status-Status}' "$line" 2>/dev/null |
+          grep -qx installed || echo "$line"
+        ;;
+    esac
+  done <packages.txt
 }
 
-# Installs with apt-get, as root or through sudo; reads the package lists anew only if it has to.
-install_packages() {
-  local missing as_root=() apt_get
-  if ! command -v apt-get >/dev/null; then
-    echo "There is no apt-get here: expecting what packages.txt names to be installed." >&2
-    return
+# run_quietly COMMAND...: shows what the command prints only when it fails.
+run_quietly() {
+  local log status=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 </dev/null || status=$?
+  if ((status)); then
+    cat "$log" >&2
+    echo "This command failed: $*" >&2
   fi
-  mapfile -t missing < <(missing_packages)
+  rm "$log"
+  return "$status"
+}
+
+# install_packages SECTION...: installs with apt-get, as root or through sudo. The lists of packages
+# are updated only if they lack one.
+install_packages() {
+  local missing as_root=()
+  if ! command -v apt-get >/dev/null; then
+    echo "There is no apt-get here. What packages.txt names has to be installed already." >&2
+    return 0
+  fi
+  mapfile -t missing < <(missing_packages "$@")
   ((${#missing[@]})) || return 0
   if ((EUID != 0)); then
-    if ! command -v sudo >/dev/null; then
-      echo "Packages are missing; as root: apt-get install ${missing[*]}" >&2
+    as_root=(sudo)
+    # Asks for the password now, when it can be seen.
+    if ! command -v sudo >/dev/null || ! sudo true; then
+      echo "Packages are missing, and only root can install them. Run as root, then try again:" >&2
+      echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
       return 1
     fi
-    as_root=(sudo)
   fi
-  apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --yes --quiet)
+  local apt_get=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --yes)
   local install=(install --no-install-recommends "${missing[@]}")
-  if ! apt-get --simulate "${install[@]}" >/dev/null 2>&1 || ! "${apt_get[@]}" "${install[@]}"; then
-    "${apt_get[@]}" update
-    "${apt_get[@]}" "${install[@]}"
+  echo "Installing ${#missing[@]} packages and what they need: ${missing[*]}"
+  if ! apt-get --simulate "${install[@]}" >/dev/null 2>&1; then
+    run_quietly "${apt_get[@]}" update
   fi
+  # A list that is too old names files that are no longer there.
+  "${apt_get[@]}" "${install[@]}" >/dev/null 2>&1 </dev/null && return
+  run_quietly "${apt_get[@]}" update
+  run_quietly "${apt_get[@]}" "${install[@]}"
 }
 
-# configure_release ON|OFF: with or without tests and benchmarks. `cmake --build --preset release` builds.
+# configure_release ON|OFF: with or without tests and benchmarks.
 configure_release() {
-  cmake --preset release -DNEEDLEWORK_TESTS="$1" -DNEEDLEWORK_BENCH="$1"
+  run_quietly cmake --preset release -DNEEDLEWORK_TESTS="$1" -DNEEDLEWORK_BENCH="$1"
 }

@@ -60,6 +60,7 @@ struct Pair {
   DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
   DoubleDouble elapsed_second;  ///< one of the two is 0
   Vec3dd shift;                 ///< added to the second needle's centre [L]
+  double half_first = 0.5, half_second = 0.5;  ///< half lengths [L]
   Touch touch;
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
   double half_first = 0.5;  ///< half the length of the first needle [L]

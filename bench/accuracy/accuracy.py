@@ -1,14 +1,17 @@
 #!/usr/bin/python3
 """Measures what accuracy costs in time: cost against error, for each level and knob.
 
-    bench/accuracy/accuracy.py                    everything, half an hour
+    bench/accuracy/accuracy.py                    everything; goes on where it was stopped
     bench/accuracy/accuracy.py pairs tc           some parts
-    bench/accuracy/accuracy.py tables             no measuring: tables and pictures from the file
+    bench/accuracy/accuracy.py --time-budget 20   for 20 minutes; the same command goes on later
+    bench/accuracy/accuracy.py tables             no measuring: tables and pictures of what there is
 
 Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift,
 long-drift, return, parting, rates, tc.
-README.md beside this file says what each measures. Writes accuracy.json, accuracy.md,
-accuracy.svg and tc.svg to bench/results/MACHINE-ISA/. Needs a build with NEEDLEWORK_BENCH=ON and tests.
+README.md beside this file says what each measures. Writes accuracy.md, accuracy.svg, tc.svg and the
+compact accuracy.json to bench/results/MACHINE-ISA/ when all parts are complete, of one commit and of
+the same build; until then to study/results/ in the folder of the build. Needs a build with
+NEEDLEWORK_BENCH=ON and tests.
 """
 
 import argparse
@@ -18,15 +21,16 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import h5py
 import numpy
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import measured  # noqa: E402
 import readme  # noqa: E402
-import study  # noqa: E402
+import tables  # noqa: E402
 
 # name of a setting: what differs from the defaults, as keys of [engine]
 SETTINGS = {
@@ -83,9 +87,9 @@ def measure_pairs(bench, scale):
     texts = {n: ",".join([SETTINGS[n].get("accuracy", "standard")] + [
         f"{k}={v}" for k, v in SETTINGS[n].items() if k != "accuracy"]) for n in names}
     out = {}
-    for family in study.output_of([bench.pairs_program, "--families"]).split():
+    for family in measured.output_of([bench.pairs_program, "--families"]).split():
         count = int(scale * (200_000 if family.startswith("thermal") else 20_000))
-        answer = json.loads(study.output_of([bench.pairs_program, family, "--pairs", str(count),
+        answer = json.loads(measured.output_of([bench.pairs_program, family, "--pairs", str(count),
                                              "--accuracy", *texts.values()]))
         for name, result in zip(names, answer["results"]):
             result["accuracy"] = name
@@ -95,31 +99,26 @@ def measure_pairs(bench, scale):
 
 
 def measure_cost(bench, scale):
-    """CPU time of the event loop per collision: the least of `standard`, and the others' median
-    ratio to the run of `standard` just before, so that all see the same weather."""
+    """CPU time of the event loop per collision, one repetition: each setting, and a run of
+    `standard` just before it, so that its ratio to that is of the same moment."""
     def run(gas, name):
         per_needle = scale * (1 if "rigorous" in name else 6)
-        report = bench.run(bench.scene(8000, GASES[gas], {"collisions_per_needle": per_needle},
-                                       engine=SETTINGS[name]))
-        return {"us": report["us_per_collision"], **{
-            key: report["stats"][key] / report["collisions"]
-            for key in ("predicted", "evaluated", "escalated")}}
+        return bench.run(bench.scene(8000, GASES[gas], {"collisions_per_needle": per_needle},
+                                     engine=SETTINGS[name]))["us_per_collision"]
 
-    others = [name for name in SETTINGS if name != "standard"]
-    runs, ratios = {}, {}
-    for _ in range(5):
-        for gas in GASES:
-            for name in others:
-                before, after = run(gas, "standard"), run(gas, name)
-                ratios.setdefault((gas, name), []).append(after["us"] / before["us"])
-                runs[gas, name] = after
-                best = runs.get((gas, "standard"), before)
-                runs[gas, "standard"] = min(before, best, key=lambda r: r["us"])
-        print(flush=True, end=".")
-    print()
-    for (gas, name), of_rounds in ratios.items():
-        runs[gas, name]["us"] = runs[gas, "standard"]["us"] * statistics.median(of_rounds)
-    return [{"gas": gas, "accuracy": name, **runs[gas, name]} for gas in GASES for name in SETTINGS]
+    cases = []
+    for gas in GASES:
+        of_standard = []
+        for name in SETTINGS:
+            if name == "standard":
+                continue
+            before, after = run(gas, "standard"), run(gas, name)
+            of_standard.append(before)
+            cases.append({"name": f"{gas}/{name}", "us_per_collision": [after],
+                          "over_standard": [after / before]})
+        cases.append({"name": f"{gas}/standard", "over_standard": [1.0],
+                      "us_per_collision": [statistics.median(of_standard)]})
+    return "bench/accuracy/accuracy.py", cases
 
 
 def measure_audit(bench, scale):
@@ -324,8 +323,8 @@ def measure_rates(bench, scale):
                 else:
                     rates.append(report["collision_rate"] / report["collision_rate_exact"] - 1)
             grid, curves, reports, failures = cooling_curves(bench, (
-                bench.scene(1000, density, {"time": 60 / density}, engine=SETTINGS[name], seed=seed,
-                            collisions=cooling) for seed in seeds))
+                bench.scene(1000, density, {"time": 60 * scale / density}, engine=SETTINGS[name],
+                            seed=seed, collisions=cooling) for seed in seeds))
             entry = {"gas": gas, "accuracy": name, "runs": len(rates),
                      "errors": sorted(errors | failures), "cooling_runs": len(reports)}
             if len(rates) > 1:
@@ -369,7 +368,9 @@ def measure_tc(bench, scale):
                           "energy_ratio": statistics.mean(r["energy"] / r["energy_initial"]
                                                           for r in reports),
                           "log10_time": [round(float(t), 4) for t in grid],
-                          "log10_energy": [round(float(e), 4) for e in curves.mean(0)]}
+                          "log10_energy": [round(float(e), 4) for e in curves.mean(0)],
+                          "log10_error": [round(float(e), 5) for e in
+                                          curves.std(0, ddof=1) / math.sqrt(len(curves))]}
                 entry["_curves"] = (grid, curves)
             out.append(entry)
             print(epsilon, tc, flush=True)
@@ -384,34 +385,58 @@ PARTS = {"pairs": measure_pairs, "cost": measure_cost, "audit": measure_audit,
          "long-audit": measure_long_audit, "drift": measure_drift, "long-drift": measure_long_drift,
          "return": measure_return, "parting": measure_parting,
          "rates": measure_rates, "tc": measure_tc}
+COST_ROUNDS = 7
+
+
+def measure_part(store, bench, part, scale):
+    start = time.monotonic()
+    store.save(stored(part), {"scale": scale, "rounds": 1, "command": "bench/accuracy/accuracy.py",
+                              "results": PARTS[part](bench, scale)})
+    print(f"{part}: {time.monotonic() - start:.0f} s", flush=True)
+
+
+def stored(part):
+    return f"accuracy-{part}"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("parts", nargs="*", help=", ".join([*PARTS, "tables"]))
-    parser.add_argument("--build", type=Path, default=ROOT / "build/release")
-    parser.add_argument("--machine", help="its name among the results")
-    parser.add_argument("--readme", action="store_true", help="put the short table into README.md")
-    parser.add_argument("--scale", type=float, default=1, help="longer or shorter runs")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join([*PARTS, "tables"]))
+    parser.add_argument("--readme", action="store_true", help="put the short table into docs/accuracy.md")
+    measured.add_options(parser)
     arguments = parser.parse_args()
-    parts = arguments.parts or list(PARTS)
-    folder = study.BENCH / "results" / (arguments.machine or study.machine_name(arguments.build))
-    file = folder / "accuracy.json"
-    data = json.loads(file.read_text()) if file.exists() else {}
+    unknown = set(arguments.parts) - {*PARTS, "tables"}
+    if unknown:
+        parser.error(f"PART {' '.join(sorted(unknown))}: expected some of "
+                     f"{', '.join([*PARTS, 'tables'])}")
+    store = measured.store_of(arguments)
+    if not (arguments.build / "bench_accuracy").exists():
+        sys.exit(f"{arguments.build}/bench_accuracy: expected a build with NEEDLEWORK_BENCH=ON and "
+                 "tests")
     bench = Bench(arguments.build)
-    for part in parts:
-        if part == "tables":
-            continue
-        if part not in PARTS:
-            parser.error(f"{part}: expected some of {', '.join([*PARTS, 'tables'])}")
-        data[part] = {"commit": study.commit(), "results": PARTS[part](bench, arguments.scale)}
-        study.write_json(file, data)
-    import tables
-    tables.write(data, SETTINGS, folder)
+    begin, budget = time.monotonic(), 60 * arguments.time_budget
+    scale = 0.02 if arguments.quick else 1
+    cost_rounds = 1 if arguments.quick else COST_ROUNDS
+    for part in [part for part in arguments.parts or PARTS if part != "tables"]:
+        left = budget - (time.monotonic() - begin)
+        if part == "cost":
+            measured.measure_rounds(store, {stored(part): (cost_rounds, lambda: measure_cost(
+                bench, scale))}, left)
+        elif left > 0 and store.load(stored(part)) is None:
+            measure_part(store, bench, part, scale)
+    missing = [part for part in PARTS
+               if store.rounds(stored(part)) < (cost_rounds if part == "cost" else 1)]
+    data = {name.removeprefix(stored("")): content for name, content in
+            measured.kept_of(store, map(stored, PARTS)).items()}
+    place = store.place(arguments.machine or measured.machine_name(arguments.build), not missing)
+    tables.write(data, SETTINGS, place)
     if arguments.readme:
-        readme.put_table("accuracy", "\n".join(tables.brief(data)), ROOT / "README.md")
+        if not {"cost", "audit", "pairs"} <= data.keys():
+            sys.exit("--readme: expected cost, audit and pairs to be measured")
+        readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
+    measured.report_missing(store, missing, place)
 
 
 if __name__ == "__main__":
-    main()
+    measured.run(main)

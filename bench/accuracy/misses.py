@@ -49,7 +49,7 @@ def main():
                             capture_output=True, text=True).stdout.strip()
     asked = {family: options.thermal if family in THERMAL else options.hard for family in families}
     done = counts.setdefault("families", {})
-    keep(options.file, counts)  # where nothing is left to count, the table anew
+    keep(options.file, counts)  # writes the table also where nothing is left to count
     # Whoever has the least of what is asked of it is next, so that stopping leaves all balanced.
     while True:
         shares = {f: done.get(f, {"pairs": 0})["pairs"] / asked[f] for f in families}
@@ -96,7 +96,10 @@ def upper_limit(count):
 def keep(path, counts):
     path.parent.mkdir(parents=True, exist_ok=True)
     fresh = path.with_suffix(".new")
-    fresh.write_text(json.dumps(counts, indent=1) + "\n")
+    families = ",\n".join(f"  {json.dumps(name)}: {json.dumps(sums)}"
+                          for name, sums in counts["families"].items())
+    fresh.write_text(f'{{\n "accuracy": {json.dumps(counts["accuracy"])},\n'
+                     f' "families": {{\n{families}\n }}\n}}\n')
     fresh.replace(path)
     path.with_suffix(".md").write_text(table(counts))
 

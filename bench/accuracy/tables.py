@@ -1,6 +1,10 @@
-"""Tables and pictures of the work-precision study, from its file alone."""
+"""Tables and pictures of the work-precision study, of what accuracy.py has measured."""
 
 import math
+import statistics
+
+import measured
+from measured import spread
 
 FAMILY_NAMES = {"thermal-k6": "thermal"}
 
@@ -33,28 +37,33 @@ def by(results, *keys):
     return {tuple(r[k] for k in keys): r for r in results}
 
 
+def cost_of(data):
+    """(gas, setting): its case."""
+    return {tuple(case["name"].split("/", 1)): case for case in data["cost"]["cases"]}
+
+
 def summary(data, names):
     """What do I pay, what do I get: one line for each setting."""
-    cost = by(data["cost"]["results"], "gas", "accuracy")
+    cost = cost_of(data)
     audit = by(data["audit"]["results"], "gas", "accuracy")
-    lines = head("accuracy", "us per collision dilute, dense", "over `standard`",
+    lines = head("accuracy", "us per collision, dilute", "dense", "over `standard`, dilute", "dense",
                  "ns per thermal pair", "missed per 1e6 thermal pairs", "of 1e6 nearly parallel",
                  "median, greatest error of a thermal time", "contacts missed in audited runs")
     pairs = data["pairs"]["results"]
     found = {f: by(p["results"], "accuracy") for f, p in pairs.items()}
     for name in names:
-        us = [cost[gas, name]["us"] for gas in ("dilute", "dense")]
-        ratio = [cost[gas, name]["us"] / cost[gas, "standard"]["us"] for gas in ("dilute", "dense")]
+        us = [spread(cost[gas, name]["us_per_collision"]) for gas in ("dilute", "dense")]
+        ratio = [spread(cost[gas, name]["over_standard"]) for gas in ("dilute", "dense")]
         audits = [audit.get((gas, name)) for gas in ("dilute", "dense")]
         missed = ", ".join("fails" if a is None or "error" in a
                            else f"{a['missed']} of {a['collisions']}" for a in audits)
         cells = [f"`{name}`" if name in ("fast", "standard", "rigorous") else name,
-                 f"{us[0]:.1f}, {us[1]:.1f}", f"{ratio[0]:.2f}, {ratio[1]:.2f}"]
+                 *us, *ratio]
         thermal = found["thermal-k6"].get((name,))
         if thermal:
             per_million = [1e6 * found[f][name,]["missed"] / pairs[f]["pairs"]
                            for f in ("thermal-k6", "parallel")]
-            cells += [f"{thermal['ns_per_pair']:.0f}", *[number(m) for m in per_million],
+            cells += [spread(thermal["ns_per_pair"]), *[number(m) for m in per_million],
                       f"{number(thermal['time_error']['median'])}, "
                       f"{number(thermal['time_error']['max'])}"]
         else:
@@ -64,28 +73,28 @@ def summary(data, names):
     return lines
 
 
-# Lines of the table in the main README, and what they are.
+# Lines of the table in docs/accuracy.md, and what they are.
 BRIEF = {
     "fast": "double decides everything",
     "standard": "error bounds; double-double where they leave a decision open",
-    "rigorous": "interval arithmetic, times to half a unit; float for hulls and bounding spheres only",
-    "rigorous, filter float": "the same behind filters in float",
-    "sampling 1/4": "signs at equal steps, coarse",
-    "sampling 1/32": "fine",
+    "rigorous": "interval arithmetic, times to half a unit in the last place; float for bounding volumes only",
+    "rigorous, filter float": "the same, behind filters in float",
+    "sampling 1/4": "signs at equal steps, coarse steps",
+    "sampling 1/32": "signs at equal steps, fine steps",
     "root 1e-3": "contact times to a coarse tolerance; most dilute cooling runs end in an error",
 }
 
 
 def brief(data):
     """What do I pay, what do I get, in short."""
-    cost = by(data["cost"]["results"], "gas", "accuracy")
+    cost = cost_of(data)
     audit = by(data["audit"]["results"], "gas", "accuracy")
     pairs = data["pairs"]["results"]
     families = hard_families(pairs)
     lines = head("accuracy", "what it is", "dilute", "dense", "wrong, of 1e6 thermal pairs",
                  "wrong, of 1e6 hard pairs", "99 % of times within", "missed in runs")
     for name, what in BRIEF.items():
-        us = [f"{cost[gas, name]['us']:.1f}" for gas in ("dilute", "dense")]
+        us = [spread(cost[gas, name]["us_per_collision"]) for gas in ("dilute", "dense")]
         of_pairs = "rigorous" if name.startswith("rigorous") else name
         found = {f: by(p["results"], "accuracy")[of_pairs,] for f, p in pairs.items()}
         thermal = found["thermal-k6"]
@@ -110,7 +119,7 @@ def pairs_table(data):
                       "error of times: median", "99 %", "greatest")
         for r in result["results"]:
             t = r["time_error"]
-            lines.append(row(r["accuracy"], f"{r['ns_per_pair']:.0f}", f"{r['evaluations']:.1f}",
+            lines.append(row(r["accuracy"], spread(r["ns_per_pair"]), f"{r['evaluations']:.1f}",
                              f"{r['escalations']:.2f}", r["missed"], r["spurious"],
                              f"{r['near_missed']}, {r['near_spurious']}", number(t["median"]),
                              number(t["q99"]), number(t["max"])))
@@ -235,16 +244,24 @@ TABLES = [
      "many points one is off by 2 to 3 standard errors by chance.", rates_table),
     ("tc", "Contact time", "4 runs each of 1000 needles, n L^3 = 0.72, cooling to E/E(0) = 1e-3, or "
      "to 400 collisions per needle. Curves are compared, at 10 times per decade, with that of the "
-     "least tc_relative that got there.\n\n![cooling curves](tc.svg)", tc_table),
+     "least tc_relative that got there; bands are one standard error.\n\n"
+     "![cooling curves](tc.svg)", tc_table),
 ]
 
 
 def write(data, settings, folder):
     lines = ["# What accuracy costs in time", "",
-             "Made by `bench/accuracy/accuracy.py`; bench/accuracy/README.md says what is measured.", ""]
+             "Made by `bench/accuracy/accuracy.py`; bench/accuracy/README.md says what is measured. "
+             "A time is the median of interleaved repetitions, with their range in parentheses.", ""]
     if {"cost", "audit", "pairs"} <= data.keys():
-        lines += ["![cost against error](accuracy.svg)", "", *summary(data, settings), ""]
+        lines += ["![cost against error](accuracy.svg)", "", measured.origin(data["cost"]), "",
+                  *summary(data, settings), ""]
         draw(data, folder / "accuracy.svg")
+    if "cost" in data:
+        content = data["cost"]
+        measured.write_compact(folder / "accuracy.json",
+                               {key: content[key] for key in content if key != "cases"},
+                               content["cases"], "us_per_collision")
     if "tc" in data:
         draw_tc(data["tc"]["results"], folder / "tc.svg")
     for part, title, text, table in TABLES:
@@ -252,20 +269,13 @@ def write(data, settings, folder):
             lines += [f"## {title}", "", text, "", *table(data), ""]
     lines += ["Measured at: " + "; ".join(f"{part} {data[part]['commit']}" for part in data), ""]
     if "pairs" in data:
-        lines += ["## Families of pairs", *pairs_table(data), ""]
+        lines += ["## Families of pairs", "", "Times of pairs are of five portions of them.",
+                  *pairs_table(data), ""]
     (folder / "accuracy.md").write_text("\n".join(lines))
 
 
-def pyplot():
-    import matplotlib
-    matplotlib.use("svg")
-    import matplotlib.pyplot
-    matplotlib.rcParams["svg.hashsalt"] = "needlework"
-    return matplotlib.pyplot
-
-
 def draw_tc(results, file):
-    plt = pyplot()
+    plt = measured.pyplot()
     epsilons = sorted({r["epsilon"] for r in results}, reverse=True)
     figure, panels = plt.subplots(2, len(epsilons), figsize=(9.6, 5.4), sharey="row", sharex="col")
     limits = sorted({r["tc_relative"] for r in results})
@@ -279,21 +289,28 @@ def draw_tc(results, file):
             points = list(zip(r["log10_time"], r["log10_energy"]))
             axes.plot([10 ** t for t, _ in points], [10 ** e for _, e in points], **style,
                       label=f"{r['tc_relative']:.0e}")
-            points = [(t, e - truth[t]) for t, e in points if t in truth]
-            ratio.plot([10 ** t for t, _ in points], [10 ** e for _, e in points], **style)
+            errors = r.get("log10_error", [0] * len(points))
+            points = [(t, e - truth[t], error) for (t, e), error in zip(points, errors) if t in truth]
+            times = [10 ** t for t, _, _ in points]
+            ratio.plot(times, [10 ** e for _, e, _ in points], **style)
+            if any(errors):
+                ratio.fill_between(times, [10 ** (e - error) for _, e, error in points],
+                                   [10 ** (e + error) for _, e, error in points],
+                                   color=style["color"], alpha=0.25, linewidth=0)
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.set_title(f"ε = {epsilon}", fontsize=9)
         ratio.set_xlabel("time")
     panels[0, 0].set_ylabel("E / E(0)")
     panels[1, 0].set_ylabel("E over that of the least\ntc_relative that got to the end")
-    panels[0, 0].legend(frameon=False, fontsize=7, title="tc_relative", title_fontsize=7)
-    figure.tight_layout()
-    figure.savefig(file, metadata={"Date": None})
+    panels[0, 0].legend(fontsize=7, title="tc_relative", title_fontsize=7)
+    measured.save_picture(figure, file)
 
 
 def draw(data, file):
-    plt = pyplot()
+    plt = measured.pyplot()
+    from matplotlib.ticker import LogLocator
+
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 4.2))
     groups = {"levels": ["fast", "standard", "rigorous"],
               "isolation by sampling": ["sampling 1/4", "sampling 1/8", "sampling 1/32",
@@ -312,33 +329,43 @@ def draw(data, file):
         axes.annotate(short, (x, y), fontsize=7, textcoords="offset points",
                       xytext=(3, -10 if name.endswith("escalated") else 4))
 
+    def plot(axes, points, marker, group=None):
+        middles = [statistics.median(ns) for ns, _, _ in points]
+        ranges = [[m - min(p[0]) for m, p in zip(middles, points)],
+                  [max(p[0]) - m for m, p in zip(middles, points)]]
+        axes.errorbar(middles, [p[1] for p in points], xerr=ranges, fmt=marker, capsize=2,
+                      label=group)
+
     for marker, (group, names) in zip(markers, groups.items()):
         points = [(thermal[n,]["ns_per_pair"], thermal[n,]["time_error"]["q99"], n)
                   for n in names]
-        left.plot([p[0] for p in points], [p[1] for p in points], marker, label=group)
-        for x, y, n in points:
-            label(left, n, x, y)
+        plot(left, points, marker, group)
+        for ns, y, n in points:
+            label(left, n, statistics.median(ns), y)
         points = []
         for n in names:
             results = [by(pairs[f]["results"], "accuracy")[n,] for f in hard]
-            ns = sum(r["ns_per_pair"] * pairs[f]["pairs"] for f, r in zip(hard, results)) / total
+            # Of all families, by portion.
+            ns = [sum(r["ns_per_pair"][k] * pairs[f]["pairs"] for f, r in zip(hard, results)) / total
+                  for k in range(min(len(r["ns_per_pair"]) for r in results))]
             wrong = sum(r["missed"] + r["spurious"] for r in results) / total
             points.append((ns, wrong, n))
         floor = 0.3 / total
-        right.plot([p[0] for p in points], [max(p[1], floor) for p in points], marker)
-        for x, y, n in points:
+        plot(right, [(ns, max(y, floor), n) for ns, y, n in points], marker)
+        for ns, y, n in points:
             if y > 0 or n in groups["levels"]:
-                label(right, n, x, max(y, floor))
+                label(right, n, statistics.median(ns), max(y, floor))
     right.axhline(0.3 / total, color="0.8", linewidth=0.8)
     right.annotate("none", (0.01, 0.3 / total), xycoords=("axes fraction", "data"), fontsize=7,
                    color="0.5", xytext=(0, 3), textcoords="offset points")
     for axes in (left, right):
         axes.set_xscale("log")
         axes.set_yscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter("{x:g}")
     left.set_xlabel("ns per thermal pair")
     left.set_ylabel("relative error of contact times (99 % are below)")
     right.set_xlabel("ns per hard pair")
     right.set_ylabel("share of hard pairs decided wrongly")
-    left.legend(frameon=False, fontsize=8)
-    figure.tight_layout()
-    figure.savefig(file, metadata={"Date": None})
+    left.legend(fontsize=8)
+    measured.save_picture(figure, file)

@@ -101,7 +101,7 @@ template <class Model, Calendar Queue>
 class Play {
  public:
   explicit Play(Needle n) : calendar_(n, clock_of_play), n_(n) {
-    for (Needle i = 0; i < n; ++i) calendar_.set(model_.draw(i, n, {}));
+    for (Needle i{0}; i < n; ++i) calendar_.set(model_.draw(i, n, {}));
   }
   Event step() {
     const Event event = calendar_.top();
@@ -134,7 +134,7 @@ void measure(benchmark::State& state) {
   check_against_plain<Model, Queue>();
   const Needle n = static_cast<Needle>(state.range(0));
   Play<Model, Queue> play(n);
-  for (Needle step = 0; step < 2 * n; ++step) play.step();  // to the stationary state
+  for (Needle step{0}; step < 2 * n; ++step) play.step();  // to the stationary state
   for (auto _ : state) benchmark::DoNotOptimize(play.step());
   state.SetItemsProcessed(state.iterations());
 }

@@ -30,14 +30,11 @@ const char* const rule_of_verdicts =
     "A case is judged by its cost over that of the baseline in the same repetition, so that a "
     "machine that has become slower as a whole changes nothing. The change is the quotient of new "
     "and old relative costs, the median over all pairs of repetitions; its interval of 95 % is "
-    "that "
-    "of the rank test of Mann and Whitney. same: the interval lies within 3 % of no change. "
-    "faster, "
-    "slower: else, it lies on one side of no change. unclear: else, or with too few repetitions "
-    "for "
-    "such an interval, as three and four are. The baseline itself is not judged; a change of code "
-    "that it shares, "
-    "the prediction of contacts say, shows in its own time only.";
+    "that of the rank test of Mann and Whitney. same: the interval lies within 3 % of no change. "
+    "faster, slower: else, it lies on one side of no change. unclear: else, or with too few "
+    "repetitions for such an interval, as three and four are. The baseline itself is not judged; a "
+    "change of code that it shares, such as the prediction of contacts, shows in its own time "
+    "only.";
 
 Change change_between(const std::vector<double>& before, const std::vector<double>& after) {
   std::vector<double> differences;
@@ -84,20 +81,19 @@ std::vector<std::string> unlike(const Results& before, const Results& after) {
 Comparison compare(const Results& before, const Results& after) {
   Comparison out;
   out.json = Json::array();
-  std::size_t width = 0;
-  for (const CaseResult& result : after.cases) width = std::max(width, result.name.size());
-  out.text = fmt::format("{:{}} {:>9} {:>9} {:>10} {:>10} {:>9} {:>21}  {}\n", "case", width,
-                         "old us", "new us", "old/base", "new/base", "change", "95 %", "verdict");
+  // The name of a case has a line of its own, so that long ones leave room for the numbers.
+  out.text = fmt::format("case\n{:>14} {:>9} {:>10} {:>10} {:>9} {:>21}  {}\n", "old us", "new us",
+                         "old/base", "new/base", "change", "95 %", "verdict");
   for (const CaseResult& now : after.cases) {
+    out.text += now.name + '\n';
     const CaseResult* old = find_case(before, now.name);
     if (!old) {
-      out.text += fmt::format("{:{}} {:>9} {:9.2f}  only in the new results\n", now.name, width,
-                              "-", now.median());
+      out.text += fmt::format("{:>14} {:9.2f}  only in the new results\n", "-", now.median());
       continue;
     }
     if (now.is_baseline) {
-      out.text += fmt::format("{:{}} {:9.2f} {:9.2f}  baseline, {} by itself\n", now.name, width,
-                              old->median(), now.median(), percent(now.median() / old->median()));
+      out.text += fmt::format("{:14.2f} {:9.2f}  baseline, {} by itself\n", old->median(),
+                              now.median(), percent(now.median() / old->median()));
       continue;
     }
     const std::vector<double> old_costs = relative_costs(before, *old);
@@ -107,8 +103,8 @@ Comparison compare(const Results& before, const Results& after) {
     out.differs |= verdict == "faster" || verdict == "slower";
     const std::string interval =
         change.low > 0 ? fmt::format("{} .. {}", percent(change.low), percent(change.high)) : "-";
-    out.text += fmt::format("{:{}} {:9.2f} {:9.2f} {:10.4f} {:10.4f} {:>9} {:>21}  {}\n", now.name,
-                            width, old->median(), now.median(), median(old_costs), median(costs),
+    out.text += fmt::format("{:14.2f} {:9.2f} {:10.4f} {:10.4f} {:>9} {:>21}  {}\n", old->median(),
+                            now.median(), median(old_costs), median(costs),
                             percent(change.estimate), interval, verdict);
     out.json.push_back({{"name", now.name},
                         {"old_us_per_collision", old->median()},

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
+#include <string_view>
 
 #include "needlework/error.h"
 
@@ -13,82 +13,69 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
+constexpr const char* expected_file =
+    "expected a file that needlework bench --json FILE has written";
 
-double least(const std::vector<double>& values) {
-  return *std::min_element(values.begin(), values.end());
+void require(bool holds, const std::string& what) {
+  if (!holds) throw InputError(what);
+}
+
+// Far less than repetitions differ by, and short in a file.
+double five_digits(double x) { return std::stod(fmt::format("{:.5g}", x)); }
+
+// Three digits, in at most four characters up to 9999.
+std::string three_digits(double x) {
+  const int decimals = x < 9.995 ? 2 : x < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f}", x, decimals);
+}
+
+double times_baseline(const Results& results, const CaseResult& result) {
+  return 1 / median(relative_costs(results, result));
 }
 
 Json json_of_case(const Results& results, const CaseResult& result) {
-  return {{"name", result.name},
-          {"scene", result.scene},
-          {"baseline", result.is_baseline},
-          {"needles", result.needles},
-          {"density", result.density},
-          {"search", result.search},
-          {"queue", result.queue},
-          {"isa", result.isa},
-          {"effects", result.effects},
-          {"best_us_per_collision", result.best()},
-          {"median_us_per_collision", result.median()},
-          {"times_baseline", results.baseline_of(result).best() / result.best()},
-          {"collisions_per_cpu_s", 1e6 / result.best()},
-          {"us_per_collision", result.us_per_collision},
-          {"setup_s", result.setup_s},
-          {"collisions", result.collisions},
-          {"bytes_per_needle", result.bytes_per_needle},
-          {"per_collision", result.per_collision},
-          {"warm_up_hash", result.warm_up_hash}};
-}
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
+  Json out = {{"name", result.name},
+              {"baseline", result.is_baseline},
+              {"us_per_collision", result.us_per_collision},
+              {"best_us_per_collision", result.least()},
+              {"median_us_per_collision", result.median()},
+              {"times_baseline", times_baseline(results, result)}};
+  out.update(result.details);
+  return out;
 }
 
 CaseResult case_from(const Json& json) {
   CaseResult out;
   json.at("name").get_to(out.name);
-  json.at("scene").get_to(out.scene);
   json.at("baseline").get_to(out.is_baseline);
-  json.at("needles").get_to(out.needles);
-  json.at("density").get_to(out.density);
-  json.at("search").get_to(out.search);
-  json.at("queue").get_to(out.queue);
-  json.at("isa").get_to(out.isa);
-  json.at("effects").get_to(out.effects);
   json.at("us_per_collision").get_to(out.us_per_collision);
-  json.at("setup_s").get_to(out.setup_s);
-  json.at("collisions").get_to(out.collisions);
-  json.at("bytes_per_needle").get_to(out.bytes_per_needle);
-  out.per_collision = json.at("per_collision");
-  json.at("warm_up_hash").get_to(out.warm_up_hash);
-  const std::size_t repetitions = out.us_per_collision.size();
-  require(repetitions > 0, "us_per_collision: expected at least one repetition");
+  const std::string place = out.name + ": us_per_collision";
+  require(!out.us_per_collision.empty(), place + " is empty: expected at least one repetition");
   for (const double us : out.us_per_collision) {
-    require(us > 0, "us_per_collision: expected numbers above 0");
+    require(us > 0, fmt::format("{} {}: expected a number above 0", place, us));
   }
-  require(out.setup_s.size() == repetitions && out.collisions.size() == repetitions &&
-              out.bytes_per_needle.size() == repetitions,
-          "setup_s, collisions, bytes_per_needle: expected as many as of us_per_collision");
   return out;
 }
 
 Results results_from(Json json) {
   Results out;
-  require(json.at("format") == format_version, "format: expected 1");
+  const Json& format = json.at("format");
+  require(format == format_version,
+          fmt::format("format {}: expected {}; measure again by needlework bench --json FILE",
+                      format.dump(), format_version));
   for (const Json& one : json.at("cases")) out.cases.push_back(case_from(one));
-  json.erase("cases");
+  require(!out.cases.empty(), "cases is empty: expected at least one");
+  for (const char* key : {"format", "cases", "comparison"}) json.erase(key);
   out.about = std::move(json);
   for (const CaseResult& result : out.cases) {
-    const std::size_t repetitions = result.us_per_collision.size();
-    require(out.baseline_of(result).us_per_collision.size() == repetitions,
-            "us_per_collision: expected as many repetitions of all cases of a scene");
+    const std::size_t count = result.us_per_collision.size();
+    const std::size_t expected = out.baseline_of(result).us_per_collision.size();
+    require(count == expected, fmt::format("{}: us_per_collision has {} repetitions: expected {}, "
+                                           "as many as the baseline of its scene",
+                                           result.name, count, expected));
   }
   return out;
-}
-
-double per_collision(const CaseResult& result, const char* name) {
-  return result.per_collision.value(name, std::nan(""));
 }
 
 }  // namespace
@@ -99,7 +86,9 @@ std::string about_text(const Json& about, const char* key) {
   return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-double CaseResult::best() const { return least(us_per_collision); }
+std::string CaseResult::scene() const { return name.substr(0, name.find('/')); }
+double CaseResult::least() const { return *std::ranges::min_element(us_per_collision); }
+double CaseResult::most() const { return *std::ranges::max_element(us_per_collision); }
 double CaseResult::median() const { return bench::median(us_per_collision); }
 
 double median(std::vector<double> values) {
@@ -110,15 +99,31 @@ double median(std::vector<double> values) {
 
 const CaseResult& Results::baseline_of(const CaseResult& result) const {
   for (const CaseResult& other : cases) {
-    if (other.is_baseline && other.scene == result.scene) return other;
+    if (other.is_baseline && other.scene() == result.scene()) return other;
   }
-  throw std::invalid_argument("scene " + result.scene + ": expected a baseline");
+  throw InputError("scene " + result.scene() + ": expected a baseline among the cases");
 }
 
 std::vector<double> relative_costs(const Results& results, const CaseResult& result) {
   const CaseResult& baseline = results.baseline_of(result);
   std::vector<double> out = result.us_per_collision;
   for (std::size_t n = 0; n < out.size(); ++n) out[n] /= baseline.us_per_collision[n];
+  return out;
+}
+
+CaseResult empty_result(const Case& one) {
+  const Scene::Needles& needles = one.scene.needles;
+  const double volume = needles.box[0] * needles.box[1] * needles.box[2];
+  CaseResult out;
+  out.name = one.name();
+  out.is_baseline = one.is_baseline;
+  out.details = {{"scene", one.scene_name},
+                 {"needles", needles.count},
+                 {"density", static_cast<double>(needles.count) / volume},
+                 {"isa", one.scene.engine.isa},
+                 {"setup_s", Json::array()},
+                 {"collisions", Json::array()},
+                 {"bytes_per_needle", Json::array()}};
   return out;
 }
 
@@ -131,18 +136,20 @@ void add_sample(CaseResult& result, const Sample& sample) {
                     result.name, sample.warm_up_hash, result.warm_up_hash));
   }
   const double collisions = static_cast<double>(sample.collisions);
-  result.search = sample.search;
-  result.queue = sample.queue;
-  result.effects = sample.effects;
-  result.us_per_collision.push_back(1e6 * sample.cpu_s / collisions);
-  result.setup_s.push_back(sample.setup_s);
-  result.collisions.push_back(sample.collisions);
-  result.bytes_per_needle.push_back(static_cast<double>(sample.bytes) /
-                                    static_cast<double>(result.needles));
+  result.us_per_collision.push_back(five_digits(1e6 * sample.cpu_s / collisions));
+  Json& details = result.details;
+  details["search"] = sample.search;
+  details["queue"] = sample.queue;
+  details["effects"] = sample.effects;
+  details["setup_s"].push_back(sample.setup_s);
+  details["collisions"].push_back(sample.collisions);
+  details["bytes_per_needle"].push_back(static_cast<double>(sample.bytes) /
+                                        details["needles"].get<double>());
   for (const CounterName& counter : counter_names) {
-    result.per_collision[counter.name] =
+    details["per_collision"][counter.name] =
         static_cast<double>(sample.counters.*counter.member) / collisions;
   }
+  details["warm_up_hash"] = sample.warm_up_hash;
 }
 
 Json json_of(const Results& results) {
@@ -155,39 +162,54 @@ Json json_of(const Results& results) {
   return out;
 }
 
+std::string compact_text(const Results& results) {
+  std::string out = fmt::format("{{\n \"format\": {},\n", format_version);
+  for (const auto& [key, value] : results.about.items()) {
+    out += fmt::format(" {}: {},\n", Json(key).dump(), value.dump());
+  }
+  out += " \"cases\": [";
+  std::string_view separator = "\n";
+  for (const CaseResult& result : results.cases) {
+    out += fmt::format("{}  {{\"name\": {}, \"baseline\": {}, \"us_per_collision\": {}}}",
+                       separator, Json(result.name).dump(), result.is_baseline,
+                       Json(result.us_per_collision).dump());
+    separator = ",\n";
+  }
+  return out + "\n ]\n}\n";
+}
+
 Results read_results(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw IoError(file + ": cannot be read");
   try {
     return results_from(Json::parse(in));
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: {}: expected a file that needlework bench --json has written",
-                                 file, error.what()));
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: {}: {}", file, error.what(), expected_file));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file, error.what()));
   }
 }
 
 std::string table_of(const Results& results) {
   const Json& about = results.about;
-  std::string out = fmt::format("{}: {}, {}, {}, {}; {} repetitions\n", about_text(about, "subset"),
-                                about_text(about, "machine"), about_text(about, "compiler"),
+  const std::size_t repetitions = results.cases.front().us_per_collision.size();
+  std::string out = fmt::format("{}, version {}, {}\n{}; {}\n", about_text(about, "subset"),
                                 about_text(about, "version"), about_text(about, "date"),
-                                about_text(about, "repetitions"));
+                                about_text(about, "machine"), about_text(about, "compiler"));
+  out += repetitions == 1 ? "CPU time of the event loop: one repetition\n"
+                          : fmt::format(
+                                "CPU time of the event loop: median and range of {} "
+                                "interleaved repetitions\n",
+                                repetitions);
   std::size_t width = 0;
   for (const CaseResult& result : results.cases) width = std::max(width, result.name.size());
-  out += fmt::format("{:{}} {:>31} {:>29} {:>41}\n", "", width, "us per collision", "collisions",
-                     "per collision");
-  out += fmt::format("{:{}} {:>9} {:>9} {:>11} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-                     "case", width, "best", "median", "x baseline", "per s", "events", "searches",
-                     "candidat.", "evaluat.", "rebuilds", "B/needle", "setup s");
+  out += fmt::format("\n{:{}} {:>17} {:>8}\n{:{}} {:>6} {:>10} {:>8}\n", "", width,
+                     "us per collision", "times", "case", width, "median", "range", "baseline");
   for (const CaseResult& result : results.cases) {
-    out += fmt::format(
-        "{:{}} {:9.2f} {:9.2f} {:>11.2f} {:9.0f} {:9.2f} {:9.2f} {:9.1f} {:9.2f} {:9.2f} {:9.0f} "
-        "{:9.3f}\n",
-        result.name, width, result.best(), result.median(),
-        results.baseline_of(result).best() / result.best(), 1e6 / result.best(),
-        per_collision(result, "events"), per_collision(result, "searches"),
-        per_collision(result, "candidates"), per_collision(result, "evaluated"),
-        per_collision(result, "rebuilds"), median(result.bytes_per_needle), least(result.setup_s));
+    out +=
+        fmt::format("{:{}} {:>6} {:>10} {:>8}\n", result.name, width, three_digits(result.median()),
+                    fmt::format("{}-{}", three_digits(result.least()), three_digits(result.most())),
+                    three_digits(times_baseline(results, result)));
   }
   return out;
 }

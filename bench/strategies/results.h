@@ -1,4 +1,4 @@
-// What came of measuring a subset: as a table, and as a file that can be read again.
+// What measuring a subset gives: as a table, as JSON, and as a compact file that can be read again.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,22 +9,20 @@
 
 namespace needlework::bench {
 
-/// Of one case; what is measured has one value for each repetition.
+/// One case. A compact file keeps name, is_baseline and us_per_collision.
 struct CaseResult {
-  std::string name, scene;
+  std::string name;  ///< of the case; begins with the name of its scene and '/'
   bool is_baseline = false;
-  std::uint64_t needles = 0;
-  double density = 0;                       ///< [L^-3]
-  std::string search, queue, isa, effects;  ///< in use, `auto` resolved
+  /// CPU time of the event loop [us], one value for each repetition, to five digits.
+  std::vector<double> us_per_collision;
   std::string warm_up_hash;
-  std::vector<double> us_per_collision;  ///< CPU time of the event loop [us]
-  std::vector<double> setup_s;           ///< CPU time [s]
-  std::vector<std::uint64_t> collisions;
-  std::vector<double> bytes_per_needle;
-  nlohmann::ordered_json per_collision;  ///< counters by name, of the last repetition
+  /// All else that was measured, for --json alone; empty in results that were read.
+  nlohmann::ordered_json details = nlohmann::ordered_json::object();
 
-  double best() const;    ///< least us_per_collision
+  std::string scene() const;
+  double least() const;   ///< of us_per_collision
   double median() const;  ///< of us_per_collision
+  double most() const;    ///< of us_per_collision
 };
 
 struct Results {
@@ -35,7 +33,7 @@ struct Results {
   const CaseResult& baseline_of(const CaseResult& result) const;
 };
 
-/// What is told under this key, "?" if nothing.
+/// The text at this key, "?" if there is none.
 std::string about_text(const nlohmann::ordered_json& about, const char* key);
 
 /// Time of the case over that of its baseline, by repetition.
@@ -43,15 +41,23 @@ std::vector<double> relative_costs(const Results& results, const CaseResult& res
 
 double median(std::vector<double> values);
 
+/// What is known of a case before it is measured.
+CaseResult empty_result(const Case& one);
+
 /// Adds a repetition. Throws InvalidStateError if its trajectory is not that of those before.
 void add_sample(CaseResult& result, const Sample& sample);
 
+/// All that was measured.
 nlohmann::ordered_json json_of(const Results& results);
 
-/// Throws IoError for a file that cannot be read, and InputError for one that json_of has not made.
+/// What read_results needs, and what says where it is from; one line for each case.
+std::string compact_text(const Results& results);
+
+/// Throws IoError for a file that cannot be read, and InputError for one without the content of
+/// compact_text.
 Results read_results(const std::string& file);
 
-/// Lines for people, a table of one line a case.
+/// A table for people, one line for each case. Needs no more than a compact file has.
 std::string table_of(const Results& results);
 
 }  // namespace needlework::bench

@@ -21,7 +21,7 @@ struct Counters {
   std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double
   std::uint64_t touches = 0;     ///< third needles found touching where a record is made anew
-  // Of several threads; see README.md.
+  // Of several threads; see docs/how-it-works.md.
   std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
   std::uint64_t redone = 0;   ///< of these, done again by one thread
   std::uint64_t border = 0;   ///< tries of events that might read what another thread writes

@@ -1,25 +1,26 @@
-// H5MD 1.1 files: trajectories, sums and collisions out; initial states in.
+// H5MD 1.1 files: writes runs, and reads initial states and finished runs.
 //
-// What a Writer leaves in a file, F frames, S samples, E collisions, N needles:
+// docs/file-format.md describes each dataset of a file that a Writer writes. F frames, S samples,
+// E collisions and N needles are stored as follows:
 //
 //   /h5md                 version [1, 1], author, creator
-//   /particles/needles    box (edges [F][3][3]), position, velocity, image, orientation and
+//   /parameters           scene, title, version, seed, isa, accuracy, threads, epoch_length, k,
+//                         epsilon, beta
+//   /particles/needles    box/edges [F][3][3]; position, velocity, image, orientation and
 //                         angular_velocity, each [F][N][3]; id [N], mass [N]
-//   /observables          t_tr, t_rot, energy, momentum [F][3], collisions, tc_collisions, each [F]
-//   /series               the same sums, each [S], and their step and time
-//   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair (ids), arms,
-//   each
+//   /observables          t_tr, t_rot, energy, collisions, tc_collisions, each [F]; momentum [F][3]
+//   /series               the same sums, each [S] or [S][3]
+//   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair, arms, each
 //                         [E][2]; shift, impulse, each [E][3]; see Collision
-//   /parameters           scene, title, version, seed, isa, threads, epoch_length, k, epsilon, beta
 //
-// What depends on time is an H5MD element: a group with value, step (collisions so far) and time.
-// All elements of frames share one step and one time, those of the series another. /observables is
-// on the grid of the frames because readers of H5MD, MDAnalysis among them, index it by the frame;
-// the finer series are kept apart from it. Everything is in the units of the scene, so there are no
-// unit attributes.
+// A quantity that depends on time is an H5MD element: a group with the datasets value, step (number
+// of collisions so far) and time. All elements that belong to frames share one step and one time,
+// and the elements of /series share another pair. /observables has one row for each frame, because
+// readers of H5MD such as MDAnalysis expect that; samples at other times are in /series.
 //
-// HDF5 is entered by one thread at a time: the functions here wait for each other, but not for
-// other code of the process that uses HDF5.
+// The functions and classes of this header may be used by several threads; their calls of HDF5
+// exclude each other. They cannot exclude other code of the process that calls HDF5. They leave the
+// HDF5 error handler and error stack of the caller as they were.
 #pragma once
 
 #include <cstdint>
@@ -34,27 +35,31 @@
 
 namespace needlework::io {
 
-/// What a file says about its run besides the scene.
+/// Properties of a run that a file records besides the scene.
 struct RunInfo {
   std::string isa;                    ///< name of the instruction set in use, never "auto"
   int threads = 1;                    ///< threads in use
-  double epoch_length = 0;            ///< of the epochs in /events [time]
-  std::string accuracy = "standard";  ///< level in use, with those knobs that are set
+  double epoch_length = 0;            ///< length of the epochs in /events [time]
+  std::string accuracy = "standard";  ///< level in use, and the settings that differ from it
 };
 
-/// Writes one run to one file. All that was written before the last flush() survives the death of
-/// the program at any moment, kill -9 and full disks included; power failures are the file system's
-/// business. The file opens in HDF5 1.10 and later like any other, be it closed, left behind or
-/// still being written; in the latter two, only rows that have a step count.
+/// Writes one run to one file.
 ///
-/// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and
-/// again when used after that; std::logic_error when used wrongly.
+/// Everything written before the last flush() stays readable when the program ends at any moment,
+/// by kill -9 or because the disk is full. It need not survive a power failure, which depends on
+/// the file system. HDF5 1.10 and later can open the file at any time: while it is written, after
+/// the program was killed, and after it was closed. In the first two cases a dataset may have rows
+/// that are not complete yet; the complete rows are those for which `step` has an entry.
+///
+/// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and on
+/// every later use. They throw std::logic_error when they are used wrongly.
 class Writer {
  public:
-  /// Creates the file: under a temporary name in the same folder, and under its own when a valid
-  /// header is in it. An existing file is replaced if `force`, else IoError; a directory or a
-  /// device never. scene.needles.count must be the number of needles of all frames, also when the
-  /// scene takes its initial state from a file; /events exists if scene.output.events.
+  /// Creates the file under a temporary name in the same folder, and renames it when it has all
+  /// groups and datasets. An existing file is replaced if `force` is true and is an IoError
+  /// otherwise; a directory or a device is always an IoError. scene.needles.count must be the
+  /// number of needles of all frames, also when the scene takes its initial state from a file.
+  /// /events exists if scene.output.events is true.
   Writer(const std::string& path, bool force, const Scene& scene, const RunInfo& run);
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
@@ -62,15 +67,15 @@ class Writer {
 
   /// Appends a sample to each element of /series.
   void write_series(const Totals& totals);
-  /// Appends a frame to /particles/needles, and the totals at its time to /observables. A state
-  /// without images has none in the file but zeros. The ids of all frames must be the same, in the
-  /// same order.
+  /// Appends a frame to /particles/needles, and the totals at its time to /observables. Images are
+  /// written as zeros if the state has none. All frames must have the same ids in the same order.
   void write_frame(const Totals& totals, const State& state);
-  /// Appends to /events; written in blocks of a few thousand.
+  /// Appends a collision to /events. Collisions are kept in memory and written in blocks of a few
+  /// thousand.
   void write_event(const Collision& collision);
-  /// Brings to the file what was written so far.
+  /// Writes everything that is still in memory to the file.
   void flush();
-  /// Flushes, closes and reports errors. The destructor does the same but is silent.
+  /// Flushes and closes the file. The destructor does the same, but ignores errors.
   void close();
 
  private:
@@ -85,31 +90,32 @@ class Writer {
 /// angular_velocity in /particles/needles, or in the only group under /particles, whatever its
 /// name.
 ///
-/// Each may be an H5MD element of [F][N][3] or a plain dataset [N][3], of any kind of number. Box
-/// edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], plain or an element; id and
-/// image plain, an element, or none; mass is not needed. Elements with steps of their own are read
-/// at the last step that all have. Centres may lie on or outside the edges of the box. Numbers are
-/// taken as they are, without any normalisation: |u| = 1 and u·w = 0 must hold within 1e-6 (of
-/// |w|).
+/// Each of the four may be an H5MD element [F][N][3] or a plain dataset [N][3], with numbers of any
+/// type. Box edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], as a plain dataset
+/// or an element. id and image may be plain datasets, elements or absent. mass is not read. If
+/// elements have different steps, the last step that all of them have is read. Centres may lie on
+/// the edges of the box or outside. Numbers are not changed: |u| = 1 must hold within 1e-6, and
+/// u·w = 0 within 1e-6 |w|.
 ///
 /// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
 /// "PATH: /DATASET[index] = VALUE: expected ...".
 State read_last_frame(const std::string& path);
 
-/// What a Writer has kept of a run but for its frames and events.
+/// What a file holds of a run, without its frames and events.
 struct RecordedRun {
   std::string scene;           ///< Scene::text
-  std::string version;         ///< of the program
-  std::uint64_t needles = 0;   ///< their number
-  std::vector<Totals> series;  ///< without samples if `with_series` was false
+  std::string version;         ///< version of the program
+  std::uint64_t needles = 0;   ///< number of needles
+  std::vector<Totals> series;  ///< empty if `with_series` was false
 };
 
-/// Reads a file of a Writer. Throws IoError if it cannot be read, and InputError for content that
-/// no Writer leaves.
+/// Reads a file that a Writer wrote. Throws IoError if it cannot be read, and InputError if
+/// something is missing or has a form that a Writer does not write.
 RecordedRun read_run(const std::string& path, bool with_series = true);
 
-/// What `needlework info FILE` prints: datasets with their shapes, frames, times and parameters of
-/// any H5MD file, some lines of text. Throws IoError if the file cannot be read.
+/// The text that `needlework info FILE` prints: an overview of a file of this library, of any H5MD
+/// file or of any other HDF5 file, then its datasets with their shapes and descriptions. Throws
+/// IoError if the file cannot be read.
 std::string describe(const std::string& path);
 
 }  // namespace needlework::io

@@ -20,6 +20,17 @@ struct Scene {
     double k = 6.0;               ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
     std::uint64_t seed = 1;       ///< of the counter-based generator that draws the state
   };
+  /// One species of needles, in place of needles.count, needles.k and the temperatures of Initial,
+  /// which are those of the species then.
+  struct Species {
+    std::string name;         ///< any text, distinct
+    std::uint64_t count = 0;  ///< number of needles
+    double length = 1.0;      ///< [L]
+    double mass = 1.0;        ///< [m]
+    double k = 6.0;           ///< m L^2 / (2 I) > 0
+    double t_tr = 1.0;        ///< translational temperature drawn
+    double t_rot = 1.0;       ///< rotational temperature drawn
+  };
   struct Initial {
     double t_tr = 1.0;   ///< translational temperature drawn, (2/3) <m v^2 / 2>
     double t_rot = 1.0;  ///< rotational temperature drawn, <I w^2 / 2>
@@ -64,6 +75,7 @@ struct Scene {
 
   std::string title;
   Needles needles;
+  std::vector<Species> species;  ///< empty: one of length and mass 1, by Needles and Initial
   Initial initial;
   Collisions collisions;
   Engine engine;

@@ -19,6 +19,15 @@ struct State {
   std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 .. N-1
 
   std::size_t size() const { return position.size(); }
+  /// Room for n needles, images and ids included.
+  void resize(std::size_t n) {
+    position.resize(n);
+    velocity.resize(n);
+    orientation.resize(n);
+    angular_velocity.resize(n);
+    image.resize(n);
+    id.resize(n);
+  }
 };
 
 }  // namespace needlework

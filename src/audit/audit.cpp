@@ -76,7 +76,10 @@ Audit::Audit(const State& initial, const Setup& setup)
   has_collided_.assign(initial.size(), false);
 }
 
-void Audit::resume(Checkpoint checkpoint) { resumed_ = std::move(checkpoint); }
+// One that was interrupted before the first collision has nothing to go on from.
+void Audit::resume(Checkpoint checkpoint) {
+  if (checkpoint.tally.collisions > 0) resumed_ = std::move(checkpoint);
+}
 
 Checkpoint Audit::checkpoint() const {
   if (resumed_) return *resumed_;

@@ -17,12 +17,12 @@ constexpr std::size_t events_per_bucket = 2;
 
 }  // namespace
 
-BucketCalendar::BucketCalendar(std::size_t n, const Clock& clock)
+BucketCalendar::BucketCalendar(std::size_t n, const Clock& clock, std::size_t)
     : events_(n, clock), never_(events_.key_of(Time::never())), keys_(n, never_), heap_(n) {
   keep_all_in_heap();
 }
 
-void BucketCalendar::set(const Event& event) {
+void BucketCalendar::set(const Event& event, BlockIndex) {
   const Needle i = event.owner;
   keys_[i] = events_.put(event);
   const Number number = number_of(keys_[i]);
@@ -144,7 +144,7 @@ void BucketCalendar::restart() {
   filed_ = 0;
   far_.clear();
   std::vector<Needle> needles(events_.size());
-  for (Needle i = 0; i < needles.size(); ++i) needles[i] = i;
+  for (Needle i{0}; i < needles.size(); ++i) needles[i] = i;
   distribute(needles);
 }
 
@@ -194,7 +194,7 @@ void BucketCalendar::keep_all_in_heap() {
   present_ = last_number;
   per_width_ = 0;
   since_restart_ = 0;
-  for (Needle i = 0; i < events_.size(); ++i) heap_.set(i, keys_[i], events_);
+  for (Needle i{0}; i < events_.size(); ++i) heap_.set(i, keys_[i], events_);
 }
 
 }  // namespace needlework

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/calendar/calendar.h"
 #include "src/calendar/event_table.h"
 #include "src/calendar/needle_heap.h"
 
@@ -27,13 +28,15 @@ namespace needlework {
 class BucketCalendar {
  public:
   static constexpr const char* name = "bucket";
+  static constexpr bool by_block = false;
 
-  BucketCalendar(std::size_t n, const Clock& clock);
+  BucketCalendar(std::size_t n, const Clock& clock, std::size_t = 1);
 
   bool empty() const { return events_.size() == 0; }
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
-  void set(const Event& event);
+  Needle likely_next() const { return heap_.top(); }
+  void set(const Event& event, BlockIndex = 0);
 
   /// Events in heap, buckets and list, replaced ones among them.
   std::size_t entries() const { return heap_.size() + filed_ + far_.size(); }

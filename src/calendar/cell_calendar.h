@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/calendar/calendar.h"
 #include "src/calendar/event_table.h"
 #include "src/calendar/winner_tree.h"
 #include "src/memory/large_array.h"
@@ -28,7 +29,8 @@ namespace needlework {
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
-  using Block = std::uint32_t;
+  static constexpr bool by_block = true;
+  using Block = BlockIndex;
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};
 
@@ -36,7 +38,7 @@ class CellCalendar {
   /// With so many blocks, over which the needles are spread by index until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
       : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
-    for (Needle i = 0; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
+    for (Needle i{0}; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
     for (Block b = 0; b < blocks; ++b) find_next(b);
     divide(std::vector<std::uint32_t>(blocks, 0), 1);
   }
@@ -50,9 +52,10 @@ class CellCalendar {
     }
     return top_of(winner(best));
   }
-  Needle soon(std::uint32_t zone = 0) const {
+  Needle likely_next() const { return likely_next_in(0); }
+  Needle likely_next_in(std::uint32_t zone) const {
     const Zone& of = zones_[zone];
-    if (of.blocks.empty()) return 0;
+    if (of.blocks.empty()) return Needle(0);
     const Needle i = blocks_[of.blocks[of.order.second()]].next;
     events_.prefetch(i);
     return i;
@@ -135,16 +138,16 @@ class CellCalendar {
     }
     changed.push_back(block);
   }
-  /// Brings what a change of needle i, or of one in block b, will read near.
-  void bring_near(Needle i) const { prefetch(&places_[i]); }
-  void bring_keys_near(Block b) const {
+  /// Prefetches what a change of needle i, or of one in block b, will read.
+  void prefetch_place(Needle i) const { prefetch(&places_[i]); }
+  void prefetch_keys(Block b) const {
     const Entry* keys = blocks_[b].keys.data();
     for (std::size_t line = 0; line < 3; ++line) prefetch(keys + line * 64 / sizeof(Entry));
   }
   /// The clock that a block has come to.
   TimeKey key_of_next(Block b) const {
     const Content& content = blocks_[b];
-    return content.keys.empty() ? no_event : content.keys[places_[content.next].slot].key;
+    return content.keys.empty() ? no_event : content.keys[places_[Needle(content.next)].slot].key;
   }
   void publish(Block b) { clocks_[b].store(key_of_next(b), std::memory_order_release); }
 
@@ -173,10 +176,10 @@ class CellCalendar {
   };
   // Anybody may ask, and be told late.
   struct Next {
-    std::atomic<Needle> value{0};
+    std::atomic<Needle> value{Needle(0)};
 
     Next() = default;
-    Next(Next&& other) noexcept : value(other) {}
+    Next(Next&& other) noexcept : value(Needle(other)) {}
     Next& operator=(Needle i) {
       value.store(i, std::memory_order_relaxed);
       return *this;

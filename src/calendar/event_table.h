@@ -19,7 +19,7 @@ using TimeKey = std::uint64_t;
 class EventTable {
  public:
   EventTable(std::size_t n, const Clock& clock) : slots_(n), clock_(clock) {
-    for (std::size_t i = 0; i < n; ++i) slots_[i].event.owner = static_cast<Needle>(i);
+    for (std::size_t i = 0; i < n; ++i) slots_[i].event.owner = Needle(i);
   }
 
   std::size_t size() const { return slots_.size(); }

@@ -1,6 +1,7 @@
 // A calendar as an indexed 4-ary heap: an event is replaced where it stands.
 #pragma once
 
+#include "src/calendar/calendar.h"
 #include "src/calendar/needle_heap.h"
 
 namespace needlework {
@@ -9,15 +10,19 @@ namespace needlework {
 class IndexedHeap {
  public:
   static constexpr const char* name = "indexed-heap";
+  static constexpr bool by_block = false;
 
-  IndexedHeap(std::size_t n, const Clock& clock) : events_(n, clock), heap_(n) {
-    for (Needle i = 0; i < n; ++i) heap_.set(i, events_.key(i), events_);
+  IndexedHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), heap_(n) {
+    for (Needle i{0}; i < n; ++i) heap_.set(i, events_.key(i), events_);
   }
 
   bool empty() const { return heap_.empty(); }
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
-  void set(const Event& event) { heap_.set(event.owner, events_.put(event), events_); }
+  Needle likely_next() const { return heap_.top(); }
+  void set(const Event& event, BlockIndex = 0) {
+    heap_.set(event.owner, events_.put(event), events_);
+  }
 
  private:
   EventTable events_;

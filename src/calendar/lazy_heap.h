@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/calendar/calendar.h"
 #include "src/calendar/event_table.h"
 
 namespace needlework {
@@ -15,8 +16,11 @@ namespace needlework {
 class LazyHeap {
  public:
   static constexpr const char* name = "lazy-heap";
+  static constexpr bool by_block = false;
 
-  LazyHeap(std::size_t n, const Clock& clock) : events_(n, clock), version_(n) { rebuild(); }
+  LazyHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), version_(n) {
+    rebuild();
+  }
 
   bool empty() const { return version_.empty(); }
   const Event& top() const { return heap_.top().event; }
@@ -25,7 +29,8 @@ class LazyHeap {
   /// Events inside, replaced ones among them.
   std::size_t entries() const { return heap_.size(); }
 
-  void set(const Event& event) {
+  Needle likely_next() const { return top().owner; }
+  void set(const Event& event, BlockIndex = 0) {
     events_.put(event);
     heap_.push({event, ++version_[event.owner]});
     if (heap_.size() > 2 * version_.size() + 8) rebuild();
@@ -48,7 +53,7 @@ class LazyHeap {
   void rebuild() {
     std::vector<Entry> entries;
     entries.reserve(2 * version_.size() + 9);
-    for (Needle i = 0; i < version_.size(); ++i) entries.push_back({events_[i], version_[i]});
+    for (Needle i{0}; i < version_.size(); ++i) entries.push_back({events_[i], version_[i]});
     heap_ = Heap(Later{}, std::move(entries));
   }
 

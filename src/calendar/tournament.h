@@ -1,6 +1,7 @@
 // A calendar as a tournament between all needles.
 #pragma once
 
+#include "src/calendar/calendar.h"
 #include "src/calendar/event_table.h"
 #include "src/calendar/winner_tree.h"
 
@@ -11,23 +12,25 @@ namespace needlework {
 class Tournament {
  public:
   static constexpr const char* name = "tournament";
+  static constexpr bool by_block = false;
 
-  Tournament(std::size_t n, const Clock& clock)
+  Tournament(std::size_t n, const Clock& clock, std::size_t = 1)
       : events_(n, clock), tree_(n, events_.key_of(Time::never())) {}
 
   bool empty() const { return events_.size() == 0; }
-  const Event& top() const { return events_[tree_.winner()]; }
+  const Event& top() const { return events_[Needle(tree_.winner())]; }
   const Event& of(Needle i) const { return events_[i]; }
-  Needle soon() const {
-    const Needle i = tree_.second();
+  Needle likely_next() const {
+    const Needle i(tree_.second());
     events_.prefetch(i);
     return i;
   }
 
-  void set(const Event& event) {
+  void set(const Event& event, BlockIndex = 0) {
     tree_.update(
-        event.owner, events_.put(event), [&](Needle a, Needle b) { return events_.before(a, b); },
-        [&](Needle i) { events_.prefetch(i); });
+        event.owner.index, events_.put(event),
+        [&](std::uint32_t a, std::uint32_t b) { return events_.before(Needle(a), Needle(b)); },
+        [&](std::uint32_t i) { events_.prefetch(Needle(i)); });
   }
 
  private:

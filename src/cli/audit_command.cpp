@@ -168,7 +168,7 @@ int run_audit(const AuditArguments& arguments) {
   if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
   require_events(simulation, scene, arguments.scene.path);
-  audit::Audit audit(simulation.state(), setup_of(scene, arguments, simulation.epoch_length()));
+  audit::Audit audit(simulation.copy(), setup_of(scene, arguments, simulation.epoch_length()));
   const AuditIdentity identity =
       fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);
   if (arguments.state) {

@@ -74,19 +74,6 @@ Json about(const BenchArguments& arguments) {
           {"warm_up_collisions_per_needle", bench::warm_up}};
 }
 
-bench::CaseResult empty_result(const bench::Case& one) {
-  bench::CaseResult out;
-  const Scene::Needles& needles = one.scene.needles;
-  out.name = one.name();
-  out.scene = one.scene_name;
-  out.is_baseline = one.is_baseline;
-  out.needles = needles.count;
-  out.density =
-      static_cast<double>(needles.count) / (needles.box[0] * needles.box[1] * needles.box[2]);
-  out.isa = one.scene.engine.isa;
-  return out;
-}
-
 // Strategies differ, trajectories do not: else what is fast may be wrong.
 void require_same_trajectories(const bench::Results& results) {
   for (const bench::CaseResult& result : results.cases) {
@@ -104,7 +91,7 @@ bench::Results nothing_measured(const BenchArguments& arguments) {
   bench::Results out;
   out.about = about(arguments);
   for (const bench::Case& one : bench::subset_of(arguments.subset).cases()) {
-    out.cases.push_back(empty_result(one));
+    out.cases.push_back(bench::empty_result(one));
   }
   return out;
 }
@@ -132,7 +119,7 @@ void require_json_file(const BenchArguments& arguments) {
 
 void write_file(const std::string& file, const std::string& text) {
   std::ofstream out(file);
-  out << text << '\n';
+  out << text;
   if (!out.flush()) throw IoError(file + ": cannot be written");
 }
 
@@ -160,14 +147,12 @@ int run(const BenchArguments& arguments) {
     for (const std::string& what : bench::unlike(*before, results)) print_warning(what);
   }
   if (measures) measure(arguments, results);
-  Json json = json_of(results);
   std::optional<bench::Comparison> comparison;
-  if (before) {
-    comparison = bench::compare(*before, results);
-    json["comparison"] = comparison->json;
-  }
-  if (!arguments.json_file.empty()) write_file(arguments.json_file, json.dump(1, ' '));
+  if (before) comparison = bench::compare(*before, results);
+  if (!arguments.json_file.empty()) write_file(arguments.json_file, compact_text(results));
   if (arguments.json && arguments.json_file.empty()) {
+    Json json = json_of(results);
+    if (comparison) json["comparison"] = comparison->json;
     fmt::print("{}\n", json.dump(1, ' '));
   } else {
     fmt::print("{}", table_of(results));
@@ -204,16 +189,19 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->check(number_in(0, 3600))
       ->capture_default_str();
   command
-      ->add_option("--json", arguments->json_file,
-                   "print the results as one JSON object, or write them to a file and print the "
-                   "table")
+      ->add_option(
+          "--json", arguments->json_file,
+          "print all that was measured as one JSON object; or print the table, and write to "
+          "a file what --compare and --results need")
       ->expected(0, 1)
       ->option_text("[FILE.json]");
-  command->add_option("--compare", arguments->compare, "older results, to be compared with")
+  command
+      ->add_option("--compare", arguments->compare,
+                   "older results that --json has written to a file, to be compared with")
       ->option_text("OLD.json");
   command
       ->add_option("--results", arguments->results,
-                   "take the results from a file instead of measuring")
+                   "take the results from a file that --json has written instead of measuring")
       ->option_text("FILE.json");
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->add_flag("--force", arguments->force, "replace an existing file");

@@ -136,7 +136,7 @@ std::string rate_line(const Report& report) {
               exact, rate / exact, error / exact);
 }
 
-// How several threads got on with each other; see src/engine/README.md.
+// How several threads shared the work; see docs/how-it-works.md.
 std::string thread_line(int threads, const Report& report) {
   const Counters& counters = report.simulation.counters();
   if (counters.phases == 0) {

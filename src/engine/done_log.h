@@ -20,8 +20,8 @@ struct Done {
   Vec3d r;       ///< not wrapped into the box
   double speed;  ///< [L/time]
   bool contact;
-  std::uint32_t lower_id, higher_id;  ///< of the event's needles
-  Time time;                          ///< in full, of which the key has 53 bits
+  Id lower_id, higher_id;  ///< of the event's needles
+  Time time;               ///< in full, of which the key has 53 bits
 };
 
 /// The events done, by the cell in which they were. Threads may use it at once, as long as none
@@ -35,11 +35,11 @@ class DoneLog {
     std::fill(latest_.begin(), latest_.end(), TimeKey{0});
     for (std::vector<Done>& events : done_) events.clear();
   }
-  /// Brings what add() will need near.
-  void bring_near(const Vec3d& r) const {
+  /// Prefetches what add() will need.
+  void prefetch(const Vec3d& r) const {
     const std::size_t cell = grid_.index_of(grid_.cell_of(r));
-    prefetch(&done_[cell]);
-    prefetch(&latest_[cell]);
+    needlework::prefetch(&done_[cell]);
+    needlework::prefetch(&latest_[cell]);
   }
   void add(const Done& done) {
     const std::size_t cell = grid_.index_of(grid_.cell_of(done.r));

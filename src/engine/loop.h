@@ -43,7 +43,7 @@ class Loop {
   /// when the run cannot go on correctly; the state stays as it was before the event that failed.
   virtual std::optional<Stop> advance(const Limits& limits) = 0;
   virtual const char* search_name() const = 0;
-  virtual const char* queue_name() const = 0;
+  virtual const char* calendar_name() const = 0;
 };
 
 }  // namespace needlework

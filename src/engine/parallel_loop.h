@@ -40,20 +40,46 @@
 
 namespace needlework {
 
-template <class Search, Effects effects>
-class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
-  using Base = EventLoop<Search, CellCalendar, effects>;
-  using Base::queue_;
+/// How far threads look and how much work they share; other values are for tests.
+struct ParallelTuning {
+  /// How far from its cell an event looks for earlier ones. Where it is shorter, phases are undone
+  /// again and again; longer, events wait without need. [L]
+  double sight = 1.5;
+  double least = PhasePlan::usual_least;  ///< collisions that make a phase worth sharing
+};
+
+/// Asks OpenMP for whole teams, and leaves its setting as found.
+class WholeTeams {
+ public:
+  WholeTeams() : dynamic_(omp_get_dynamic()) { omp_set_dynamic(0); }
+  ~WholeTeams() { omp_set_dynamic(dynamic_); }
+  WholeTeams(const WholeTeams&) = delete;
+  WholeTeams& operator=(const WholeTeams&) = delete;
+
+ private:
+  int dynamic_;
+};
+
+/// How many threads there are when so many are asked for.
+inline int team_of(int threads) {
+  const WholeTeams whole;
+  int team = 0;
+#pragma omp parallel num_threads(threads)
+#pragma omp single
+  team = omp_get_num_threads();
+  return team;
+}
+
+template <Search S, Model M>
+class ParallelLoop final : public EventLoop<S, M> {
+  using Base = EventLoop<S, M>;
+  using Base::processor_;
   using Base::run_;
   using Base::search_;
 
  public:
-  // How far from its cell an event looks for earlier ones. Where it is shorter, phases are undone
-  // again and again; longer, events wait for nothing. [L]
-  static constexpr double usual_sight = 1.5;
-
-  ParallelLoop(Run& run, const SearchSetup& setup, int threads, double sight = usual_sight,
-               double least = PhasePlan::usual_least);
+  ParallelLoop(Run& run, S search, ReplacedRecords replaced, int threads,
+               const ParallelTuning& tuning);
 
   std::optional<Stop> advance(const Limits& limits) override;
 
@@ -73,28 +99,30 @@ class ParallelLoop final : public EventLoop<Search, CellCalendar, effects> {
   }
   double thermal_speed() const { return std::sqrt(std::max(0.0, run_.energy())); }
 
-  Phase<Search> phase_;
-  std::deque<ZoneThread<Search, effects>> threads_;
+  CellCalendar& cell_calendar_;
+  Phase<S> phase_;
+  std::deque<ZoneThread<S, M>> threads_;
   double fastest_to_thermal_;  ///< speed of the fastest in the phase before, over thermal_speed()
   PhasePlan plan_;
 };
 
-template <class Search, Effects effects>
-ParallelLoop<Search, effects>::ParallelLoop(Run& run, const SearchSetup& setup, int threads,
-                                            double sight, double least)
-    : Base(run, setup), phase_(run, search_, queue_, threads, sight), plan_(run.gas.clock, least) {
-  int team = 0;
-  omp_set_dynamic(0);  // all of them, in every phase
-#pragma omp parallel num_threads(threads)
-#pragma omp single
-  team = omp_get_num_threads();
+template <Search S, Model M>
+ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, int threads,
+                                 const ParallelTuning& tuning)
+    : Base(run, std::move(search), std::make_unique<CalendarOf<CellCalendar>>(),
+           std::move(replaced)),
+      cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
+      phase_(run, search_, cell_calendar_, threads, tuning.sight),
+      plan_(run.gas.clock, tuning.least) {
+  const int team = team_of(threads);
   if (team != threads) {
     throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
                      std::to_string(team) +
                      ", which is all that OpenMP gives here (OMP_THREAD_LIMIT, "
                      "OMP_MAX_ACTIVE_LEVELS, or a parallel region around)");
   }
-  for (std::uint32_t zone = 0; zone < phase_.threads; ++zone) threads_.emplace_back(phase_, zone);
+  for (std::uint32_t zone = 0; zone < phase_.threads; ++zone)
+    threads_.emplace_back(phase_, this->model_, zone);
   double squares = 0;
   for (const Record& record : run.gas.records) {
     squares = std::max(squares, dot(record.flight.v, record.flight.v));
@@ -103,14 +131,14 @@ ParallelLoop<Search, effects>::ParallelLoop(Run& run, const SearchSetup& setup, 
   divide();
 }
 
-template <class Search, Effects effects>
-void ParallelLoop<Search, effects>::divide() {
+template <Search S, Model M>
+void ParallelLoop<S, M>::divide() {
   phase_.divide();
   for (auto& thread : threads_) thread.forget();
 }
 
-template <class Search, Effects effects>
-std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits) {
+template <Search S, Model M>
+std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
   const Time last =
       limits.time == Time::never()
           ? limits.time
@@ -120,7 +148,7 @@ std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits)
     if (const auto stop = limits.reached(run_)) return stop;
     if (const auto stop = limits.called_off(run_)) return stop;
     if (run_.tally.collisions >= limits.pause) return std::nullopt;
-    const Time next = queue_.top().time;
+    const Time next = cell_calendar_.top().time;
     if (this->pass_window(next, limits)) continue;
     if (next > limits.time) {
       run_.now = limits.time;
@@ -136,7 +164,7 @@ std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits)
     if (stretch.together) {
       run_together(limits, stretch.end);
     } else {
-      queue_.order_again();
+      cell_calendar_.order_again();
       if (const auto stop = this->run_alone(limits, stretch.end)) return stop;
       if (run_.tally.collisions >= limits.pause) return std::nullopt;
     }
@@ -148,27 +176,30 @@ std::optional<Stop> ParallelLoop<Search, effects>::advance(const Limits& limits)
 // Runs events before `end` on all threads. Undoes all when that is not what one thread would have
 // done, or when it would have stopped before; then one thread has to do it. Undoes all as well when
 // there are many more collisions than expected; then threads try less at once.
-template <class Search, Effects effects>
-void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end) {
+template <Search S, Model M>
+void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   // The phase before may be long ago.
   phase_.begin(fastest_to_thermal_ * thermal_speed(), plan_.most_of_a_thread());
   for (auto& thread : threads_) thread.begin();
   [[maybe_unused]] const Time base = search_.hulls().base;
-  const TimeKey end_key = queue_.key_of(end);
+  const TimeKey end_key = cell_calendar_.key_of(end);
   const int threads = static_cast<int>(threads_.size());
-#pragma omp parallel num_threads(threads)
   {
-    if (omp_get_num_threads() == threads) {
-      const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
-      try {
-        threads_[zone].work(end_key);
-      } catch (...) {
-        // Whatever it was, one thread will come to it, if it is so, with all that was before.
+    const WholeTeams whole;
+#pragma omp parallel num_threads(threads)
+    {
+      if (omp_get_num_threads() == threads) {
+        const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
+        try {
+          threads_[zone].work(end_key);
+        } catch (...) {
+          // Whatever it was, one thread will come to it, if it is so, with all that was before.
+          phase_.amiss = true;
+        }
+        phase_.claims.drop(zone);
+      } else {
         phase_.amiss = true;
       }
-      phase_.claims.drop(zone);
-    } else {
-      phase_.amiss = true;
     }
   }
   assert(search_.hulls().base == base);  // which no thread may change for the others
@@ -195,25 +226,25 @@ void ParallelLoop<Search, effects>::run_together(const Limits& limits, Time end)
   report();
 }
 
-template <class Search, Effects effects>
-void ParallelLoop<Search, effects>::undo() {
+template <Search S, Model M>
+void ParallelLoop<S, M>::undo() {
   std::vector<Needle> needles;
   for (auto& thread : threads_) thread.undo(needles);
   std::sort(needles.begin(), needles.end());
   needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
-  queue_.order_again();  // events that were held among them
-  this->worker_.now = run_.now;
-  this->worker_.forget();
+  cell_calendar_.order_again();  // events that were held among them
+  processor_.set_now(run_.now);
+  processor_.forget();
   std::vector<Time> placed_until;
   for (const Needle i : needles) placed_until.push_back(search_.place(i, run_.now));
   for (std::size_t n = 0; n < needles.size(); ++n) {
-    this->worker_.schedule(needles[n], placed_until[n]);
+    processor_.schedule(needles[n], placed_until[n]);
   }
 }
 
 // Reports the collisions of the phase in their order.
-template <class Search, Effects effects>
-void ParallelLoop<Search, effects>::report() {
+template <Search S, Model M>
+void ParallelLoop<S, M>::report() {
   if (!run_.callback) return;
   std::vector<const Collision*> all;
   for (const auto& thread : threads_) {

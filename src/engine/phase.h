@@ -17,16 +17,17 @@
 #include "src/engine/mail.h"
 #include "src/engine/run.h"
 #include "src/engine/zones.h"
+#include "src/search/search.h"
 
 namespace needlework {
 
 /// Who may be where, what has been done, and how far each thread is.
-template <class Search>
+template <Search S>
 struct Phase {
   using Block = CellCalendar::Block;
 
   /// `sight`: how far from its cell an event looks for earlier ones. [L]
-  Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, int its_threads, double sight);
+  Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
 
   /// Divides the box into zones, by where needles are now.
   void divide();
@@ -36,8 +37,8 @@ struct Phase {
   CellBox cell_of(Block block) const { return {places[block], {}}; }
 
   Run& run;
-  Search& search;
-  CellCalendar& queue;
+  S& search;
+  CellCalendar& calendar;
   const std::uint32_t threads;
   const CellCounts cells;
   const double sight_of_done;   ///< others may be at work where what has been done is farther [L]
@@ -57,12 +58,12 @@ struct Phase {
   const int spins;                               ///< before a waiting thread yields
 };
 
-template <class Search>
-Phase<Search>::Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, int its_threads,
-                     double sight)
+template <Search S>
+Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads,
+                double sight)
     : run(its_run),
       search(its_search),
-      queue(its_queue),
+      calendar(its_calendar),
       threads(static_cast<std::uint32_t>(its_threads)),
       cells(search.grid().counts()),
       // Two needles that may meet before one of them is placed anew, with room for rounding.
@@ -85,24 +86,24 @@ Phase<Search>::Phase(Run& its_run, Search& its_search, CellCalendar& its_queue, 
     }
   }
   const auto x = static_cast<Block>(cells[0]), y = static_cast<Block>(cells[1]);
-  for (Block b = 0; b < queue.blocks(); ++b) {
+  for (Block b = 0; b < calendar.blocks(); ++b) {
     places.push_back({static_cast<std::int32_t>(b % x), static_cast<std::int32_t>(b / x % y),
                       static_cast<std::int32_t>(b / x / y)});
   }
 }
 
-template <class Search>
-void Phase<Search>::divide() {
-  std::vector<std::size_t> weight(queue.blocks());
-  for (Block b = 0; b < queue.blocks(); ++b) weight[b] = queue.needles_in(b);
+template <Search S>
+void Phase<S>::divide() {
+  std::vector<std::size_t> weight(calendar.blocks());
+  for (Block b = 0; b < calendar.blocks(); ++b) weight[b] = calendar.needles_in(b);
   const std::vector<std::uint32_t> zone = divide_box(cells, run.gas.box, weight, threads);
-  queue.divide(zone, threads);
+  calendar.divide(zone, threads);
   inner = inner_cells(cells, zone, apart);
   ours = inner_cells(cells, zone, reach.reach());
 }
 
-template <class Search>
-void Phase<Search>::begin(double fastest, std::uint64_t most) {
+template <Search S>
+void Phase<S>::begin(double fastest, std::uint64_t most) {
   done.clear();
   mail.begin();
   fronts.begin(fastest);

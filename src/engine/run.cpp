@@ -1,5 +1,7 @@
 #include "src/engine/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -49,7 +51,30 @@ auto sums_of(const Gas& gas, Terms&& terms) {
   return out;
 }
 
+Species species_of(const Scene& scene) {
+  if (scene.species.empty()) return {.length = 1, .mass = 1, .k = scene.needles.k};
+  const Scene::Species& species = scene.species.front();
+  return {.length = species.length, .mass = species.mass, .k = species.k};
+}
+
+// Of one species: the rate is that of needles of length and mass 1, times L^2 / sqrt(m).
+double mean_free_time_of(const Gas& gas, const Totals& sums) {
+  const Species& species = gas.species.front();
+  return mean_free_time({.density = gas.density(),
+                         .t_tr = sums.t_tr,
+                         .t_rot = sums.t_rot,
+                         .length = species.length,
+                         .mass = species.mass,
+                         .k = species.k});
+}
+
 }  // namespace
+
+Effects effects_of(const Scene& scene) {
+  return {.rough = scene.collisions.beta != -1,
+          .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
+          .table = !species_of(scene).is_unit()};
+}
 
 Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
@@ -59,13 +84,14 @@ Gas make_gas(const Scene& scene, const State& initial) {
   check_size(initial.image.size(), count, "image");
   check_size(initial.id.size(), count, "id");
   for (const double edge : initial.box) {
-    if (!(edge >= 2.01) || !std::isfinite(edge)) {
-      throw InputError("state: box edge " + std::to_string(edge) + ": expected at least 2.01");
+    const double least = 2.01 * species_of(scene).length;
+    if (!(edge >= least) || !std::isfinite(edge)) {
+      throw InputError(fmt::format("state: box edge {}: expected at least {}", edge, least));
     }
   }
   Gas gas;
   gas.box = initial.box;
-  gas.k = scene.needles.k;
+  gas.set_species({species_of(scene)});
 
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -83,15 +109,16 @@ Gas make_gas(const Scene& scene, const State& initial) {
     flight.v = vector(initial.velocity[from]);
     flight.u = vector(initial.orientation[from]);
     flight.w = vector(initial.angular_velocity[from]);
-    gas.ids[i] = initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from];
+    gas.ids[i] = {initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from]};
     if (i > 0 && gas.ids[i] == gas.ids[i - 1]) {
-      throw InputError("state: id " + std::to_string(gas.ids[i]) + " twice: expected distinct ids");
+      throw InputError("state: id " + std::to_string(gas.ids[i].value) +
+                       " twice: expected distinct ids");
     }
     if (!initial.image.empty()) gas.images[i] = initial.image[from];
     const bool finite =
         is_finite(flight.r) && is_finite(flight.u) && is_finite(flight.v) && is_finite(flight.w);
     if (!finite || flight.u == Vec3d{}) {
-      throw InputError("state: needle " + std::to_string(gas.ids[i]) +
+      throw InputError("state: needle " + std::to_string(gas.ids[i].value) +
                        ": expected finite numbers and a director that is not 0");
     }
   }
@@ -102,14 +129,15 @@ Run::Run(const Scene& scene, Gas initial)
     : gas(std::move(initial)),
       restitution{scene.collisions.epsilon, scene.collisions.beta},
       accuracy(accuracy_of(scene.engine)),
+      effects(effects_of(scene)),
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
   open_window();
   gas.clock = Clock(mean_free_time);
-  for (Needle i = 0; i < gas.size(); ++i) {
+  for (Needle i{0}; i < gas.size(); ++i) {
     const kernels::Flight flight = gas.records[i].flight;
-    renew_record(gas, i, now, flight.u, flight.v, flight.w);
+    renew_record(gas, i, now, {flight.u, flight.v, flight.w, gas.longest});
   }
   open_window();
   initial_energy = energy();
@@ -126,7 +154,7 @@ void Run::open_window() {
   // 2^58 quanta, so that sums of many changes fit.
   quantum_ = energy_at_window_ > 0 ? times_power_of_two(1, exponent_of(energy_at_window_) - 58) : 1;
   per_quantum_ = 1 / quantum_;
-  mean_free_time = needlework::mean_free_time(gas.density(), sums.t_tr, sums.t_rot, gas.k);
+  mean_free_time = mean_free_time_of(gas, sums);
   contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
   const bool endless = !std::isfinite(mean_free_time);
   window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
@@ -134,17 +162,31 @@ void Run::open_window() {
   search_span = 4 * window_span_;
 }
 
-void Run::tell(Collision& report, Needle a, Needle b, std::vector<Collision>* later) const {
-  const auto aftermath = [&](Needle i) {
+void Run::report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const {
+  const auto state_of = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return StateAfterCollision{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
   };
-  report.after = {aftermath(a), aftermath(b)};
+  collision.after = {state_of(a), state_of(b)};
   if (later) {
-    later->push_back(report);
+    later->push_back(collision);
   } else {
-    callback(report);
+    callback(collision);
   }
+}
+
+ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velocity,
+                                        const std::function<Vec3d(Needle)>& angular_velocity) {
+  ReplacedRecords replaced;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    auto& entry = replaced.add(i, record);
+    const Vec3d director = director_after(record.flight, gas.clock.difference(now, record.time));
+    entry.wraps = renew_record(
+        gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).length});
+  }
+  open_window();
+  return replaced;
 }
 
 bool Run::nothing_can_happen() const {
@@ -158,11 +200,13 @@ bool Run::nothing_can_happen() const {
 void Run::sum_energies(Totals& out) const {
   if (gas.size() == 0) return;
   const double count = static_cast<double>(gas.size());
+  // Of one species: sums of v^2 and w^2, with the factors of energies afterwards.
+  const Species& species = gas.species.front();
   const auto [v2, w2] = sums_of(gas, [](const Record& a) {
     return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
   });
-  out.t_tr = v2 / (3 * count);
-  out.t_rot = w2 / (4 * gas.k * count);
+  out.t_tr = species.mass * v2 / (3 * count);
+  out.t_rot = species.mass * (species.length * species.length) * w2 / (4 * species.k * count);
   out.energy = 1.5 * out.t_tr + out.t_rot;
 }
 
@@ -174,17 +218,14 @@ Totals Run::totals() const {
   if (gas.size() == 0) return out;
   sum_energies(out);
   out.momentum = sums_of(gas, [](const Record& a) { return array(a.flight.v); });
+  for (double& component : out.momentum) component *= gas.species.front().mass;
   return out;
 }
 
-State Run::state(kernels::Isa isa) const {
+void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) const {
   using C = kernels::FlightColumns;
-  State out;
   out.box = gas.box;
-  std::vector<Needle> by_id(gas.size());
-  std::iota(by_id.begin(), by_id.end(), Needle{0});
-  std::sort(by_id.begin(), by_id.end(),
-            [&](Needle a, Needle b) { return gas.ids[a] < gas.ids[b]; });
+  out.resize(gas.size());
   // Few enough for their columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
@@ -209,14 +250,32 @@ State Run::state(kernels::Isa isa) const {
         image[axis] = add_boxes(image[axis], wrapped.boxes);
       }
       const bool just_now = columns[C::elapsed][n] == 0;
-      out.id.push_back(gas.ids[i]);
-      out.position.push_back(r);
-      out.image.push_back(image);
-      out.velocity.push_back(array(flight.v));
-      out.orientation.push_back(array(just_now ? flight.u : normalised(flights.director(n))));
-      out.angular_velocity.push_back(array(flight.w));
+      const std::size_t row = begin + n;
+      out.id[row] = gas.ids[i].value;
+      out.position[row] = r;
+      out.image[row] = image;
+      out.velocity[row] = array(flight.v);
+      out.orientation[row] = array(just_now ? flight.u : normalised(flights.director(n)));
+      out.angular_velocity[row] = array(flight.w);
     }
   }
+}
+
+FreeNeedle Run::needle(Id id) const {
+  const auto found = std::find(gas.ids.begin(), gas.ids.end(), id);
+  if (found == gas.ids.end()) {
+    throw InputError(fmt::format("needle {}: expected the id of a needle", id.value));
+  }
+  const Record& record = gas.records[static_cast<std::size_t>(found - gas.ids.begin())];
+  const double elapsed = gas.clock.difference(now, record.time);
+  const Vec3d centre = centre_after(record.flight, elapsed);
+  FreeNeedle out;
+  out.position = {wrap(centre.x, gas.box[0]).place, wrap(centre.y, gas.box[1]).place,
+                  wrap(centre.z, gas.box[2]).place};
+  out.orientation =
+      array(elapsed == 0 ? record.flight.u : normalised(director_after(record.flight, elapsed)));
+  out.velocity = array(record.flight.v);
+  out.angular_velocity = array(record.flight.w);
   return out;
 }
 

@@ -7,7 +7,9 @@
 
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
+#include "src/engine/replaced_records.h"
 #include "src/physics/collision.h"
+#include "src/physics/effects.h"
 #include "src/physics/gas.h"
 #include "src/trajectory/tally.h"
 
@@ -24,8 +26,11 @@ class Run {
   Run(const Scene& scene, Gas initial);
 
   Totals totals() const;
-  /// Free flight to now by this instruction set, on which no bit depends.
-  State state(kernels::Isa isa) const;
+  /// Copies all needles at the present time in this order. Free flight is computed with this
+  /// instruction set, on which no bit depends.
+  void copy(kernels::Isa isa, const std::vector<Needle>& order, State& out) const;
+  /// Throws InputError for an id that does not exist.
+  FreeNeedle needle(Id id) const;
 
   /// Of all needles, kept up by the collisions.
   double energy() const {
@@ -41,15 +46,22 @@ class Run {
   void open_window();
   bool nothing_can_happen() const;
 
-  /// Passes a collision of these two to the callback, or puts it down for later. Apart from the
-  /// loops, whose code it would swell.
-  void tell(Collision& report, Needle a, Needle b, std::vector<Collision>* later) const;
+  /// Passes a collision of these two to the callback, or appends it to `later`. Not part of the
+  /// loops, as it would enlarge their code.
+  void report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const;
+
+  /// Replaces the velocities of all needles at the present time and opens a new window; the event
+  /// loop has to be made again. `velocity(i)` and `angular_velocity(i)` are by place in storage.
+  /// Returns the records as they were.
+  ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
+                                     const std::function<Vec3d(Needle)>& angular_velocity);
 
   Gas gas;
   Time now;
   Restitution restitution;
   Accuracy accuracy;
-  bool sorted;  ///< whether needles are stored in the order of their places
+  Effects effects;  ///< that the scene calls for
+  bool sorted;      ///< whether needles are stored in the order of their places
   double mean_free_time = 0;
   double contact_time = 0;           ///< in force in this window
   double search_span = 0;            ///< how far ahead contacts are searched for [time]
@@ -69,6 +81,9 @@ class Run {
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::int64_t quanta_at_window_ = 0;
 };
+
+/// What the scene calls for of flight and pair rule.
+Effects effects_of(const Scene& scene);
 
 /// The needles of a state, whose arrays a run has no more use for. Throws InputError for a state
 /// that cannot be run.

@@ -1,14 +1,17 @@
 #include "needlework/simulation.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "needlework/error.h"
-#include "needlework/h5md.h"
 #include "needlework/initial_state.h"
-#include "src/calendar/all.h"
 #include "src/calendar/choice.h"
-#include "src/engine/make_loop_with.h"
+#include "src/engine/make_loop.h"
 #include "src/engine/zones.h"
+#include "src/physics/permutation.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
@@ -26,41 +29,39 @@ kernels::Isa isa_of(const std::string& name) {
   throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
 }
 
-// Makes the loop with that of the calendars whose name it is.
-template <class... Queues>
-std::unique_ptr<Loop> with_queue(CalendarList<Queues...>, const std::string& queue,
-                                 const Scene& scene, Run& run, const std::string& search,
-                                 const SearchSetup& setup) {
-  std::unique_ptr<Loop> loop;
-  const bool found = ((queue == Queues::name &&
-                       (loop = make_loop_with<Queues>(scene, run, search, setup), true)) ||
-                      ...);
-  if (found) return loop;
-  std::string names = "auto";
-  ((names += std::string(", ") + Queues::name), ...);
-  throw InputError("engine.queue = \"" + queue + "\": expected one of " + names);
-}
-
-// The event loop that the scene asks for, for a gas of this density.
-std::unique_ptr<Loop> make_loop(const Scene& scene, Run& run, double density) {
+// The parts that the scene asks for, for a gas of this density.
+LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
-  const SearchSetup setup{isa_of(scene.engine.isa),
-                          density,
-                          scene.engine.cell_side,
-                          scene.engine.capsule_radius,
-                          accuracy_of(scene.engine).float_filter,
-                          multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))};
-  const std::string search = chosen_search(scene.engine.search, density);
-  const std::string queue = chosen_calendar(scene.engine.queue, threads);
-  return with_queue(AllCalendars<CalendarList>(), queue, scene, run, search, setup);
+  return {.search = chosen_search(scene.engine.search, density),
+          .calendar = chosen_calendar(scene.engine.queue, threads),
+          .threads = threads,
+          .setup = {.isa = isa_of(scene.engine.isa),
+                    .density = density,
+                    .cell_side = scene.engine.cell_side,
+                    .capsule_radius = scene.engine.capsule_radius,
+                    .float_filter = accuracy_of(scene.engine).float_filter,
+                    .count_multiples =
+                        multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))},
+          .replaced = {}};
 }
 
-State initial_state(const Scene& scene) {
-  if (scene.initial.file.empty()) return draw_initial_state(scene);
-  State state = io::read_last_frame(scene.initial.file);
-  Scene completed = scene;
-  adopt_count_and_box(completed, state);
-  return state;
+Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
+
+bool is_finite(const std::array<double, 3>& a) {
+  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+
+void check_velocities(std::span<const std::array<double, 3>> values, std::size_t count,
+                      const char* what) {
+  if (values.size() != count) {
+    throw InputError(
+        fmt::format("set_velocities: {} rows of {}: expected {}", values.size(), what, count));
+  }
+  const auto bad = std::find_if_not(values.begin(), values.end(), is_finite);
+  if (bad != values.end()) {
+    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers",
+                                 bad - values.begin(), what));
+  }
 }
 
 std::string name_effects(const Scene::Collisions& collisions) {
@@ -81,10 +82,33 @@ struct Simulation::Implementation {
     begin_loop();
   }
 
-  void begin_loop() {
-    loop = make_loop(scene, run, sizing ? sizing->density() : run.gas.density());
+  void begin_loop(ReplacedRecords replaced = {}) {
+    LoopChoice choice = choice_of(scene, run, sizing ? sizing->density() : run.gas.density());
+    choice.replaced = std::move(replaced);
+    loop = make_loop(run, std::move(choice));
     search = loop->search_name();
-    queue = loop->queue_name();
+    queue = loop->calendar_name();
+  }
+
+  // Places in storage by ascending id.
+  std::vector<Needle> by_id() const {
+    std::vector<Needle> out;
+    out.reserve(run.gas.size());
+    for (Needle i{0}; i < run.gas.size(); ++i) out.push_back(i);
+    std::sort(out.begin(), out.end(),
+              [&](Needle a, Needle b) { return run.gas.ids[a] < run.gas.ids[b]; });
+    return out;
+  }
+
+  void set_velocities(std::span<const std::array<double, 3>> velocity,
+                      std::span<const std::array<double, 3>> angular_velocity) {
+    check_velocities(velocity, run.gas.size(), "velocity");
+    check_velocities(angular_velocity, run.gas.size(), "angular velocity");
+    const std::vector<Needle> ranks = ranks_of(by_id());
+    loop.reset();  // all of it depends on the velocities
+    begin_loop(
+        run.replace_velocities([&](Needle i) { return vector(velocity[ranks[i]]); },
+                               [&](Needle i) { return vector(angular_velocity[ranks[i]]); }));
   }
 
   Stop advance(const Scene::Until& until) {
@@ -110,8 +134,13 @@ struct Simulation::Implementation {
 };
 
 Simulation::Simulation(const Scene& scene) {
+  if (!scene.initial.file.empty()) {
+    throw InputError(place_of(scene, "initial.file", scene.initial.file) +
+                     ": expected the state that the file holds as a second argument; the engine "
+                     "reads no files");
+  }
   // The state's arrays go before the rest of the run takes its memory.
-  Gas gas = make_gas(scene, initial_state(scene));
+  Gas gas = make_gas(scene, draw_initial_state(scene));
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
 }
 
@@ -137,7 +166,19 @@ double Simulation::time() const {
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
-State Simulation::state() const { return implementation_->run.state(implementation_->isa); }
+void Simulation::copy(State& into) const {
+  implementation_->run.copy(implementation_->isa, implementation_->by_id(), into);
+}
+State Simulation::copy() const {
+  State out;
+  copy(out);
+  return out;
+}
+FreeNeedle Simulation::needle(std::uint32_t id) const { return implementation_->run.needle({id}); }
+void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
+                                std::span<const std::array<double, 3>> angular_velocity) {
+  implementation_->set_velocities(velocity, angular_velocity);
+}
 std::string Simulation::search() const { return implementation_->search; }
 std::string Simulation::queue() const { return implementation_->queue; }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }

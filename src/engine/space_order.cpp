@@ -38,17 +38,13 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
     keys.push_back(key);
   }
   std::vector<Needle> order(gas.size());
-  std::iota(order.begin(), order.end(), Needle{0});
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = Needle(i);
   std::stable_sort(order.begin(), order.end(),
                    [&](Needle a, Needle b) { return keys[a] < keys[b]; });
   return order;
 }
 
 void reorder(Gas& gas, const std::vector<Needle>& order) {
-  const std::vector<Needle> ranks = ranks_of(order);
-  for (Record& record : gas.records) {
-    for (TouchEntry& touch : record.touches) touch.partner = ranks[touch.partner];
-  }
   permute(gas.records, order);
   permute(gas.ids, order);
   permute(gas.images, order);

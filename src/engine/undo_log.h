@@ -12,7 +12,6 @@ class UndoLog {
  public:
   void replaced(Needle i, const Record& record, const Shift& image, Time last_collision) {
     if (used_ == entries_.size()) entries_.emplace_back();
-    // Assigned, so that the memory of touches is used again.
     Entry& entry = entries_[used_++];
     entry.needle = i;
     entry.record = record;
@@ -45,7 +44,7 @@ class UndoLog {
 
  private:
   struct Entry {
-    Needle needle = no_needle;
+    Needle needle;
     Record record;
     Shift image{};
     Time last_collision;

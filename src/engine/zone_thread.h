@@ -9,32 +9,33 @@
 #include <vector>
 
 #include "src/calendar/cell_calendar.h"
+#include "src/engine/event_processor.h"
 #include "src/engine/patience.h"
 #include "src/engine/phase.h"
 #include "src/engine/undo_log.h"
-#include "src/engine/worker.h"
 #include "src/trajectory/tally.h"
 
 namespace needlework {
 
-/// What a thread needs of the calendar, and what it has changed there in the event at hand.
-struct ZoneQueue {
-  void set(const Event& event, CellCalendar::Block block) { calendar.put(event, block, changed); }
+/// Puts events into the calendar, and notes the blocks that the event at hand has changed.
+struct ZoneChanges final : EventSink {
+  explicit ZoneChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
+  void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
 
   CellCalendar& calendar;
-  std::vector<CellCalendar::Block> changed;
+  std::vector<BlockIndex> changed;
 };
 
-template <class Search, Effects effects>
+template <Search S, Model M>
 class alignas(128) ZoneThread {
  public:
-  ZoneThread(Phase<Search>& phase, std::uint32_t zone)
+  ZoneThread(Phase<S>& phase, const M& model, std::uint32_t zone)
       : phase_(phase),
         zone_(zone),
-        queue_{phase.queue, {}},
+        changes_(phase.calendar),
         search_(phase.search, tally_.counters),
-        worker_(phase.run, search_, queue_, tally_) {
-    worker_.undo = &undo_;
+        processor_(phase.run, model, search_, changes_, tally_) {
+    processor_.undo = &undo_;
   }
   ZoneThread(const ZoneThread&) = delete;
   ZoneThread& operator=(const ZoneThread&) = delete;
@@ -46,10 +47,10 @@ class alignas(128) ZoneThread {
   /// Undoes what it has done in the phase, and adds the needles whose events are to be told anew.
   void undo(std::vector<Needle>& needles);
   /// The storage has another order.
-  void forget() { worker_.forget(); }
+  void forget() { processor_.forget(); }
 
   // What has come of the phase.
-  Time now() const { return worker_.now; }
+  Time now() const { return processor_.now(); }
   Tally& tally() { return tally_; }
   const std::vector<Collision>& reports() const { return reports_; }
 
@@ -78,35 +79,35 @@ class alignas(128) ZoneThread {
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
 
-  Phase<Search>& phase_;
+  Phase<S>& phase_;
   const std::uint32_t zone_;
   Tally tally_;
-  ZoneQueue queue_;
-  Search search_;
-  Worker<Search, ZoneQueue, effects> worker_;
+  ZoneChanges changes_;
+  S search_;
+  EventProcessor<S, M> processor_;
   UndoLog undo_;
   std::vector<Held> held_;
   std::vector<Collision> reports_;
 };
 
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::begin() {
+template <Search S, Model M>
+void ZoneThread<S, M>::begin() {
   undo_.clear();
   reports_.clear();
   held_.clear();
-  worker_.now = phase_.run.now;
-  worker_.reports = phase_.run.callback ? &reports_ : nullptr;
+  processor_.set_now(phase_.run.now);
+  processor_.reports = phase_.run.callback ? &reports_ : nullptr;
 }
 
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::undo(std::vector<Needle>& needles) {
+template <Search S, Model M>
+void ZoneThread<S, M>::undo(std::vector<Needle>& needles) {
   undo_.put_back(phase_.run.gas, phase_.run.last_collision);
   needles.insert(needles.end(), undo_.scheduled().begin(), undo_.scheduled().end());
-  worker_.forget();
+  processor_.forget();
 }
 
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::work(TimeKey end) {
+template <Search S, Model M>
+void ZoneThread<S, M>::work(TimeKey end) {
   Patience patience(phase_.spins);
   Blockings blockings;
   const auto go_on = [&] {
@@ -120,14 +121,14 @@ void ZoneThread<Search, effects>::work(TimeKey end) {
   while (!phase_.amiss.load(std::memory_order_relaxed)) {
     if (phase_.mail.has_some(zone_)) read_mail();
     release_held();
-    const TimeKey key = phase_.queue.winning_key(zone_);
+    const TimeKey key = phase_.calendar.winning_key(zone_);
     TimeKey front = key;
     for (const Held& held : held_) front = std::min(front, held.key);
     phase_.fronts.tell_next(zone_, front);
     // Those held may wait for one that has come up since.
     const bool may_start = held_.size() < most_held || key == front;
     if (key < end && may_start && !phase_.fronts.is_too_far_ahead(key)) {
-      const Outcome outcome = attempt(phase_.queue.winner(zone_), key);
+      const Outcome outcome = attempt(phase_.calendar.winner(zone_), key);
       if (outcome == Outcome::done) go_on();
       if (outcome == Outcome::again) wait();
       continue;
@@ -144,8 +145,8 @@ void ZoneThread<Search, effects>::work(TimeKey end) {
 }
 
 // Does the next event of a block, unless it has to wait.
-template <class Search, Effects effects>
-auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
+template <Search S, Model M>
+auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   const bool alone = phase_.inner[block] && held_.empty();
   const auto give_up = [&](Block for_block) {
     phase_.claims.drop(zone_);
@@ -160,21 +161,21 @@ auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
     if (earlier != nobody) return give_up(earlier);
     if (!claim(Claims::owner, phase_.cell_of(block))) return Outcome::again;
     // Somebody may have written to the block, or to others of the zone near it, just before.
-    if (phase_.queue.clock_of(block) != key || phase_.mail.has_some(zone_)) {
+    if (phase_.calendar.clock_of(block) != key || phase_.mail.has_some(zone_)) {
       return give_up(nobody);
     }
   }
-  const Event event = phase_.queue.top_of(block);
-  worker_.bring_near(phase_.queue.soon(zone_));
+  const Event event = phase_.calendar.top_of(block);
+  processor_.prefetch(phase_.calendar.likely_next_in(zone_));
   if (event.is_contact()) {
-    phase_.queue.bring_near(event.partner);
-    worker_.bring_near(event.partner);
+    phase_.calendar.prefetch_place(event.partner);
+    processor_.prefetch(event.partner);
   }
-  phase_.queue.bring_keys_near(block);
+  phase_.calendar.prefetch_keys(block);
   bool stale = false, near_partner = false;
   if (event.is_contact()) {
     // A partner that is no longer near has had another collision.
-    const Block other = phase_.queue.block_of(event.partner);
+    const Block other = phase_.calendar.block_of(event.partner);
     const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
     near_partner = near(here, there, phase_.cells, phase_.neighbours);
     stale = !near_partner;
@@ -184,19 +185,19 @@ auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
         if (earlier != nobody) return give_up(earlier);
       }
       if (!claim(Claims::partner, there)) return Outcome::again;
-      if (phase_.queue.block_of(event.partner) != other) return give_up(nobody);
-      phase_.queue.bring_keys_near(other);
-      stale = worker_.is_stale(event);
+      if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
+      phase_.calendar.prefetch_keys(other);
+      stale = processor_.is_stale(event);
     }
   }
   const bool collides = event.is_contact() && !stale;
   const Done owner = take(event.owner, event, key);
-  phase_.done.bring_near(owner.r);
+  phase_.done.prefetch(owner.r);
   if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
   Done partner;
   if (collides) {
     partner = take(event.partner, event, key);
-    phase_.done.bring_near(partner.r);
+    phase_.done.prefetch(partner.r);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
   } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
     // It may have happened, had it had its turn.
@@ -205,11 +206,11 @@ auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
   }
   const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
   const bool in_order = phase_.fronts.tell_taken(zone_, key, fastest);
-  queue_.changed.clear();
+  changes_.changed.clear();
 #ifndef NDEBUG
-  worker_.read_ahead = false;
+  processor_.watch_reading_ahead();
 #endif
-  worker_.happen(event, stale);
+  processor_.process(event, stale);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.amiss = true;
   const auto record = [&](Needle i, const Done& taken) {
     const Vec3d& v = phase_.run.gas.records[i].flight.v;
@@ -219,56 +220,56 @@ auto ZoneThread<Search, effects>::attempt(Block block, TimeKey key) -> Outcome {
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
   // No record that an event reads is ahead of it, or the phase is undone.
-  assert(!worker_.read_ahead || phase_.amiss);
+  assert(!processor_.has_read_ahead() || phase_.amiss);
   make_known();
   if (!alone) phase_.claims.drop(zone_);
   return Outcome::done;
 }
 
-template <class Search, Effects effects>
-auto ZoneThread<Search, effects>::hold(Block block, TimeKey key, Block for_block) -> Outcome {
+template <Search S, Model M>
+auto ZoneThread<S, M>::hold(Block block, TimeKey key, Block for_block) -> Outcome {
   ++tally_.counters.held;
   held_.push_back({block, for_block, key});
-  phase_.queue.follow_by_key(block, CellCalendar::no_event);
+  phase_.calendar.follow_by_key(block, CellCalendar::no_event);
   return Outcome::held;
 }
 
 // Lets those go on whose turn may have come.
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::release_held() {
+template <Search S, Model M>
+void ZoneThread<S, M>::release_held() {
   std::erase_if(held_, [&](const Held& held) {
     look_away();
-    const TimeKey clock = phase_.queue.clock_of(held.for_block);
+    const TimeKey clock = phase_.calendar.clock_of(held.for_block);
     if (clock < held.key || (clock == held.key && held.for_block < held.block)) return false;
-    phase_.queue.follow_by_key(held.block, phase_.queue.clock_of(held.block));
+    phase_.calendar.follow_by_key(held.block, phase_.calendar.clock_of(held.block));
     return true;
   });
 }
 
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::read_mail() {
+template <Search S, Model M>
+void ZoneThread<S, M>::read_mail() {
   for (const Block block : phase_.mail.take(zone_)) {
     std::erase_if(held_, [&](const Held& held) { return held.block == block; });
-    phase_.queue.follow_by_key(block, phase_.queue.clock_of(block));
+    phase_.calendar.follow_by_key(block, phase_.calendar.clock_of(block));
   }
 }
 
 // Makes the clocks of the blocks that an event has changed known: first those that it has brought
 // forward, so that nobody sees this one done and not what follows from it.
-template <class Search, Effects effects>
-void ZoneThread<Search, effects>::make_known() {
-  std::vector<Block>& changed = queue_.changed;
+template <Search S, Model M>
+void ZoneThread<S, M>::make_known() {
+  std::vector<Block>& changed = changes_.changed;
   look_away();
   for (const Block b : changed) {
-    if (phase_.queue.key_of_next(b) < phase_.queue.clock_of(b)) phase_.queue.publish(b);
+    if (phase_.calendar.key_of_next(b) < phase_.calendar.clock_of(b)) phase_.calendar.publish(b);
   }
   for (const Block b : changed) {
     look_away();
-    phase_.queue.publish(b);
-    const std::uint32_t zone = phase_.queue.zone_of(b);
+    phase_.calendar.publish(b);
+    const std::uint32_t zone = phase_.calendar.zone_of(b);
     if (zone == zone_) {
       std::erase_if(held_, [&](const Held& held) { return held.block == b; });
-      phase_.queue.follow_by_key(b, phase_.queue.clock_of(b));
+      phase_.calendar.follow_by_key(b, phase_.calendar.clock_of(b));
       continue;
     }
     ++tally_.counters.foreign;
@@ -278,9 +279,8 @@ void ZoneThread<Search, effects>::make_known() {
 
 // A block within reach of `centre` whose clock is behind the event of `block`, if any. Of the
 // zone's own blocks these can only be held ones.
-template <class Search, Effects effects>
-auto ZoneThread<Search, effects>::earlier_around(Block centre, Block block, TimeKey key) const
-    -> Block {
+template <Search S, Model M>
+auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) const -> Block {
   look_away();
   for (const Held& held : held_) {
     const bool before = held.key < key || (held.key == key && held.block < block);
@@ -289,14 +289,14 @@ auto ZoneThread<Search, effects>::earlier_around(Block centre, Block block, Time
     }
   }
   Block found = nobody;
-  if (phase_.ours[centre] && phase_.queue.zone_of(centre) == zone_) return found;
+  if (phase_.ours[centre] && phase_.calendar.zone_of(centre) == zone_) return found;
   phase_.reach.any_row(phase_.places[centre], [&](Block first, Block last) {
     // Zones are boxes.
-    if (phase_.queue.zone_of(first) == zone_ && phase_.queue.zone_of(last - 1) == zone_) {
+    if (phase_.calendar.zone_of(first) == zone_ && phase_.calendar.zone_of(last - 1) == zone_) {
       return false;
     }
     for (Block b = first; b < last; ++b) {
-      const TimeKey clock = phase_.queue.clock_of(b);
+      const TimeKey clock = phase_.calendar.clock_of(b);
       if (clock > key || (clock == key && b >= block)) continue;
       found = b;
       return true;
@@ -306,8 +306,8 @@ auto ZoneThread<Search, effects>::earlier_around(Block centre, Block block, Time
   return found;
 }
 
-template <class Search, Effects effects>
-auto ZoneThread<Search, effects>::take(Needle i, const Event& event, TimeKey key) const -> Done {
+template <Search S, Model M>
+auto ZoneThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Done {
   const Record& record = phase_.run.gas.records[i];
   const kernels::Flight& flight = record.flight;
   return {key,
@@ -320,8 +320,8 @@ auto ZoneThread<Search, effects>::take(Needle i, const Event& event, TimeKey key
 }
 
 // The cell of a needle that is at r, and those in which it may be placed.
-template <class Search, Effects effects>
-CellBox ZoneThread<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
+template <Search S, Model M>
+CellBox ZoneThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
   return cells_around(phase_.search.grid(), r, phase_.search.radius() * (1 + 0x1p-10) + 0x1p-20,
                       phase_.search.cell_of(i));
 }
@@ -329,9 +329,9 @@ CellBox ZoneThread<Search, effects>::cells_of(Needle i, const Vec3d& r) const {
 // Whether a needle that has had an event, and is so fast since, may have met one whose later event
 // has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
 // are far.
-template <class Search, Effects effects>
-bool ZoneThread<Search, effects>::may_have_met(const Done& mine, double speed, bool in_order,
-                                               bool alone) const {
+template <Search S, Model M>
+bool ZoneThread<S, M>::may_have_met(const Done& mine, double speed, bool in_order,
+                                    bool alone) const {
   const double farthest = phase_.fronts.reach_of_later(zone_, mine.key, speed, in_order);
   if (farthest == 0) return false;
   if (phase_.fronts.is_out_of_sight(farthest)) return true;

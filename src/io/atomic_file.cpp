@@ -27,13 +27,13 @@ namespace {
   fail(path, "the file exists and is kept: expected a new name, or force to replace it");
 }
 
-// Renames unless there is something at `to`; the result is an errno or 0.
+// Renames unless `to` exists. Returns 0 or the errno of the failure.
 int rename_if_new(const std::string& from, const std::string& to) {
 #ifdef RENAME_NOREPLACE
   if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
 #endif
-  // Not every file system knows the call; hard links are the older way to the same end.
+  // Not every file system supports renameat2. A hard link is also made only if `to` is new.
   if (link(from.c_str(), to.c_str()) != 0) return errno;
   unlink(from.c_str());
   return 0;

@@ -1,32 +1,34 @@
-// A file that appears under its name only when it is worth having.
+// Files that appear under their final name only when they are complete.
 #pragma once
 
 #include <string>
 
 namespace needlework::io {
 
-/// A file being made under a temporary name in the folder of its final one, so that nobody ever
-/// sees half of it and a failure leaves nothing behind. Messages read "PATH: reason".
+/// A file that is written under a temporary name in the folder of its final name. Other programs
+/// never see an incomplete file under the final name, and a failure leaves no file behind. Messages
+/// of errors have the form "PATH: reason".
 class AtomicFile {
  public:
-  /// Creates the empty temporary. Throws IoError when `path` exists and `force` is false, when it
-  /// is a directory, a device or anything else that is not a file, and when the folder cannot be
-  /// written. A symbolic link to a file is followed when `force` replaces that file.
+  /// Creates the temporary file, which is empty. Throws IoError if `path` exists and `force` is
+  /// false, if `path` is a directory, a device or anything else that is not a regular file, and if
+  /// the folder cannot be written. If `path` is a symbolic link to a file and `force` is true, that
+  /// file is replaced and the link stays.
   AtomicFile(std::string path, bool force);
-  /// Removes the temporary unless published.
+  /// Removes the temporary file unless it was published.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::string& temporary() const { return temporary_; }
 
-  /// Gives the file its final name in one step. Without `force`, a file that appeared there in the
-  /// meantime stays as it is and IoError is thrown.
+  /// Renames the file to its final name in one atomic step. If `force` is false and a file of that
+  /// name has appeared since the construction, that file is kept and IoError is thrown.
   void publish();
 
  private:
-  std::string path_;    // as given, for messages
-  std::string target_;  // links followed
+  std::string path_;    // the name as given, for messages
+  std::string target_;  // the name with symbolic links followed
   std::string temporary_;
   bool force_;
 };

@@ -23,7 +23,8 @@ Handle Column::create(hid_t group, const std::string& name, hid_t type, const Sh
   const Shape now = with_rows(0, row);
   Shape most = with_rows(H5S_UNLIMITED, row);
   Shape chunk = with_rows(chunk_rows, row);
-  // A chunk is not empty and not larger than the dataset may become, even when a row is empty.
+  // HDF5 allows neither an empty chunk nor a chunk larger than the greatest extent of the dataset,
+  // also when a row is empty.
   std::replace(most.begin(), most.end(), hsize_t{0}, hsize_t{1});
   std::replace(chunk.begin(), chunk.end(), hsize_t{0}, hsize_t{1});
 

@@ -1,4 +1,4 @@
-// Datasets that grow: one row a frame, a sample or an event.
+// Datasets that grow by one row for each frame, sample or event.
 #pragma once
 
 #include <string>
@@ -7,18 +7,18 @@
 
 namespace needlework::io {
 
-/// A chunked dataset [rows][row...] that is extended at its end.
+/// A chunked dataset of shape [rows][row...] to which rows are appended.
 class Column {
  public:
-  /// Makes one without rows in `group`. `row` is the shape of one row, zeros allowed; `chunk_rows`
-  /// rows are stored in one piece.
+  /// Creates the dataset in `group`, without rows. `row` is the shape of one row, in which zeros
+  /// are allowed. One chunk of the file holds `chunk_rows` rows.
   static hdf5::Handle create(hid_t group, const std::string& name, hid_t type,
                              const hdf5::Shape& row, hsize_t chunk_rows, const std::string& place);
 
-  /// Opens the one at `path`, seen from `parent`.
+  /// Opens an existing dataset at `path`, relative to `parent`.
   Column(hid_t parent, const std::string& path, const std::string& place);
 
-  /// Writes `count` rows, in C order, after the last one.
+  /// Writes `count` rows, in C order, after the last row.
   template <class Number>
   void append(const Number* values, hsize_t count) {
     append_as(hdf5::type_of<Number>(), values, count);

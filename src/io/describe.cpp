@@ -1,7 +1,8 @@
-// What is in a file, for people.
+// The text that shows people what a file contains.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -46,48 +47,74 @@ std::string read_text(hid_t object, const std::string& name, const std::string& 
   return fmt::format("{}", fmt::join(hdf5::read_strings_attribute(object, name, place), ", "));
 }
 
-class Description {
+// "1 frame", "2 frames"
+std::string format_count(hsize_t count, const char* kind) {
+  return fmt::format("{} {}{}", count, kind, count == 1 ? "" : "s");
+}
+
+std::string format_range(const char* name, const std::vector<double>& values) {
+  if (values.empty()) return {};
+  return fmt::format(", {} {:.6g} to {:.6g}", name, values.front(), values.back());
+}
+
+std::string format_range(const char* name, const std::vector<std::int64_t>& values) {
+  if (values.empty()) return {};
+  return fmt::format(", {} {} to {}", name, values.front(), values.back());
+}
+
+// The first and last time and step of an element, as far as it has them.
+std::string format_ranges(const Element& element) {
+  return format_range("time", element.times().value_or(std::vector<double>())) +
+         format_range("step", element.steps().value_or(std::vector<std::int64_t>()));
+}
+
+class Overview {
  public:
-  explicit Description(const std::string& path) : source_(path) {}
+  explicit Overview(const std::string& path) : source_(path) {}
 
   std::string write();
 
  private:
   template <class... Arguments>
   void add(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-    text_ += fmt::format(format, std::forward<Arguments>(arguments)...) + '\n';
+    const std::string line = fmt::format(format, std::forward<Arguments>(arguments)...);
+    text_ += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
 
   void add_origin();
-  void add_size();
+  void add_particles();
+  void add_rows(const std::string& group, const char* kind);
+  void add_datasets();
   void add_group(const std::string& path, int depth);
   void add_object(const std::string& path, const std::string& name, int depth);
   void add_dataset(const std::string& path, const std::string& name, int depth);
-  std::string format_range(const Element& element) const;
+  void add_description(const std::string& path, int depth);
+  std::string description(const std::string& path) const;
   void add_parameters();
   std::vector<std::string> children(const std::string& path) const;
   bool is_element(const std::string& path) const;
 
   Source source_;
   std::string text_;
+  std::set<std::string> ranges_shown_;  // of times and steps, which elements need not repeat
 };
 
-std::string Description::write() {
+std::string Overview::write() {
   add("{}: {}", source_.path(), format_bytes(source_.bytes()));
   add_origin();
-  add_size();
-  for (const std::string& name : children("/")) {
-    if (name == "h5md" || name == "parameters") continue;
-    add_object("/" + name, name, 0);
-  }
+  if (const std::string text = description("/"); !text.empty()) add("{}", text);
+  add_particles();
+  add_rows("/series", "sample");
+  add_rows("/events", "collision");
+  add_datasets();
   if (hdf5::is_group(source_.get(), "/parameters", source_.path())) add_parameters();
   return text_;
 }
 
-void Description::add_origin() {
+void Overview::add_origin() {
   const std::string place = source_.place("/h5md");
   if (!hdf5::is_group(source_.get(), "/h5md", place)) {
-    add("an HDF5 file without the group h5md, so not H5MD");
+    add("HDF5, but not H5MD: there is no group /h5md");
     return;
   }
   const Handle group = hdf5::open_group(source_.get(), "/h5md", place);
@@ -107,8 +134,7 @@ void Description::add_origin() {
   add("H5MD {}, written by {}", version, creator);
 }
 
-// The sizes that people look for first.
-void Description::add_size() {
+void Overview::add_particles() {
   const std::string root = "/particles";
   if (!hdf5::is_group(source_.get(), root, source_.place(root))) return;
   for (const std::string& name : children(root)) {
@@ -116,25 +142,67 @@ void Description::add_size() {
     if (!is_element(path)) continue;
     const Element position(source_, path);
     if (position.shape().size() != 3) continue;
-    add("{}/{}: {} particles, {} frame{}", root, name, position.shape()[1], position.rows(),
-        position.rows() == 1 ? "" : "s");
+    const std::string range = format_ranges(position);
+    add("{}/{}: {}, {}{}", root, name, format_count(position.shape()[1], "particle"),
+        format_count(position.rows(), "frame"), range);
+    ranges_shown_.insert(range);
   }
 }
 
-std::vector<std::string> Description::children(const std::string& path) const {
+// For a group whose rows have their times in its dataset `time`, and perhaps steps in `step`.
+void Overview::add_rows(const std::string& group, const char* kind) {
+  if (!hdf5::is_dataset(source_.get(), group + "/time", source_.place(group))) return;
+  const Element time(source_, group + "/time");
+  if (time.shape().size() != 1) return;
+  std::string range = format_range("time", time.read<double>({}));
+  if (hdf5::is_dataset(source_.get(), group + "/step", source_.place(group))) {
+    range += format_range("step", Element(source_, group + "/step").read<std::int64_t>({}));
+  }
+  add("{}: {}{}", group, format_count(time.rows(), kind), range);
+  ranges_shown_.insert(range);
+}
+
+void Overview::add_datasets() {
+  add("");
+  add("Groups and datasets with their types, shapes and meanings.");
+  if (!ranges_shown_.empty()) {
+    add("Each row of GROUP/value has its time in GROUP/time and the collisions so far in "
+        "GROUP/step.");
+  }
+  for (const std::string& name : children("/")) {
+    if (name == "h5md" || name == "parameters") continue;
+    add("");
+    add_object("/" + name, name, 0);
+  }
+}
+
+std::string Overview::description(const std::string& path) const {
+  const std::string place = source_.place(path);
+  const Handle object(H5Oopen(source_.get(), path.c_str(), H5P_DEFAULT), H5Oclose, place);
+  if (hdf5::check(H5Aexists(object.get(), "description"), place) == 0) return {};
+  const auto texts = hdf5::read_strings_attribute(object.get(), "description", place);
+  return texts.empty() ? "" : texts.front();
+}
+
+void Overview::add_description(const std::string& path, int depth) {
+  const std::string text = description(path);
+  if (!text.empty()) add("{:{}}{}", "", 2 * depth + 4, text);
+}
+
+std::vector<std::string> Overview::children(const std::string& path) const {
   const std::string place = source_.place(path);
   return hdf5::children(hdf5::open_group(source_.get(), path, place).get(), place);
 }
 
-bool Description::is_element(const std::string& path) const {
+bool Overview::is_element(const std::string& path) const {
   return hdf5::is_dataset(source_.get(), path + "/value", source_.place(path));
 }
 
-void Description::add_group(const std::string& path, int depth) {
+void Overview::add_group(const std::string& path, int depth) {
   const std::vector<std::string> names = children(path);
-  // Links may go round in circles.
+  // Links can form a cycle.
   if (depth > 6) return;
-  // The step and time of a group stand with its elements.
+  // Step and time of elements that share them are not repeated.
   const bool elements = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
     return hdf5::is_group(source_.get(), path + "/" + name, path) && is_element(path + "/" + name);
   });
@@ -144,51 +212,37 @@ void Description::add_group(const std::string& path, int depth) {
   }
 }
 
-void Description::add_object(const std::string& path, const std::string& name, int depth) {
+void Overview::add_object(const std::string& path, const std::string& name, int depth) {
   const std::string place = source_.place(path);
   if (hdf5::is_dataset(source_.get(), path, place)) {
     add_dataset(path, name, depth);
   } else if (!hdf5::is_group(source_.get(), path, place)) {
-    add("{:{}}{}: not readable here", "", 2 * depth, name);
+    add("{:{}}{}: cannot be read", "", 2 * depth, name);
   } else if (is_element(path)) {
-    add_dataset(path + "/value", name, depth);
+    add_dataset(path + "/value", name + "/value", depth);
   } else {
     add("{:{}}{}", "", 2 * depth, name);
+    add_description(path, depth);
     add_group(path, depth + 1);
   }
 }
 
-void Description::add_dataset(const std::string& path, const std::string& name, int depth) {
+void Overview::add_dataset(const std::string& path, const std::string& name, int depth) {
   const std::string place = source_.place(path);
   const Handle dataset = hdf5::open_dataset(source_.get(), path, place);
   const std::string type = type_name(dataset.get(), place);
-  std::string line = fmt::format("{:{}}{:<{}} {:<8} {:<16}", "", 2 * depth, name, 22 - 2 * depth,
-                                 type, hdf5::to_string(hdf5::shape_of(dataset.get(), place)));
+  std::string line = fmt::format("{:{}}{:<{}} {:<8} {}", "", 2 * depth, name, 28 - 2 * depth, type,
+                                 hdf5::to_string(hdf5::shape_of(dataset.get(), place)));
   if (path.ends_with("/value") && type != "string" && type != "other") {
-    line += format_range(Element(source_, path.substr(0, path.size() - 6)));
-  } else if (path == "/events/time") {
-    const Element times(source_, path);
-    if (times.rows() > 0) {
-      line += fmt::format(" {} to {}", times.read<double>(0).at(0),
-                          times.read<double>(times.rows() - 1).at(0));
-    }
+    const std::string range = format_ranges(Element(source_, path.substr(0, path.size() - 6)));
+    if (!ranges_shown_.contains(range)) line += range;
   }
-  add("{}", line.substr(0, line.find_last_not_of(' ') + 1));
+  add("{}", line);
+  add_description(path, depth);
 }
 
-std::string Description::format_range(const Element& element) const {
-  std::string text;
-  const auto add_range = [&](const char* name, const auto& values) {
-    if (values && !values->empty()) {
-      text += fmt::format(" {} {} to {} ", name, values->front(), values->back());
-    }
-  };
-  add_range("time", element.times());
-  add_range("step", element.steps());
-  return text;
-}
-
-void Description::add_parameters() {
+void Overview::add_parameters() {
+  add("");
   add("parameters");
   std::string long_texts;
   for (const std::string& name : children("/parameters")) {
@@ -198,21 +252,24 @@ void Description::add_parameters() {
     const Handle dataset = hdf5::open_dataset(source_.get(), path, place);
     const hdf5::Shape shape = hdf5::shape_of(dataset.get(), place);
     const std::string type = type_name(dataset.get(), place);
+    const auto add_value = [&](const auto& value) {
+      add("  {:<14} {:<22} {}", name, value, description(path));
+    };
     if (!shape.empty() || type == "other") {
       add_dataset(path, name, 1);
     } else if (type == "string") {
       const std::string text = hdf5::read_strings(dataset.get(), place).at(0);
       if (text.find('\n') == std::string::npos) {
-        add("  {:<20} {}", name, text);
+        add_value(text);
       } else {
-        long_texts += fmt::format("{}:\n{}{}", name, text, text.ends_with('\n') ? "" : "\n");
+        long_texts += fmt::format("\n{}:\n{}{}", name, text, text.ends_with('\n') ? "" : "\n");
       }
     } else if (type.starts_with("float")) {
-      add("  {:<20} {}", name, Element(source_, path).read<double>({}).at(0));
+      add_value(Element(source_, path).read<double>({}).at(0));
     } else if (type.starts_with("u")) {
-      add("  {:<20} {}", name, Element(source_, path).read<std::uint64_t>({}).at(0));
+      add_value(Element(source_, path).read<std::uint64_t>({}).at(0));
     } else {
-      add("  {:<20} {}", name, Element(source_, path).read<std::int64_t>({}).at(0));
+      add_value(Element(source_, path).read<std::int64_t>({}).at(0));
     }
   }
   text_ += long_texts;
@@ -222,7 +279,7 @@ void Description::add_parameters() {
 
 std::string describe(const std::string& path) {
   const hdf5::Session session;
-  return Description(path).write();
+  return Overview(path).write();
 }
 
 }  // namespace needlework::io

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "needlework/error.h"
@@ -10,9 +11,55 @@
 namespace needlework::io::hdf5 {
 namespace {
 
-std::recursive_mutex& library_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
+// The error handling of the caller, from its construction to restore(). HDF5 has two kinds of error
+// handlers, and a handler of one kind cannot be read or set by the functions of the other. None of
+// the functions used here clears the error stack.
+class CallerErrors {
+ public:
+  CallerErrors() : stack_(H5Eget_current_stack()) {
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+    H5Eauto_is_v2(H5E_DEFAULT, &is_v2_);
+    if (!is_v2_) {
+      H5Eget_auto1(&handler_v1_, &data_);
+      H5Eset_auto1(nullptr, nullptr);
+      return;
+    }
+#endif
+    H5Eget_auto2(H5E_DEFAULT, &handler_v2_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+
+  void restore() {
+    if (stack_ >= 0) H5Eset_current_stack(stack_);  // closes stack_ too
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+    if (!is_v2_) {
+      H5Eset_auto1(handler_v1_, data_);
+      return;
+    }
+#endif
+    H5Eset_auto2(H5E_DEFAULT, handler_v2_, data_);
+  }
+
+ private:
+  hid_t stack_;
+#ifndef H5_NO_DEPRECATED_SYMBOLS
+  unsigned is_v2_ = 1;
+  H5E_auto1_t handler_v1_ = nullptr;
+#endif
+  H5E_auto2_t handler_v2_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// What the sessions of the process share. The mutex protects the other members.
+struct Shared {
+  std::recursive_mutex mutex;
+  int sessions = 0;  // open ones, all of the thread that holds the mutex
+  std::optional<CallerErrors> caller;
+};
+
+Shared& shared() {
+  static Shared shared;
+  return shared;
 }
 
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
@@ -20,7 +67,7 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-// The message of a failed system call is long and spans lines; the reason stands in it as
+// The text that HDF5 reports for a failed system call has several lines. It contains the reason as
 // "error message = 'REASON', buf = ...".
 std::string system_reason(const std::string& text) {
   const std::string mark = "error message = '";
@@ -40,8 +87,8 @@ std::vector<std::string> split_fixed(const std::vector<char>& bytes, std::size_t
   return strings;
 }
 
-// Reads strings with `read(memory_type, buffer)`, the one call in which attributes and datasets
-// differ.
+// Reads strings by calling `read(memory_type, buffer)`, because HDF5 has different functions for
+// attributes and datasets.
 template <class Read>
 std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::string& place,
                                            Read read) {
@@ -62,20 +109,22 @@ std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::s
   return strings;
 }
 
-bool is_kind(hid_t parent, const std::string& name, H5I_type_t kind, const std::string& place) {
-  if (!exists(parent, name, place)) return false;
+H5I_type_t kind_of(hid_t parent, const std::string& name, const std::string& place) {
   const Handle object(H5Oopen(parent, name.c_str(), H5P_DEFAULT), H5Oclose, place);
-  return H5Iget_type(object.get()) == kind;
+  return H5Iget_type(object.get());
 }
 
 }  // namespace
 
-Session::Session() : lock_(library_mutex()) {
-  H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+Session::Session() : lock_(shared().mutex) {
+  if (shared().sessions++ == 0) shared().caller.emplace();
 }
 
-Session::~Session() { H5Eset_auto2(H5E_DEFAULT, print_, print_data_); }
+Session::~Session() {
+  if (--shared().sessions > 0) return;
+  shared().caller->restore();
+  shared().caller.reset();
+}
 
 std::string last_error() {
   std::string text;
@@ -186,11 +235,16 @@ void write_attribute(hid_t object, const std::string& name, std::span<const std:
 
 namespace {
 
-void write_strings(hid_t group, const std::string& name, const Handle& space,
-                   std::span<const std::string> values, const std::string& place) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
+Handle text_type(const std::string& place) {
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
   check(H5Tset_size(type.get(), H5T_VARIABLE), place);
   check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
+  return type;
+}
+
+void write_strings(hid_t group, const std::string& name, const Handle& space,
+                   std::span<const std::string> values, const std::string& place) {
+  const Handle type = text_type(place);
   const Handle dataset = create_dataset(group, name, type.get(), space.get(), place);
   std::vector<const char*> texts;
   for (const std::string& value : values) texts.push_back(value.c_str());
@@ -198,6 +252,17 @@ void write_strings(hid_t group, const std::string& name, const Handle& space,
 }
 
 }  // namespace
+
+void write_text_attribute(hid_t object, const std::string& name, const std::string& text,
+                          const std::string& place) {
+  const Handle type = text_type(place);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, place);
+  const Handle attribute(
+      H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      place);
+  const char* const pointer = text.c_str();
+  check(H5Awrite(attribute.get(), type.get(), &pointer), place);
+}
 
 void write_scalar(hid_t group, const std::string& name, const std::string& value,
                   const std::string& place) {
@@ -219,14 +284,17 @@ Shape shape_of(hid_t dataset, const std::string& place) {
 }
 
 bool exists(hid_t object, const std::string& path, const std::string& place) {
-  // H5Lexists asks for the last link only, and fails when one before it is missing.
+  // H5Lexists fails if the object before the last link is missing or not a group, so each link is
+  // tested in turn.
   for (auto end = path.find('/');; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);
+    const bool last = end == std::string::npos;
     if (!part.empty()) {
       if (check(H5Lexists(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
       if (check(H5Oexists_by_name(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
+      if (!last && kind_of(object, part, place) != H5I_GROUP) return false;
     }
-    if (end == std::string::npos) return true;
+    if (last) return true;
   }
 }
 
@@ -241,11 +309,11 @@ std::vector<std::string> children(hid_t group, const std::string& place) {
 }
 
 bool is_group(hid_t parent, const std::string& name, const std::string& place) {
-  return is_kind(parent, name, H5I_GROUP, place);
+  return exists(parent, name, place) && kind_of(parent, name, place) == H5I_GROUP;
 }
 
 bool is_dataset(hid_t parent, const std::string& name, const std::string& place) {
-  return is_kind(parent, name, H5I_DATASET, place);
+  return exists(parent, name, place) && kind_of(parent, name, place) == H5I_DATASET;
 }
 
 std::vector<std::string> read_strings_attribute(hid_t object, const std::string& name,

@@ -1,4 +1,4 @@
-// A small layer over the HDF5 C API: handles that close themselves, failures that become IoError.
+// A thin layer over the C interface of HDF5. Handles close themselves, and failures throw IoError.
 #pragma once
 
 #include <hdf5.h>
@@ -11,9 +11,13 @@
 
 namespace needlework::io::hdf5 {
 
-/// Held while HDF5 is used. The common build of HDF5 may not be entered by two threads at once, so
-/// sessions exclude each other in the whole process (one thread may nest them). HDF5 prints nothing
-/// meanwhile; the client's own error handler comes back afterwards.
+/// Exists while this library uses HDF5. Two things follow from it:
+///
+/// - One thread at a time uses HDF5, because not every build of HDF5 allows more. Sessions of
+///   different threads wait for each other; one thread may open a session within a session.
+/// - The caller's error handling stays as it was. During a session HDF5 calls no error handler, so
+///   that failures are reported by exceptions only. The end of the outermost session restores the
+///   error handler of the caller, its client data and the errors on the caller's error stack.
 class Session {
  public:
   Session();
@@ -23,31 +27,31 @@ class Session {
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;
-  H5E_auto2_t print_ = nullptr;
-  void* print_data_ = nullptr;
 };
 
-/// Why the last HDF5 call failed, in one line: the operating system's reason where there is one,
-/// else the innermost message of HDF5's error stack.
+/// The reason why the last HDF5 call failed, in one line: the message of the operating system if
+/// there is one, and otherwise the innermost message on the error stack of HDF5.
 std::string last_error();
 
-/// Throws IoError "PLACE: last_error()". `place` begins with the name of the file.
+/// Throws IoError with the message "PLACE: REASON", where REASON is last_error(). `place` begins
+/// with the name of the file.
 [[noreturn]] void fail(const std::string& place);
 
-/// Passes the result of an HDF5 call on; a negative one is a failure.
+/// Returns the result of an HDF5 call, or throws IoError if the result is negative, which means
+/// that the call failed.
 template <class Result>
 Result check(Result result, const std::string& place) {
   if (result < 0) fail(place);
   return result;
 }
 
-/// Owns one HDF5 identifier. Closing is silent; call close() where a failure matters.
+/// Owns one HDF5 identifier. The destructor ignores failures; call close() where they matter.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
 
   Handle() = default;
-  /// Takes `id`, which must come from a function that `closer` belongs to; see fail() for `place`.
+  /// Takes ownership of `id`, which `closer` must be able to close. See fail() for `place`.
   Handle(hid_t id, Close closer, const std::string& place)
       : id_(check(id, place)), close_(closer) {}
   Handle(Handle&& other) noexcept;
@@ -70,7 +74,7 @@ using Shape = std::vector<hsize_t>;
 /// "[2][100][3]", or "[]" for a scalar.
 std::string to_string(const Shape& shape);
 
-/// The HDF5 type of a C++ number in memory and, as it is, in files.
+/// The HDF5 type of a C++ number, both in memory and in files.
 template <class T>
 hid_t type_of();
 template <>
@@ -98,11 +102,11 @@ inline hid_t type_of<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
 }
 
-/// Properties of this kind (H5P_GROUP_CREATE and so on) with which an object does not keep the time
-/// of its making, so that the same content makes the same file.
+/// Creation properties of this kind (H5P_GROUP_CREATE and so on) with which an object does not
+/// store the time of its creation, so that files with the same content have the same bytes.
 Handle without_times(hid_t kind, const std::string& place);
 
-/// A dataset without values.
+/// Creates a dataset without writing values.
 Handle create_dataset(hid_t parent, const std::string& name, hid_t type, hid_t space,
                       const std::string& place);
 
@@ -110,41 +114,46 @@ Handle create_group(hid_t parent, const std::string& name, const std::string& pl
 Handle open_group(hid_t parent, const std::string& name, const std::string& place);
 Handle open_dataset(hid_t parent, const std::string& name, const std::string& place);
 
-/// A fixed-length string attribute (as H5MD wants them), or one of several strings of one length.
+/// Writes an attribute of fixed-length strings, which H5MD demands: one string, or several strings
+/// of the same length.
 void write_attribute(hid_t object, const std::string& name, const std::string& value,
                      const std::string& place);
 void write_attribute(hid_t object, const std::string& name, std::span<const std::string> values,
                      const std::string& place);
-/// Whole numbers; without `dimensions` a scalar.
+/// Writes an attribute of integers, a scalar if `dimensions` is empty.
 void write_attribute(hid_t object, const std::string& name, std::span<const std::int32_t> values,
                      const Shape& dimensions, const std::string& place);
 
-/// A scalar dataset.
+/// Writes an attribute that is one variable-length UTF-8 string.
+void write_text_attribute(hid_t object, const std::string& name, const std::string& text,
+                          const std::string& place);
+
+/// Writes a scalar dataset.
 template <class T>
 void write_scalar(hid_t group, const std::string& name, T value, const std::string& place);
-/// A scalar dataset of a variable-length UTF-8 string.
+/// Writes a scalar dataset that is one variable-length UTF-8 string.
 void write_scalar(hid_t group, const std::string& name, const std::string& value,
                   const std::string& place);
 
-/// A dataset of this shape, values in C order.
+/// Writes a dataset of this shape, with the values in C order.
 template <class T>
 void write_array(hid_t group, const std::string& name, const Shape& shape,
                  std::span<const T> values, const std::string& place);
 
-/// A dataset [n] of variable-length UTF-8 strings.
+/// Writes a dataset [n] of variable-length UTF-8 strings.
 void write_array(hid_t group, const std::string& name, std::span<const std::string> values,
                  const std::string& place);
 
 Shape shape_of(hid_t dataset, const std::string& place);
 
-/// Whether `path`, relative to `object`, leads to something, each link on the way included.
+/// Whether an object exists at `path`, relative to `object`. Broken links count as absent.
 bool exists(hid_t object, const std::string& path, const std::string& place);
-/// Names of the links in a group, in alphabetical order.
+/// The names of the links in a group, in alphabetical order.
 std::vector<std::string> children(hid_t group, const std::string& place);
 bool is_group(hid_t parent, const std::string& name, const std::string& place);
 bool is_dataset(hid_t parent, const std::string& name, const std::string& place);
 
-/// The strings of an attribute or of a dataset of any shape, of fixed or variable length.
+/// Reads all strings, of fixed or variable length, of an attribute or dataset of any shape.
 std::vector<std::string> read_strings_attribute(hid_t object, const std::string& name,
                                                 const std::string& place);
 std::vector<std::string> read_strings(hid_t dataset, const std::string& place);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "src/io/column.h"
+#include "src/io/descriptions.h"
 
 namespace needlework::io {
 
@@ -20,40 +21,40 @@ namespace {
 constexpr hsize_t samples_per_chunk = 256;
 constexpr hsize_t events_per_chunk = 8192;
 
-// Small frames share a chunk of about 16 kB, large ones have one each.
+// Frames of few needles share a chunk of about 16 kB; a large frame has a chunk of its own.
 hsize_t frames_per_chunk(std::uint64_t needles) {
   return std::clamp<hsize_t>(16384 / (24 * std::max<std::uint64_t>(needles, 1)), 1, 64);
 }
 
-// The step and time datasets of one time grid.
-struct Grid {
+// The datasets `step` and `time` that elements sampled at the same times share.
+struct StepAndTime {
   Handle step;
   Handle time;
 };
 
-Grid make_grid(hid_t group, const std::string& place) {
+StepAndTime make_step_and_time(hid_t group, const std::string& place) {
   return {Column::create(group, "step", type_of<std::int64_t>(), {}, samples_per_chunk, place),
           Column::create(group, "time", type_of<double>(), {}, samples_per_chunk, place)};
 }
 
-// An H5MD element. What is sampled together has the same step and time by hard links.
-void make_element(hid_t parent, const std::string& name, const Grid& grid, hid_t type,
+// Creates an H5MD element, whose step and time are hard links to the shared datasets.
+void make_element(hid_t parent, const std::string& name, const StepAndTime& shared, hid_t type,
                   const Shape& row, hsize_t chunk_rows, const std::string& place) {
   const Handle group = create_group(parent, name, place);
-  check(H5Olink(grid.step.get(), group.get(), "step", H5P_DEFAULT, H5P_DEFAULT), place);
-  check(H5Olink(grid.time.get(), group.get(), "time", H5P_DEFAULT, H5P_DEFAULT), place);
+  check(H5Olink(shared.step.get(), group.get(), "step", H5P_DEFAULT, H5P_DEFAULT), place);
+  check(H5Olink(shared.time.get(), group.get(), "time", H5P_DEFAULT, H5P_DEFAULT), place);
   Column::create(group.get(), "value", type, row, chunk_rows, place);
 }
 
-void make_totals(hid_t group, const Grid& grid, const std::string& place) {
+void make_totals(hid_t group, const StepAndTime& shared, const std::string& place) {
   const auto make = [&](const char* name, hid_t type, const Shape& row) {
-    make_element(group, name, grid, type, row, samples_per_chunk, place);
+    make_element(group, name, shared, type, row, samples_per_chunk, place);
   };
   make("t_tr", type_of<double>(), {});
   make("t_rot", type_of<double>(), {});
   make("energy", type_of<double>(), {});
   make("momentum", type_of<double>(), {3});
-  // Signed, because NumPy makes floating point of uint64 and int64 together.
+  // Counts are signed, because NumPy converts uint64 and int64 in one expression to floating point.
   make("collisions", type_of<std::int64_t>(), {});
   make("tc_collisions", type_of<std::int64_t>(), {});
 }
@@ -67,26 +68,38 @@ Handle make_box(hid_t needles, const std::string& place) {
   return box;
 }
 
-Grid make_needles(hid_t group, std::uint64_t count, const std::string& place) {
+double mass_of(const Scene& scene) {
+  return scene.species.empty() ? 1.0 : scene.species.front().mass;
+}
+
+double length_of(const Scene& scene) {
+  return scene.species.empty() ? 1.0 : scene.species.front().length;
+}
+
+StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& place) {
+  const std::uint64_t count = scene.needles.count;
   const hsize_t rows = frames_per_chunk(count);
   const Shape row{count, 3};
-  // H5MD has box and image share the step and time of position, so these lie there.
+  // H5MD demands that box and image share the step and time of position.
   const Handle position = create_group(group, "position", place);
-  Grid grid = make_grid(position.get(), place);
+  StepAndTime shared = make_step_and_time(position.get(), place);
   Column::create(position.get(), "value", type_of<double>(), row, rows, place);
-  make_element(group, "image", grid, type_of<std::int32_t>(), row, rows, place);
+  make_element(group, "image", shared, type_of<std::int32_t>(), row, rows, place);
   for (const char* name : {"velocity", "orientation", "angular_velocity"}) {
-    make_element(group, name, grid, type_of<double>(), row, rows, place);
+    make_element(group, name, shared, type_of<double>(), row, rows, place);
   }
-  // MDAnalysis takes the edges as a matrix only.
+  // MDAnalysis reads the edges only if they are a matrix.
   const Handle box = make_box(group, place);
-  make_element(box.get(), "edges", grid, type_of<double>(), {3, 3}, 64, place);
+  make_element(box.get(), "edges", shared, type_of<double>(), {3, 3}, 64, place);
 
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
-  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, 1.0), place);
-  return grid;
+  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, mass_of(scene)),
+                            place);
+  hdf5::write_array<std::uint8_t>(group, "species", {count}, std::vector<std::uint8_t>(count, 0),
+                                  place);
+  return shared;
 }
 
 void make_events(hid_t group, const std::string& place) {
@@ -104,7 +117,7 @@ void make_events(hid_t group, const std::string& place) {
   make("impulse", type_of<double>(), {3});
 }
 
-// H5MD 1.1 wants strings of fixed length in its attributes.
+// H5MD 1.1 demands strings of fixed length in these attributes.
 void make_metadata(hid_t file, const std::string& place) {
   const Handle h5md = create_group(file, "h5md", place);
   const std::array<std::int32_t, 2> version{1, 1};
@@ -118,20 +131,21 @@ void make_metadata(hid_t file, const std::string& place) {
 
 void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place) {
   const Handle parameters = create_group(file, "parameters", place);
-  const auto keep = [&](const char* name, const auto& value) {
+  const auto write = [&](const char* name, const auto& value) {
     hdf5::write_scalar(parameters.get(), name, value, place);
   };
-  keep("scene", scene.text);
-  keep("title", scene.title);
-  keep("version", std::string(NEEDLEWORK_VERSION));
-  keep("seed", scene.needles.seed);
-  keep("isa", run.isa);
-  keep("accuracy", run.accuracy);
-  keep("threads", static_cast<std::int32_t>(run.threads));
-  keep("epoch_length", run.epoch_length);
-  keep("k", scene.needles.k);
-  keep("epsilon", scene.collisions.epsilon);
-  keep("beta", scene.collisions.beta);
+  write("scene", scene.text);
+  write("title", scene.title);
+  write("version", std::string(NEEDLEWORK_VERSION));
+  write("seed", scene.needles.seed);
+  write("isa", run.isa);
+  write("accuracy", run.accuracy);
+  write("threads", static_cast<std::int32_t>(run.threads));
+  write("epoch_length", run.epoch_length);
+  write("k", scene.needles.k);
+  write("length", length_of(scene));
+  write("epsilon", scene.collisions.epsilon);
+  write("beta", scene.collisions.beta);
 }
 
 }  // namespace
@@ -140,12 +154,13 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_metadata(file, place);
   make_parameters(file, scene, run, place);
   const Handle particles = create_group(file, "particles", place);
-  const Grid frames = make_needles(create_group(particles.get(), "needles", place).get(),
-                                   scene.needles.count, place);
+  const StepAndTime frames =
+      make_needles(create_group(particles.get(), "needles", place).get(), scene, place);
   make_totals(create_group(file, "observables", place).get(), frames, place);
   const Handle series = create_group(file, "series", place);
-  make_totals(series.get(), make_grid(series.get(), place), place);
+  make_totals(series.get(), make_step_and_time(series.get(), place), place);
   if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
+  write_descriptions(file, run_file_descriptions(), place);
 }
 
 }  // namespace needlework::io

@@ -1,4 +1,4 @@
-// What a new H5MD file holds before the first frame.
+// The groups and datasets of a new H5MD file.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace needlework::io {
 
-/// Writes the header, the parameters and all datasets, these still without rows, to a new file.
-/// `place` begins the messages of errors.
+/// Writes the metadata and the parameters of a run to a new file, and creates all datasets that the
+/// run will fill, without rows. `place` begins the messages of errors.
 void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place);
 
 }  // namespace needlework::io

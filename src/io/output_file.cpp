@@ -28,18 +28,19 @@ using hdf5::Handle;
 
 namespace {
 
-// The system's, over which a write is not atomic: kill -9 can end one at a page boundary, and
-// metadata with half of a change in them have a wrong checksum. So HDF5 must not let them cross
-// one. (Blocks of its chunk index that are larger begin with the 8181st chunk of a dataset.)
+// The page size of the operating system. A write across a page boundary is not atomic: kill -9 can
+// end it there, and a metadata block of which only a part was written has a wrong checksum. With
+// this page size set, HDF5 keeps small metadata blocks within a page. (The blocks of its chunk
+// index are larger than a page from the 8181st chunk of a dataset on.)
 constexpr hsize_t page_size = 4096;
 
-// The driver's entry in a list of file access properties.
+// The settings of the driver in a list of file access properties.
 struct DriverSettings {
   int* error;
 };
 
-// A file as HDF5 sees it. The disk lacks what is in `kept`: metadata between flushes, and after a
-// failed write everything.
+// An open file. `kept` holds what HDF5 has written but the disk does not have: metadata between two
+// flushes, and everything after a failed write.
 struct DriverFile : H5FD_t {
   struct Kept {
     haddr_t address;
@@ -58,7 +59,7 @@ DriverFile& driver_file(H5FD_t* file) { return *static_cast<DriverFile*>(file); 
 
 const DriverFile& driver_file(const H5FD_t* file) { return *static_cast<const DriverFile*>(file); }
 
-// Nothing may be thrown through HDF5.
+// Exceptions must not pass through HDF5, which is written in C.
 template <class Action>
 herr_t guarded(Action action) noexcept {
   try {
@@ -86,7 +87,8 @@ H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
   file->descriptor = descriptor;
   file->error = settings->error;
   file->end_of_file = file->size_on_disk = static_cast<haddr_t>(status.st_size);
-  // Readers lock files of theirs in the same way, writers exclusively. Not all file systems can.
+  // HDF5 takes the same lock for reading, and an exclusive lock for writing. Not all file systems
+  // support locks, so a failure is ignored.
   flock(descriptor, LOCK_SH | LOCK_NB);
   return file;
 }
@@ -115,7 +117,7 @@ herr_t driver_get_handle(H5FD_t* file, hid_t, void** handle) {
   return 0;
 }
 
-// Copies the part of what was kept that lies in the `size` bytes from `address` on.
+// Copies the part of `kept` that lies within the `size` bytes from `address` on.
 void copy_kept(const DriverFile::Kept& kept, haddr_t address, std::size_t size, std::byte* to) {
   const haddr_t begin = std::max(address, kept.address);
   const haddr_t end = std::min(address + size, kept.address + kept.bytes.size());
@@ -135,13 +137,13 @@ herr_t driver_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t
     if (got == 0) break;
     if (got > 0) done += static_cast<std::size_t>(got);
   }
-  // What was allocated but never written is zero.
+  // Bytes that were allocated but not written yet are zero.
   std::fill(bytes + done, bytes + size, std::byte{0});
   for (const DriverFile::Kept& kept : file.kept) copy_kept(kept, address, size, bytes);
   return 0;
 }
 
-// The result is an errno, or 0.
+// Returns 0 or the errno of the failure.
 int write_fully(int descriptor, const std::byte* bytes, std::size_t size, haddr_t address) {
   std::size_t done = 0;
   while (done < size) {
@@ -178,8 +180,9 @@ void set_size_on_disk(DriverFile& file, haddr_t size) {
   file.size_on_disk = size;
 }
 
-// The superblock, at address 0, tells the size of the file, and readers refuse a file that is
-// shorter and metadata that point behind it. So the order is size, superblock, metadata.
+// The superblock, at address 0, contains the size of the file. Readers refuse a file that is
+// shorter, and metadata that point beyond it. Therefore the size of the file is set first, then the
+// superblock is written, then the other metadata.
 void write_kept(DriverFile& file) {
   set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
   std::stable_partition(file.kept.begin(), file.kept.end(),
@@ -205,7 +208,7 @@ herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
   guarded([&] { write_kept(file); });
   set_size_on_disk(file, file.end_of_allocation);
-  // Some file systems tell only now that there was no room.
+  // Some file systems report a full disk only when a file is closed.
   if (close(file.descriptor) != 0 && *file.error == 0) *file.error = errno;
   delete &file;
   return 0;
@@ -215,7 +218,7 @@ Handle register_driver(const std::string& place) {
   H5FD_class_t driver{};
 #ifdef H5FD_CLASS_VERSION
   driver.version = H5FD_CLASS_VERSION;
-  driver.value = 311;  // of those left for testing and own use
+  driver.value = 311;  // from the range reserved for testing and private drivers
 #endif
   driver.name = "needlework";
   driver.maxaddr = (haddr_t{1} << 63) - 1;
@@ -237,7 +240,8 @@ Handle register_driver(const std::string& place) {
   return {H5FDregister(&driver), H5FDunregister, place};
 }
 
-// Puts a note of them into the file, to which HDF5 adds the time.
+// Makes HDF5 allocate space in pages, so that small metadata blocks do not cross page boundaries.
+// The file then records this strategy together with the time of its creation.
 void set_pages(hid_t creation, const std::string& place) {
   const bool keep_free_space = false;
   check(H5Pset_file_space_strategy(creation, H5F_FSPACE_STRATEGY_PAGE, keep_free_space, 1), place);
@@ -265,7 +269,8 @@ void OutputFile::require_written() const {
 
 Handle OutputFile::make_access() const {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, place_);
-  // SWMR needs the format of HDF5 1.10; nothing newer is allowed, so that 1.10 can read the file.
+  // SWMR mode needs the file format of HDF5 1.10. Newer formats are excluded, so that HDF5 1.10 can
+  // read the file.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
   const Handle driver = register_driver(place_);
   const DriverSettings settings{error_.get()};
@@ -273,7 +278,7 @@ Handle OutputFile::make_access() const {
   return access;
 }
 
-// H5Fstart_swmr_write would mark the file as open.
+// The file is reopened, because H5Fstart_swmr_write would mark it as open for writing.
 void OutputFile::start_swmr() {
   close();
   const Handle access = make_access();

@@ -1,4 +1,4 @@
-// HDF5 files to write to, with a full disk as an ordinary error.
+// HDF5 files to write, for which a full disk is an ordinary error.
 #pragma once
 
 #include <memory>
@@ -8,29 +8,31 @@
 
 namespace needlework::io {
 
-/// A new HDF5 file, written through a driver of its own, which does three things.
+/// A new HDF5 file, which HDF5 writes through a file driver of this library. The driver solves
+/// three problems.
 ///
-/// A failed write is an error, no more. HDF5 does not survive one: it keeps what it could not
-/// write, can then no longer close the file, and the program ends in a segmentation fault (seen
-/// with 1.10.8). So it is not told. The first failure is remembered and throws from here; from then
-/// on nothing more reaches the disk, as if the program had been killed at that moment, while HDF5
-/// goes on and closes the file.
+/// 1. A failed write must be an ordinary error. When a driver reports a failed write, HDF5 cannot
+///    close the file any more, and the program ends in a segmentation fault (observed with HDF5
+///    1.10.8). Therefore the driver does not report failures to HDF5. It stores the first failure,
+///    which the members of this class throw, and ignores all later writes. The file on disk is then
+///    as if the program had been killed at the first failure, and HDF5 can close it.
 ///
-/// Between two flushes the file keeps its state. HDF5 in SWMR mode (single writer, multiple
-/// readers) orders what it writes such that the metadata on disk are consistent at any moment, but
-/// spreads it over time, and grows the file before it says so. The driver keeps metadata back until
-/// a flush, and writes the size of the file first.
+/// 2. The file must be readable at any moment. In SWMR mode (single writer, multiple readers) HDF5
+///    orders its writes such that the metadata on disk are always consistent, but it writes some of
+///    them between flushes, and it extends the file before it records the new size. The driver
+///    holds metadata in memory until a flush, and sets the size of the file first.
 ///
-/// The file is not marked as open. HDF5 has no marks where a driver cannot lock files, and with a
-/// mark no ordinary reader would open a file that a killed program left. A shared lock of the
-/// system keeps other writers away while this one lives.
+/// 3. A file that a killed program left must open without special options. HDF5 marks files that
+///    are open for writing, and refuses to open a file that still has the mark, unless the driver
+///    does not support file locks. This driver does not. It holds a shared lock of the operating
+///    system instead, with which other programs cannot open the file for writing.
 class OutputFile {
  public:
-  /// A file that grows may be read at any moment, and says when it was made; one written in one go
-  /// has the same bytes whenever it is written.
+  /// A `growing` file may be read at any moment, and contains the time of its creation. A file
+  /// written `in_one_go` has the same bytes whenever it is written.
   enum class Use { growing, in_one_go };
 
-  /// Makes the file `name` an empty HDF5 file. `place` begins the messages of errors.
+  /// Replaces the file `name` by an empty HDF5 file. `place` begins the messages of errors.
   OutputFile(std::string name, std::string place, Use use);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -38,14 +40,13 @@ class OutputFile {
 
   hid_t get() const { return file_.get(); }
 
-  /// Throws IoError with the system's reason if any write failed so far.
+  /// Throws IoError with the reason of the operating system if a write has failed so far.
   void require_written() const;
-  /// Begins single writing, multiple reading, for which no object may be open. None can be made
-  /// after this.
+  /// Starts SWMR mode. No object of the file may be open, and none can be created afterwards.
   void start_swmr();
-  /// Hands all that is in HDF5's memory to the system.
+  /// Writes everything that HDF5 holds in memory to the file.
   void flush();
-  /// Closes the file, in which nothing may be open.
+  /// Closes the file. No object of it may be open.
   void close();
 
  private:
@@ -53,7 +54,7 @@ class OutputFile {
 
   std::string name_;
   std::string place_;
-  std::unique_ptr<int> error_;  // errno of the write that failed, or 0; the driver has its address
+  std::unique_ptr<int> error_;  // errno of the first failed write, or 0; set by the driver
   hdf5::Handle file_;
 };
 

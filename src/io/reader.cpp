@@ -1,4 +1,4 @@
-// Initial states: the last frame of a file, checked number by number.
+// Reads initial states: the last frame of a file, with a check of each number.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] 
   throw InputError(place + what);
 }
 
-// A row of an element as it is needed: one frame's, or all of a plain dataset.
+// The part of an element that belongs to one frame: a row, or the whole of a plain dataset.
 struct Slice {
   const Element* element;
   std::optional<hsize_t> frame;
@@ -70,7 +70,7 @@ class FrameReader {
   std::string group_;
   std::map<std::string, Element> elements_;
   std::uint64_t needles_ = 0;
-  std::optional<std::int64_t> step_;  // to read from the elements that have steps
+  std::optional<std::int64_t> step_;  // the step to read, if any element has steps
 };
 
 State FrameReader::read() {
@@ -106,7 +106,7 @@ State FrameReader::read() {
   return state;
 }
 
-// Where a boundary is "none", H5MD has the edges mean nothing.
+// H5MD gives the edges no meaning where a boundary is "none".
 void FrameReader::require_periodic_box() const {
   const std::string path = group_ + "/box";
   const std::string where = source_.place(path);
@@ -119,8 +119,9 @@ void FrameReader::require_periodic_box() const {
   }
 }
 
-// All elements that have steps are read at the last step that they have in common; in files of most
-// writers that is the last one of each. Where the same step occurs more than once, the last counts.
+// Chooses the step to read: the last one that all elements with steps have. In the files of most
+// programs that is the last step of each element. If a step occurs more than once, the last row
+// with that step is read.
 void FrameReader::choose_frame() {
   std::vector<std::pair<const Element*, std::size_t>> rows;
   for (const auto& [name, element] : elements_) {
@@ -144,8 +145,8 @@ void FrameReader::choose_frame() {
   }
 }
 
-// The part of `element` to read when a frame has `rank` dimensions. Elements without steps go with
-// the positions.
+// The part of `element` to read if a frame has `rank` dimensions. An element without steps is read
+// at the row of the positions.
 Slice FrameReader::slice(const Element& element, std::size_t rank) const {
   if (element.shape().size() == rank) return {&element, {}};
   if (element.rows() == 0) reject(place(element), ": no frames: expected at least one");
@@ -156,7 +157,7 @@ Slice FrameReader::slice(const Element& element, std::size_t rank) const {
   const Element& position = elements_.at("position");
   if (&element == &position || position.shape().size() == 2) return {&element, element.rows() - 1};
   if (element.rows() != position.rows()) {
-    reject(place(element), fmt::format(": {} frames: expected {}, as {}", element.rows(),
+    reject(place(element), fmt::format(": {} frames: expected {}, as in {}", element.rows(),
                                        position.rows(), position.name()));
   }
   return {&element, slice(position, 2).frame};
@@ -194,14 +195,15 @@ Vector FrameReader::read_box() {
   return box;
 }
 
-// Of edges of two dimensions: [3][3] is a matrix unless it must be the edges of three frames.
+// Whether edges of shape [n][3] have one row for each frame. The shape [3][3] is read as a matrix
+// unless it must be the edges of three frames.
 bool FrameReader::has_row_a_frame(const Element& edges) const {
   if (edges.shape()[0] != 3 || edges.steps()) return true;
   const Element& position = elements_.at("position");
   if (position.shape().size() != 3 || position.rows() != 3) return false;
   const auto values = edges.read<double>({});
   const std::vector<double> first(values.begin(), values.begin() + 3);
-  // Equal rows would be a matrix without volume.
+  // Three equal rows are not a matrix, because the box would have no volume.
   return edges.is_group() || (std::equal(first.begin(), first.end(), values.begin() + 3) &&
                               std::equal(first.begin(), first.end(), values.begin() + 6));
 }
@@ -287,7 +289,7 @@ std::vector<std::uint32_t> FrameReader::read_ids() {
   const auto twice = std::adjacent_find(order.begin(), order.end(),
                                         [&](std::size_t a, auto b) { return ids[a] == ids[b]; });
   if (twice != order.end()) {
-    reject(place(source), fmt::format("{} = {}: expected another id than that of entry {}",
+    reject(place(source), fmt::format("{} = {}: expected an id other than that of entry {}",
                                       part.index(twice[1]), ids[twice[1]], twice[0]));
   }
   return ids;
@@ -307,7 +309,7 @@ void FrameReader::require_needles(const State& state) {
              fmt::format(", of length {}: expected a unit vector, within {}", length(u),
                          director_tolerance));
     }
-    // Divided first, so that velocities near the limits of a double are judged like all others.
+    // The division prevents overflow and underflow in the length of the vector.
     const double scale = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
     if (scale == 0) continue;
     const Vector direction{w[0] / scale, w[1] / scale, w[2] / scale};

@@ -1,4 +1,4 @@
-// Series of finished runs.
+// Reads the series of finished runs.
 #include <algorithm>
 
 #include "needlework/error.h"
@@ -11,20 +11,21 @@ namespace {
 std::string read_text(const Source& source, const std::string& path) {
   const std::string place = source.place(path);
   if (!hdf5::is_dataset(source.get(), path, place)) {
-    throw InputError(place + ": missing: expected a file of a run");
+    throw InputError(place + ": missing: expected a file that needlework run has written");
   }
   const auto texts = hdf5::read_strings(hdf5::open_dataset(source.get(), path, place).get(), place);
   if (texts.size() != 1) throw InputError(place + ": expected a single string");
   return texts.front();
 }
 
-// Passes each value on with the sample it belongs to.
+// Calls `store` for each row with the sample that it belongs to.
 template <class Number, class Store>
 void read_series(const Source& source, const std::string& name, std::vector<Totals>& series,
                  Store store) {
   const Element element(source, "/series/" + name);
   const auto times = element.times();
-  if (!times) throw InputError(source.place(element.name()) + ": no times: expected one a row");
+  if (!times)
+    throw InputError(source.place(element.name()) + ": no times: expected one for each row");
   series.resize(element.rows());
   const std::vector<Number> values = element.read<Number>(std::nullopt);
   const std::size_t width = element.shape()[0] ? values.size() / element.shape()[0] : 0;

@@ -31,7 +31,7 @@ Source::Source(const std::string& path) : path_(path) {
   const auto fail = [&](int error) {
     throw IoError(fmt::format("{}: {}", path_, std::generic_category().message(error)));
   };
-  // Not to wait for the other end of a pipe, O_NONBLOCK.
+  // With O_NONBLOCK, open does not wait for a writer if the file is a pipe.
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) fail(errno);
   struct stat status;
@@ -63,7 +63,7 @@ Element::Element(const Source& source, const std::string& path)
   const Handle type(H5Dget_type(value_.get()), H5Tclose, place);
   if (const H5T_class_t kind = H5Tget_class(type.get()); kind != H5T_FLOAT && kind != H5T_INTEGER) {
     throw InputError(
-        fmt::format("{}: no numbers in it: expected floating point or integers", place));
+        fmt::format("{}: the values are not numbers: expected floating point or integers", place));
   }
   shape_ = hdf5::shape_of(value_.get(), place);
   rows_ = shape_.empty() ? 0 : shape_[0];
@@ -72,13 +72,13 @@ Element::Element(const Source& source, const std::string& path)
   steps_ = read_grid<std::int64_t>("step");
   if (!steps_) return;
   if (steps_->size() > rows_) {
-    throw InputError(fmt::format("{}: {} steps: expected {}, one a row of {}",
+    throw InputError(fmt::format("{}: {} steps: expected {}, one for each row of {}",
                                  source.place(path_ + "/step"), steps_->size(), rows_, name_));
   }
   rows_ = steps_->size();
   const auto back = std::adjacent_find(steps_->begin(), steps_->end(), std::greater<>());
   if (back != steps_->end()) {
-    throw InputError(fmt::format("{}[{}] = {}: expected {} or more, the step before",
+    throw InputError(fmt::format("{}[{}] = {}: expected {} or more, which is the step before it",
                                  source.place(path_ + "/step"), back - steps_->begin() + 1, back[1],
                                  back[0]));
   }
@@ -90,7 +90,7 @@ std::optional<std::vector<double>> Element::times() const {
   return times;
 }
 
-// H5MD has steps and times either one a row, or as an increment with an offset.
+// H5MD allows either one step and time for each row, or a scalar increment with an offset.
 template <class Number>
 std::optional<std::vector<Number>> Element::read_grid(const char* name) const {
   const std::string path = path_ + "/" + name;
@@ -99,8 +99,8 @@ std::optional<std::vector<Number>> Element::read_grid(const char* name) const {
   const Handle dataset = hdf5::open_dataset(source_->get(), path, place);
   const Shape shape = hdf5::shape_of(dataset.get(), place);
   if (shape.size() > 1) {
-    throw InputError(
-        fmt::format("{}: shape {}: expected one number a row", place, hdf5::to_string(shape)));
+    throw InputError(fmt::format("{}: shape {}: expected one number for each row", place,
+                                 hdf5::to_string(shape)));
   }
   const hid_t type = hdf5::type_of<Number>();
   std::vector<Number> values(product(shape, 0));

@@ -1,4 +1,4 @@
-// HDF5 files to read from: H5MD elements and their rows.
+// Reading of HDF5 files: H5MD elements and their rows.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace needlework::io {
 
-/// A file open for reading.
+/// An HDF5 file that is open for reading.
 class Source {
  public:
-  /// Throws IoError if there is no such file or it is no whole HDF5 file.
+  /// Throws IoError if the file does not exist or is not a complete HDF5 file.
   explicit Source(const std::string& path);
 
   hid_t get() const { return file_.get(); }
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; }
 
-  /// "PATH: /OBJECT", the beginning of every message.
+  /// "PATH: /OBJECT", with which every message begins.
   std::string place(const std::string& object) const { return path_ + ": " + object; }
 
  private:
@@ -29,33 +29,35 @@ class Source {
   hdf5::Handle file_;
 };
 
-/// An H5MD element: a group with value and perhaps step and time, or a plain dataset.
+/// An H5MD element, which is a group with the dataset value and optionally step and time, or a
+/// plain dataset, which is read like an element without step and time.
 class Element {
  public:
-  /// Throws InputError if `path` is neither, or has no numbers in it.
+  /// Throws InputError if `path` is neither, if its values are not numbers,
+  /// or if its steps decrease.
   Element(const Source& source, const std::string& path);
 
-  /// Name of the dataset that has the values, such as "/particles/needles/id".
+  /// Path of the dataset with the values, such as "/particles/needles/id".
   const std::string& name() const { return name_; }
   const hdf5::Shape& shape() const { return shape_; }
   bool is_group() const { return is_group_; }
 
-  /// Rows that are complete: what has a step, where there are steps. In a plain dataset and in a
-  /// file that was closed, the first extent.
+  /// Number of complete rows. An element with steps has as many complete rows as steps; otherwise
+  /// all rows are complete.
   hsize_t rows() const { return rows_; }
-  /// One a row; nothing if the element has none. Throws InputError if they are not in order.
+  /// The step of each row, or nothing if the element has no steps.
   const std::optional<std::vector<std::int64_t>>& steps() const { return steps_; }
-  /// The same for the times.
+  /// The time of each row, or nothing if the element has no times.
   std::optional<std::vector<double>> times() const;
 
-  /// Reads row `row`, or everything if `row` is empty, converted to Number.
+  /// Reads one row, or all rows if `row` is empty, converted to Number.
   template <class Number>
   std::vector<Number> read(std::optional<hsize_t> row) const {
     std::vector<Number> values(size(row));
     read_as(hdf5::type_of<Number>(), row, values.data());
     return values;
   }
-  /// The same into memory with room for size(row) numbers.
+  /// Reads the same numbers into `values`, which must have space for size(row) numbers of `type`.
   void read_as(hid_t type, std::optional<hsize_t> row, void* values) const;
   std::size_t size(std::optional<hsize_t> row) const;
 
@@ -73,7 +75,7 @@ class Element {
   std::optional<std::vector<std::int64_t>> steps_;
 };
 
-/// The group to read of a file: /particles/needles, or the only one under /particles.
+/// The group of particles to read: /particles/needles, or the only group under /particles.
 std::string find_particles(const Source& source);
 
 }  // namespace needlework::io

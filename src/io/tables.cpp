@@ -14,7 +14,7 @@ using hdf5::type_of;
 
 namespace {
 
-// Appends to `column` what `number(row, put)` puts for each row.
+// Calls `numbers(row, put)` for each row, and appends the numbers that it passes to `put`.
 template <class Number, class Row, class Numbers>
 void append_each(Column& column, std::span<const Row> rows, Numbers numbers) {
   std::vector<Number> values;
@@ -38,10 +38,10 @@ void append_member(Column& column, std::span<const Row> rows,
 
 }  // namespace
 
-Clock::Clock(hid_t file, const std::string& group, const std::string& place)
+StepsAndTimes::StepsAndTimes(hid_t file, const std::string& group, const std::string& place)
     : step_(file, group + "/step", place), time_(file, group + "/time", place) {}
 
-void Clock::append(std::span<const Totals> samples) {
+void StepsAndTimes::append(std::span<const Totals> samples) {
   append_member<double>(time_, samples, &Totals::time);
   append_member<std::int64_t>(step_, samples, &Totals::collisions);
 }
@@ -85,7 +85,7 @@ void Frames::append(const State& state) {
     throw std::invalid_argument(fmt::format("{}: a frame of {} needles: expected {} in each array",
                                             place_, state.size(), needles_));
   }
-  keep_ids(state);
+  write_ids(state);
   const std::array<double, 9> matrix{state.box[0], 0, 0, 0, state.box[1], 0, 0, 0, state.box[2]};
   edges_.append(matrix.data(), 1);
   const auto append_frame = [](Column& column, const auto& rows) {
@@ -104,8 +104,8 @@ void Frames::append(const State& state) {
   }
 }
 
-void Frames::keep_ids(const State& state) {
-  const bool first = !std::exchange(ids_kept_, true);
+void Frames::write_ids(const State& state) {
+  const bool first = !std::exchange(ids_written_, true);
   if (state.id.empty() || state.id == ids_) return;
   if (!first) {
     throw std::invalid_argument(

@@ -1,7 +1,7 @@
 // The tables of an H5MD file that a run fills: frames, sums over all needles, collisions.
 //
-// Every table has its times written apart from the rest, and last: the datasets of a file do not
-// grow together, so that a row counts as written when its time is.
+// The datasets of a table grow one after the other. The times are written last, by a function of
+// their own, and a row is complete when its time is in the file.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +18,12 @@
 
 namespace needlework::io {
 
-/// The step and time datasets of one time grid. The step is the number of collisions so far.
-class Clock {
+/// The datasets step and time that all elements of one table share. The step is the number of
+/// collisions so far.
+class StepsAndTimes {
  public:
-  /// Opens those in `group`.
-  Clock(hid_t file, const std::string& group, const std::string& place);
+  /// Opens the datasets in `group`.
+  StepsAndTimes(hid_t file, const std::string& group, const std::string& place);
 
   void append(std::span<const Totals> samples);
 
@@ -35,7 +36,7 @@ class TotalsTable {
  public:
   TotalsTable(hid_t file, const std::string& group, const std::string& place);
 
-  /// Writes the values; steps and times are for a Clock.
+  /// Writes the values. Their steps and times are written by StepsAndTimes.
   void append(std::span<const Totals> samples);
 
  private:
@@ -47,27 +48,28 @@ class Frames {
  public:
   Frames(hid_t file, const std::string& place);
 
-  /// Writes a frame; its step and time are for a Clock. Throws std::invalid_argument when the
-  /// arrays do not have one entry a needle or the ids are not those of the frame before.
+  /// Writes a frame. Its step and time are written by StepsAndTimes. Throws std::invalid_argument
+  /// if an array does not have one entry for each needle, or if the ids differ from those of the
+  /// frame before.
   void append(const State& state);
 
  private:
-  void keep_ids(const State& state);
+  void write_ids(const State& state);
 
   std::string place_;
   hdf5::Handle id_;
   std::size_t needles_;
   std::vector<std::uint32_t> ids_;
-  bool ids_kept_ = false;
+  bool ids_written_ = false;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
 };
 
-/// /events: collisions, one row each.
+/// /events: one row for each collision.
 class Events {
  public:
   Events(hid_t file, const std::string& place);
 
-  void append(std::span<const Collision> collisions);  ///< all but the times
+  void append(std::span<const Collision> collisions);  ///< writes all columns except the times
   void append_times(std::span<const Collision> collisions);
 
  private:

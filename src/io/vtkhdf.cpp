@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/io/atomic_file.h"
+#include "src/io/descriptions.h"
 #include "src/io/hdf5.h"
 #include "src/io/output_file.h"
 
@@ -31,12 +32,12 @@ void write_vectors(hid_t group, const char* name, const Vectors& vectors,
 }
 
 void write_counter(hid_t group, const char* name, std::size_t value, const std::string& place) {
-  // One number for each part of the grid, of which there is one.
+  // The format has one number for each part of the grid. This grid has one part.
   const auto count = static_cast<std::int64_t>(value);
   write_array<std::int64_t>(group, name, {1}, {&count, 1}, place);
 }
 
-// First the tail, then the tip of each needle.
+// The tail of each needle, then its tip.
 Vectors ends_of(const State& state) {
   Vectors ends;
   ends.reserve(2 * state.size());
@@ -90,6 +91,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state) {
     write_lines(root.get(), state, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
+  write_descriptions(file.get(), vtkhdf_descriptions(), path);
   file.close();
   atomic.publish();
 }

@@ -1,9 +1,9 @@
-// Writes H5MD files so that a crash leaves them readable.
+// Writes H5MD files that stay readable when the program is killed.
 //
-// OutputFile sees to it that the metadata on disk are consistent at any moment; for that, all
-// objects are made before the first row. The datasets of one frame may still grow one after the
-// other. So steps and times are written when all the rest has reached the file, and a reader that
-// goes by them never sees half a frame.
+// OutputFile keeps the metadata on disk consistent at any moment, which requires that all objects
+// are created before the first row is written. The datasets of a frame grow one after the other, so
+// the file can contain a part of a frame. Steps and times are written after everything else has
+// reached the file; a reader that reads as many rows as there are steps reads complete frames only.
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -22,7 +22,8 @@ using hdf5::Session;
 
 namespace {
 
-// Rows kept in memory before they are written; of events, those of a chunk.
+// Number of samples or events that are collected in memory before they are written. Events fill
+// one chunk of the file.
 constexpr std::size_t block = 8192;
 
 }  // namespace
@@ -36,15 +37,15 @@ struct Writer::Implementation {
 
   const std::string path;
   bool failed = false;
-  std::optional<OutputFile> file;  // outlives the datasets in it
+  std::optional<OutputFile> file;  // declared first, so that it is closed after its datasets
   std::optional<Frames> frames;
   std::optional<TotalsTable> observables;
-  std::optional<Clock> frames_clock;
+  std::optional<StepsAndTimes> frame_times;
   std::optional<TotalsTable> series;
-  std::optional<Clock> series_clock;
+  std::optional<StepsAndTimes> series_times;
   std::optional<Events> events;
 
-  // Not committed yet: their steps and times are not in the file.
+  // Rows whose steps and times are not in the file yet.
   std::vector<Totals> pending_frames;
   std::vector<Totals> pending_samples;
   std::vector<Collision> pending_events;
@@ -64,20 +65,21 @@ Writer::Implementation::Implementation(const std::string& name, bool force, cons
 void Writer::Implementation::open_datasets(bool with_events) {
   frames.emplace(file->get(), path);
   observables.emplace(file->get(), "/observables", path);
-  frames_clock.emplace(file->get(), "/particles/needles/position", path);
+  frame_times.emplace(file->get(), "/particles/needles/position", path);
   series.emplace(file->get(), "/series", path);
-  series_clock.emplace(file->get(), "/series", path);
+  series_times.emplace(file->get(), "/series", path);
   if (with_events) events.emplace(file->get(), path);
 }
 
 void Writer::Implementation::commit() {
   if (pending_frames.empty() && pending_samples.empty() && pending_events.empty()) return;
+  const Session session;
   observables->append(pending_frames);
   series->append(pending_samples);
   if (events) events->append(pending_events);
   file->flush();
-  frames_clock->append(pending_frames);
-  series_clock->append(pending_samples);
+  frame_times->append(pending_frames);
+  series_times->append(pending_samples);
   if (events) events->append_times(pending_events);
   file->flush();
   pending_frames.clear();
@@ -86,11 +88,12 @@ void Writer::Implementation::commit() {
 }
 
 void Writer::Implementation::close() {
+  const Session session;
   commit();
   events.reset();
-  series_clock.reset();
+  series_times.reset();
   series.reset();
-  frames_clock.reset();
+  frame_times.reset();
   observables.reset();
   frames.reset();
   file->close();
@@ -99,7 +102,6 @@ void Writer::Implementation::close() {
 template <class Action>
 void Writer::use(Action action) {
   if (!implementation_) throw std::logic_error("the writer was closed before");
-  const Session session;
   if (implementation_->failed) {
     throw IoError(implementation_->path + ": an earlier write to this file failed");
   }
@@ -132,7 +134,7 @@ Writer::~Writer() {
   try {
     close();
   } catch (const std::exception&) {
-    // close() is there for those who want to know.
+    // A destructor cannot report errors; close() can.
   }
 }
 
@@ -145,6 +147,7 @@ void Writer::write_series(const Totals& totals) {
 
 void Writer::write_frame(const Totals& totals, const State& state) {
   use([&](Implementation& out) {
+    const Session session;
     out.frames->append(state);
     out.pending_frames.push_back(totals);
   });

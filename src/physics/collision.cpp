@@ -14,8 +14,9 @@ struct Tangential {
   double energy_change;
 };
 
-Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double inertia_first,
-                      double inertia_second, double beta) {
+// `inertia_first` is s12^2 / I of the first needle, `masses` the sum of the inverse masses.
+Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double masses,
+                      double inertia_first, double inertia_second, double beta) {
   // Along the longer bisector; under exchange of the needles both axes keep or flip their sign
   // together with the components, so no bit changes.
   const bool acute = dot(c.u_first, c.u_second) >= 0;
@@ -24,9 +25,9 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
   const double a1 = dot(c.u_first, e1), a2 = dot(c.u_first, e2);
   const double b1 = dot(c.u_second, e1), b2 = dot(c.u_second, e2);
   const double v1 = dot(v, e1), v2 = dot(v, e2);
-  // Mass matrix (2/m) 1 + (s12^2/I)(1 - u1 u1) + (s21^2/I)(1 - u2 u2).
-  const double m11 = 2 + (inertia_first * (1 - a1 * a1) + inertia_second * (1 - b1 * b1));
-  const double m22 = 2 + (inertia_first * (1 - a2 * a2) + inertia_second * (1 - b2 * b2));
+  // Mass matrix (1/m1 + 1/m2) 1 + (s12^2/I1)(1 - u1 u1) + (s21^2/I2)(1 - u2 u2).
+  const double m11 = masses + (inertia_first * (1 - a1 * a1) + inertia_second * (1 - b1 * b1));
+  const double m22 = masses + (inertia_first * (1 - a2 * a2) + inertia_second * (1 - b2 * b2));
   const double m12 = -(inertia_first * (a1 * a2) + inertia_second * (b1 * b2));
   const double determinant = m11 * m22 - m12 * m12;
   const double x1 = (m22 * v1 - m12 * v2) / determinant;
@@ -37,37 +38,36 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 }  // namespace
 
 template <bool smooth>
-Impact collide(const kernels::Flight& first, const kernels::Flight& second,
-               const kernels::ContactGeometry& c, int side, double k,
-               const Restitution& restitution) {
+Impact collide(const Meeting& meeting, const Restitution& restitution) {
+  const auto& [first, second, body_first, body_second, c, side] = meeting;
   const double epsilon = restitution.epsilon;
-  const double inverse_inertia = 2 * k;
   const Vec3d v = (first.v - second.v) + (cross(first.w, c.u_first) * c.arm_first -
                                           cross(second.w, c.u_second) * c.arm_second);
   double vn = dot(v, c.normal);
   if (vn * side > 0) vn = 0;
-  const double inertia_first = inverse_inertia * (c.arm_first * c.arm_first);
-  const double inertia_second = inverse_inertia * (c.arm_second * c.arm_second);
-  const double mass = 2 + (inertia_first + inertia_second);
+  const double masses = body_first.inverse_mass + body_second.inverse_mass;
+  const double inertia_first = body_first.inverse_inertia * (c.arm_first * c.arm_first);
+  const double inertia_second = body_second.inverse_inertia * (c.arm_second * c.arm_second);
+  const double mass = masses + (inertia_first + inertia_second);
   Impact out;
   out.normal_velocity = vn;
   out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
   out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
   if constexpr (!smooth) {
-    const Tangential t = tangential(c, v, inertia_first, inertia_second, restitution.beta);
+    const Tangential t = tangential(c, v, masses, inertia_first, inertia_second, restitution.beta);
     out.impulse += t.impulse;
     out.energy_change += t.energy_change;
   }
-  out.v_first = first.v + out.impulse;
-  out.v_second = second.v - out.impulse;
-  out.w_first = first.w + cross(c.u_first, out.impulse) * (inverse_inertia * c.arm_first);
-  out.w_second = second.w - cross(c.u_second, out.impulse) * (inverse_inertia * c.arm_second);
+  out.v_first = first.v + out.impulse * body_first.inverse_mass;
+  out.v_second = second.v - out.impulse * body_second.inverse_mass;
+  out.w_first =
+      first.w + cross(c.u_first, out.impulse) * (body_first.inverse_inertia * c.arm_first);
+  out.w_second =
+      second.w - cross(c.u_second, out.impulse) * (body_second.inverse_inertia * c.arm_second);
   return out;
 }
 
-template Impact collide<true>(const kernels::Flight&, const kernels::Flight&,
-                              const kernels::ContactGeometry&, int, double, const Restitution&);
-template Impact collide<false>(const kernels::Flight&, const kernels::Flight&,
-                               const kernels::ContactGeometry&, int, double, const Restitution&);
+template Impact collide<true>(const Meeting&, const Restitution&);
+template Impact collide<false>(const Meeting&, const Restitution&);
 
 }  // namespace needlework

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "kernels/first_contact.h"
+#include "src/physics/species.h"
 
 namespace needlework {
 
-/// Parameters of the rule; m = L = 1.
+/// Parameters of the rule.
 struct Restitution {
   double epsilon = 1;  ///< normal, [0, 1]
   double beta = -1;    ///< tangential, [-1, 1]; -1 is smooth
@@ -19,13 +20,20 @@ struct Impact {
   Vec3d v_first, w_first, v_second, w_second;  ///< after
 };
 
-/// Collides two needles. `side` is the sign of r12 . (u1 x u2) before the contact: the needles
-/// approach, V_n side < 0; what rounding says otherwise counts as V_n = 0. `smooth` promises
-/// beta = -1 and leaves the tangential part out at compile time.
-/// Source: Huthmann, Aspelmeier, Zippelius, cond-mat, eqs. (imper)-(betili2).
+/// Two needles at their contact.
+struct Meeting {
+  const kernels::Flight& first;
+  const kernels::Flight& second;
+  Body body_first, body_second;
+  const kernels::ContactGeometry& contact;
+  int side;  ///< sign of r12 . (u1 x u2) before the contact
+};
+
+/// Collides two needles. They approach, V_n side < 0; what rounding says otherwise counts as
+/// V_n = 0. `smooth` promises beta = -1 and leaves the tangential part out at compile time.
+/// Source: Huthmann, Aspelmeier, Zippelius, Phys. Rev. E 60, 654 (1999), whose rule holds for
+/// unlike needles with 2 / m replaced by 1 / m1 + 1 / m2 and an inertia for each.
 template <bool smooth>
-Impact collide(const kernels::Flight& first, const kernels::Flight& second,
-               const kernels::ContactGeometry& contact, int side, double k,
-               const Restitution& restitution);
+Impact collide(const Meeting& meeting, const Restitution& restitution);
 
 }  // namespace needlework

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "kernels/power_of_two.h"
 #include "src/physics/director.h"
@@ -10,16 +11,30 @@
 namespace needlework {
 namespace {
 
-// What the record of one needle says of touching the other with its record, if it does.
-const kernels::Touch* find_touch(const Record& record, Needle partner, const Record& other,
-                                 const Shift& shift) {
-  for (const TouchEntry& entry : record.touches) {
-    if (entry.partner == partner && entry.partner_serial == other.serial &&
-        same(entry.shift, shift)) {
-      return &entry.touch;
-    }
+// Looks for the touch with the other's record among those beyond the first.
+[[gnu::noinline]] bool find_further_touch(const Gas& gas, Needle i, const Record& record,
+                                          Id partner, const Record& other, const Shift& shift,
+                                          kernels::Touch& out) {
+  for (const RecordedTouch& touch : gas.further_touches->of(gas.ids[i], record.serial)) {
+    if (!touch.is_with(partner, other.serial, shift)) continue;
+    out = touch.touch();
+    return true;
   }
-  return nullptr;
+  return false;
+}
+
+// Sets `out` to what the record of needle i says of touching the other with its record, if it does.
+[[gnu::always_inline]] inline bool find_touch(const Gas& gas, Needle i, const Record& record,
+                                              Needle partner, const Record& other,
+                                              const Shift& shift, kernels::Touch& out) {
+  if (record.touch_count == 0) return false;
+  const RecordedTouch& first = record.first_touch;
+  const Id id = gas.ids[partner];
+  if (first.is_with(id, other.serial, shift)) {
+    out = first.touch();
+    return true;
+  }
+  return record.touch_count > 1 && find_further_touch(gas, i, record, id, other, shift, out);
 }
 
 }  // namespace
@@ -39,18 +54,42 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   }
   pair.touch_within = gas.touch_tolerance();
   // The later record knows the touch; of two records made at one time, either may.
-  const kernels::Touch* touch = nullptr;
-  if (record_a.time == start) touch = find_touch(record_a, b, record_b, shift);
-  if (!touch && record_b.time == start) touch = find_touch(record_b, a, record_a, -shift);
-  if (touch) pair.touch = *touch;
+  const bool found =
+      record_a.time == start && find_touch(gas, a, record_a, b, record_b, shift, pair.touch);
+  if (!found && record_b.time == start) {
+    find_touch(gas, b, record_b, a, record_a, -shift, pair.touch);
+  }
   return pair;
 }
 
-Time renewal_time(const Clock& clock, const Record& record) {
+void Gas::set_species(std::vector<Species> all) {
+  species = std::move(all);
+  bodies.clear();
+  longest = 0;
+  for (const Species& each : species) {
+    bodies.push_back(each.body());
+    longest = std::max(longest, each.length);
+  }
+}
+
+void Gas::add_touch(Needle i, const RecordedTouch& touch) {
+  Record& record = records[i];
+  if (record.touch_count == 0) {
+    record.first_touch = touch;
+  } else {
+    further_touches->add(ids[i], record.serial, record.touch_count - 1u, touch);
+  }
+  ++record.touch_count;
+}
+
+Time renewal_time(const Clock& clock, const Record& record, double length) {
   const Vec3d& v = record.flight.v;
-  const double speed = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z), record.flight.omega});
+  // Lengths a time, in powers of two: scaling lengths or velocities by one scales it exactly.
+  const double per_length = times_power_of_two(1.0, -exponent_of(length));
+  const double speed = std::max(
+      std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * per_length, record.flight.omega);
   if (speed == 0) return Time::never();
-  // A power of two near 2^10 / speed: scaling velocities scales it exactly.
+  // A power of two near 2^10 / speed.
   return clock.add(record.time, times_power_of_two(1.0, 10 - exponent_of(speed)));
 }
 
@@ -75,8 +114,7 @@ std::int32_t add_boxes(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(std::clamp(std::int64_t{a} + b, -most, most));
 }
 
-Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
-                   const Vec3d& angular_velocity) {
+Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
   Record& record = gas.records[i];
   const double elapsed = gas.clock.difference(now, record.time);
   const Vec3d centre = centre_after(record.flight, elapsed);
@@ -89,13 +127,13 @@ Shift renew_record(Gas& gas, Needle i, Time now, const Vec3d& director, const Ve
     gas.images[i][axis] = add_boxes(gas.images[i][axis], wraps[axis]);
   }
   record.flight.r = {r[0], r[1], r[2]};
-  record.flight.u = normalised(director);
-  record.flight.v = velocity;
-  record.flight.w = project_out(angular_velocity, record.flight.u);
+  record.flight.u = normalised(flight.director);
+  record.flight.v = flight.velocity;
+  record.flight.w = project_out(flight.angular_velocity, record.flight.u);
   set_rotation(record.flight);
   record.time = now;
-  record.renewal = renewal_time(gas.clock, record);
-  record.touches.clear();
+  record.renewal = renewal_time(gas.clock, record, flight.length);
+  record.touch_count = 0;
   ++record.serial;
   return wraps;
 }

@@ -6,7 +6,7 @@
 
 namespace needlework {
 
-double mean_free_time(double density, double t_tr, double t_rot, double k) {
+double mean_free_time(const ThermalGas& gas) {
   constexpr double half_root_pi = 0.886226925452758;
   using Rule = boost::math::quadrature::gauss<double, 10>;
   // The product rule on a quarter of the square, [0, 1/2]^2.
@@ -20,10 +20,10 @@ double mean_free_time(double density, double t_tr, double t_rot, double k) {
   for (int i = 0; i < 10; ++i) {
     for (int j = 0; j < 10; ++j) {
       const double r2 = nodes[i] * nodes[i] + nodes[j] * nodes[j];
-      sum += weights[i] * weights[j] * std::sqrt(t_tr + t_rot * k * r2);
+      sum += weights[i] * weights[j] * std::sqrt((gas.t_tr + gas.t_rot * gas.k * r2) / gas.mass);
     }
   }
-  const double rate = density * half_root_pi * sum;
+  const double rate = gas.density * (gas.length * gas.length) * half_root_pi * sum;
   return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
 }
 

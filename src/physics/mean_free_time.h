@@ -3,11 +3,20 @@
 
 namespace needlework {
 
-/// Mean time between two collisions of a needle, for Gaussian velocities at these temperatures:
-/// 1 / (n (sqrt(pi)/2) integral over the unit square of sqrt(T_tr + T_rot k r^2)), within 1e-6;
-/// infinite when nothing moves. `density` in L^-3.
+/// A gas of one species with Gaussian velocities.
+struct ThermalGas {
+  double density = 0;  ///< needles per volume [L^-3]
+  double t_tr = 0, t_rot = 0;
+  double length = 1;  ///< [L]
+  double mass = 1;    ///< [m]
+  double k = 6;       ///< m L^2 / (2 I)
+};
+
+/// Mean time between two collisions of a needle,
+/// 1 / (n L^2 (sqrt(pi) / 2) integral over the unit square of sqrt((T_tr + T_rot k r^2) / m)),
+/// within 1e-6; infinite when nothing moves.
 /// Trajectories depend on it by way of the t_c rule, so it uses nothing but + * / and square roots,
 /// which are the same bits everywhere; theory::collision_rate is the accurate one.
-double mean_free_time(double density, double t_tr, double t_rot, double k);
+double mean_free_time(const ThermalGas& gas);
 
 }  // namespace needlework

@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "src/physics/gas.h"
+#include "src/physics/ids.h"
 
 namespace needlework {
 
 /// The inverse of a permutation: ranks[order[n]] = n.
 inline std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
   std::vector<Needle> ranks(order.size());
-  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = static_cast<Needle>(n);
+  for (std::size_t n = 0; n < order.size(); ++n) ranks[order[n]] = Needle(n);
   return ranks;
 }
 
@@ -25,7 +25,7 @@ void permute(Values& values, const std::vector<Needle>& order) {
     if (placed[start]) continue;
     typename Values::value_type first = std::move(values[start]);
     std::size_t n = start;
-    for (; order[n] != start; n = order[n]) {
+    for (; order[n].index != start; n = order[n]) {
       values[n] = std::move(values[order[n]]);
       placed[n] = true;
     }

@@ -115,7 +115,7 @@ void Drive::sample(bool series, bool frame) {
     if (writer_) writer_->write_series(totals);
   }
   if (frame && writer_) {
-    writer_->write_frame(totals, simulation_.state());
+    writer_->write_frame(totals, simulation_.copy());
     last_frame_ = totals.time;
     writer_->flush();
     last_flush_ = elapsed();

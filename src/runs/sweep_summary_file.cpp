@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "src/io/atomic_file.h"
+#include "src/io/descriptions.h"
 #include "src/io/hdf5.h"
 #include "src/io/output_file.h"
 #include "src/runs/sweep_summary.h"
@@ -106,6 +107,7 @@ void write_summary(const std::string& path, const Grid& grid,
                    summary[point], path);
     }
   }
+  io::write_descriptions(file.get(), io::sweep_summary_descriptions(), path);
   file.close();
   atomic.publish();
 }

@@ -58,9 +58,24 @@ Entry head_of(std::string_view section, const toml::node& node) {
   return entry;
 }
 
+// One [[section]] with its keys.
+void append_repeated(std::string_view section, const toml::node& element,
+                     std::vector<Entry>& entries) {
+  entries.push_back(head_of(section, element));
+  for (const auto& [key, value] : *element.as_table())
+    entries.push_back(entry_of(section, key.str(), value));
+  for (std::size_t n = entries.size() - element.as_table()->size() - 1; n < entries.size(); ++n)
+    entries[n].is_repeated = true;
+}
+
 std::vector<Entry> flattened(const toml::table& root) {
   std::vector<Entry> entries;
   for (const auto& [name, node] : root) {
+    const toml::array* array = node.as_array();
+    if (array && !array->empty() && array->is_homogeneous(toml::node_type::table)) {
+      for (const toml::node& element : *array) append_repeated(name.str(), element, entries);
+      continue;
+    }
     const toml::table* table = node.as_table();
     if (!table) {
       entries.push_back(entry_of("", name.str(), node));
@@ -160,7 +175,7 @@ std::string Document::place(const Entry& entry) const {
     return fmt::format("--set {}={}", key, printable(entry.override_text, value_limit));
   const std::string line =
       fmt::format("{}: line {}: ", printable(name_, name_limit), entry.region.line);
-  if (entry.is_head) return fmt::format("{}[{}]", line, key);
+  if (entry.is_head) return line + (entry.is_repeated ? "[[" + key + "]]" : "[" + key + "]");
   const std::string source = source_of(entry.region);
   const std::string value = source.empty() ? "{...}" : printable(source, value_limit);
   return fmt::format("{}{} = {}", line, key, value);

@@ -41,6 +41,7 @@ struct Entry {
   Value value;
   Region region;              ///< of the value or the head; empty for a table without braces
   bool is_head = false;       ///< stands for [section] itself, without key and value
+  bool is_repeated = false;   ///< of a section written [[section]], which may stand several times
   bool is_override = false;   ///< given by --set
   std::string override_text;  ///< the value as given there
   std::string named;          ///< Override::place

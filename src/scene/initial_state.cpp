@@ -84,9 +84,12 @@ State draw_initial_state(const Scene& scene) {
     state.angular_velocity[id] = normal_part(random.normal(), state.orientation[id]);
   }
   if (n >= 2) remove_mean(state.velocity);
-  set_mean_square(state.velocity, 3 * scene.initial.t_tr);
-  // <I w^2 / 2> = t_rot with I = 1 / (2 k).
-  set_mean_square(state.angular_velocity, 4 * needles.k * scene.initial.t_rot);
+  const double mass = scene.species.empty() ? 1 : scene.species.front().mass;
+  const double length = scene.species.empty() ? 1 : scene.species.front().length;
+  set_mean_square(state.velocity, 3 * scene.initial.t_tr / mass);
+  // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
+  set_mean_square(state.angular_velocity,
+                  4 * needles.k * scene.initial.t_rot / (mass * (length * length)));
   return state;
 }
 

@@ -46,6 +46,31 @@ std::vector<Entry> with_overrides_applied(const std::vector<Entry>& entries) {
   return result;
 }
 
+constexpr const char* one_species =
+    "expected one [[species]] entry: gases of several species are not simulated yet";
+
+// Begins an entry [[species]].
+void begin_species(Scene& scene, const Document& document, const Entry& head) {
+  if (!head.is_repeated) throw document.error(head, "expected [[species]], in double brackets");
+  if (!scene.species.empty()) throw document.error(head, one_species);
+  scene.species.emplace_back();
+}
+
+// The keys of [needles] and [initial] that the species stands for.
+void adopt_species(Scene& scene) {
+  if (scene.species.empty()) return;
+  const Scene::Species& species = scene.species.front();
+  scene.needles.count = species.count;
+  scene.needles.k = species.k;
+  scene.initial.t_tr = species.t_tr;
+  scene.initial.t_rot = species.t_rot;
+  for (const auto& [from, to] :
+       {std::pair("species.count", "needles.count"), std::pair("species.k", "needles.k")}) {
+    const auto place = scene.places.find(from);
+    if (place != scene.places.end()) scene.places.emplace(to, place->second);
+  }
+}
+
 // What to expect instead of a key that excludes one given before it; empty when there is none.
 std::string_view conflict(const std::string& name, const std::set<std::string>& given) {
   const auto has = [&](const char* other) { return given.contains(other); };
@@ -55,22 +80,49 @@ std::string_view conflict(const std::string& name, const std::set<std::string>& 
   if ((name == "initial.file" && (has("initial.t_tr") || has("initial.t_rot"))) ||
       ((name == "initial.t_tr" || name == "initial.t_rot") && has("initial.file")))
     return "expected either file or temperatures to draw, not both";
+  const bool of_species = name.starts_with("species.");
+  for (const char* key : {"needles.count", "needles.k", "initial.t_tr", "initial.t_rot"}) {
+    const bool species_given =
+        std::any_of(given.begin(), given.end(),
+                    [](const std::string& other) { return other.starts_with("species."); });
+    if ((of_species && has(key)) || (name == key && species_given))
+      return "expected either [[species]] or needles.count, needles.k and the temperatures of "
+             "[initial], not both";
+  }
+  if (((name == "species.t_tr" || name == "species.t_rot") && has("initial.file")) ||
+      (name == "initial.file" && (has("species.t_tr") || has("species.t_rot"))))
+    return "expected either file or temperatures to draw, not both";
   return {};
 }
 
 void require_what_is_needed(const Scene& scene, const Document& document,
                             const std::set<std::string>& given) {
-  for (const char* key : {"count", "box"}) {
-    const std::string name = std::string("needles.") + key;
+  const char* section = scene.species.empty() ? "needles" : "species";
+  for (const auto& [where, key] : {std::pair(section, "count"), std::pair("needles", "box")}) {
+    const std::string name = fmt::format("{}.{}", where, key);
     if (!given.contains(name) && scene.initial.file.empty())
       throw document.missing(name,
-                             fmt::format("expected {}", find_scene_key("needles", key)->expected));
+                             fmt::format("expected {}", find_scene_key(where, key)->expected));
   }
+  if (!scene.species.empty() && !given.contains("species.name"))
+    throw document.missing("species.name",
+                           fmt::format("expected {}", find_scene_key("species", "name")->expected));
   const Scene::Until& until = scene.until;
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s)
     throw document.missing("an end condition in [until]",
                            "expected one or more of time, collisions_per_needle, energy_ratio, "
                            "wall_s");
+}
+
+// The nearest image is the one in contact only in boxes of twice the needle length.
+void require_room(const Scene& scene, const Document& document, const Entry& box) {
+  const double length = scene.species.empty() ? 1 : scene.species.front().length;
+  const double least = 2.01 * length;
+  const auto& edges = scene.needles.box;
+  if (std::all_of(edges.begin(), edges.end(), [&](double edge) { return edge >= least; })) return;
+  throw document.error(
+      box, length == 1 ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
+                       : fmt::format("expected edges of at least {} (2.01 needle lengths)", least));
 }
 
 // The text as read, overrides appended as comments.
@@ -98,13 +150,21 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   const Document document(text, name, overrides);
   Scene scene;
   std::set<std::string> given;
+  Entry box;
   for (const Entry& entry : with_overrides_applied(document.entries())) {
     if (entry.is_head) {
       if (!is_scene_section(entry.section)) throw document.error(entry, expected_instead(entry));
+      if (entry.section == "species")
+        begin_species(scene, document, entry);
+      else if (entry.is_repeated)
+        throw document.error(entry, fmt::format("expected [{}], once", entry.section));
       continue;
     }
     const SceneKey* key = find_scene_key(entry.section, entry.key);
     if (!key) throw document.error(entry, expected_instead(entry));
+    if (entry.section == "species" && scene.species.empty())
+      throw document.error(entry, "expected a scene with an entry [[species]]");
+    if (full_name(entry) == "needles.box") box = entry;
     if (!key->read(scene, entry.value))
       throw document.error(entry, fmt::format("expected {}", key->expected));
     if (const std::string_view reason = conflict(full_name(entry), given); !reason.empty())
@@ -113,6 +173,8 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     scene.places[full_name(entry)] = document.place(entry);
   }
   require_what_is_needed(scene, document, given);
+  if (given.contains("needles.box")) require_room(scene, document, box);
+  adopt_species(scene);
   scene.text = annotated(text, overrides);
   return scene;
 }

@@ -26,6 +26,7 @@ constexpr double smallest_positive = std::numeric_limits<double>::denorm_min();
 // Limits beyond which squares and products of physical numbers would leave the range of a double,
 // or positions could not resolve a needle.
 constexpr double largest_edge = 1e9;
+constexpr double least_edge = 2.01e-6;  // of the shortest needles; see require_room()
 constexpr double least_temperature = 1e-200;
 constexpr double largest_temperature = 1e200;
 constexpr double most_per_decade = 1e6;
@@ -74,7 +75,9 @@ std::optional<std::string> one_of(const Value& value,
   return known ? name : std::nullopt;
 }
 
-std::optional<double> box_edge(const Value& value) { return number(value, 2.01, largest_edge); }
+std::optional<double> box_edge(const Value& value) {
+  return number(value, least_edge, largest_edge);
+}
 
 std::optional<std::array<double, 3>> box(const Value& value) {
   if (const auto side = box_edge(value)) return std::array{*side, *side, *side};
@@ -135,6 +138,23 @@ constexpr SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.needles.k, number(v, 1e-9, 1e9)); }},
     {"needles", "seed", "a whole number in digits, from 0 to 9223372036854775807",
      [](Scene& s, V v) { return store(s.needles.seed, whole_number(v, 0, largest_seed)); }},
+
+    {"species", "name", "a name without control characters, not empty",
+     [](Scene& s, V v) {
+       return store(s.species.back().name, text(v)) && !s.species.back().name.empty();
+     }},
+    {"species", "count", "a whole number in digits, from 0 to 4294967294",
+     [](Scene& s, V v) { return store(s.species.back().count, whole_number(v, 0, most_needles)); }},
+    {"species", "length", "a number > 0 (from 1e-6 to 1e6)",
+     [](Scene& s, V v) { return store(s.species.back().length, number(v, 1e-6, 1e6)); }},
+    {"species", "mass", "a number > 0 (from 1e-100 to 1e100)",
+     [](Scene& s, V v) { return store(s.species.back().mass, number(v, 1e-100, 1e100)); }},
+    {"species", "k", "a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)",
+     [](Scene& s, V v) { return store(s.species.back().k, number(v, 1e-9, 1e9)); }},
+    {"species", "t_tr", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
+     [](Scene& s, V v) { return store(s.species.back().t_tr, temperature(v)); }},
+    {"species", "t_rot", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
+     [](Scene& s, V v) { return store(s.species.back().t_rot, temperature(v)); }},
 
     {"initial", "t_tr", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
      [](Scene& s, V v) { return store(s.initial.t_tr, temperature(v)); }},
@@ -226,7 +246,7 @@ constexpr SceneKey keys[] = {
      }},
 };
 
-constexpr std::string_view sections[] = {"needles", "initial", "collisions",
+constexpr std::string_view sections[] = {"needles", "species", "initial", "collisions",
                                          "engine",  "until",   "output"};
 
 std::vector<std::string_view> keys_of(std::string_view section) {
@@ -247,6 +267,8 @@ std::string expected_instead_of_section(std::string_view name) {
 }
 
 }  // namespace
+
+std::span<const SceneKey> scene_keys() { return keys; }
 
 const SceneKey* find_scene_key(std::string_view section, std::string_view key) {
   const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const SceneKey& k) {

@@ -5,38 +5,31 @@
 #include <cmath>
 
 #include "src/search/bounding_filter.h"
+#include "src/search/search.h"
 #include "src/search/setup.h"
 
 namespace needlework {
 
-/// A search proposes, for one needle, the (needle, shift) pairs that it might meet before a time.
-/// It may propose too many, never too few.
-///
-///   Time place(Needle i, Time now)
-///     enters i where it is now; called whenever its record has changed, before any search that
-///     could meet it, and when the time that this returns has come. Until then i is found where it
-///     has been placed.
-///   renumber(ranks)
-///     needle i has become needle ranks[i]; where they have been placed stays.
-///   find(i, now, ahead, visit)
-///     calls visit(j, shift, from, to) -> ahead for each (j, shift) that i might meet within the
-///     time `ahead` and before j is placed anew: in times from now from `from` to `to`, if at all.
-///     shift is added to the centre of j. What visit returns is the time ahead that still matters.
+/// Every needle and image that could come near.
 class AllPairs {
  public:
-  static constexpr const char* name = "all-pairs";
+  static constexpr const char* search_name = "all-pairs";
 
   AllPairs(const Gas& gas, Counters& counters, const SearchSetup&)
       : gas_(gas), counters_(counters) {}
 
+  const char* name() const { return search_name; }
+  std::size_t cells() const { return 1; }
+  std::uint32_t cell_index(Needle) const { return 0; }
+  void prefetch(Needle) const {}
   Time place(Needle, Time) { return Time::never(); }
   void renumber(const std::vector<Needle>&) {}
 
   template <class Visit>
-  void find(Needle i, Time now, double ahead, Visit&& visit) const {
+  void find(Needle i, Needle /*just_hit*/, Time now, double ahead, Visit&& visit) const {
     const Vec3d& v_i = gas_.records[i].flight.v;
     BoundingFilter filter(gas_, counters_, i, now, ahead);
-    for (Needle j = 0; j < gas_.size(); ++j) {
+    for (Needle j{0}; j < gas_.size(); ++j) {
       if (j == i) continue;
       const Record& b = gas_.records[j];
       const Vec3d r = filter.centre() - centre_after(b.flight, gas_.clock.difference(now, b.time));
@@ -69,5 +62,7 @@ class AllPairs {
   const Gas& gas_;
   Counters& counters_;
 };
+
+static_assert(Search<AllPairs>);
 
 }  // namespace needlework

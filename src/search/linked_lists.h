@@ -6,24 +6,32 @@
 
 #include <vector>
 
+#include "src/memory/prefetch.h"
 #include "src/search/bounding_filter.h"
 #include "src/search/cell_grid.h"
+#include "src/search/search.h"
 #include "src/search/setup.h"
 
 namespace needlework {
 
 class LinkedLists {
  public:
-  static constexpr const char* name = "linked-lists";
+  static constexpr const char* search_name = "linked-lists";
 
   /// `gas` must outlive the search; needles are entered by place().
   LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup);
 
+  const char* name() const { return search_name; }
+  std::size_t cells() const { return grid_.size(); }
+  std::uint32_t cell_index(Needle i) const {
+    return static_cast<std::uint32_t>(grid_.index_of(place_[i].cell));
+  }
+  void prefetch(Needle i) const { needlework::prefetch(&place_[i]); }
   Time place(Needle i, Time now);
   void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>
-  void find(Needle i, Time now, double ahead, Visit&& visit) const {
+  void find(Needle i, Needle /*just_hit*/, Time now, double ahead, Visit&& visit) const {
     BoundingFilter filter(gas_, counters_, i, now, ahead);
     grid_.for_each_around(place_[i].cell, [&](const Cell& cell, std::size_t index) {
       for (Needle j = head_[index]; j != no_needle; j = place_[j].next) {
@@ -39,7 +47,7 @@ class LinkedLists {
   struct Place {
     Cell cell{};
     bool linked = false;
-    Needle next = no_needle, previous = no_needle;
+    Needle next, previous;
   };
 
   void link(Needle i);
@@ -52,5 +60,7 @@ class LinkedLists {
   std::vector<Needle> head_;
   std::vector<Place> place_;
 };
+
+static_assert(Search<LinkedLists>);
 
 }  // namespace needlework

@@ -166,7 +166,7 @@ void Hulls::rebase(Time now) {
   const double speed = std::sqrt(sum / static_cast<double>(gas.size()));
   unit = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
   base = now;
-  for (Needle i = 0; i < gas.size(); ++i) {
+  for (Needle i{0}; i < gas.size(); ++i) {
     if (places[i].block == BlockLink::none) continue;
     set_motion(i, now);
     if (kind == Kind::capsule) continue;
@@ -202,7 +202,7 @@ void Hulls::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now)
   for (int column = 0; column < NeedleBlock::columns; ++column) {
     block.column[column][place.lane] = static_cast<float>(values[column]);
   }
-  block.needle[place.lane] = i;
+  block.needle[place.lane] = i.index;
 }
 
 // Moves needle i to this cell. It takes the next free place there; a block is chained where all are
@@ -247,13 +247,13 @@ void Hulls::leave(Needle i) {
     last = links[b].next;
   }
   const std::uint32_t lane = --links[last].size;
-  const Needle moved = blocks[last].needle[lane];
+  const Needle moved(blocks[last].needle[lane]);
   if (moved != i) {
     NeedleBlock& to = blocks[place.block];
     for (int column = 0; column < NeedleBlock::columns; ++column) {
       to.column[column][place.lane] = blocks[last].column[column][lane];
     }
-    to.needle[place.lane] = moved;
+    to.needle[place.lane] = moved.index;
     places[moved].block = place.block;
     places[moved].lane = place.lane;
   }
@@ -272,7 +272,7 @@ void NearSearch::renumber(const std::vector<Needle>& ranks) {
   permute(hulls.motions, order);
   for (std::size_t b = 0; b < hulls.blocks.size(); ++b) {
     for (std::uint32_t lane = 0; lane < hulls.links[b].size; ++lane) {
-      hulls.blocks[b].needle[lane] = ranks[hulls.blocks[b].needle[lane]];
+      hulls.blocks[b].needle[lane] = ranks[hulls.blocks[b].needle[lane]].index;
     }
   }
 }
@@ -328,7 +328,7 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
       for (const auto& x : near_[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
-        prefetch(&blocks[first]);
+        needlework::prefetch(&blocks[first]);
         *view++ = {first, {x.offset, y.offset, z.offset}};
         *view_cell++ = {x.cell, y.cell, z.cell};
       }
@@ -339,7 +339,8 @@ void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, do
   if (2 * room > found_.size()) found_.resize(4 * room);
 }
 
-std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now, double ahead) {
+std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Needle just_hit,
+                                                              Time /*now*/, double ahead) {
   const Hulls& hulls = *hulls_;
   kernels::Seeker seeker;
   seeker.motion = hulls.motions[i];
@@ -347,7 +348,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
   seeker.ahead = static_cast<float>(ahead * hulls.unit * roundup + time_margin);
   seeker.margin = hulls.margin;
   seeker.longest_half = 0.5f;
-  seeker.needle = i;
+  seeker.needle = i.index;
   const Hulls::Place& place = hulls.places[i];
   for (int axis = 0; axis < 3; ++axis) {
     seeker.r[axis] = hulls.blocks[place.block].column[NeedleBlock::x + axis][place.lane];
@@ -363,34 +364,31 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Time now
           : kernels_.overlapping(around, seeker, static_cast<float>(hulls.radius), found);
   counters_.candidates += entries;
 
-  for (std::size_t k = 0; k < count; ++k) prefetch(&hulls.motions[found.needle[k]]);
+  for (std::size_t k = 0; k < count; ++k) needlework::prefetch(&hulls.motions[found.needle[k]]);
 
   candidates_.clear();
   const auto propose = [&](std::size_t k, double from, double to) {
-    const Needle j = found.needle[k];
-    prefetch(&hulls.places[j]);
-    prefetch(&hulls.gas.records[j]);
+    const Needle j(found.needle[k]);
+    needlework::prefetch(&hulls.places[j]);
+    needlework::prefetch(&hulls.gas.records[j]);
     candidates_.push_back({from, to, j, found.cell[k], {}});
   };
   constexpr double endless = std::numeric_limits<double>::infinity();
   if (by_lanes_) {
     const PairColumns pairs = pair_columns(count);
-    const Record& record = hulls.gas.records[i];
-    const Needle just_hit =
-        record.time == now && !record.touches.empty() ? record.touches[0].partner : no_needle;
     const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
                         std::abs(seeker.motion.v[2]) + seeker.motion.omega;
     const float parting = 0.25f / speed;
     fill_pairs(seeker, hulls.motions.data(), views_.data(), found, count, pairs);
     // A needle just hit is near for sure: this one looks from a little later on.
     for (std::size_t k = 0; k < count; ++k) {
-      pairs.column[PairColumns::from][k] = found.needle[k] == just_hit ? parting : 0.0f;
+      pairs.column[PairColumns::from][k] = found.needle[k] == just_hit.index ? parting : 0.0f;
     }
     counters_.isolated += kernels_.bracket(seeker, pairs, count);
     for (std::size_t k = 0; k < count; ++k) {
       const float from = pairs.column[PairColumns::from][k];
       const bool met = from <= seeker.ahead;
-      if (found.needle[k] == just_hit) {
+      if (found.needle[k] == just_hit.index) {
         propose(k, 0, met ? endless : parting / hulls.unit);
       } else if (met) {
         propose(k, from / hulls.unit, endless);

@@ -18,7 +18,9 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "kernels/near_needles.h"
@@ -27,6 +29,7 @@
 #include "src/memory/prefetch.h"
 #include "src/physics/gas.h"
 #include "src/search/cell_grid.h"
+#include "src/search/search.h"
 #include "src/search/setup.h"
 
 namespace needlework {
@@ -81,17 +84,26 @@ class NearSearch {
   /// For another thread, with counters of its own; shares the hulls.
   NearSearch(const NearSearch& other, Counters& counters);
 
+  /// The kind that scenes name so, if any.
+  static std::optional<Hulls::Kind> kind_of(std::string_view name) {
+    if (name == "linked-cells") return Hulls::Kind::cell;
+    if (name == "capsules") return Hulls::Kind::capsule;
+    return std::nullopt;
+  }
+  const char* name() const {
+    return hulls_->kind == Hulls::Kind::cell ? "linked-cells" : "capsules";
+  }
+
   Time place(Needle i, Time now);
   void renumber(const std::vector<Needle>& ranks);
-  /// Brings what place() reads near.
-  void bring_near(Needle i) const {
-    prefetch(&hulls_->places[i]);
-    prefetch(&hulls_->motions[i]);
+  void prefetch(Needle i) const {
+    needlework::prefetch(&hulls_->places[i]);
+    needlework::prefetch(&hulls_->motions[i]);
   }
 
   template <class Visit>
-  void find(Needle i, Time now, double ahead, Visit&& visit) {
-    for (const Candidate& candidate : candidates(i, now, ahead)) {
+  void find(Needle i, Needle just_hit, Time now, double ahead, Visit&& visit) {
+    for (const Candidate& candidate : candidates(i, just_hit, now, ahead)) {
       if (candidate.from > ahead) break;  // they are in this order
       ahead = visit(candidate.needle, candidate.shift, candidate.from, candidate.to);
     }
@@ -101,6 +113,7 @@ class NearSearch {
   const CellGrid& grid() const { return hulls_->grid; }
   /// The cell in which needle i has been placed, in the frame of its record.
   const Cell& cell_of(Needle i) const { return hulls_->places[i].cell; }
+  std::size_t cells() const { return grid().size(); }
   std::uint32_t cell_index(Needle i) const {
     return static_cast<std::uint32_t>(grid().index_of(cell_of(i)));
   }
@@ -125,7 +138,7 @@ class NearSearch {
     Shift shift;
   };
 
-  std::span<const Candidate> candidates(Needle i, Time now, double ahead);
+  std::span<const Candidate> candidates(Needle i, Needle just_hit, Time now, double ahead);
   void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
   kernels::PairColumns pair_columns(std::size_t n);
 
@@ -143,20 +156,6 @@ class NearSearch {
   std::vector<Candidate> candidates_;
 };
 
-class LinkedCells : public NearSearch {
- public:
-  static constexpr const char* name = "linked-cells";
-  LinkedCells(const Gas& gas, Counters& counters, const SearchSetup& setup)
-      : NearSearch(gas, counters, setup, Hulls::Kind::cell) {}
-  LinkedCells(const LinkedCells& other, Counters& counters) : NearSearch(other, counters) {}
-};
-
-class Capsules : public NearSearch {
- public:
-  static constexpr const char* name = "capsules";
-  Capsules(const Gas& gas, Counters& counters, const SearchSetup& setup)
-      : NearSearch(gas, counters, setup, Hulls::Kind::capsule) {}
-  Capsules(const Capsules& other, Counters& counters) : NearSearch(other, counters) {}
-};
+static_assert(Search<NearSearch>);
 
 }  // namespace needlework

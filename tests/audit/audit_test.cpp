@@ -58,7 +58,7 @@ struct EngineRun {
 
   EngineRun(const Scene& scene, double per_needle) {
     Simulation simulation(scene);
-    initial = simulation.state();
+    initial = simulation.copy();
     setup = setup_of(scene, simulation.epoch_length());
     simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
     Scene::Until until;
@@ -341,7 +341,8 @@ TEST(Audit, GoesOnWhereItWasInterrupted) {
   EngineRun run(scene, 100);
   run.collisions[run.collisions.size() / 3].impulse[0] += 1e-6;  // to have something to remember
   const Tally whole = run.audited();
-  for (const std::size_t at : {std::size_t{1}, run.collisions.size() / 2, run.collisions.size()}) {
+  for (const std::size_t at :
+       {std::size_t{0}, std::size_t{1}, run.collisions.size() / 2, run.collisions.size()}) {
     audit::Audit first(run.initial, run.setup);
     for (std::size_t n = 0; n < at; ++n) first.add(run.collisions[n]);
     audit::Audit second(run.initial, run.setup);

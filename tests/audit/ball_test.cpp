@@ -37,7 +37,13 @@ bool holds(const Ball<Real>& ball, const Wide& exact) {
 template <class Real>
 class BallTest : public testing::Test {};
 using Reals = testing::Types<double, Quad>;
-TYPED_TEST_SUITE(BallTest, Reals);
+struct Names {
+  template <class Real>
+  static std::string GetName(int) {
+    return std::is_same_v<Real, double> ? "double" : "quad";
+  }
+};
+TYPED_TEST_SUITE(BallTest, Reals, Names);
 
 TYPED_TEST(BallTest, HoldsTheExactResult) {
   test::Random random(5);

@@ -101,7 +101,7 @@ void expect_reference(Needle n, bool ties) {
   Queue calendar(n, Clock());
   SortedReference reference(n);
   std::vector<Event> last(n);
-  for (Needle i = 0; i < n; ++i) last[i].owner = i;
+  for (Needle i{0}; i < n; ++i) last[i].owner = i;
   for (int step = 0; step < operations; ++step) {
     const Event event = draw_event(random, n, step / 50, ties);
     calendar.set(event);
@@ -114,7 +114,7 @@ void expect_reference(Needle n, bool ties) {
     ASSERT_TRUE(kept.owner == event.owner && kept.partner == event.partner &&
                 kept.time == event.time && kept.shift == event.shift);
   }
-  for (Needle i = 0; i < n; ++i) {
+  for (Needle i{0}; i < n; ++i) {
     ASSERT_EQ(calendar.of(i).time, last[i].time);
     ASSERT_EQ(calendar.of(i).partner, last[i].partner);
   }
@@ -176,7 +176,7 @@ TYPED_TEST(CalendarTest, PopsInTimeOrder) {
   for (const Needle n : {1, 2, 1000, 100000}) {
     Loop<TypeParam> loop(n);
     const auto ahead = [&](Needle) { return loop.random.exponential(); };
-    for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+    for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
     for (int step = 0; step < operations; ++step) {
       ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << n << " needles, step " << step;
     }
@@ -192,7 +192,7 @@ TYPED_TEST(CalendarTest, FollowsAGrowingTimeScale) {
   Loop<TypeParam> loop(n);
   double scale = 1e-3;
   const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
-  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
   const double growth = std::pow(1e15, 1.0 / operations);
   for (int step = 0; step < operations; ++step, scale *= growth) {
     ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
@@ -210,7 +210,7 @@ TYPED_TEST(CalendarTest, FollowsSuddenChangesOfTheTimeScale) {
     const double scale = scales[step / (operations / 10) % 5];
     return loop.random.uniform() * (owner % 10 == 0 ? 1e-6 * scale : scale);
   };
-  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
   for (; step < operations; ++step) {
     ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
   }
@@ -226,9 +226,9 @@ TYPED_TEST(CalendarTest, TakesAllEventsAtOneInstantByTheirIds) {
     event.time = {epoch, 0.5};
     calendar.set(named(event));
   };
-  for (Needle i = 0; i < n; ++i) put(i, 0);
+  for (Needle i{0}; i < n; ++i) put(i, 0);
   for (std::int64_t epoch = 0; epoch < 3; ++epoch) {
-    for (Needle i = 0; i < n; ++i) {
+    for (Needle i{0}; i < n; ++i) {
       const Event event = calendar.top();
       ASSERT_EQ(event.time.epoch, epoch);
       ASSERT_EQ(event.lower_id, i);
@@ -242,7 +242,7 @@ TYPED_TEST(CalendarTest, LetsEventsThatNeverHappenComeAndGo) {
   Loop<TypeParam> loop(n);
   constexpr double never = std::numeric_limits<double>::infinity();
   for (const double share : {0.1, 0.9, 0.999, 1.0, 0.0, 0.999, 0.5}) {
-    for (Needle i = 0; i < n; ++i) loop.schedule(i, loop.random.uniform());
+    for (Needle i{0}; i < n; ++i) loop.schedule(i, loop.random.uniform());
     const auto ahead = [&](Needle) {
       return loop.random.uniform() < share ? never : loop.random.uniform();
     };
@@ -257,7 +257,7 @@ TYPED_TEST(CalendarTest, LetsEventsThatNeverHappenComeAndGo) {
 TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
   constexpr Needle n = 200;
   Loop<TypeParam> loop(n);
-  for (Needle i = 0; i < n; ++i) loop.schedule(i, 10 + loop.random.uniform());
+  for (Needle i{0}; i < n; ++i) loop.schedule(i, 10 + loop.random.uniform());
   for (int step = 0; step < operations; ++step) {
     const double ahead = loop.random.uniform(5, 10);
     loop.schedule(7, ahead);
@@ -302,7 +302,7 @@ TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
   Loop<BucketCalendar> loop(n);
   double scale = 1;
   const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
-  for (Needle i = 0; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
   const double growth = std::pow(1e15, 1.0 / operations);
   for (int step = 0; step < operations; ++step, scale *= growth) loop.step(ahead);
   EXPECT_GT(loop.calendar().restarts(), 0u);
@@ -316,7 +316,7 @@ TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
   Random random(seed);
   std::vector<Time> time(n, Time::never());
   std::vector<std::uint32_t> place(n), zone(blocks);
-  for (Needle i = 0; i < n; ++i) place[i] = calendar.block_of(i);
+  for (Needle i{0}; i < n; ++i) place[i] = calendar.block_of(i);
   for (int step = 0; step < operations; ++step) {
     if (step % 1000 == 0) {
       for (auto& z : zone) z = static_cast<std::uint32_t>(random.below(zones));
@@ -328,7 +328,7 @@ TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
     if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
     calendar.set(event, place[event.owner]);
     std::vector<Time> first(blocks, Time::never());
-    for (Needle i = 0; i < n; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
+    for (Needle i{0}; i < n; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
     for (std::uint32_t block = 0; block < blocks; ++block) {
       ASSERT_EQ(calendar.clock_of(block) == CellCalendar::no_event,
                 std::count(place.begin(), place.end(), block) == 0);

@@ -1,6 +1,10 @@
 // What `needlework bench` measures and prints, and how it judges two results.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "kernels/isa.h"
@@ -17,26 +21,11 @@ constexpr const char* case_name = "s/auto/auto/standard/avx512/threads:1";
 class BenchCommand : public ProgramTest {
  protected:
   static json case_of(const std::string& name, bool baseline, const std::vector<double>& us) {
-    const std::vector<double> ones(us.size(), 1.0);
-    return {{"name", name},
-            {"scene", "s"},
-            {"baseline", baseline},
-            {"needles", 100},
-            {"density", 1.0},
-            {"search", "linked-lists"},
-            {"queue", "indexed-heap"},
-            {"isa", "scalar"},
-            {"effects", "elastic"},
-            {"us_per_collision", us},
-            {"setup_s", ones},
-            {"collisions", std::vector<int>(us.size(), 10)},
-            {"bytes_per_needle", ones},
-            {"per_collision", {{"events", 5.0}}},
-            {"warm_up_hash", "0"}};
+    return {{"name", name}, {"baseline", baseline}, {"us_per_collision", us}};
   }
 
   static json results_of(const std::vector<double>& baseline, const std::vector<double>& other) {
-    return {{"format", 1},
+    return {{"format", 2},
             {"subset", "made up"},
             {"cases", {case_of(baseline_name, true, baseline), case_of(case_name, false, other)}}};
   }
@@ -79,6 +68,7 @@ TEST_F(BenchCommand, MeasuresTheBaselineAndTheEngine) {
   for (const json& one : object["cases"]) {
     EXPECT_EQ(one["us_per_collision"].size(), 2u);
     EXPECT_EQ(one["collisions"], json({50, 50}));
+    EXPECT_LE(one["best_us_per_collision"], one["median_us_per_collision"]);
     EXPECT_GT(one["best_us_per_collision"], 0.0);
     EXPECT_GT(one["bytes_per_needle"][0], 192.0) << "a record alone has so many";
     for (const char* counter : {"events", "searches", "candidates", "evaluated"}) {
@@ -99,6 +89,7 @@ TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
   const Outcome first = run("bench smoke --repetitions 4 --min-time 0 --json kept.json");
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_NE(first.out.find("n=1,N=200/auto/auto/standard/"), std::string::npos) << first.out;
+  EXPECT_NE(first.out.find("range of 4 interleaved repetitions"), std::string::npos) << first.out;
   EXPECT_EQ(run("bench --results kept.json").out, first.out);
   const Outcome itself = run("bench --results kept.json --compare kept.json");
   EXPECT_NE(itself.out.find("baseline, +0.0 % by itself"), std::string::npos) << itself.out;
@@ -106,6 +97,75 @@ TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
   const Outcome again = run("bench smoke --json kept.json");
   EXPECT_EQ(again.exit_code, 5);
   EXPECT_TRUE(again.complains("--json kept.json: exists already: expected a new file, or --force"));
+}
+
+TEST_F(BenchCommand, WritesOneLineForEachCaseAndNoOtherSamples) {
+  ASSERT_EQ(run("bench smoke --repetitions 3 --min-time 0 --json kept.json").exit_code, 0);
+  const json kept = json::parse(read("kept.json"));
+  ASSERT_EQ(kept["cases"].size(), 2u);
+  for (const json& one : kept["cases"]) {
+    EXPECT_EQ(one.size(), 3u) << one;
+    EXPECT_EQ(one["us_per_collision"].size(), 3u);
+    EXPECT_TRUE(one["baseline"].is_boolean());
+  }
+  std::istringstream lines(read("kept.json"));
+  std::size_t found = 0;
+  for (std::string line; std::getline(lines, line);) {
+    for (const json& one : kept["cases"]) {
+      found += line.starts_with("  {\"name\": " + one["name"].dump()) &&
+               (line.ends_with("]}") || line.ends_with("]},"));
+    }
+  }
+  EXPECT_EQ(found, 2u) << read("kept.json");
+}
+
+TEST_F(BenchCommand, TablesFitAHundredColumnsWithNamesOfCasesInFull) {
+  // The longest names and the widest numbers of all subsets.
+  json results = results_of({1000.4, 4000}, {9.994, 1234.5});
+  const std::string longest =
+      "n=0.72,N=8000,k=100/linked-cells/auto/standard/avx512/threads:1/side:1.23";
+  const std::string baseline =
+      "n=0.72,N=8000,k=100/linked-lists/indexed-heap/standard/scalar/threads:1";
+  results["cases"][0]["name"] = baseline;
+  results["cases"][1]["name"] = longest;
+  results["machine"] = "AMD EPYC 7763 64-Core Processor";
+  write("wide.json", results.dump());
+  for (const char* arguments :
+       {"bench --results wide.json", "bench --results wide.json --compare wide.json"}) {
+    const Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(longest), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find(baseline), std::string::npos) << outcome.out;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+  }
+  // Medians and ranges.
+  EXPECT_NE(run("bench --results wide.json").out.find("2500  1000-4000"), std::string::npos);
+  EXPECT_NE(run("bench --results wide.json").out.find(" 622  9.99-1234"), std::string::npos);
+  const std::string list = run("bench --list").out;
+  std::istringstream cases(list);
+  for (std::string line; std::getline(cases, line);) {
+    const std::string name = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+    if (name.find("/threads:") == std::string::npos) continue;
+    EXPECT_LE(name.substr(0, name.find(' ')).size(), longest.size()) << line;
+  }
+}
+
+TEST_F(BenchCommand, ReadsAllCommittedResultsOfScenes) {
+  std::size_t read_files = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(NEEDLEWORK_SOURCE "/bench/results")) {
+    const std::string file = entry.path().string();
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream in(file);
+    const json content = json::parse(in);
+    if (!content.contains("format")) continue;  // of other programs, with another key for times
+    ++read_files;
+    const Outcome outcome = run("bench --results " + file);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(content["commit"].is_string() && content["command"].is_string()) << file;
+  }
+  EXPECT_GT(read_files, 0u);
 }
 
 TEST_F(BenchCommand, ListsWhatItCanMeasure) {
@@ -186,17 +246,20 @@ TEST_F(BenchCommand, TellsWhatElseMayHaveChangedCosts) {
 }
 
 TEST_F(BenchCommand, RefusesWhatItCannotUse) {
-  json bare = results_of(steady, steady), uneven = bare, negative = bare, newer = bare;
+  json bare = results_of(steady, steady), uneven = bare, negative = bare, older = bare, none = bare;
   bare["cases"].erase(0);
   uneven["cases"][1] = case_of(case_name, false, {1, 2});
   negative["cases"][1]["us_per_collision"][2] = -1;
-  newer["format"] = 2;
+  older["format"] = 1;
+  none["cases"][0]["us_per_collision"] = json::array();
   write("bare.json", bare.dump());
   write("uneven.json", uneven.dump());
   write("negative.json", negative.dump());
-  write("newer.json", newer.dump());
-  write("broken.json", "{\"format\": 1, \"cases\": [");
+  write("older.json", older.dump());
+  write("none.json", none.dump());
+  write("broken.json", "{\"format\": 2, \"cases\": [");
   write("other.json", "{\"needles\": 5}");
+  write("list.json", "[2]");
   const struct {
     const char *arguments, *message;
     int exit_code;
@@ -206,11 +269,13 @@ TEST_F(BenchCommand, RefusesWhatItCannotUse) {
       {"bench smoke --json no/out.json", "expected a folder that exists", 5},
       {"bench smoke --compare absent.json", "absent.json: cannot be read", 5},
       {"bench smoke --compare broken.json", "broken.json: ", 3},
-      {"bench --results other.json", "expected a file that needlework bench --json has", 3},
-      {"bench --results newer.json", "newer.json: format: expected 1", 3},
-      {"bench --results bare.json", "scene s: expected a baseline", 3},
-      {"bench --results uneven.json", "as many repetitions of all cases of a scene", 3},
-      {"bench --results negative.json", "us_per_collision: expected numbers above 0", 3},
+      {"bench --results other.json", "expected a file that needlework bench --json FILE has", 3},
+      {"bench --results list.json", "expected a file that needlework bench --json FILE has", 3},
+      {"bench smoke --compare older.json", "older.json: format 1: expected 2; measure again", 3},
+      {"bench --results bare.json", "bare.json: scene s: expected a baseline among the cases", 3},
+      {"bench --results uneven.json", "has 2 repetitions: expected 5, as many as the baseline", 3},
+      {"bench --results negative.json", "us_per_collision -1: expected a number above 0", 3},
+      {"bench --results none.json", "is empty: expected at least one repetition", 3},
       {"bench smoke --repetitions 0", "--help", 2},
       {"bench smoke --min-time -1", "--help", 2},
       {"bench smoke quick", "--help", 2}};

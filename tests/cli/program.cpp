@@ -58,6 +58,19 @@ Outcome ProgramTest::shell(const std::string& command, const std::string& out) c
   return outcome;
 }
 
+Outcome ProgramTest::shell_and_signal(const std::string& command, const std::string& event,
+                                      const std::string& signal) const {
+  return shell("{ " + command + " & until { " + event +
+               "; } >&3 2>&3 || ! kill -0 $! 2>&3; do sleep 0.01; done; kill -" + signal +
+               " $! 2>&3; wait $!; } 3>/dev/null");
+}
+
+Outcome ProgramTest::run_and_signal(const std::string& arguments, const std::string& event,
+                                    const std::string& signal, const std::string& before) const {
+  return shell_and_signal("env " + before + " '" NEEDLEWORK_PROGRAM "' " + arguments, event,
+                          signal);
+}
+
 void ProgramTest::write(const std::string& name, const std::string& text) const {
   std::ofstream(folder_ / name, std::ios::binary) << text;
 }

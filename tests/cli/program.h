@@ -34,6 +34,14 @@ class ProgramTest : public testing::Test {
               const std::string& out = "") const;
   /// Runs any command of the shell.
   Outcome shell(const std::string& command, const std::string& out = "") const;
+  /// Runs a command in the background, waits until another one, `event`, succeeds, and sends the
+  /// signal INT, TERM or KILL to the first ($! in `event`). So how fast the machine is does not
+  /// matter. A command that ends before the event gets no signal.
+  Outcome shell_and_signal(const std::string& command, const std::string& event,
+                           const std::string& signal) const;
+  /// The same for `needlework ARGUMENTS`.
+  Outcome run_and_signal(const std::string& arguments, const std::string& event,
+                         const std::string& signal, const std::string& before = "") const;
 
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;

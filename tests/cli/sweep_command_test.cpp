@@ -158,7 +158,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
   for (const std::string signal : {"INT", "TERM", "KILL"}) {
     const std::string out = "long.toml --out " + signal;
     const Outcome stopped =
-        run("sweep --json --threads 2 " + out, "timeout --preserve-status -s " + signal + " 0.8");
+        run_and_signal("sweep --json --threads 2 " + out, "ls " + signal + "/*.h5.part", signal);
     if (signal != "KILL") {
       EXPECT_EQ(stopped.exit_code, 75) << signal;
       EXPECT_TRUE(stopped.complains("the same command goes on with them"));
@@ -266,8 +266,9 @@ TEST_F(SweepCommand, ExampleIsAGridThatCanBeRun) {
 class SweepOverRanks : public SweepCommand {
  protected:
   void SetUp() override {
-    if (!shell(launcher + "true").err.empty() || shell(launcher + "true").exit_code != 0)
-      GTEST_SKIP() << "mpirun is not there, or cannot start two processes";
+    // What mpirun says does not matter as long as it starts processes.
+    const Outcome start = shell(launcher + "true");
+    if (start.exit_code != 0) GTEST_SKIP() << "mpirun cannot start two processes: " << start.err;
     if (run("sweep grid.toml --out probe", launcher).err.find("built with MPI") !=
         std::string::npos)
       GTEST_SKIP() << "the program was built without MPI";
@@ -286,22 +287,15 @@ TEST_F(SweepOverRanks, GiveTheSameSummary) {
 }
 
 TEST_F(SweepOverRanks, GoOnAfterASignal) {
-  // Long enough that the signal comes in the middle, on a fast machine too.
-  std::string grid = read("long.toml"), seeds = "seeds = [1";
-  for (int seed = 2; seed <= 60; ++seed) seeds += ", " + std::to_string(seed);
-  const auto first = grid.find("seeds = [");
-  grid.replace(first, grid.find(']', first) - first, seeds);
-  write("longer.toml", grid);
-  const json whole = result("longer.toml --out whole --threads 2");
-  const Outcome stopped =
-      run("sweep longer.toml --out ranks --threads 1", "timeout -s TERM 1.5 env " + launcher);
+  const json whole = result("long.toml --out whole --threads 2");
+  const Outcome stopped = run_and_signal("sweep long.toml --out ranks --threads 1",
+                                         "ls ranks/*.h5.part", "TERM", launcher);
   EXPECT_NE(stopped.exit_code, 0);
   EXPECT_FALSE(exists("ranks/summary.h5"));
   // Ranks that their launcher leaves behind keep what they are running for a moment.
   Outcome rest;
-  for (int attempt = 0; attempt < 20 && rest.exit_code != 0; ++attempt) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    rest = run("sweep --json longer.toml --out ranks");
+  while ((rest = run("sweep --json long.toml --out ranks")).exit_code == 75) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(rest.json()["points"], whole["points"]);

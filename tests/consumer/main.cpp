@@ -42,6 +42,6 @@ int main() {
   const bool right =
       std::abs(time - 2. / 3) < 1e-15 && stop == needlework::Stop::collisions && seen == 50 &&
       totals.collisions == 50 && lost > 0 && std::abs(50 * totals.energy - expected) < 1e-10 &&
-      simulation.state().size() == 50 && needlework::theory::collision_rate(0.4, {1, 1}, 6) > 0;
+      simulation.copy().size() == 50 && needlework::theory::collision_rate(0.4, {1, 1}, 6) > 0;
   return right ? 0 : 1;
 }

@@ -10,7 +10,14 @@ namespace {
 
 template <Calendar Queue>
 class CalendarEquivalence : public testing::Test {};
-TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>);
+
+struct Names {
+  template <Calendar Queue>
+  static std::string GetName(int) {
+    return Queue::name;
+  }
+};
+TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>, Names);
 
 TYPED_TEST(CalendarEquivalence, GivesTheEventsOfTheLazyHeap) {
   for (const double epsilon : {1.0, 0.5}) {

@@ -20,7 +20,7 @@ struct Case {
 
 class SearchEquivalence : public testing::TestWithParam<Case> {};
 
-TEST_P(SearchEquivalence, EverySearchGivesTheEventsOfAllPairs) {
+TEST_P(SearchEquivalence, GivesThoseOfAllPairs) {
   const Case& c = GetParam();
   const double count = c.collisions / thin;
   const std::vector<test::SearchChoice> choices = test::search_choices();

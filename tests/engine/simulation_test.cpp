@@ -35,10 +35,10 @@ TEST(Simulation, IsNotChangedByStoppingToLook) {
   whole.advance(until_time(5));
   for (int n = 1; n <= 1000; ++n) {
     ASSERT_EQ(pieces.advance(until_time(5 * n / 1000.0)), Stop::time);
-    (void)pieces.state();
+    (void)pieces.copy();
   }
   EXPECT_EQ(whole.trajectory_hash(), pieces.trajectory_hash());
-  EXPECT_EQ(whole.state().position, pieces.state().position);
+  EXPECT_EQ(whole.copy().position, pieces.copy().position);
   EXPECT_GT(whole.totals().collisions, 200u);
 }
 
@@ -167,7 +167,7 @@ TEST(Simulation, StartsFromAFileWhoseCountAndBoxTheSceneMayGive) {
     scene.initial.file = file;
     scene.needles.count = count;
     scene.needles.box = box;
-    return Simulation(scene).state();
+    return Simulation(scene).copy();
   };
   EXPECT_EQ(start(0, {}).position, state.position);
   EXPECT_EQ(start(3, {3, 3, 3}).velocity, state.velocity);
@@ -189,9 +189,9 @@ TEST(Simulation, StartsFromAFileWhoseCountAndBoxTheSceneMayGive) {
 TEST(Simulation, GivesAWrappedStateWithImages) {
   const Scene scene = test::scene_of(50, 3);
   Simulation simulation(scene);
-  const State start = simulation.state();
+  const State start = simulation.copy();
   simulation.advance(until_time(20));
-  const State end = simulation.state();
+  const State end = simulation.copy();
   std::int64_t crossed = 0;
   for (std::size_t i = 0; i < end.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -209,11 +209,11 @@ TEST(Simulation, GivesAWrappedStateWithImages) {
 TEST(Simulation, MovesCentresWithTheirVelocities) {
   const Scene scene = test::scene_of(30, 3);
   Simulation simulation(scene);
-  State before = simulation.state();
+  State before = simulation.copy();
   for (int n = 1; n <= 200; ++n) {
     std::uint64_t collisions = simulation.totals().collisions;
     simulation.advance(until_time(n * 0.01));
-    const State after = simulation.state();
+    const State after = simulation.copy();
     if (simulation.totals().collisions == collisions) {
       for (std::size_t i = 0; i < after.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {

@@ -125,7 +125,7 @@ std::size_t common_history(const test::Recorded& a, const test::Recorded& b) {
 
 // These change roundings, so chaos sets an end to the common history: in an elastic gas of 250
 // needles at n = 0.73, 1e-16 becomes 1 after some 1000 collisions.
-TEST(Symmetry, TranslatedAndCyclicBoxesKeepTheirHistoryUntilChaosAmplifiesRounding) {
+TEST(Symmetry, MovedAndTurnedBoxesAgreeUntilChaos) {
   Scene scene = test::scene_of(250, 7, 8);
   const State state = draw_initial_state(scene);
   const test::Recorded plain = test::record(scene, state, 5000);

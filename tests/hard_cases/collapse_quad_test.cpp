@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "tests/hard_cases/collapsing_pairs.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/quad_gas.h"
 #include "tests/support/runs.h"
 
@@ -44,7 +45,7 @@ struct EngineRun {
 
   EngineRun(const Scene& scene, const State& state, double until) {
     Simulation simulation(scene, state);
-    initial = simulation.state();
+    initial = simulation.copy();
     epoch_length = simulation.epoch_length();
     simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
     try {
@@ -52,7 +53,7 @@ struct EngineRun {
     } catch (const InvalidStateError& error) {
       failure = error.what();
     }
-    end = simulation.state();
+    end = simulation.copy();
   }
 
   Real time_of(const Collision& c) const {
@@ -159,7 +160,7 @@ class CollapseInQuad : public testing::TestWithParam<Rule> {
 
 // Without a contact time: every bounce, until the run says that the next is below what double
 // resolves. Then the collapse is all but over: `rest` is the time that it would still take.
-TEST_P(CollapseInQuad, IsFollowedBounceByBounceAndReportedAtItsEnd) {
+TEST_P(CollapseInQuad, IsFollowedToItsEnd) {
   const double until = 1;
   Random random(11);
   Comparison all;
@@ -194,7 +195,7 @@ TEST_P(CollapseInQuad, IsFollowedBounceByBounceAndReportedAtItsEnd) {
 }
 
 // With one, all bounces through the sliding contact to its end, and the flight apart behind it.
-TEST_P(CollapseInQuad, WithContactTimeIsTheSameToTheLastBounce) {
+TEST_P(CollapseInQuad, WithContactTimeIsTheSame) {
   const double until = 2;
   Random random(12);
   Comparison all;
@@ -212,16 +213,14 @@ TEST_P(CollapseInQuad, WithContactTimeIsTheSameToTheLastBounce) {
   all.expect_near(8);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, CollapseInQuad,
-                         testing::Values(Rule{0.3, -1}, Rule{0.6, -1}, Rule{0.9, -1}, Rule{0.3, 0},
-                                         Rule{0.8, 0}, Rule{0.3, 0.5}, Rule{0.6, 1}),
-                         [](const auto& info) {
-                           std::string text = "epsilon_" + std::to_string(info.param.epsilon) +
-                                              "_beta_" + std::to_string(info.param.beta);
-                           std::replace(text.begin(), text.end(), '.', 'p');
-                           std::replace(text.begin(), text.end(), '-', 'm');
-                           return text;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Rules, CollapseInQuad,
+    testing::Values(Rule{0.3, -1}, Rule{0.6, -1}, Rule{0.9, -1}, Rule{0.3, 0}, Rule{0.8, 0},
+                    Rule{0.3, 0.5}, Rule{0.6, 1}),
+    [](const auto& info) {
+      const Rule& rule = info.param;
+      return test::parameter_name({{"epsilon", rule.epsilon}, {"beta", rule.beta}});
+    });
 
 // A third needle that strikes one of a collapsing pair between two of its bounces, however close
 // they have come: the records are made anew while the pair is a hair's breadth apart.
@@ -260,7 +259,7 @@ State struck_pair(Random& random, double epsilon, int bounces) {
   }
 }
 
-TEST(CollapseOfThree, IsTheSameInQuadWhenAThirdNeedleStrikesBetweenTwoBounces) {
+TEST(CollapseOfThree, IsTheSameInQuad) {
   const double until = 0.3;
   for (const double tc : {0.0, 5e-3}) {
     for (const double epsilon : {0.3, 0.6, 0.8}) {
@@ -337,7 +336,7 @@ struct Slide {
 
 // Measured: velocities are off by up to 0.8 t_c, the energy by 0.06 t_c^2, the end of contact by
 // 0.3 t_c. So the collision rule loses what the collapse loses, and t_c sets the accuracy.
-TEST(SlidingContact, OfTinyBouncesTendsToThatOfAForceLinearlyInTheContactTime) {
+TEST(SlidingContact, TendsToThatOfAForceWithTheContactTime) {
   const State start = collapsing_pair(0.05);
   const Slide truth(start, 0.5);
   std::printf("collapse ends at %.9f, slide at %.9f\n", static_cast<double>(truth.begin),

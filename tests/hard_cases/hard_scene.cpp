@@ -26,7 +26,7 @@ class Chronicle {
       : elastic_(scene.collisions.epsilon == 1 && std::abs(scene.collisions.beta) == 1),
         epoch_(simulation.epoch_length()),
         end_(until.time.value_or(INFINITY)) {
-    const State state = simulation.state();
+    const State state = simulation.copy();
     const double k = scene.needles.k;
     for (std::size_t i = 0; i < state.size(); ++i) {
       double energy = 0;
@@ -93,7 +93,7 @@ HardRun run_once(const Scene& scene, const State& state, const Scene::Until& unt
                  const Watch* watch) {
   Simulation simulation(scene, state);
   HardRun run;
-  run.initial = simulation.state();
+  run.initial = simulation.copy();
   run.first = simulation.totals();
   Chronicle chronicle(scene, simulation, until);
   const bool audited = watch && watch->audited;
@@ -115,7 +115,7 @@ HardRun run_once(const Scene& scene, const State& state, const Scene::Until& unt
   } catch (const InvalidStateError& error) {
     run.failure = error.what();
   }
-  run.end = simulation.state();
+  run.end = simulation.copy();
   run.last = simulation.totals();
   run.time = simulation.time();
   run.hash = simulation.trajectory_hash();

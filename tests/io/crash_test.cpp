@@ -17,7 +17,7 @@ using Crash = InFolder;
 
 const RunInfo run{"scalar", 1, 1.0};
 
-// A state that tells the number of its frame.
+// A state whose numbers show to which frame it belongs.
 State make_frame(std::size_t needles, int frame) {
   State state = make_state(needles);
   for (auto& velocity : state.velocity) velocity = {1.0 * frame, 2.0 * frame, 3.0 * frame};
@@ -52,12 +52,13 @@ TEST_F(Crash, FlushedFramesSurviveKill) {
   EXPECT_NE(text.find("100 particles, 5 frames"), std::string::npos) << text;
 }
 
-// What a child process that writes frames until it is killed has told to have flushed.
+// The last frame that the child process reported as flushed before it was killed.
 struct Flushed {
   int frame = -1;
 };
 
-// Kills a writer after `delay`; `events` of them between frames keep the file changing.
+// Starts a child process that writes frames, with `events` collisions before each, and kills it
+// after `delay`.
 Flushed write_until_killed(const std::string& path, std::size_t needles, int events,
                            std::chrono::microseconds delay) {
   int ends[2];
@@ -77,7 +78,7 @@ Flushed write_until_killed(const std::string& path, std::size_t needles, int eve
   close(ends[1]);
   Flushed flushed;
   EXPECT_EQ(read(ends[0], &flushed.frame, sizeof flushed.frame), ssize_t{sizeof flushed.frame});
-  // The pipe is emptied all the while, so that the child never waits for it.
+  // The pipe is read continuously, so that the child never waits for it.
   std::jthread reader([&] {
     for (int frame; read(ends[0], &frame, sizeof frame) == sizeof frame;) flushed.frame = frame;
   });

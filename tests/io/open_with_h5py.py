@@ -126,7 +126,7 @@ def check_all(file):
 
 def main(writer, _program):
     with tempfile.TemporaryDirectory() as folder:
-        result = subprocess.run([writer, folder], timeout=120)
+        result = subprocess.run([writer, folder], timeout=3600)
         assert result.returncode == -signal.SIGKILL, result.returncode
         for name in ["sample.h5", "killed.h5"]:
             for swmr in [False, True]:

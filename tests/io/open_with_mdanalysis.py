@@ -48,7 +48,7 @@ def check_file(path):
 
 def main(writer, _program):
     with tempfile.TemporaryDirectory() as folder:
-        result = subprocess.run([writer, folder], timeout=120)
+        result = subprocess.run([writer, folder], timeout=3600)
         assert result.returncode == -signal.SIGKILL, result.returncode
         check_file(os.path.join(folder, "sample.h5"))
         check_file(os.path.join(folder, "killed.h5"))

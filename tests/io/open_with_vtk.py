@@ -82,17 +82,19 @@ def check_with_vtk(path, needles, values):
 
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
-        result = subprocess.run([writer, folder], timeout=120)
+        result = subprocess.run([writer, folder], timeout=3600)
         assert result.returncode == -signal.SIGKILL, result.returncode
         for name, needles in [("sample", 5), ("killed", 5), ("empty", 0)]:
             path = os.path.join(folder, name + ".vtkhdf")
             subprocess.run([program, "export", os.path.join(folder, name + ".h5"), path],
-                           check=True, timeout=120)
+                           check=True, timeout=3600)
             values = expected(needles)
             check_structure(path, needles, values)
             if vtkHDFReader:
                 check_with_vtk(path, needles, values)
-    print("read with h5py" + (" and VTK" if vtkHDFReader else "; there is no VTK here"))
+    if not vtkHDFReader:
+        print("read with h5py, but not with VTK: python3-vtk9 is not installed")
+        sys.exit(77)  # skipped
 
 
 if __name__ == "__main__":

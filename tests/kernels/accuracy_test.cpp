@@ -71,7 +71,7 @@ double units_off(const DoubleDouble& time, const ExactTime& exact) {
 
 class AccuracyLevels : public testing::TestWithParam<test::PairFamily> {};
 
-TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
+TEST_P(AccuracyLevels, RigorousTimesAreExact) {
   double worst = 0, worst_standard = 0;
   std::size_t contacts = 0, in_noise = 0;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 41)) {
@@ -108,7 +108,7 @@ TEST_P(AccuracyLevels, RigorousTimesAreExactToTwoUnits) {
 }
 
 // Isolation by intervals with the rest as in `standard`: the same contacts.
-TEST_P(AccuracyLevels, WaysOfIsolationFindTheSameContacts) {
+TEST_P(AccuracyLevels, IsolationsAgree) {
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 42)) {
     const KernelPair pair = held_pair(drawn);
     const Contact one = contact_of(pair, drawn.horizon, standard_accuracy);
@@ -120,7 +120,7 @@ TEST_P(AccuracyLevels, WaysOfIsolationFindTheSameContacts) {
   }
 }
 
-TEST_P(AccuracyLevels, NothingIsEscalatedWhereItNeverIs) {
+TEST_P(AccuracyLevels, EscalationCanBeOff) {
   SearchCounters counters;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 43)) {
     const KernelPair pair = held_pair(drawn);
@@ -133,7 +133,7 @@ TEST_P(AccuracyLevels, NothingIsEscalatedWhereItNeverIs) {
 }
 
 // The answer may not depend on from which time on the search looks.
-TEST_P(AccuracyLevels, SkippedTimeChangesNoBit) {
+TEST_P(AccuracyLevels, SkippingChangesNoBit) {
   const Accuracy accuracies[] = {
       fast_accuracy, rigorous_accuracy, {.isolation = Isolation::sampling}};
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 44)) {

@@ -278,7 +278,7 @@ void expect_symmetric(Kind kind) {
   }
 }
 
-TEST_P(ContactFunction, ExchangesMirrorsAndPowersOfTwoChangeNoBit) {
+TEST_P(ContactFunction, KeepsItsSymmetries) {
   expect_symmetric<double>(GetParam());
   expect_symmetric<DoubleDouble>(GetParam());
 }
@@ -305,7 +305,7 @@ TEST(PreciseContact, DerivativesAreThoseOfTheFunction) {
 }
 
 // Two crossed needles, the first rising: f = z(t), no rotation.
-TEST(ContactFunctionByHand, IsTheDistanceOfCrossedLinesTimesTheSineOfTheirAngle) {
+TEST(ContactFunctionByHand, IsTheDistanceTimesTheSineOfTheAngle) {
   KernelPair held;
   held.first = test::flight({0.25, 0, -0.5}, {1, 0, 0}, {0, 0, 1}, {});
   held.second = test::flight({0, 0, 0}, {0, 1, 0}, {}, {});

@@ -80,7 +80,7 @@ TEST(FirstContactOfFlatFunctions, MissesNothingNearOnePlane) {
   }
 }
 
-TEST(FirstContactOfFlatFunctions, MissesNothingBetweenSlowConcentricNeedles) {
+TEST(FirstContactOfFlatFunctions, IsNotMissedIfSlowAndConcentric) {
   Random random(seed);
   for (int n = 0; n < count; ++n) expect_nothing_missed(concentric(random, 0.02), 10, n);
 }
@@ -143,7 +143,7 @@ TEST(FirstContactOfFlatFunctions, IsFoundFromFarAway) {
 
 // Equal directors, equal angular velocities: f vanishes at all times, though none of its
 // coefficients does.
-TEST(FirstContactCostOfFlatFunctions, IsBoundedForParallelNeedlesThatTurnTogether) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedForParallel) {
   KernelPair pair;
   pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
   pair.second = flight({0.1, 0.2, 0.3}, {1, 0, 0}, {0, 0.01, 0}, {0, 0, 1});
@@ -153,7 +153,7 @@ TEST(FirstContactCostOfFlatFunctions, IsBoundedForParallelNeedlesThatTurnTogethe
 }
 
 // As above, but at a small angle: it is all that f, f' and f'' are made of.
-TEST(FirstContactCostOfFlatFunctions, IsBoundedForNearlyParallelNeedlesThatTurnTogether) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedForNearlyParallel) {
   for (const double angle : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16}) {
     KernelPair pair;
     pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
@@ -164,7 +164,7 @@ TEST(FirstContactCostOfFlatFunctions, IsBoundedForNearlyParallelNeedlesThatTurnT
 
 // Out of plane by less than double-double resolves beside the terms in the plane, whose phases are
 // large.
-TEST(FirstContactCostOfFlatFunctions, IsBoundedWhereDoubleDoubleResolvesNothing) {
+TEST(FirstContactCostOfFlatFunctions, IsBoundedBelowDoubleDouble) {
   for (const int power : {-80, -84, -88, -92, -100}) {
     KernelPair pair;
     pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});

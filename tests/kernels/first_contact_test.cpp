@@ -101,7 +101,7 @@ class FirstContact : public testing::TestWithParam<test::PairFamily> {
 
 class FirstContactFromAnywhere : public FirstContact {};
 
-TEST_P(FirstContactFromAnywhere, DoesNotDependOnWhereTheSearchStartsAndEnds) {
+TEST_P(FirstContactFromAnywhere, IsTheSame) {
   for_each_pair([](const Case& drawn, const Contact& contact, Random& random) {
     if (!contact.found) return;
     const double t = contact.elapsed.hi;
@@ -118,7 +118,7 @@ TEST_P(FirstContactFromAnywhere, DoesNotDependOnWhereTheSearchStartsAndEnds) {
   });
 }
 
-TEST_P(FirstContact, IsWithinTheHorizonAndTellsTheSideBefore) {
+TEST_P(FirstContact, IsInTimeAndHasItsSide) {
   for_each_pair([](const Case& drawn, const Contact& contact, Random&) {
     if (!contact.found) return;
     ASSERT_GT(contact.elapsed.hi, 0);
@@ -136,14 +136,14 @@ TEST_P(FirstContact, IsWithinTheHorizonAndTellsTheSideBefore) {
   });
 }
 
-TEST_P(FirstContact, OfExchangedNeedlesIsTheSameBitForBit) {
+TEST_P(FirstContact, SwapsWithItsNeedles) {
   for_each_pair([](const Case& drawn, const Contact& contact, Random&) {
     const Contact other = find(exchanged(drawn.pair), drawn.until);
     ASSERT_TRUE(same(contact, other)) << describe(contact) << ", " << describe(other);
   });
 }
 
-TEST_P(FirstContact, OfSwappedAxesIsTheSameBitForBit) {
+TEST_P(FirstContact, OfSwappedAxesIsTheSame) {
   for_each_pair([](const Case& drawn, const Contact& contact, Random&) {
     Contact other = find(axes_swapped(drawn.pair), drawn.until);
     other.side = -other.side;
@@ -151,7 +151,7 @@ TEST_P(FirstContact, OfSwappedAxesIsTheSameBitForBit) {
   });
 }
 
-TEST_P(FirstContact, OfSlowerNeedlesComesLaterByTheSamePowerOfTwo) {
+TEST_P(FirstContact, ScalesByPowersOfTwo) {
   for_each_pair([](const Case& drawn, const Contact& contact, Random&) {
     for (const int power : {-60, 60}) {
       Contact other = find(slowed(drawn.pair, power), std::ldexp(drawn.until, power));

@@ -158,7 +158,7 @@ TEST(FirstContactAfterCollision, WithoutRotationNeverReturns) {
 }
 
 // The rule sets V_n = 0 for epsilon = 0; with f'' towards contact there is no flight at all.
-TEST(FirstContactAfterCollision, AReturnBelowTheRoundingOfVelocitiesIsUnresolvable) {
+TEST(FirstContactAfterCollision, AReturnBelowRoundingIsUnresolvable) {
   Random random(seed);
   int unresolvable = 0;
   for (int n = 0; n < count; ++n) {
@@ -206,7 +206,7 @@ TEST(FirstContactAfterCollision, ACubicReturnIsUnresolvableAndNotMissed) {
 
 // A third needle was renewed while it touched: the gap is known from the records before, f(0) of
 // the new records is not to be trusted.
-TEST(FirstContactFromACarriedGap, ClosesWhenItApproachesAndStaysOpenWhenNot) {
+TEST(FirstContactFromACarriedGap, ClosesOnlyWhenItApproaches) {
   Random random(seed);
   for (const double gap : {1e-13, 1e-15, 1e-17, 1e-22}) {
     for (int n = 0; n < count; ++n) {

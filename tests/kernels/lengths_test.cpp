@@ -188,7 +188,7 @@ KernelPair unequal_pair(Random& random, bool turning) {
 
 // The contact function of needles that do not turn is linear, so that its only root and the arms
 // there are quotients.
-TEST(UnequalLengths, WithoutRotationMeetWhereAndWhenClosedFormsSay) {
+TEST(UnequalLengths, StillOnesMeetWhereClosedFormsSay) {
   Random random(seed + 2);
   int contacts = 0, beyond_a_tip = 0;
   for (int n = 0; n < 20000 / thin; ++n) {
@@ -250,7 +250,7 @@ std::optional<double> sampled(const KernelPair& held, double until, int steps, d
 }
 
 // None of the contacts that sampling finds is missed, and each that is found is one.
-TEST(UnequalLengths, TurningMeetWhereTheContactFunctionChangesItsSignWithinBoth) {
+TEST(UnequalLengths, TurningOnesMeetWhereFChangesSign) {
   Random random(seed + 3);
   int contacts = 0;
   for (int n = 0; n < 3000 / thin; ++n) {

@@ -347,7 +347,7 @@ INSTANTIATE_TEST_SUITE_P(Isas, OnEveryIsa,
 
 // ---- the contact function, within its bounds ----
 
-class ContactFunctionBySimd : public testing::TestWithParam<test::PairFamily> {};
+class SimdContactFunction : public testing::TestWithParam<test::PairFamily> {};
 
 // Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
 // claim.
@@ -397,19 +397,19 @@ void expect_within_bounds(const test::PairFamily& family, bool any_lengths) {
   EXPECT_GT(near, count / 20);
 }
 
-TEST_P(ContactFunctionBySimd, IsWithinItsErrorBounds) { expect_within_bounds(GetParam(), false); }
-TEST_P(ContactFunctionBySimd, OfAnyLengthsIsWithinItsErrorBounds) {
+TEST_P(SimdContactFunction, IsWithinBounds) { expect_within_bounds(GetParam(), false); }
+TEST_P(SimdContactFunction, OfAnyLengthsIsWithinBounds) {
   expect_within_bounds(GetParam(), true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, ContactFunctionBySimd, testing::ValuesIn(test::pair_families()),
+INSTANTIATE_TEST_SUITE_P(Families, SimdContactFunction, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- no contact lost ----
 
 class Bracket : public testing::TestWithParam<test::PairFamily> {};
 
-TEST_P(Bracket, IsNeverLaterThanTheFirstContact) {
+TEST_P(Bracket, IsNeverTooLate) {
   const test::PairFamily& family = GetParam();
   const NearKernels& kernels = near_kernels(Isa::scalar);
   Random random(seed);
@@ -436,7 +436,7 @@ TEST_P(Bracket, IsNeverLaterThanTheFirstContact) {
 }
 
 // The contact that the pair was built around often lies beyond a tip of shorter needles.
-TEST_P(Bracket, OfAnyLengthsIsNeverLaterThanTheFirstContact) {
+TEST_P(Bracket, OfAnyLengthsIsNeverTooLate) {
   const test::PairFamily& family = GetParam();
   const NearKernels& kernels = near_kernels(Isa::scalar);
   Random random(seed + 3);

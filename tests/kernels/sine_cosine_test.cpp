@@ -144,7 +144,7 @@ TEST(SineCosineInDoubleDouble, IsWithinItsBound) {
   }
 }
 
-TEST(SineCosineInDoubleDouble, IsWithinItsBoundNextToMultiplesOfQuarterPi) {
+TEST(SineCosineInDoubleDouble, IsWithinItsBoundNextToQuarterPi) {
   for (int n = 1; n < 300; ++n) {
     const Wide exact = n * boost::math::constants::half_pi<Wide>() / 2;
     const double hi = static_cast<double>(exact);

@@ -23,6 +23,7 @@
 #include <numbers>
 
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -212,8 +213,11 @@ TEST_P(ContactDistribution, IsExactInEquilibrium) {
   EXPECT_TRUE(both_signs[0] && both_signs[1]);
 }
 
-INSTANTIATE_TEST_SUITE_P(Elastic, ContactDistribution,
-                         testing::Values(Gas{6, 0.72, 21}, Gas{20, 3, 22}));
+INSTANTIATE_TEST_SUITE_P(
+    Elastic, ContactDistribution, testing::Values(Gas{6, 0.72, 21}, Gas{20, 3, 22}),
+    [](const auto& info) {
+      return test::parameter_name({{"k", info.param.k}, {"n", info.param.density}});
+    });
 
 }  // namespace
 }  // namespace needlework

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -33,14 +34,17 @@ constexpr int runs = 40;
 
 // Collisions per needle and unit time over the exact rate, from `runs` runs of about `collisions`
 // collisions in all. A drawn state is one of the equilibrium, so none has to settle.
-Measured rate_over_exact(Scene scene) {
+Measured rate_over_exact(Scene scene, double length, double mass) {
+  const double time_unit = length * std::sqrt(mass);
   const double count = static_cast<double>(scene.needles.count);
   const auto& box = scene.needles.box;
   Mean ratio;
   for (int run = 0; run < runs; ++run, ++scene.needles.seed) {
     Simulation simulation(scene);
-    const double exact = theory::equilibrium_rate(
-        count, box[0] * box[1] * box[2], simulation.totals().energy * count, scene.needles.k);
+    const double volume = box[0] * box[1] * box[2] / (length * length * length);
+    const double exact = theory::equilibrium_rate(count, volume, simulation.totals().energy * count,
+                                                  scene.needles.k) /
+                         time_unit;
     Scene::Until until;
     until.time = collisions / runs / (exact * count / 2);
     simulation.advance(until);
@@ -56,11 +60,17 @@ struct Gas {
   std::uint64_t count;
   std::uint64_t seed;  ///< of the first run; the others follow
   double beta = -1;
+  double length = 1, mass = 1;
 };
 
 std::ostream& operator<<(std::ostream& out, const Gas& gas) {
   return out << "k " << gas.k << ", density " << gas.density << ", " << gas.count
-             << " needles, beta " << gas.beta << ", seed " << gas.seed;
+             << " needles, beta " << gas.beta << ", length " << gas.length << ", mass " << gas.mass
+             << ", seed " << gas.seed;
+}
+
+std::string name_of(const testing::TestParamInfo<Gas>& info) {
+  return test::parameter_name({{"k", info.param.k}, {"n", info.param.density}});
 }
 
 class ElasticRate : public testing::TestWithParam<Gas> {};
@@ -71,7 +81,8 @@ TEST_P(ElasticRate, IsExactInEquilibrium) {
   Scene scene = test::scene_of(gas.count, std::cbrt(gas.count / gas.density), gas.seed);
   scene.needles.k = gas.k;
   scene.collisions.beta = gas.beta;
-  const Measured ratio = rate_over_exact(scene);
+  if (gas.length != 1 || gas.mass != 1) scene = test::with_species(scene, gas.length, gas.mass);
+  const Measured ratio = rate_over_exact(scene, gas.length, gas.mass);
   std::cout << "rate / exact: " << ratio << '\n';
   EXPECT_TRUE(test::agrees(ratio, 1, 3));
   EXPECT_LT(ratio.error, largest_error);
@@ -84,11 +95,19 @@ INSTANTIATE_TEST_SUITE_P(Smooth, ElasticRate,
                                          Gas{6, 3, 500, 700}, Gas{6, 20, 200, 800},
                                          Gas{6, 50, 500, 1500}, Gas{6, 100, 1000, 1600},
                                          Gas{20, 0.1, 500, 900}, Gas{20, 0.72, 500, 1000},
-                                         Gas{20, 3, 500, 1100}, Gas{20, 20, 200, 1200}));
+                                         Gas{20, 3, 500, 1100}, Gas{20, 20, 200, 1200}),
+                         name_of);
+
+// Of other lengths and masses, whose species are looked up in a table.
+INSTANTIATE_TEST_SUITE_P(OfLengthAndMass, ElasticRate,
+                         testing::Values(Gas{6, 0.72, 500, 1700, -1, 0.37, 2.9},
+                                         Gas{2, 20, 200, 1800, 1, 13.7, 0.083}),
+                         name_of);
 
 // Perfectly rough needles (beta = +1) conserve energy too, and their equilibrium is the same.
 INSTANTIATE_TEST_SUITE_P(Rough, ElasticRate,
-                         testing::Values(Gas{6, 0.72, 500, 1300, 1}, Gas{6, 3, 500, 1400, 1}));
+                         testing::Values(Gas{6, 0.72, 500, 1300, 1}, Gas{6, 3, 500, 1400, 1}),
+                         name_of);
 
 }  // namespace
 }  // namespace needlework

@@ -21,6 +21,7 @@
 
 #include "needlework/error.h"
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -38,6 +39,7 @@ struct Gas {
   double duration;  ///< of a run, in mean free times
   int runs;
   std::uint64_t seed;  ///< of the first run; the others follow
+  double length = 1, mass = 1;
 };
 
 std::ostream& operator<<(std::ostream& out, const Gas& gas) {
@@ -55,17 +57,20 @@ struct Rates {
   Measured energy;       ///< of a needle, d / dt, from the sum over collisions
 };
 
-// Mean rates over this time from the start. A pair that collapses, and no contact time helps it,
-// ends its run with an error or bounces on and on. In the limit of no time there is none; a run
-// with one is left out, which is one chain of collisions out of thousands of collisions.
+// Mean rates over this time from the start, in units of length * sqrt(mass). A pair that collapses,
+// and no contact time helps it, ends its run with an error or bounces on and on. In the limit of no
+// time there is none; a run with one is left out, which is one chain of collisions out of thousands
+// of collisions.
 Rates measure(const Gas& gas, double time) {
   Scene scene = test::scene_of(count, std::cbrt(count / gas.density), gas.seed);
   scene.needles.k = gas.needles.k;
   scene.initial.t_rot = gas.q;
   scene.collisions.epsilon = gas.needles.epsilon;
   scene.collisions.beta = gas.needles.beta;
+  const double time_unit = gas.length * std::sqrt(gas.mass);
+  if (gas.length != 1 || gas.mass != 1) scene = test::with_species(scene, gas.length, gas.mass);
   Scene::Until until;
-  until.time = time;
+  until.time = time * time_unit;
   until.collisions_per_needle = 1;  // ten times what is expected, and more
   Rates out;
   Mean collisions, t_tr, t_rot, energy;
@@ -96,6 +101,15 @@ Rates measure(const Gas& gas, double time) {
   out.t_rot = t_rot.measured();
   out.energy = energy.measured();
   return out;
+}
+
+std::string name_of(const testing::TestParamInfo<Gas>& info) {
+  const theory::Gas& needles = info.param.needles;
+  return test::parameter_name({{"n", info.param.density},
+                               {"k", needles.k},
+                               {"epsilon", needles.epsilon},
+                               {"beta", needles.beta},
+                               {"q", info.param.q}});
 }
 
 class InitialRates : public testing::TestWithParam<Gas> {};
@@ -138,14 +152,23 @@ INSTANTIATE_TEST_SUITE_P(Smooth, InitialRates,
                          testing::Values(Gas{0.72, {6, 0.8, -1}, 1, 0.03, 3000, 10000},
                                          Gas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000},
                                          Gas{3, {6, 0.5, -1}, 3, 0.05, 1000, 30000},
-                                         Gas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}));
+                                         Gas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}),
+                         name_of);
 
 INSTANTIATE_TEST_SUITE_P(Rough, InitialRates,
                          testing::Values(Gas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
                                          Gas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
                                          Gas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
                                          Gas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000},
-                                         Gas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}));
+                                         Gas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
+                         name_of);
+
+// Of other lengths and masses, whose species are looked up in a table.
+INSTANTIATE_TEST_SUITE_P(
+    OfLengthAndMass, InitialRates,
+    testing::Values(Gas{3, {6, 0.5, -1}, 3, 0.05, 1000, 100000, 0.37, 2.9},
+                    Gas{0.72, {2, 0.8, 0.5}, 1, 0.03, 3000, 110000, 13.7, 0.083}),
+    name_of);
 
 }  // namespace
 }  // namespace needlework

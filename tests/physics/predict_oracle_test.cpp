@@ -164,7 +164,7 @@ TEST_P(PredictOracle, AgreesOnEveryPair) {
   EXPECT_LE(static_cast<double>(report.near_differs), 2 + 0.05 * static_cast<double>(report.near));
 }
 
-TEST_P(PredictOracle, AgreesOnTheMotionRunBackwards) {
+TEST_P(PredictOracle, AgreesBackwardsInTime) {
   const PairFamily& family = GetParam();
   const auto pairs = draw_pairs(family.name, symmetry_count, seed + 1);
   Report report;
@@ -173,7 +173,7 @@ TEST_P(PredictOracle, AgreesOnTheMotionRunBackwards) {
   report.expect_clean();
 }
 
-TEST_P(PredictOracle, ExchangingTheNeedlesExchangesTheArmsBitForBit) {
+TEST_P(PredictOracle, SwapsArmsWithNeedles) {
   for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 2)) {
     const FirstContact one = engine(pair), two = engine(exchanged(pair));
     EXPECT_TRUE(same_bits(one.time, two.time) && same_bits(one.arm_first, two.arm_second) &&
@@ -183,7 +183,7 @@ TEST_P(PredictOracle, ExchangingTheNeedlesExchangesTheArmsBitForBit) {
   }
 }
 
-TEST_P(PredictOracle, SlowerMotionTakesLongerBitForBit) {
+TEST_P(PredictOracle, ScalesByPowersOfTwo) {
   for (const NeedlePair& pair : draw_pairs(GetParam().name, symmetry_count, seed + 3)) {
     const FirstContact one = engine(pair), two = engine(slowed(pair, 60));
     EXPECT_TRUE(same_bits(std::ldexp(one.time, 60), two.time) &&

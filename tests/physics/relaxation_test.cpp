@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "needlework/theory.h"
+#include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -116,7 +117,10 @@ TEST_P(Relaxation, EndsInEquipartition) {
   EXPECT_TRUE(test::agrees(found[3], 0, 3));
 }
 
-INSTANTIATE_TEST_SUITE_P(Elastic, Relaxation, testing::Values(Gas{6, 100000}, Gas{2, 200000}));
+INSTANTIATE_TEST_SUITE_P(Elastic, Relaxation, testing::Values(Gas{6, 100000}, Gas{2, 200000}),
+                         [](const auto& info) {
+                           return test::parameter_name({{"k", info.param.k}});
+                         });
 
 }  // namespace
 }  // namespace needlework

@@ -49,7 +49,7 @@ struct Setting {
 
 class Contacts : public testing::TestWithParam<Setting> {};
 
-TEST_P(Contacts, AreProposedInTimeByEverySearch) {
+TEST_P(Contacts, AreProposedByEverySearch) {
   const Setting& s = GetParam();
   SCOPED_TRACE("seed " + std::to_string(seed));
   const double unit = 1 / (s.speeds.sigma * s.speeds.fast);
@@ -108,7 +108,7 @@ TEST(ContactsInALongRun, AreProposedWhileTheGasCoolsAndHeats) {
     SCOPED_TRACE("speeds times " + std::to_string(factor) + ", seed " + std::to_string(seed));
     drive.look_ahead(1 / (speeds.sigma * std::max(1.0, factor)));
     speeds.sigma *= factor;
-    for (Needle i = 0; i < gas.size(); ++i) {
+    for (Needle i{0}; i < gas.size(); ++i) {
       drive.strike(i, draw_velocities(random, speeds));
       ASSERT_NO_FATAL_FAILURE(drive.check(i));
     }
@@ -153,7 +153,7 @@ TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
       return pick == 0 ? std::nextafter(x, -1) : pick == 1 ? std::nextafter(x, 9) : x;
     };
     const auto step = [&] { return 0.5 * (random.below(3) - 1); };
-    for (Needle i = 0; i < count; ++i) {
+    for (Needle i{0}; i < count; ++i) {
       const Vec3d w = vec3(random.normal_vector(random.below(3)));
       put(gas, i, {on_border(), on_border(), on_border()}, vec3(random.direction()),
           {step(), step(), step()}, w);
@@ -180,7 +180,7 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
     Gas gas = test::gas_of(100, {1.1 * box, 0.7 * box, box / 3});
     const std::vector<std::array<double, 3>> sides = cell_sides(choices, gas);
     // Pairs near each other, anywhere; many across borders of cells.
-    for (Needle i = 0; i < gas.size(); i += 2) {
+    for (Needle i{0}; i < gas.size(); i += 2) {
       const auto anywhere = [&](int axis) {
         if (random.coin()) return gas.box[axis] * random.uniform();
         const double side = sides[random.below(static_cast<int>(sides.size()))][axis];
@@ -240,7 +240,7 @@ TEST(Searches, KnowNoUnitOfTime) {
     Random random(seed);
     Gas gas = test::gas_of(30, {4, 3, 2.5});
     gas.clock = Clock(std::ldexp(1.0, -power));
-    for (Needle i = 0; i < gas.size(); ++i) {
+    for (Needle i{0}; i < gas.size(); ++i) {
       const test::Velocities drawn = draw_velocities(random, {});
       put(gas, i, {random.uniform(0, 4), random.uniform(0, 3), random.uniform(0, 2.5)},
           vec3(random.direction()), drawn.v * std::ldexp(1.0, power),
@@ -250,9 +250,9 @@ TEST(Searches, KnowNoUnitOfTime) {
     const auto search = make_search(choice, gas, counters);
     Said out;
     Time now;
-    for (Needle i = 0; i < gas.size(); ++i) search->place(i, now);
+    for (Needle i{0}; i < gas.size(); ++i) search->place(i, now);
     for (int n = 0; n < 40; ++n) {
-      for (Needle i = 0; i < gas.size(); ++i) {
+      for (Needle i{0}; i < gas.size(); ++i) {
         const Time end = search->place(i, now);
         out.push_back({i, {}, std::ldexp(gas.clock.since_start(end), power)});
         const double ahead = std::min(gas.clock.difference(end, now), std::ldexp(0.5, -power));

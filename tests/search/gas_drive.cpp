@@ -69,7 +69,7 @@ Gas gas_of(Needle count, std::array<double, 3> box) {
   Gas gas;
   gas.records.resize(count);
   gas.ids.resize(count);
-  for (Needle i = 0; i < count; ++i) gas.ids[i] = i;
+  for (Needle i{0}; i < count; ++i) gas.ids[i] = i;
   gas.images.resize(count);
   gas.box = box;
   return gas;
@@ -95,7 +95,7 @@ Velocities draw_velocities(Random& random, const Speeds& speeds) {
 Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Speeds& speeds) {
   Gas gas = gas_of(count, box);
   gas.clock = Clock(1 / std::max(speeds.sigma, speeds.sigma * speeds.fast));
-  for (Needle i = 0; i < count; ++i) {
+  for (Needle i{0}; i < count; ++i) {
     const Velocities velocities = draw_velocities(random, speeds);
     put(gas, i,
         {random.uniform(-0.2, 1.2) * box[0], random.uniform() * box[1], random.uniform() * box[2]},
@@ -107,7 +107,7 @@ Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Sp
 std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
   std::vector<Candidate> out;
   const Vec3d mine = centre(gas, i, now);
-  for (Needle j = 0; j < gas.size(); ++j) {
+  for (Needle j{0}; j < gas.size(); ++j) {
     if (j == i) continue;
     const Vec3d r = mine - centre(gas, j, now);
     for_each_image(gas, i, j, now, 0, [&](const Shift& shift) {
@@ -121,7 +121,7 @@ std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
 std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span) {
   std::vector<Ahead> out;
   kernels::SearchCounters work;
-  for (Needle j = 0; j < gas.size(); ++j) {
+  for (Needle j{0}; j < gas.size(); ++j) {
     if (j == i) continue;
     const Time start = Gas::start_of(gas.records[i], gas.records[j]);
     const double since = gas.clock.difference(now, start);
@@ -148,9 +148,9 @@ GasDrive::GasDrive(Gas& gas, Random& random, std::span<const SearchChoice> choic
     followed.counters = std::make_unique<Counters>();
     followed.search = make_search(choice, gas, *followed.counters);
     followed.placed_until.resize(gas.size());
-    for (Needle i = 0; i < gas.size(); ++i) place(followed, i);
+    for (Needle i{0}; i < gas.size(); ++i) place(followed, i);
   }
-  for (Needle i = 0; i < gas.size(); ++i) settle_next(i);
+  for (Needle i{0}; i < gas.size(); ++i) settle_next(i);
 }
 
 void GasDrive::place(Followed& followed, Needle i) {
@@ -271,7 +271,7 @@ void GasDrive::check(Needle i) {
 }
 
 void GasDrive::check_all() {
-  for (Needle i = 0; i < gas_.size(); ++i) ASSERT_NO_FATAL_FAILURE(check(i));
+  for (Needle i{0}; i < gas_.size(); ++i) ASSERT_NO_FATAL_FAILURE(check(i));
 }
 
 std::optional<Ahead> GasDrive::next_contact(Needle i) const {

@@ -91,7 +91,7 @@ struct Moving {
         gas(random_gas(draws, setting.needles, setting.box, setting.speeds)),
         search(gas, counters, setting.setup),
         until(gas.size()) {
-    for (Needle i = 0; i < gas.size(); ++i) until[i] = search.place(i, now);
+    for (Needle i{0}; i < gas.size(); ++i) until[i] = search.place(i, now);
   }
 
   void advance(double dt) {
@@ -131,7 +131,7 @@ struct Moving {
   template <class Visit>
   void for_each_image(Needle i, Visit&& visit) const {
     const Vec3d mine = needle_at(gas, i, now).r;
-    for (Needle j = 0; j < gas.size(); ++j) {
+    for (Needle j{0}; j < gas.size(); ++j) {
       if (j == i) continue;
       const Vec3d d = mine - needle_at(gas, j, now).r;
       const auto nearest = [&](double a, int axis) {

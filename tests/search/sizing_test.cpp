@@ -14,7 +14,7 @@ Gas gas_in(double filled, Needle count, double edge) {
   Random random(5);
   Gas gas = gas_of(count, {edge, edge, edge});
   const auto place = [&] { return random.uniform(0, filled * edge); };
-  for (Needle i = 0; i < count; ++i) {
+  for (Needle i{0}; i < count; ++i) {
     put(gas, i, {place(), place(), place()}, {1, 0, 0}, {0, 1, 0}, {});
   }
   return gas;
@@ -42,7 +42,7 @@ TEST(Sizing, IsCountedWhereNeedlesHaveCome) {
   EXPECT_EQ(sizing.next(), 4000u);
   // Each flies on with its own velocity, so that the cloud is twice as long each way.
   Random random(6);
-  for (Needle i = 0; i < gas.size(); ++i) {
+  for (Needle i{0}; i < gas.size(); ++i) {
     const auto speed = [&] { return random.uniform(0, 6); };
     put(gas, i, gas.records[i].flight.r, {1, 0, 0}, {speed(), speed(), speed()}, {});
   }

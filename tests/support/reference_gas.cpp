@@ -34,7 +34,7 @@ struct Next {
 class Gas {
  public:
   Gas(const Scene& scene, const Fault& fault) : scene_(scene), fault_(fault) {
-    run_.initial = Simulation(scene).state();
+    run_.initial = Simulation(scene).copy();
     const State& state = run_.initial;
     for (std::size_t i = 0; i < state.size(); ++i) {
       bodies_.push_back(

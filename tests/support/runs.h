@@ -19,6 +19,21 @@ inline Scene scene_of(std::uint64_t count, double side, std::uint64_t seed = 1) 
   return scene;
 }
 
+/// The same scene for needles of this length and mass: the box grows with the length, k, count and
+/// temperatures stay. Times are then in length * sqrt(mass) times what they were.
+inline Scene with_species(Scene scene, double length, double mass) {
+  const Scene::Needles& needles = scene.needles;
+  scene.species = {{.name = "needles",
+                    .count = needles.count,
+                    .length = length,
+                    .mass = mass,
+                    .k = needles.k,
+                    .t_tr = scene.initial.t_tr,
+                    .t_rot = scene.initial.t_rot}};
+  for (double& edge : scene.needles.box) edge *= length;
+  return scene;
+}
+
 /// One line that says which scene a failing test ran.
 inline std::string name_of(const Scene& scene) {
   const auto& c = scene.collisions;
@@ -54,7 +69,7 @@ inline Recorded record(const Scene& scene, const State& initial, double count) {
   Recorded out;
   simulation.on_collision([&](const Collision& c) { out.collisions.push_back(c); });
   simulation.advance(until_collisions(2 * count / static_cast<double>(initial.size())));
-  out.end = simulation.state();
+  out.end = simulation.copy();
   out.totals = simulation.totals();
   out.hash = simulation.trajectory_hash();
   out.epoch_length = simulation.epoch_length();

@@ -202,7 +202,7 @@ TEST(CoolingRates, HaveTheKnownValuesForRoughNeedles) {
   }
 }
 
-TEST(CoolingRates, LoseEnergyInProportionToBothRestitutionsAtEquipartition) {
+TEST(CoolingRates, AreThoseOfBothRestitutions) {
   for (const double k : {0.01, 2.0, 6.0, 1e3, 1e6}) {
     const double collisions = 0.75 * collision_integral(1.0, k);  // per needle and unit of tau
     for (const double epsilon : {0.0, 0.8, 1.0}) {

@@ -133,7 +133,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
       const Stop stop = simulation.advance(until);
       out.push_back(
           {stop, simulation.time(), simulation.totals().collisions, simulation.trajectory_hash()});
-      states.push_back(simulation.state());
+      states.push_back(simulation.copy());
     };
     for (const double time : {0.001, 0.13, 0.2, 0.2}) advance({.time = time});
     for (const double mean : {1.5, 1.502, 3.0}) advance({.collisions_per_needle = mean});
@@ -288,7 +288,7 @@ TEST(Parallel, FailsWhereOneThreadFails) {
       message = error.what();
     }
     return std::tuple(message, simulation.totals().collisions, simulation.trajectory_hash(),
-                      simulation.state().position);
+                      simulation.copy().position);
   };
   const auto truth = failure(1);
   ASSERT_NE(std::get<0>(truth), "");

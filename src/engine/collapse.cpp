@@ -1,0 +1,34 @@
+#include "src/engine/collapse.h"
+
+#include <fmt/format.h>
+
+namespace needlework {
+namespace {
+
+const char* advice_for(const PairCollapse& c) {
+  if (c.root_tolerance > 0x1p-30)
+    return "engine.root_tolerance is so coarse that needles may stand beyond their contact";
+  if (c.epsilon == 0)
+    return "with collisions.epsilon = 0 there is no rebound, and no contact time can help";
+  if (c.contact_time)
+    return "a longer contact time helps, unless they meet by rounding alone, as in one plane";
+  return "set collisions.tc_relative, to 1e-3 say, so that they slide along each other";
+}
+
+}  // namespace
+
+std::string message_of(const PairCollapse& c) {
+  return fmt::format(
+      "collapse of needles {} and {} at time {:.17g}, gap {:.3g}, back after {:.3g}: their next "
+      "bounce is below what double resolves; {}",
+      c.first.value, c.second.value, c.time, c.gap, c.after, advice_for(c));
+}
+
+std::string message_of(const GroupCollapse& c) {
+  return fmt::format(
+      "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; set "
+      "collisions.tc_relative, to 1e-3 say",
+      c.first.value, c.second.value, c.time, c.collisions);
+}
+
+}  // namespace needlework

@@ -1,0 +1,269 @@
+// Makes events happen: replaces records, and predicts the next events of the needles concerned.
+//
+// Every needle has one event in the calendar: the earliest contact that its own last search found,
+// or the horizon at which that search was cut. A contact lies only with the needle that predicted
+// it; when its partner's record has been replaced meanwhile, it is stale, and its owner searches
+// again at that time. So no cut search is ever forgotten, whatever happens to the contact that cut
+// it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/calendar/any_calendar.h"
+#include "src/engine/collapse.h"
+#include "src/engine/pair_predictor.h"
+#include "src/engine/run.h"
+#include "src/engine/undo_log.h"
+#include "src/memory/prefetch.h"
+#include "src/physics/model.h"
+#include "src/search/search.h"
+#include "src/trajectory/tally.h"
+
+namespace needlework {
+
+/// One thread's part in a run. Search, calendar and tally are its own; the run is everybody's.
+template <Search S, Model M>
+class EventProcessor {
+ public:
+  EventProcessor(Run& run, const M& model, S& search, EventSink& calendar, Tally& tally)
+      : run_(run),
+        gas_(run.gas),
+        model_(model),
+        search_(search),
+        calendar_(calendar),
+        tally_(tally),
+        predictor_(model, tally.counters) {}
+
+  Time now() const { return predictor_.now; }
+  void set_now(Time time) { predictor_.now = time; }
+
+  /// Whether this is a contact whose partner has a new record since it was predicted.
+  bool is_stale(const Event& event) const {
+    return event.is_contact() && gas_.records[event.partner].serial != event.partner_serial;
+  }
+  /// Makes the event happen.
+  void process(const Event& event, bool stale);
+  /// Searches the contacts of needle i from now on and enters its next event. `just_hit`: the
+  /// needle with which it has just collided.
+  [[gnu::noinline]] void schedule(Needle i, Time placed_until, Needle just_hit = no_needle);
+  void enter(const Event& event) {
+    calendar_.set(event, calendar_.needs_block ? search_.cell_index(event.owner) : 0);
+  }
+  /// Prefetches what an event of this needle will read.
+  void prefetch(Needle i) const {
+    needlework::prefetch(&gas_.records[i]);
+    search_.prefetch(i);
+  }
+  /// Needles have other places in storage, or records have been put back.
+  void forget() { predictor_.forget(); }
+  /// Takes over records that were replaced at the present time.
+  void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
+
+  UndoLog* undo = nullptr;                    ///< where to note what is replaced, if anywhere
+  std::vector<Collision>* reports = nullptr;  ///< where to put collisions in place of the callback
+#ifndef NDEBUG
+  /// Whether a record from later than the event has been read, of a needle within reach then.
+  bool has_read_ahead() const { return predictor_.read_ahead; }
+  void watch_reading_ahead() { predictor_.read_ahead = false; }
+#endif
+
+ private:
+  void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
+  template <class Renew>
+  Shift replace_record(Needle i, Renew&& renew);
+  void horizon(Needle i);
+  // A function apart, so that a test can read what code an effect has.
+  [[gnu::noinline]] void collide(const Event& event);
+  bool by_contact_time(Needle a, Needle b) const;
+  void count_at_instant(Needle a, Needle b);
+  [[noreturn, gnu::noinline]] void report_collapse(const Event& event) const;
+
+  Run& run_;
+  Gas& gas_;
+  const M& model_;
+  S& search_;
+  EventSink& calendar_;
+  Tally& tally_;
+  PairPredictor<M> predictor_;
+};
+
+template <Search S, Model M>
+void EventProcessor<S, M>::process(const Event& event, bool stale) {
+  if (!event.resolvable && !stale) report_collapse(event);
+  ++tally_.counters.events;
+  predictor_.begin(event.time);
+  switch (event.kind) {
+    case EventKind::horizon:
+      return horizon(event.owner);
+    case EventKind::contact:
+      if (stale) {
+        ++tally_.counters.stale;
+        return schedule(event.owner, search_.place(event.owner, now()));
+      }
+      return collide(event);
+  }
+}
+
+// A horizon is the end of the record's precision, of the search's candidates, or of the span ahead.
+template <Search S, Model M>
+void EventProcessor<S, M>::horizon(Needle i) {
+  if (gas_.records[i].renewal <= now()) {
+    ++tally_.counters.renewals;
+    replace_record(i, [&] { return model_.renew_in_flight(i, now()); });
+  }
+  schedule(i, search_.place(i, now()));
+}
+
+template <Search S, Model M>
+template <class Renew>
+Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
+  if (undo) {
+    undo->replaced(i, gas_.records[i], gas_.images[i],
+                   M::effects.contact_time ? run_.last_collision[i] : Time{});
+  }
+  return predictor_.replace(i, renew);
+}
+
+template <Search S, Model M>
+bool EventProcessor<S, M>::by_contact_time(Needle a, Needle b) const {
+  if constexpr (!M::effects.contact_time) return false;
+  const auto is_recent = [&](Needle i) {
+    return gas_.clock.difference(now(), run_.last_collision[i]) < run_.contact_time;
+  };
+  return is_recent(a) || is_recent(b);
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::collide(const Event& event) {
+  const Needle a = event.lower(), b = event.higher();
+  count_at_instant(a, b);
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
+  const DoubleDouble elapsed = gas_.clock.exact_difference(now(), Gas::start_of(first, second));
+  const kernels::ContactGeometry contact = model_.geometry(pair, elapsed);
+  const bool elastic = by_contact_time(a, b);
+  const Impact impact = model_.collide(first, second, contact, event.side, elastic);
+
+  Collision report;
+  report.epoch = now().epoch;
+  report.offset = now().offset;
+  report.time = gas_.clock.since_start(now());
+  report.first = gas_.ids[a].value;
+  report.second = gas_.ids[b].value;
+  report.shift = event.shift;
+  report.arm_first = contact.arm_first;
+  report.arm_second = contact.arm_second;
+  report.sin_angle = contact.sin_angle;
+  report.normal_velocity = impact.normal_velocity;
+  report.impulse = {impact.impulse.x, impact.impulse.y, impact.impulse.z};
+  report.energy_change = impact.energy_change;
+  report.contact_time_rule = elastic;
+
+  const Shift wraps_a = replace_record(
+      a, [&] { return model_.renew(a, now(), contact.u_first, impact.v_first, impact.w_first); });
+  const Shift wraps_b = replace_record(b, [&] {
+    return model_.renew(b, now(), contact.u_second, impact.v_second, impact.w_second);
+  });
+  if constexpr (M::effects.contact_time) run_.last_collision[a] = run_.last_collision[b] = now();
+  const Shift shift = event.shift + wraps_b - wraps_a;
+  const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};
+  gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], gas_.records[b].serial, shift, touch));
+  gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], gas_.records[a].serial, -shift, touch));
+
+  tally_.energy += run_.in_quanta(impact.energy_change);
+  ++tally_.collisions;
+  tally_.tc_collisions += elastic;
+  tally_.hash.add(report);
+  const Time placed_a = search_.place(a, now()), placed_b = search_.place(b, now());
+  schedule(a, placed_a, b);
+  schedule(b, placed_b, a);
+  if (reports || run_.callback) run_.report(report, a, b, reports);
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit) {
+  ++tally_.counters.searches;
+  if (undo) undo->scheduled(i);
+  const Time time = now();
+  Event best;
+  best.owner = i;
+  best.lower_id = best.higher_id = gas_.ids[i];
+  best.time =
+      std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.search_span)});
+  search_.find(i, just_hit, time, gas_.clock.difference(best.time, time),
+               [&](Needle j, const Shift& shift, double from, double to) {
+                 consider(i, j, shift, from, to, best);
+                 return gas_.clock.difference(best.time, time);
+               });
+  enter(best);
+}
+
+// Looks for a contact of i with this candidate before `best`, and makes it the best. It can only be
+// between the times `from` and `to` from now.
+template <Search S, Model M>
+void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, double from, double to,
+                                    Event& best) {
+  const Record& mine = gas_.records[i];
+  const Record& other = gas_.records[j];
+  // Beyond the renewal of j its own event takes over.
+  const Time until = std::min({best.time, other.renewal, gas_.clock.add(now(), to)});
+  Event event;
+  event.kind = EventKind::contact;
+  event.owner = i;
+  event.partner = j;
+  event.partner_serial = other.serial;
+  event.owner_is_lower = gas_.ids[i] < gas_.ids[j];
+  event.shift = event.owner_is_lower ? shift : -shift;
+  const Needle a = event.lower(), b = event.higher();
+  event.lower_id = gas_.ids[a];
+  event.higher_id = gas_.ids[b];
+  const kernels::Contact contact = predictor_.predict(a, b, event.shift, from, until);
+  if (!contact.found) return;
+  event.time = gas_.clock.add(Gas::start_of(mine, other), contact.elapsed.hi);
+  event.side = static_cast<std::int8_t>(contact.side);
+  event.resolvable = !contact.unresolvable;
+  if (event.time < now()) {
+    throw InvalidStateError("needles " + std::to_string(event.lower_id.value) + " and " +
+                            std::to_string(event.higher_id.value) + ": a contact at time " +
+                            std::to_string(gas_.clock.since_start(event.time)) +
+                            " was missed; this is a defect of the program");
+  }
+  if (event < best) best = event;
+}
+
+// Three needles or more can collapse too, by hitting each other in turn. When the clock no longer
+// advances, more collisions happen at one instant than needles could have there. Rough needles
+// have been seen to part after more than four thousand.
+template <Search S, Model M>
+void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
+  if (now() != tally_.instant) tally_.at_instant = 0;
+  tally_.instant = now();
+  if (++tally_.at_instant <= 10000 + 2 * gas_.size()) return;
+  throw InvalidStateError(message_of(
+      GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()), tally_.at_instant}));
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::report_collapse(const Event& event) const {
+  const Needle a = event.lower(), b = event.higher();
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
+  const Time start = Gas::start_of(first, second);
+  const DoubleDouble elapsed = gas_.clock.exact_difference(event.time, start);
+  throw InvalidStateError(message_of(
+      PairCollapse{.first = event.lower_id,
+                   .second = event.higher_id,
+                   .time = gas_.clock.since_start(event.time),
+                   .gap = model_.gap(pair, elapsed) / model_.geometry(pair, elapsed).sin_angle,
+                   .after = gas_.clock.difference(event.time, start),
+                   .root_tolerance = model_.accuracy().root_tolerance,
+                   .epsilon = model_.restitution().epsilon,
+                   .contact_time = M::effects.contact_time}));
+}
+
+}  // namespace needlework

@@ -1,0 +1,26 @@
+// All loops that are compiled: those of one search in a file of its own, and those of several
+// threads.
+#pragma once
+
+#include <memory>
+
+#include "src/calendar/any_calendar.h"
+#include "src/engine/loop.h"
+#include "src/engine/replaced_records.h"
+#include "src/search/all_pairs.h"
+#include "src/search/linked_lists.h"
+#include "src/search/near_search.h"
+#include "src/search/search.h"
+
+namespace needlework {
+
+/// The loop of one thread with this search, for the effects `run.effects`.
+template <Search S>
+std::unique_ptr<Loop> make_event_loop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar,
+                                      ReplacedRecords replaced);
+
+/// The loop of several threads.
+std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
+                                         int threads);
+
+}  // namespace needlework

@@ -1,0 +1,174 @@
+// Predicts when two needles touch, from their records alone.
+#pragma once
+
+#include <algorithm>
+
+#include "needlework/counters.h"
+#include "needlework/error.h"
+#include "src/engine/replaced_records.h"
+#include "src/physics/model.h"
+
+namespace needlework {
+
+/// One thread's predictions. Remembers what was predicted of two needles just after their
+/// collision, as both search the pair, and the records that the present event has replaced.
+template <Model M>
+class PairPredictor {
+ public:
+  PairPredictor(const M& model, Counters& counters)
+      : model_(model), gas_(model.gas()), counters_(counters) {}
+
+  /// An event happens at this time; no record has been replaced then yet.
+  void begin(Time time) {
+    now = time;
+    replaced_.clear();
+  }
+  /// Replaces the record of needle i by renew(), which returns the boxes its centre was wrapped by.
+  template <class Renew>
+  Shift replace(Needle i, Renew&& renew) {
+    ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
+    return entry.wraps = renew();
+  }
+  /// Takes over records that were replaced at the present time.
+  void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }
+  /// Needles have other places in storage, or records have been put back.
+  void forget() {
+    last_ = {};
+    replaced_.clear();
+  }
+
+  /// The first contact of two needles, a with the lower id, in times from `from_now` after now up
+  /// to `until`. `shift` is added to b's centre.
+  kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from_now, Time until);
+
+  Time now;
+#ifndef NDEBUG
+  /// Whether a record from later than now has been read, of a needle within reach then.
+  bool read_ahead = false;
+#endif
+
+ private:
+  // What was predicted of two needles just after their collision.
+  struct Prediction {
+    Needle a, b;
+    std::uint32_t serial_a = 0, serial_b = 0;
+    Shift shift{};
+    Time until;
+    kernels::Contact contact;
+  };
+
+  kernels::Contact first_contact(const kernels::Pair& pair, double from, double to) {
+    kernels::SearchCounters spent;
+    const kernels::Contact contact = model_.first_contact(pair, from, to, spent);
+    counters_.evaluated += spent.evaluated;
+    counters_.escalated += spent.escalated;
+    return contact;
+  }
+  void settle_touch(Needle a, Needle b, const Shift& shift);
+
+  const M& model_;
+  Gas& gas_;
+  Counters& counters_;
+  Prediction last_;
+  ReplacedRecords replaced_;
+};
+
+template <Model M>
+kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shift, double from_now,
+                                           Time until) {
+  ++counters_.predicted;
+  const Record& first = gas_.records[a];
+  const Record& second = gas_.records[b];
+  const Time start = Gas::start_of(first, second);
+  // With several threads a record may be from later than now; till then the needles do not meet.
+  if (until < start) return {};
+  // Rounded outwards; the times themselves are compared exactly.
+  double from = std::max(0.0, (gas_.clock.difference(now, start) + from_now) * (1 - 0x1p-50));
+  // A little later may be the same time on the clock, where the ids decide.
+  const double to = (gas_.clock.difference(until, start) + gas_.clock.resolution()) * (1 + 0x1p-50);
+  kernels::Pair pair = model_.pair(a, first, b, second, shift);
+#ifndef NDEBUG
+  if (start > now) {
+    const Vec3d apart = (model_.centre(first, pair.elapsed_first.hi) -
+                         model_.centre(second, pair.elapsed_second.hi)) -
+                        to_double(pair.shift);
+    const double reach = model_.reach(first, second);
+    if (dot(apart, apart) <= reach * reach) read_ahead = true;
+  }
+#endif
+  // Both partners of a collision search the pair, with records made now.
+  const bool shared = pair.touch.collided && first.time == second.time;
+  const Prediction& last = last_;
+  if (shared && last.a == a && last.b == b && same(last.shift, shift) &&
+      last.serial_a == first.serial && last.serial_b == second.serial) {
+    if (last.contact.found || until <= last.until) return last.contact;
+    from = gas_.clock.difference(last.until, start) * (1 - 0x1p-50);
+  }
+  kernels::Contact contact = first_contact(pair, from, to);
+  if (contact.side_unknown) {
+    settle_touch(a, b, shift);
+    pair = model_.pair(a, first, b, second, shift);
+    contact = first_contact(pair, from, to);
+  }
+  // A return that the clock cannot tell from the collision before.
+  if (contact.found && pair.touch.collided && contact.elapsed.hi < 64 * gas_.clock.resolution()) {
+    contact.unresolvable = true;
+  }
+  if (shared) last_ = {a, b, first.serial, second.serial, shift, until, contact};
+  return contact;
+}
+
+// A record has just been replaced so near to touching another needle that rounding it may have
+// moved it to the other side. The gap is continued from the records before.
+template <Model M>
+void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
+  if (std::max(gas_.records[a].time, gas_.records[b].time) > now) {
+    throw InvalidStateError("needles touch at an event that another thread has done before");
+  }
+  ++counters_.touches;
+  const Record* first = &gas_.records[a];
+  const Record* second = &gas_.records[b];
+  Shift old_shift = shift;
+  if (const auto* old = replaced_.find(a)) {
+    first = &old->record;
+    old_shift = old_shift + old->wraps;
+  }
+  if (const auto* old = replaced_.find(b)) {
+    second = &old->record;
+    old_shift = old_shift - old->wraps;
+  }
+  const kernels::Pair before = model_.pair(a, *first, b, *second, old_shift);
+  const Time start = Gas::start_of(*first, *second);
+  const double elapsed = gas_.clock.difference(now, start);
+  kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
+  const double tick = gas_.clock.resolution();
+  // Largest error of the predicted time of a contact, as a share of that time.
+  const double off = std::max(0x1p-38, 2 * model_.accuracy().root_tolerance);
+  const kernels::Contact due = first_contact(before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50),
+                                             (elapsed + tick) * (1 + off));
+  const double gap = model_.gap(before, gas_.clock.exact_difference(now, start));
+  const int side = gap > 0 ? 1 : gap < 0 ? -1 : 0;
+  // A contact is due now and has not happened yet; or it is due so soon that its predicted time
+  // lies after the moment at which f vanishes.
+  if (due.found && (gas_.clock.add(start, due.elapsed.hi) <= now || side != due.side)) {
+    touch.side = due.side;
+  } else {
+    touch.gap = gap;
+    touch.side = side;
+    // Exactly on the contact: a collision that happened at this instant, or a touch.
+    const bool just_had = before.touch.touching && elapsed == 0;
+    if (touch.side == 0) touch.side = just_had ? before.touch.side : model_.side_after(before);
+    // Needles that turned centre on centre had no side.
+    if (touch.side == 0) {
+      touch.side = model_.side_after(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
+    }
+  }
+  const Record &mine = gas_.records[a], &other = gas_.records[b];
+  if (mine.time >= other.time) {
+    gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], other.serial, shift, touch));
+  } else {
+    gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], mine.serial, -shift, touch));
+  }
+}
+
+}  // namespace needlework

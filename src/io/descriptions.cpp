@@ -1,0 +1,246 @@
+#include "src/io/descriptions.h"
+
+#include <fmt/format.h>
+
+#include "src/io/hdf5.h"
+
+namespace needlework::io {
+
+using hdf5::Handle;
+
+namespace {
+
+const std::string length = "length";
+const std::string time = "time";
+const std::string energy = "energy";
+const std::string speed = "length per time";
+const std::string angular_speed = "radians per time";
+const std::string momentum = "mass times length per time";
+const std::string none;
+
+// The sums over all needles that files hold more than once: at the times of frames, at the times of
+// the series, and as means over runs. `shape` is that of the scalar sums.
+std::vector<Description> totals(const std::string& group, const std::string& shape) {
+  const std::string of_vector = shape.empty() ? "" : shape + "[3]";
+  return {
+      {group + "/t_tr", "Translational temperature: two thirds of the mean energy of translation",
+       energy, shape},
+      {group + "/t_rot", "Rotational temperature: the mean energy of rotation", energy, shape},
+      {group + "/energy", "Kinetic energy per needle", energy, shape},
+      {group + "/momentum", "Total momentum of all needles", momentum, of_vector},
+      {group + "/collisions", "Number of collisions since the start of the run", none, shape},
+      {group + "/tc_collisions",
+       "Number of collisions since the start of the run that the contact-time rule made elastic",
+       none, shape},
+  };
+}
+
+void append(std::vector<Description>& list, const std::vector<Description>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+// The paths of the objects in the file that `pattern` fits.
+std::vector<std::string> matches(hid_t file, const std::string& pattern, const std::string& place) {
+  const auto star = pattern.find('*');
+  if (star == std::string::npos) {
+    if (pattern != "/" && !hdf5::exists(file, pattern, place)) return {};
+    return {pattern};
+  }
+  const std::string parent = pattern.substr(0, star);
+  if (!hdf5::is_group(file, parent, place)) return {};
+  std::vector<std::string> paths;
+  for (const std::string& name :
+       hdf5::children(hdf5::open_group(file, parent, place).get(), place)) {
+    const auto more = matches(file, parent + name + pattern.substr(star + 1), place);
+    paths.insert(paths.end(), more.begin(), more.end());
+  }
+  return paths;
+}
+
+void write_description(hid_t file, const std::string& path, const std::string& text,
+                       const std::string& place) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, place);
+  if (hdf5::check(H5Aexists(object.get(), "description"), place) > 0) return;
+  hdf5::write_text_attribute(object.get(), "description", text, place);
+}
+
+}  // namespace
+
+std::string sentence(const Description& description) {
+  std::string text = description.meaning;
+  if (!description.unit.empty()) text += ", in units of " + description.unit;
+  if (description.shape.starts_with('[')) text += ", with shape " + description.shape;
+  return text + ".";
+}
+
+std::vector<Description> run_file_descriptions() {
+  const std::string scalar = "scalar";
+  std::vector<Description> list{
+      {"/", "Run of a gas of hard needles, in the H5MD format", none, none},
+      {"/h5md", "Version of the H5MD format, author and creator of the file", none, none},
+      {"/h5md/author", "Author of the file", none, none},
+      {"/h5md/creator", "Program that wrote the file, and its version", none, none},
+
+      {"/parameters", "Scene and settings of the run", none, none},
+      {"/parameters/scene", "Scene file as read, followed by the keys that were set over it", none,
+       scalar},
+      {"/parameters/title", "Title of the scene", none, scalar},
+      {"/parameters/version", "Version of the program that made the run", none, scalar},
+      {"/parameters/seed", "Seed of the random numbers from which the initial state was drawn",
+       none, scalar},
+      {"/parameters/isa", "Instruction set that the run used", none, scalar},
+      {"/parameters/accuracy",
+       "Accuracy level of the search for contacts, and the settings that differ from it", none,
+       scalar},
+      {"/parameters/threads", "Number of threads that the run used", none, scalar},
+      {"/parameters/epoch_length", "Length of an epoch, in which the times of events are counted",
+       time, scalar},
+      {"/parameters/k", "Shape of the needles, k = m L^2 / (2 I)", none, scalar},
+      {"/parameters/length", "Length of a needle", length, scalar},
+      {"/parameters/epsilon", "Coefficient of normal restitution", none, scalar},
+      {"/parameters/beta", "Coefficient of tangential restitution", none, scalar},
+
+      {"/particles", "Groups of particles, of which the needles are the only one", none, none},
+      {"/particles/needles", "State of all needles at the times of the frames", none, none},
+      {"/particles/needles/box", "Rectangular periodic box", none, none},
+      {"/particles/needles/box/edges", "Edge vectors of the box as the rows of a diagonal matrix",
+       length, "[frames][3][3]"},
+      {"/particles/needles/position", "Centre of each needle, inside the box", length,
+       "[frames][needles][3]"},
+      {"/particles/needles/position/step", "Number of collisions before each frame", none,
+       "[frames]"},
+      {"/particles/needles/position/time", "Time of each frame since the start of the run", time,
+       "[frames]"},
+      {"/particles/needles/image",
+       "Number of box edges to add to each centre to follow its path across the boundaries", none,
+       "[frames][needles][3]"},
+      {"/particles/needles/velocity", "Velocity of the centre of each needle", speed,
+       "[frames][needles][3]"},
+      {"/particles/needles/orientation", "Unit vector along each needle", none,
+       "[frames][needles][3]"},
+      {"/particles/needles/angular_velocity",
+       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
+       "[frames][needles][3]"},
+      {"/particles/needles/id", "Identity of each needle, the same in all frames", none,
+       "[needles]"},
+      {"/particles/needles/mass", "Mass of each needle", "mass", "[needles]"},
+      {"/particles/needles/species",
+       "Species of each needle, counted from 0 in the order of the scene", none, "[needles]"},
+
+      {"/observables", "Sums over all needles at the times of the frames", none, none},
+      {"/series", "Sums over all needles at the times of the samples", none, none},
+      {"/series/step", "Number of collisions before each sample", none, "[samples]"},
+      {"/series/time", "Time of each sample since the start of the run", time, "[samples]"},
+
+      {"/events", "All collisions in the order of their times", none, none},
+      {"/events/time", "Time of each collision since the start of the run, rounded", time,
+       "[events]"},
+      {"/events/epoch", "Number of whole epochs before each collision", none, "[events]"},
+      {"/events/offset", "Time of each collision since the beginning of its epoch, not rounded",
+       time, "[events]"},
+      {"/events/pair", "Identities of the two needles, the lower one first", none, "[events][2]"},
+      {"/events/arms",
+       "Signed distance of the contact from the centre of each of the two needles, along its "
+       "orientation",
+       length, "[events][2]"},
+      {"/events/normal_velocity",
+       "Velocity of the first needle relative to the second at the contact before the collision, "
+       "along the vector product of their orientations",
+       speed, "[events]"},
+      {"/events/tc", "1 where the contact-time rule made the collision elastic, else 0", none,
+       "[events]"},
+      {"/events/shift",
+       "Number of box edges added to the stored centre of the second needle to obtain the periodic "
+       "image that was hit",
+       none, "[events][3]"},
+      {"/events/impulse", "Impulse on the first needle", momentum, "[events][3]"},
+  };
+  append(list, totals("/observables", "[frames]"));
+  append(list, totals("/series", "[samples]"));
+  return list;
+}
+
+std::vector<Description> sweep_summary_descriptions() {
+  std::vector<Description> list{
+      {"/", "Means over the seeds of a sweep of runs, with their standard errors", none, none},
+      {"/sweep", "Definition of the sweep", none, none},
+      {"/sweep/grid", "Grid file as read", none, "scalar"},
+      {"/sweep/scene", "Scene that all runs start from", none, "scalar"},
+      {"/sweep/version", "Version of the program that made the summary", none, "scalar"},
+
+      {"/parameters", "Keys of the scene that vary between the points of the grid", none, none},
+      {"/parameters/*", "Value of this key at each point, as a number or else as text in TOML",
+       none, "[points]"},
+
+      {"/members", "Runs that are in the means", none, none},
+      {"/members/count", "Number of runs in the means of each point", none, "[points]"},
+      {"/members/seeds", "Seed of each run", none, "[members]"},
+      {"/members/point", "Point of the grid of each run, counted from 0", none, "[members]"},
+
+      {"/results", "Quantities at the ends of the runs", none, none},
+      {"/results/time", "Time since the start of the run", time, none},
+      {"/results/collisions_per_needle", "Twice the number of collisions, per needle", none, none},
+      {"/results/collision_rate", "Collisions per needle and unit of time, over the whole run",
+       "inverse time", none},
+      {"/results/energy_ratio", "Energy divided by the energy at the start", none, none},
+      {"/results/*/mean", "Mean over the runs of each point, in the unit of the quantity", none,
+       "[points]"},
+      {"/results/*/standard_error", "Standard error of the mean, in the unit of the quantity", none,
+       "[points]"},
+
+      {"/series", "Quantities as functions of time, one group for each point of the grid", none,
+       none},
+      {"/series/*", "Quantities at the point of this number, as functions of time", none, none},
+      {"/series/*/time", "Time of each sample since the start of the run", time, "[samples]"},
+      {"/series/*/momentum/mean", "Mean over the runs of the point, in the unit of the quantity",
+       none, "[samples][3]"},
+      {"/series/*/momentum/standard_error",
+       "Standard error of the mean, in the unit of the quantity", none, "[samples][3]"},
+      {"/series/*/*/mean", "Mean over the runs of the point, in the unit of the quantity", none,
+       "[samples]"},
+      {"/series/*/*/standard_error", "Standard error of the mean, in the unit of the quantity",
+       none, "[samples]"},
+  };
+  append(list, totals("/results", none));
+  append(list, totals("/series/*", none));
+  return list;
+}
+
+std::vector<Description> vtkhdf_descriptions() {
+  return {
+      {"/", "Needles as lines, for ParaView and VTK", none, none},
+      {"/VTKHDF", "Unstructured grid with one line for each needle", none, none},
+      {"/VTKHDF/NumberOfPoints", "Number of points, two for each needle", none, "[1]"},
+      {"/VTKHDF/NumberOfCells", "Number of lines", none, "[1]"},
+      {"/VTKHDF/NumberOfConnectivityIds", "Length of Connectivity", none, "[1]"},
+      {"/VTKHDF/Points", "Ends of the needles: the tail of each, then its tip", length,
+       "[points][3]"},
+      {"/VTKHDF/Connectivity", "Points that the lines join, two for each", none, "[points]"},
+      {"/VTKHDF/Offsets", "Position in Connectivity where each line begins, and its length", none,
+       "[needles + 1]"},
+      {"/VTKHDF/Types", "VTK type of each cell, 3 for a line", none, "[needles]"},
+      {"/VTKHDF/CellData", "Data of the needles", none, none},
+      {"/VTKHDF/CellData/id", "Identity of each needle", none, "[needles]"},
+      {"/VTKHDF/CellData/velocity", "Velocity of the centre of each needle", speed, "[needles][3]"},
+      {"/VTKHDF/CellData/orientation", "Unit vector along each needle", none, "[needles][3]"},
+      {"/VTKHDF/CellData/angular_velocity",
+       "Angular velocity of each needle, perpendicular to its orientation", angular_speed,
+       "[needles][3]"},
+  };
+}
+
+void write_descriptions(hid_t file, const std::vector<Description>& descriptions,
+                        const std::string& place) {
+  for (const Description& description : descriptions) {
+    const std::string text = sentence(description);
+    for (const std::string& path : matches(file, description.path, place)) {
+      write_description(file, path, text, place);
+      const std::string value = path + "/value";
+      if (hdf5::is_group(file, path, place) && hdf5::exists(file, value, place)) {
+        write_description(file, value, text, place);
+      }
+    }
+  }
+}
+
+}  // namespace needlework::io

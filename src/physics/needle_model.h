@@ -1,0 +1,86 @@
+// Hard needles in free flight: the model that is simulated.
+#pragma once
+
+#include "needlework/accuracy.h"
+#include "src/physics/model.h"
+
+namespace needlework {
+
+/// Infinitely thin rods with normal and tangential restitution. Without `its_effects.table` lengths
+/// and masses are constants, and nothing is looked up by species.
+template <Effects its_effects>
+class NeedleModel {
+ public:
+  static constexpr Effects effects = its_effects;
+
+  /// `gas` must outlive the model.
+  NeedleModel(Gas& gas, const Restitution& restitution, const Accuracy& accuracy)
+      : gas_(gas), restitution_(restitution), accuracy_(accuracy) {}
+
+  Gas& gas() const { return gas_; }
+  const Restitution& restitution() const { return restitution_; }
+  const Accuracy& accuracy() const { return accuracy_; }
+
+  Vec3d centre(const Record& record, double elapsed) const {
+    return centre_after(record.flight, elapsed);
+  }
+  /// Centres farther apart than this are not in contact. [L]
+  double reach(const Record& a, const Record& b) const {
+    return body(a).half_length + body(b).half_length;
+  }
+  kernels::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
+                     const Shift& shift) const {
+    kernels::Pair out = make_pair(gas_, a, record_a, b, record_b, shift);
+    if constexpr (effects.table) {
+      out.half_first = body(record_a).half_length;
+      out.half_second = body(record_b).half_length;
+    }
+    return out;
+  }
+  kernels::Contact first_contact(const kernels::Pair& pair, double from, double to,
+                                 kernels::SearchCounters& spent) const {
+    return kernels::first_contact(pair, from, to, spent, accuracy_);
+  }
+  double gap(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
+    return gap_at(pair, elapsed);
+  }
+  int side_after(const kernels::Pair& pair) const { return kernels::side_after(pair); }
+  kernels::ContactGeometry geometry(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
+    return contact_geometry(pair, elapsed);
+  }
+  Impact collide(const Record& a, const Record& b, const kernels::ContactGeometry& contact,
+                 int side, bool elastic) const {
+    const Meeting both{a.flight, b.flight, body(a), body(b), contact, side};
+    if (effects.contact_time && elastic) return needlework::collide<true>(both, Restitution{});
+    return needlework::collide<!effects.rough>(both, restitution_);
+  }
+
+  Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
+              const Vec3d& angular_velocity) const {
+    return renew_record(gas_, i, now, {director, velocity, angular_velocity, length_of(i)});
+  }
+  Shift renew_in_flight(Needle i, Time now) const {
+    const Record& record = gas_.records[i];
+    const double elapsed = gas_.clock.difference(now, record.time);
+    return renew(i, now, director_after(record.flight, elapsed), record.flight.v, record.flight.w);
+  }
+
+ private:
+  Body body(const Record& record) const {
+    if constexpr (effects.table) return gas_.bodies[record.species];
+    return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.species[0].k};
+  }
+  double length_of(Needle i) const {
+    if constexpr (effects.table) return gas_.bodies[gas_.records[i].species].length();
+    return 1;
+  }
+
+  Gas& gas_;
+  Restitution restitution_;
+  Accuracy accuracy_;
+};
+
+static_assert(Model<NeedleModel<Effects{}>> &&
+              Model<NeedleModel<Effects{.rough = true, .contact_time = true, .table = true}>>);
+
+}  // namespace needlework

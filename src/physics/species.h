@@ -1,0 +1,35 @@
+// What the needles of one species have in common.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace needlework {
+
+/// Half length, inverse mass and inverse moment of inertia: what flight and collisions need.
+struct Body {
+  double half_length = 0.5;     ///< [L]
+  double inverse_mass = 1;      ///< [1 / m]
+  double inverse_inertia = 12;  ///< 2 k / (m L^2) [1 / (m L^2)]
+
+  double length() const { return 2 * half_length; }
+};
+
+/// One species. Lengths and masses are in the units of the scene, in which those of a needle of
+/// the default species are 1.
+struct Species {
+  double length = 1;  ///< [L]
+  double mass = 1;    ///< [m]
+  double k = 6;       ///< m L^2 / (2 I) [1]
+
+  /// Needles of length 1 and mass 1 need no table; all factors of their species are 1.
+  bool is_unit() const { return length == 1 && mass == 1; }
+  double inertia() const { return mass * (length * length) / (2 * k); }
+  /// For unit length and mass the inverse inertia is 2 k to the last bit.
+  Body body() const { return {0.5 * length, 1 / mass, 2 * k / (mass * (length * length))}; }
+};
+
+/// Index of a needle's species in Gas::species.
+using SpeciesIndex = std::uint8_t;
+
+}  // namespace needlework

@@ -1,0 +1,81 @@
+"""Links among the documents lead somewhere, files that they name exist, and the front page stays
+short."""
+
+import re
+import unittest
+from functools import lru_cache
+from pathlib import Path
+from urllib.parse import unquote
+
+ROOT = Path(__file__).resolve().parents[2]
+LINK = re.compile(r"\]\(([^)\s]+)\)|(?:src|href)=\"([^\"]+)\"")
+CODE = re.compile(r"^```.*?^```|`[^`\n]+`", re.M | re.S)
+
+
+# A file of the project by its path, such as `src/scene/scene.h`; not NAME.h, which stands for many.
+FILE = re.compile(r"`((?:[a-z_.-]+/)+[a-z0-9_.-]+\.(?:h|cpp|py|toml|md|txt))`")
+
+
+def documents():
+    folders = ["docs", "src", "kernels", "include", "tests", "bench", "profiles", "cmake"]
+    found = [*ROOT.glob("*.md"), *(d for f in folders for d in (ROOT / f).rglob("*.md"))]
+    assert len(found) > 20, found
+    return sorted(found)
+
+
+@lru_cache
+def anchors(path):
+    """Those that GitHub makes of headings, and those in HTML."""
+    found = set()
+    text = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.M | re.S)
+    for heading in re.findall(r"^#+ +(.*?) *$", text, flags=re.M):
+        plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        anchor = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        number = 0
+        while (numbered := f"{anchor}-{number}" if number else anchor) in found:
+            number += 1
+        found.add(numbered)
+    return found | set(re.findall(r"<a (?:id|name)=\"([^\"]+)\"", text))
+
+
+def broken_links(path):
+    text = CODE.sub("", path.read_text())
+    for match in LINK.finditer(text):
+        link = match[1] or match[2]
+        if re.match(r"[a-z]+:", link):
+            continue  # elsewhere
+        file, _, anchor = unquote(link).partition("#")
+        target = path.parent / file if file else path
+        if not target.exists():
+            yield f"{path.relative_to(ROOT)}: {link}: expected a file"
+        elif anchor and anchor not in anchors(target.resolve()):
+            yield f"{path.relative_to(ROOT)}: {link}: expected a heading"
+
+
+def missing_files(path):
+    for name in FILE.findall(path.read_text()):
+        if not (ROOT / name).exists() and not (path.parent / name).exists():
+            yield f"{path.relative_to(ROOT)}: {name}: expected a file"
+
+
+class Documents(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        self.assertEqual([link for path in documents() for link in broken_links(path)], [])
+
+    def test_files_that_are_named_exist(self):
+        self.assertEqual([file for path in documents() for file in missing_files(path)], [])
+
+    def test_documents_are_listed_in_their_index(self):
+        index = (ROOT / "docs/README.md").read_text()
+        missing = [path.name for path in (ROOT / "docs").glob("*.md")
+                   if path.name != "README.md" and f"({path.name})" not in index]
+        self.assertEqual(missing, [])
+
+    def test_front_page_is_short(self):
+        text = (ROOT / "README.md").read_text()
+        self.assertLessEqual(len(text.splitlines()), 150)
+        self.assertLessEqual(len(text.split()), 1500)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,53 @@
+"""What the README and the user guide show works: their scenes, the Python and the C++ program.
+
+    examples.py NEEDLEWORK README_PROGRAM
+"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def blocks(document, language):
+    found = re.findall(rf"^```{language}\n(.*?)^```", (ROOT / document).read_text(),
+                       flags=re.M | re.S)
+    assert found, f"{document}: expected a block of {language}"
+    return found
+
+
+def main(needlework, readme_program):
+    with tempfile.TemporaryDirectory() as folder:
+        def run(*command):
+            done = subprocess.run([str(part) for part in command], cwd=folder, text=True,
+                                  capture_output=True, timeout=200)
+            assert done.returncode == 0, (command, done.returncode, done.stdout, done.stderr)
+            return done.stdout
+
+        # The first run of the guide, but shorter.
+        run(needlework, "run", ROOT / "profiles/quickstart.toml", "--out", "cooling.h5",
+            "--set", "until.energy_ratio=1e-2")
+        for number, script in enumerate(blocks("docs/user-guide.md", "python")):
+            path = Path(folder, f"script{number}.py")
+            path.write_text(script)
+            assert run(sys.executable, path).strip(), path.read_text()
+        run(needlework, "export", "cooling.h5", "cooling.vtkhdf")
+
+        for document in ("README.md", "docs/scenes.md", "docs/user-guide.md"):
+            for text in blocks(document, "toml"):
+                Path(folder, "gas.toml").write_text(text)
+                run(needlework, "check", "gas.toml")
+
+        gas, = blocks("README.md", "toml")
+        Path(folder, "gas.toml").write_text(gas)
+        run(needlework, "run", "gas.toml")
+        assert "/particles/needles: 1000 particles" in run(needlework, "info", "gas.h5")
+        printed = run(readme_program).splitlines()
+        assert len(printed) == 5 and printed[-1].startswith("hash "), printed
+
+
+if __name__ == "__main__":
+    main(*(Path(argument).resolve() for argument in sys.argv[1:]))

@@ -1,0 +1,183 @@
+"""Compares docs/file-format.md with the files that the program writes.
+
+    file_format_document.py NEEDLEWORK SOURCE_FOLDER
+
+Each object of a file must have a `description` and a row in a table of the document that says the
+same, with the right shape and type. Each row must fit an object. The commands and the program of the
+document are run, and must print what the document says.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import h5py
+
+SWEEP = """
+seeds = [1, 2, 3]
+[parameters]
+"collisions.epsilon" = [0.9, 0.8]
+"engine.search" = ["capsules", "linked-cells"]
+[needles]
+count = 20
+box = 5
+[until]
+time = 1
+"""
+
+
+class Row:
+    def __init__(self, line):
+        cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+        path, self.meaning, self.unit, self.shape, self.type = cells
+        self.path = path.strip("`")
+        self.pattern = re.compile(re.escape(self.path).replace(r"\*", "[^/]+"))
+        self.types = set()
+        self.used = False
+
+    def sentence(self):
+        text = self.meaning
+        if self.unit:
+            text += ", in units of " + self.unit
+        if self.shape.startswith("["):
+            text += ", with shape " + self.shape
+        return text + "."
+
+
+def rows_of(document, heading):
+    section = document.split(f"\n## {heading}\n")[1].split("\n## ")[0]
+    return [Row(line) for line in section.splitlines() if line.startswith("| `/")]
+
+
+def links(group):
+    """All paths of a file, those of hard links to one object included."""
+    yield group.name
+    for name, item in group.items():
+        if isinstance(item, h5py.Group):
+            yield from links(item)
+        else:
+            yield group.name.rstrip("/") + "/" + name
+
+
+def is_element(item):
+    return isinstance(item, h5py.Group) and "value" in item
+
+
+def type_of(item):
+    if is_element(item):
+        return "element of " + type_of(item["value"])
+    if isinstance(item, h5py.Group):
+        return "group"
+    return "string" if h5py.check_string_dtype(item.dtype) else str(item.dtype)
+
+
+class Comparison:
+    def __init__(self, file, rows):
+        self.file, self.rows = file, rows
+        self.sizes = {}
+        self.problems = []
+
+    def run(self):
+        rows = {path: self.row_of(path) for path in links(self.file)}
+        documented = {self.address(path) for path, row in rows.items() if row}
+        for path, row in rows.items():
+            parent = self.file[path].parent if path != "/" else None
+            if row:
+                self.compare(path, row)
+            elif parent is not None and is_element(parent) and path.endswith("/value"):
+                self.require(path, self.description(path) == self.description(parent.name),
+                             "has another description than its element")
+            elif parent is not None and is_element(parent):
+                self.require(path, self.address(path) in documented, "is not in the document")
+            else:
+                self.require(path, False, "is not in the document")
+        for row in self.rows:
+            self.require(row.path, row.used, "is in the document, but in no file")
+            if row.used:
+                found = " or ".join(sorted(row.types))
+                self.require(row.path, row.type == found, f"has the type {found}, not {row.type}")
+
+    def row_of(self, path):
+        return next((row for row in self.rows if row.pattern.fullmatch(path)), None)
+
+    def address(self, path):
+        return h5py.h5o.get_info(self.file[path].id).addr
+
+    def description(self, path):
+        return self.file[path].attrs.get("description", "")
+
+    def require(self, path, condition, problem):
+        if not condition:
+            self.problems.append(f"{self.file.filename}: {path} {problem}")
+
+    def compare(self, path, row):
+        row.used = True
+        item = self.file[path]
+        found = self.description(path)
+        self.require(path, found == row.sentence(),
+                     f"is described as\n    {found!r}, but in the document as\n"
+                     f"    {row.sentence()!r}")
+        self.require(path, "unit" not in item.attrs, "has an attribute `unit`")
+        row.types.add(type_of(item))
+        self.compare_shape(path, row, item["value"] if is_element(item) else item)
+
+    def compare_shape(self, path, row, item):
+        if isinstance(item, h5py.Group):
+            self.require(path, not row.shape, "is a group, which has no shape")
+            return
+        extents = re.findall(r"\[(.*?)\]", row.shape)
+        self.require(path, bool(extents) == (row.shape != "scalar"), "lacks a shape")
+        fits = len(extents) == len(item.shape) and all(
+            self.size(extent, size) == size for extent, size in zip(extents, item.shape))
+        self.require(path, fits, f"has the shape {item.shape}, not {row.shape}")
+
+    def size(self, extent, found):
+        """The number that a shape names: the first to be found holds for the whole file."""
+        name, _, more = extent.partition(" + ")
+        if name.isdigit():
+            return int(name)
+        return self.sizes.setdefault(name, found - int(more or 0)) + int(more or 0)
+
+
+def blocks(document, language):
+    return re.findall(rf"^```{language}\n(.*?)^```", document, re.MULTILINE | re.DOTALL)
+
+
+def run(command, folder):
+    result = subprocess.run(command, cwd=folder, timeout=240, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
+    assert result.returncode == 0, (command, result.returncode, result.stderr)
+    return result.stdout
+
+
+def main(program, source):
+    with open(os.path.join(source, "docs/file-format.md"), encoding="utf-8") as file:
+        document = file.read()
+    problems = []
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(program, os.path.join(folder, "needlework"))
+        os.symlink(os.path.join(source, "profiles"), os.path.join(folder, "profiles"))
+        for command in "".join(blocks(document, "sh")).splitlines():
+            run(["sh", "-c", "PATH=.:$PATH; " + command], folder)
+        with open(os.path.join(folder, "grid.toml"), "w", encoding="utf-8") as file:
+            file.write(SWEEP)
+        run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
+            folder)
+        for name, heading in [("run.h5", "Files of runs"), ("sweep/summary.h5", "Summaries of sweeps"),
+                              ("run.vtkhdf", "Exports for ParaView and VTK")]:
+            with h5py.File(os.path.join(folder, name), "r") as file:
+                comparison = Comparison(file, rows_of(document, heading))
+                comparison.run()
+                problems += comparison.problems
+        examples, outputs = blocks(document, "python"), blocks(document, "text")
+        assert len(examples) == len(outputs) == 1, (len(examples), len(outputs))
+        printed = run([sys.executable, "-c", examples[0]], folder)
+        if printed != outputs[0]:
+            problems.append(f"the example prints\n{printed}not\n{outputs[0]}")
+    print("\n".join(problems) or "the document and the files agree")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
