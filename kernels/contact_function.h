@@ -60,11 +60,9 @@ struct Pair {
   DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
   DoubleDouble elapsed_second;  ///< one of the two is 0
   Vec3dd shift;                 ///< added to the second needle's centre [L]
-  double half_first = 0.5, half_second = 0.5;  ///< half lengths [L]
+  double half_first = 0.5, half_second = 0.5;  ///< half lengths of the needles [L]
   Touch touch;
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
-  double half_first = 0.5;  ///< half the length of the first needle [L]
-  double half_second = 0.5;
 };
 
 /// Powers of two that scale a pair: lengths times `per_length` make the sum of the half lengths lie

@@ -398,9 +398,7 @@ void expect_within_bounds(const test::PairFamily& family, bool any_lengths) {
 }
 
 TEST_P(SimdContactFunction, IsWithinBounds) { expect_within_bounds(GetParam(), false); }
-TEST_P(SimdContactFunction, OfAnyLengthsIsWithinBounds) {
-  expect_within_bounds(GetParam(), true);
-}
+TEST_P(SimdContactFunction, OfAnyLengthsIsWithinBounds) { expect_within_bounds(GetParam(), true); }
 
 INSTANTIATE_TEST_SUITE_P(Families, SimdContactFunction, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });

@@ -26,10 +26,10 @@ struct KernelPair {
             .elapsed_first = elapsed_first,
             .elapsed_second = elapsed_second,
             .shift = shift,
-            .touch = touch,
-            .touch_within = touch_within,
             .half_first = half_first,
-            .half_second = half_second};
+            .half_second = half_second,
+            .touch = touch,
+            .touch_within = touch_within};
   }
 };
 
