@@ -39,10 +39,11 @@ SKIPPED = 77  # exit code that ctest takes for a skipped test
 # Where instructions go, by the first of these patterns that a function's name has.
 SHARES = {
     "finding neighbours, SIMD": r"::(approaching|overlapping)$",
-    "following the pairs that are left, SIMD": r"::isolate",
-    "choosing the cells to look into": r"::look_around|append_near",
-    "transposing motions, sorting candidates": r"candidates|Candidate|pair_columns|fill_pairs",
-    "placing needles in cells": r"NearSearch::place|Hulls::",
+    "following the pairs that are left, SIMD": r"::bracket",
+    "choosing the cells to look into": r"::look_around|view_cells_near|append_near",
+    "transposing motions, sorting candidates":
+        r"candidates|Candidate|PairTable|seeker_for|NearSearch::follow|propose",
+    "placing needles in cells": r"NearSearch::place|BoundingVolumes::|NeedleCells::",
     "collisions and their records":
         r"collide|record|contact_geometry|set_rotation|Hash|director_after|normalised",
     "windows, counting needles, sorting the storage":

@@ -1,4 +1,4 @@
-// Closest approach of two needles taken as line segments of length 1.
+// Closest approach of two needles taken as line segments.
 #pragma once
 
 #include "kernels/vec3.h"

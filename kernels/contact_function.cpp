@@ -11,10 +11,16 @@ double largest(const Vec3d& a) { return std::max({std::abs(a.x), std::abs(a.y), 
 
 double norm_1(const Vec3d& a) { return (std::abs(a.x) + std::abs(a.y)) + std::abs(a.z); }
 
-Vec3d scaled(const Vec3d& a, double factor) { return a * factor; }
+Vec3dd scaled(const Vec3dd& a, double power_of_two) {
+  const auto times = [&](const DoubleDouble& x) {
+    return DoubleDouble(x.hi * power_of_two, x.lo * power_of_two);
+  };
+  return {times(a.x), times(a.y), times(a.z)};
+}
 
-// r1 - r2 - shift at s = 0. Written so that exchanging the needles negates it exactly. What is 0,
-// as the shift mostly is and one of the times always, is left out: adding it would change nothing.
+// r1 - r2 - shift at s = 0 [L]. Written so that exchanging the needles negates it exactly. What is
+// 0, as the shift mostly is and one of the times always, is left out: adding it would change
+// nothing.
 Vec3dd separation(const Pair& pair) {
   const Vec3d &a = pair.first->r, &b = pair.second->r;
   Vec3dd out{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
@@ -26,6 +32,12 @@ Vec3dd separation(const Pair& pair) {
     out = out - to_double_double(pair.second->v) * pair.elapsed_second;
   }
   return out;
+}
+
+template <class T>
+void set_half_lengths(Frame<T>& frame, const Pair& pair, const PairScale& scale) {
+  frame.half[0] = pair.half_first * scale.per_length;
+  frame.half[1] = pair.half_second * scale.per_length;
 }
 
 template <class T>
@@ -64,27 +76,33 @@ Vec3d director_after(const Flight& flight, double elapsed) {
 }
 
 PairScale scale_of(const Pair& pair) {
-  const double rate =
-      largest(pair.first->v - pair.second->v) + (pair.first->omega + pair.second->omega);
-  if (!(rate > 0)) return {};
+  PairScale out;
+  out.per_length = times_power_of_two(1, -exponent_of(pair.half_first + pair.half_second));
+  const double rate = largest(pair.first->v - pair.second->v) * out.per_length +
+                      (pair.first->omega + pair.second->omega);
+  if (!(rate > 0)) return out;
   // Clamped so that both factors are normal numbers.
   const int exponent = std::clamp(exponent_of(rate), -1000, 1000);
-  return {true, times_power_of_two(1, -exponent), times_power_of_two(1, exponent)};
+  out.moves = true;
+  out.per_rate = times_power_of_two(1, -exponent);
+  out.per_time = times_power_of_two(1, exponent);
+  return out;
 }
 
 template <>
 Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
   Frame<double> out;
-  out.r = to_double(separation(pair));
+  out.r = to_double(separation(pair)) * scale.per_length;
   const Flight* flight[2] = {pair.first, pair.second};
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
-  out.v = scaled(flight[0]->v - flight[1]->v, scale.per_velocity);
+  out.v = (flight[0]->v - flight[1]->v) * scale.per_velocity();
   for (int i = 0; i < 2; ++i) {
     out.u[i] = flight[i]->u;
     out.p[i] = flight[i]->p;
-    out.omega[i] = flight[i]->omega * scale.per_velocity;
+    out.omega[i] = flight[i]->omega * scale.per_rate;
     out.delay[i] = elapsed[i].hi * scale.per_time;
   }
+  set_half_lengths(out, pair, scale);
   set_norms(out);
   return out;
 }
@@ -92,14 +110,14 @@ Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
 template <>
 Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& scale) {
   Frame<DoubleDouble> out;
-  out.r = separation(pair);
+  out.r = scaled(separation(pair), scale.per_length);
   const Flight* flight[2] = {pair.first, pair.second};
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
-  out.v = to_double_double(scaled(flight[0]->v, scale.per_velocity)) -
-          to_double_double(scaled(flight[1]->v, scale.per_velocity));
+  out.v = to_double_double(flight[0]->v * scale.per_velocity()) -
+          to_double_double(flight[1]->v * scale.per_velocity());
   for (int i = 0; i < 2; ++i) {
     out.u[i] = to_double_double(flight[i]->u);
-    // |w| and w x u / |w| anew, to full precision; w first scaled by a power of two of its own.
+    // |w| and w x u / |w| again, to full precision; w first scaled by a power of two of its own.
     const double size = largest(flight[i]->w);
     if (size > 0) {
       const int exponent = exponent_of(size);
@@ -110,12 +128,13 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
       const Vec3dd p = cross(w, out.u[i]);
       out.p[i] = {p.x / length, p.y / length, p.z / length};
       const auto rescaled = [&](double a) {
-        return times_power_of_two(a, exponent) * scale.per_velocity;
+        return times_power_of_two(a, exponent) * scale.per_rate;
       };
       out.omega[i] = {rescaled(length.hi), rescaled(length.lo)};
     }
     out.delay[i] = {elapsed[i].hi * scale.per_time, elapsed[i].lo * scale.per_time};
   }
+  set_half_lengths(out, pair, scale);
   set_norms(out);
   return out;
 }
@@ -137,7 +156,7 @@ Estimate expanded(const Estimate& e, double off, double third) {
   return out;
 }
 
-Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
+Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair, const PairScale& scale) {
   // What a few operations in double-double may be off by, as a share of the largest number in them.
   constexpr double share = 0x1p-96;
   const auto number = [&](const DoubleDouble& a) { return range_of(a, share * std::abs(a.hi)); };
@@ -146,10 +165,10 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
     return Vec3<Range>{range_of(a.x, error), range_of(a.y, error), range_of(a.z, error)};
   };
   Frame<Range> out;
-  const double far = largest(pair.first->r) + largest(pair.second->r) +
-                     largest(to_double(pair.shift)) +
-                     largest(pair.first->v) * pair.elapsed_first.hi +
-                     largest(pair.second->v) * pair.elapsed_second.hi;
+  const double far = scale.per_length * (largest(pair.first->r) + largest(pair.second->r) +
+                                         largest(to_double(pair.shift)) +
+                                         largest(pair.first->v) * pair.elapsed_first.hi +
+                                         largest(pair.second->v) * pair.elapsed_second.hi);
   out.r = {range_of(frame.r.x, share * far), range_of(frame.r.y, share * far),
            range_of(frame.r.z, share * far)};
   out.v = vector(frame.v);
@@ -163,6 +182,7 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair) {
   const double r = frame.r_norm + far;
   out.offset = range_of(frame.offset, share * r + frame.offset_error);
   out.slope = range_of(frame.slope, share * (frame.v_norm + r * frame.w_sum));
+  set_half_lengths(out, pair, scale);
   set_norms(out);
   return out;
 }

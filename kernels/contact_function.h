@@ -3,8 +3,9 @@
 //     f(s) = r12(s) . (u1(s) x u2(s)),
 //
 // whose changes of sign with both contact points inside the needles are the collisions. s is time
-// since the later of the two records. Everything is scaled by a power of two so that
-// |v12| + |w1| + |w2| is about 1: no tolerance below refers to a unit of time.
+// since the later of the two records. Lengths and times are scaled by powers of two of the pair's
+// own, so that the sum of the half lengths and |v12| + |w1| + |w2| are about 1: no tolerance below
+// refers to a unit of length or of time.
 //
 // One template serves double, double-double and intervals; each value of the former two comes with
 // a bound on its rounding error, the rounding of its inputs to T included, relative to the records
@@ -48,7 +49,7 @@ struct Touch {
   bool touching = false;
   bool collided = false;  ///< the touch at s = 0 was a collision: gap 0, separating
   int side = 0;           ///< sign of f just after s = 0
-  double gap = 0;         ///< f(0)
+  double gap = 0;         ///< f(0) [L]
 };
 
 /// Two needles and one periodic image. Exchanging the needles and negating `shift` changes no bit
@@ -59,17 +60,21 @@ struct Pair {
   DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
   DoubleDouble elapsed_second;  ///< one of the two is 0
   Vec3dd shift;                 ///< added to the second needle's centre [L]
-  double half_first = 0.5, half_second = 0.5;  ///< half lengths [L]
+  double half_first = 0.5, half_second = 0.5;  ///< half lengths of the needles [L]
   Touch touch;
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
 };
 
-/// Exponent e such that velocities times 2^-e and times times 2^e make the pair's rate about 1.
-/// Only false when neither needle moves relative to the other.
+/// Powers of two that scale a pair: lengths times `per_length` make the sum of the half lengths lie
+/// in [1, 2); times times `per_time`, and rates (1 / time) times `per_rate`, make the pair's rate
+/// of change about 1.
 struct PairScale {
-  bool moves = false;
-  double per_velocity = 1;  ///< 2^-e
-  double per_time = 1;      ///< 2^e
+  bool moves = false;     ///< false when neither needle moves relative to the other
+  double per_rate = 1;    ///< 1 / per_time
+  double per_time = 1;    ///< scaled time per time
+  double per_length = 1;  ///< scaled length per length
+
+  double per_velocity() const { return per_length * per_rate; }
 };
 PairScale scale_of(const Pair& pair);
 
@@ -81,7 +86,7 @@ inline constexpr double unit_roundoff = 0x1p-53;
 template <>
 inline constexpr double unit_roundoff<DoubleDouble> = 0x1p-102;
 
-/// The pair in scaled time, seen from s = 0.
+/// The pair in scaled lengths and scaled time, seen from s = 0.
 template <class T>
 struct Frame {
   Vec3<T> r, v;        ///< r1 - r2 - shift and v1 - v2
@@ -91,13 +96,14 @@ struct Frame {
   double offset_error = 0;  ///< of the offset, in double
   double r_norm = 0, v_norm = 0, w_sum = 0;  ///< |r|, |v| and omega1 + omega2, not below
   double v_length = 0;                       ///< 2-norm of v, not below
+  double half[2] = {0.5, 0.5};               ///< half lengths
 };
 
 template <class T>
 Frame<T> make_frame(const Pair& pair, const PairScale& scale);
 
 /// Encloses the frame of this pair, made to double-double precision.
-Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair);
+Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair, const PairScale& scale);
 
 /// f with two derivatives and bounds on their errors at one time.
 struct Estimate {

@@ -1,5 +1,5 @@
-// What is known of the contact function of one pair at one time: in double with error bounds, and
-// in double-double where these leave a decision open.
+// The contact function of one pair at one time: in double with error bounds, and in double-double
+// where these leave a decision open.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ inline constexpr double noise_in_double = 0x1p-51;
 
 constexpr int sign_of(double a) { return (a > 0) - (a < 0); }
 
-/// Times are scaled, and count from s = 0 of the pair.
+/// Lengths and times are scaled; times count from s = 0 of the pair.
 template <Escalation escalation>
 class ContactValues {
  public:
@@ -55,21 +55,23 @@ class ContactValues {
     }
   }
 
-  /// Sign of f just after s, and that of f' at s; 0 when it cannot be told.
+  /// Sign of f just after s, and that of f' at s; 0 when it cannot be decided.
   int sign_at(double s);
   int slope_sign_at(double s);
   /// Whether both arms are inside the needles at a root that may be off by `uncertainty`: 1 inside,
   /// -1 outside, 0 undecided.
   template <class T>
   int arms_inside(const T& s, const Sample<T>& sample, double uncertainty) const;
-  /// By how much the root next to s may be off, by what is known of f there.
+  /// By how much the root next to s may be off, given an estimate of f at s.
   double root_uncertainty(const Estimate& e, double s, double roundoff) const;
 
  private:
   void continue_from_touch();
+  // f(0) as the touch has it, in scaled lengths.
+  double gap() const { return pair_.touch.gap * scale_.per_length; }
   template <class T>
   const Frame<T>& frame_in();
-  // What decides on a sign first.
+  // The estimate by which a sign is decided first.
   Estimate decisive(double s) {
     return escalation == Escalation::always ? in_double_double(s) : in_double(s);
   }
@@ -83,13 +85,13 @@ class ContactValues {
   SearchCounters& counters_;
 };
 
-// f is continued from the gap it had. In double, so far as that tells whether f leaves the touch on
-// its side.
+// f is continued from the gap it had: in double, where that decides whether f leaves the touch on
+// the pair's side.
 template <Escalation escalation>
 void ContactValues<escalation>::continue_from_touch() {
   const Estimate start = in_double(0);
   if constexpr (!escalates) {
-    frame_.offset = pair_.touch.gap - start.f;
+    frame_.offset = gap() - start.f;
     if (just_collided() && start.df * pair_.touch.side < 0) frame_.slope = -start.df;
     return;
   }
@@ -98,7 +100,7 @@ void ContactValues<escalation>::continue_from_touch() {
     frame_.offset = to_double(frame.offset);
     frame_.slope = to_double(frame.slope);
   } else {
-    frame_.offset = pair_.touch.gap - start.f;
+    frame_.offset = gap() - start.f;
     frame_.offset_error = start.error_f;
   }
 }
@@ -111,7 +113,7 @@ const Frame<DoubleDouble>& ContactValues<escalation>::precise_frame() {
   ++counters_.escalated;
   const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
   frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
-  frame.offset = DoubleDouble(pair_.touch.gap) - start.f;
+  frame.offset = DoubleDouble(gap()) - start.f;
   // A just-collided pair does not approach; what rounding of the velocities says otherwise is
   // taken off.
   if (pair_.touch.collided && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
@@ -191,9 +193,9 @@ template <Escalation escalation>
 template <class T>
 int ContactValues<escalation>::arms_inside(const T& s, const Sample<T>& sample,
                                            double uncertainty) const {
-  // |s12| < 1/2 as |c . x| < x . x / 2, c = u2 x r12: no division by what may be nearly 0. Near a
-  // contact c is s12 x, so that every error below shrinks with |x|; near parallel directors that is
-  // what tells contacts from the roots at which only x vanishes.
+  // |s12| < h, the half length, as |c . x| < h x . x, c = u2 x r12: no division by what may be
+  // nearly 0. Near a contact c is s12 x, so that every error below shrinks with |x|; near parallel
+  // directors that distinguishes contacts from the roots at which only x vanishes.
   const T xx = dot(sample.x, sample.x);
   const double w = frame_.w_sum, v = frame_.v_norm;
   const double rounding = escalates ? 16 * unit_roundoff<T> : 0;
@@ -209,9 +211,10 @@ int ContactValues<escalation>::arms_inside(const T& s, const Sample<T>& sample,
     const Vec3<T> c = cross(sample.u[1 - i], sample.r);
     const T n = dot(c, sample.x);
     const double length = std::sqrt(to_double(dot(c, c))) + off_c;
-    const double error = (off_c * x + (length + x) * off_x) * roundup;
+    const double half = frame_.half[i];
+    const double error = (off_c * x + (length + 2 * half * x) * off_x) * roundup;
     // Formed in T: inside and outside may differ in the last bits of a double.
-    const double margin = to_double(xx * T(0.5) - (to_double(n) < 0 ? -n : n));
+    const double margin = to_double(xx * T(half) - (to_double(n) < 0 ? -n : n));
     if (margin < -error) return -1;
     if (!(margin > error)) verdict = 0;
   }

@@ -16,15 +16,17 @@ constexpr double grid = 0.5;
 constexpr double polish_above = 0x1p-39;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double velocity_noise = 0x1p-46;
-// Segments farther apart do not touch, however small f is; far above what rounding does to them,
-// and below the margins of the filters by lanes.
+// Segments farther apart, in scaled lengths, do not touch, however small f is; far above what
+// rounding does to them, and below the margins of the SIMD filters.
 constexpr double touching = 0x1p-18;
+
 struct Root {
   DoubleDouble s;
   int side;  // sign of f before
 };
 
-// The search by one isolation and one escalation: what others need is not in its code.
+// The search for one way to find free intervals and one way to escalate, chosen at compile time, so
+// that its code contains nothing that only the others need.
 template <Isolation isolation, Escalation escalation>
 class Search {
  public:
@@ -69,7 +71,8 @@ class Search {
   double first_ = 0, last_ = 0;  // only roots between these can be contacts
 };
 
-// Sign of f just after an end of the interval that was classified by e, which often tells.
+// Sign of f just after an end of the interval that was classified by e. The expansion of e often
+// decides it.
 template <Isolation isolation, Escalation escalation>
 int Search<isolation, escalation>::sign_at_end(const Interval& interval, const Estimate& e,
                                                double end) {
@@ -83,7 +86,7 @@ int Search<isolation, escalation>::sign_at_end(const Interval& interval, const E
 }
 
 // The sign of f at the beginning of an interval on which |f'| is at least `least_slope`, when f has
-// a root there; else 0. The middle often tells both.
+// a root there; else 0. The values in the middle often decide both.
 template <Isolation isolation, Escalation escalation>
 int Search<isolation, escalation>::side_before_root(const Interval& interval, const Estimate& e,
                                                     double least_slope) {
@@ -172,7 +175,7 @@ std::optional<Root> Search<isolation, escalation>::accept_precisely(const Double
   if constexpr (!escalates) return accept(begin.hi, end.hi, start.hi, side);
   const auto [s, near, sample, e] = *refine(begin, end, start, side, 0);
   const double off = values_.root_uncertainty(e, to_double(near), 0x1p-102);
-  // What double-double cannot tell from a tip or from parallel directors is no contact.
+  // What double-double cannot distinguish from a tip or from parallel directors is no contact.
   if (!std::isfinite(off) || values_.arms_inside(near, sample, off) <= 0) return std::nullopt;
   return Root{s, side};
 }
@@ -220,7 +223,7 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
       turn = turn - sample.df / sample.ddf;
     }
     extreme = values_.in_double_double(turn);
-    if (!clear()) return std::nullopt;  // a touch, as far as double-double can tell
+    if (!clear()) return std::nullopt;  // a touch, as far as double-double can decide
   }
   if (sign_of(extreme.f) == before) return std::nullopt;
   const DoubleDouble from = interval.begin, to = interval.end;
@@ -256,9 +259,9 @@ std::optional<Root> Search<isolation, escalation>::search_start(const Interval& 
   return accept(lift, interval.end, back, side);
 }
 
-// The interval that begins at a touch, where f is not told from 0: f leaves it on one side, which
-// need not be the pair's. f' and f'' vanish too when the contact points of rough needles have come
-// to rest on each other.
+// The interval that begins at a touch, where f cannot be distinguished from 0: f leaves it on one
+// side, which need not be the pair's. f' and f'' vanish too when the contact points of rough
+// needles have come to rest on each other.
 template <Isolation isolation, Escalation escalation>
 std::optional<Root> Search<isolation, escalation>::search_flat_start(const Interval& interval) {
   const int side = values_.pair().touch.side;
@@ -326,16 +329,16 @@ std::optional<Root> Search<isolation, escalation>::search_interval(const Interva
   return search_interval({middle, interval.end, interval.depth + 1});
 }
 
-// The times at which |r + v s| <= 1, with a margin; empty when begin > end.
+// The times at which |r + v s| <= reach, with a margin; empty when begin > end.
 struct Window {
   double begin, end;
 };
 
-Window sphere_window(const Vec3d& r, const Vec3d& v) {
+Window sphere_window(const Vec3d& r, const Vec3d& v, double reach) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double r2 = dot(r, r);
   // The second term covers the rounding of r x v and of r . r, for needles far apart.
-  const double radius2 = 1 + 0x1p-20 + 0x1p-48 * r2;
+  const double radius2 = reach * reach * (1 + 0x1p-20) + 0x1p-48 * r2;
   const double c = r2 - radius2;
   const double b = dot(r, v);
   const double a = dot(v, v);
@@ -355,34 +358,35 @@ template <Isolation isolation, Escalation escalation>
 Contact Search<isolation, escalation>::run(double from, double until) {
   const double end = until * values_.scale().per_time;
   // A root outside the window of the spheres has an arm beyond a tip.
-  const Window window = sphere_window(values_.frame().r, values_.frame().v);
+  const Frame<double>& frame = values_.frame();
+  const Window window = sphere_window(frame.r, frame.v, frame.half[0] + frame.half[1]);
   last_ = std::min(end, window.end * roundup);
   first_ = std::max({0.0, from * values_.scale().per_time, window.begin * (1 - 0x1p-20) - 0x1p-40});
   if (values_.pair().touch.touching && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   if (values_.pair().touch_within > 0 && from == 0 && !values_.pair().touch.touching) {
     const Sample<double> start = values_.sample_at(0.0);
-    if (std::abs(start.f) <= values_.pair().touch_within &&
-        segment_distance_squared(start.r, start.u[0], start.u[1], start.x, dot(start.x, start.x)) <
+    if (std::abs(start.f) <= values_.pair().touch_within * values_.scale().per_length &&
+        segment_distance_squared(start.r, start.u[0], start.u[1], start.x, dot(start.x, start.x),
+                                 half_lengths(frame.half[0], frame.half[1])) <
             touching * touching) {
       Contact unknown;
       unknown.side_unknown = true;
       return unknown;
     }
   }
-  if (values_.just_collided() && values_.frame().w_sum == 0)
-    return {};  // f is linear and leaves 0 for good
+  if (values_.just_collided() && frame.w_sum == 0) return {};  // f is linear and leaves 0 for good
   // A root at the end of an interval belongs to it, so the first ends at first_ or later.
   const double start = std::max(0.0, (std::ceil(first_ / grid) - 1) * grid);
   for (double begin = start; begin <= last_; begin += grid) {
     if (const auto root = search_interval({begin, begin + grid, 0})) {
       const double s = to_double(root->s);
       if (s > end) return {};
-      return {.found = true,
-              .unresolvable = values_.just_collided() && s == 0,
-              .elapsed = {root->s.hi * values_.scale().per_velocity,
-                          root->s.lo * values_.scale().per_velocity},
-              .side = root->side};
+      return {
+          .found = true,
+          .unresolvable = values_.just_collided() && s == 0,
+          .elapsed = {root->s.hi * values_.scale().per_rate, root->s.lo * values_.scale().per_rate},
+          .side = root->side};
     }
     if (stretches_.vanishes(0)) return {};
   }
@@ -415,7 +419,8 @@ ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed) 
   const PairScale scale = scale_of(pair);
   const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
   ContactGeometry out;
-  const auto fill = [&](const auto& sample) {
+  const auto fill = [&](const auto& frame, const auto& time) {
+    const auto sample = evaluate(frame, time);
     using T = std::decay_t<decltype(sample.f)>;
     out.u_first = to_double(sample.u[0]);
     out.u_second = to_double(sample.u[1]);
@@ -423,15 +428,16 @@ ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed) 
     out.sin_angle = std::sqrt(dot(x, x));
     out.normal = {x.x / out.sin_angle, x.y / out.sin_angle, x.z / out.sin_angle};
     const T xx = dot(sample.x, sample.x);
-    const auto arm = [&](const Vec3<T>& other) {
-      return std::clamp(to_double(dot(cross(other, sample.r), sample.x) / xx), -0.5, 0.5);
+    const auto arm = [&](int i) {
+      const double length = to_double(dot(cross(sample.u[1 - i], sample.r), sample.x) / xx);
+      return std::clamp(length, -frame.half[i], frame.half[i]) / scale.per_length;
     };
-    out.arm_first = arm(sample.u[1]);
-    out.arm_second = arm(sample.u[0]);
+    out.arm_first = arm(0);
+    out.arm_second = arm(1);
   };
-  fill(evaluate(make_frame<double>(pair, scale), s.hi));
+  fill(make_frame<double>(pair, scale), s.hi);
   // Arms lose the digits that |u1 x u2| has lost.
-  if (!(out.sin_angle > 0x1p-10)) fill(evaluate(make_frame<DoubleDouble>(pair, scale), s));
+  if (!(out.sin_angle > 0x1p-10)) fill(make_frame<DoubleDouble>(pair, scale), s);
   return out;
 }
 
@@ -448,7 +454,7 @@ double gap_at(const Pair& pair, const DoubleDouble& elapsed) {
   SearchCounters ignored;
   ContactValues<Escalation::undecided> values(pair, scale, ignored);
   const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
-  return to_double(values.sample_at(s).f);
+  return to_double(values.sample_at(s).f) / scale.per_length;
 }
 
 }  // namespace needlework::kernels

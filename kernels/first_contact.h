@@ -3,8 +3,8 @@
 // Time since the later record is cut into intervals [n h, (n + 1) h], h = 2^-1 / rate, and each is
 // halved until a test of that interval alone settles it:
 //   free      f keeps its sign on it (Taylor expansion at the middle with a bound on the rest),
-//   monotone  f' keeps its sign: at most one root, told by the signs at the ends,
-//   folded    f'' keeps its sign: at most two roots, told by the ends and the extremum between.
+//   monotone  f' keeps its sign: at most one root, known from the signs at the ends,
+//   folded    f'' keeps its sign: at most two roots, known from the ends and the extremum between.
 // A root counts when f changes sign there and both arms are inside the needles. Every decision is
 // taken in double where its error bounds allow and in double-double otherwise. The result depends
 // on the pair alone: not on when or from which interval the search starts, nor where it ends.
@@ -35,8 +35,8 @@ struct Contact {
   int side = 0;  ///< sign of f before the contact
 };
 
-/// The first contact with elapsed time in (0, until]. Intervals wholly before `from` may be
-/// skipped: the caller knows them to be free. `until` must be finite.
+/// The first contact with elapsed time in (0, until]. The caller promises that there is none before
+/// `from`, so that intervals wholly before it are skipped. `until` must be finite.
 Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
                       const Accuracy& accuracy = standard_accuracy);
 
@@ -45,8 +45,8 @@ struct ContactGeometry {
   Vec3d u_first, u_second;
   Vec3d normal;           ///< (u1 x u2) / |u1 x u2|
   double sin_angle = 0;   ///< |u1 x u2|
-  double arm_first = 0;   ///< s12 [L], within [-1/2, 1/2]
-  double arm_second = 0;  ///< s21 [L]
+  double arm_first = 0;   ///< s12, within the half length of the first needle [L]
+  double arm_second = 0;  ///< s21, within that of the second [L]
 };
 ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed);
 

@@ -8,7 +8,7 @@ namespace needlework::kernels {
 using Four [[gnu::vector_size(16)]] = float;
 
 inline Four four(float a) { return Four{a, a, a, a}; }
-/// From anything of 16 bytes or more; what is not a float may be moved about.
+/// From any object of 16 bytes or more; its parts need not be floats.
 inline Four load_four(const void* p) {
   Four out;
   std::memcpy(&out, p, sizeof out);

@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "kernels/wide-inl.h"
+#include "kernels/simd_double-inl.h"
 
 #define NEEDLEWORK_TARGET HWY_ATTR
 HWY_BEFORE_NAMESPACE();
@@ -29,10 +29,10 @@ namespace needlework::kernels {
 #define NEEDLEWORK_TARGET
 namespace scalar {
 
-using Wide = double;
-constexpr std::size_t wide_at_once = 1;
-inline double load_wide(const double* p) { return *p; }
-inline void store_wide(double a, double* p) { *p = a; }
+using Doubles = double;
+constexpr std::size_t doubles_at_once = 1;
+inline double load_doubles(const double* p) { return *p; }
+inline void store_doubles(double a, double* p) { *p = a; }
 using sine_cosine_detail::turned;
 
 #include "kernels/free_flight_body.h"

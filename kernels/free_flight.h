@@ -1,7 +1,7 @@
 // Free flight of many needles at once: where each is after a time of its own.
 //
 // The same bits as centre_after() and director_after() of contact_function.h, one needle at a time,
-// on every instruction set; with one lane the source is the plain twin.
+// on every instruction set; with vectors of one double the source is the scalar twin.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ namespace needlework::kernels {
 inline constexpr std::size_t flights_at_once = 8;  ///< one vector of AVX-512
 
 /// Needles in columns, in any one unit of time. Columns have room for a multiple of
-/// `flights_at_once` of them; what is beyond the last needle may be anything, and is overwritten.
+/// `flights_at_once` of them; entries beyond the last needle may hold anything, and are
+/// overwritten.
 struct FlightColumns {
   enum Column {
     r_x,  // centre [L]; result: after the time

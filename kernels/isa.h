@@ -1,4 +1,4 @@
-// Instruction sets that the kernels by lanes are built for, chosen at run time.
+// Instruction sets that the SIMD kernels are built for, chosen at run time.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 
 namespace needlework::kernels {
 
-/// scalar is the twin: the same source, one lane, no vector instructions asked for.
+/// scalar is the twin: the same source with vectors of one number.
 enum class Isa { scalar, sse4, avx2, avx512 };
 
 std::string_view name_of(Isa isa);

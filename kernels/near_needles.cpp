@@ -15,7 +15,7 @@
 #include <hwy/highway.h>
 
 #if HWY_TARGET != HWY_SCALAR
-#include "kernels/lanes-inl.h"
+#include "kernels/simd-inl.h"
 
 #define NEEDLEWORK_TARGET HWY_ATTR
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +28,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
-#include "kernels/lanes_scalar.h"
+#include "kernels/simd_scalar.h"
 
 namespace needlework::kernels {
 
@@ -41,8 +41,8 @@ namespace {
 
 #define NEEDLEWORK_NEAR_KERNELS(isa, name)                          \
   constexpr NearKernels isa##_kernels = {                           \
-      Isa::isa,          name::lanes_at_once,    name::overlapping, \
-      name::approaching, name::contact_function, name::isolate}
+      Isa::isa,          name::floats_at_once,   name::overlapping, \
+      name::approaching, name::contact_function, name::bracket}
 
 NEEDLEWORK_NEAR_KERNELS(scalar, scalar);
 #if HWY_TARGETS & HWY_SSE4

@@ -1,14 +1,15 @@
-// Kernels by lanes that find, among many needles, those that one needle may meet soon.
+// SIMD kernels that find, among many needles, those that one needle may meet soon.
 //
-// They work in float on compact copies of the records and only ever rule pairs out: with margins
-// that cover every rounding, so that no choice of kernel or instruction set can change a
-// trajectory. What they let pass goes to first_contact, with a time before which it meets nothing.
-// One body (near_needles_body.h) serves all instruction sets; with one lane it is the plain twin,
-// and the results are equal bit for bit.
+// They work in float on compact copies of the records and only ever rule pairs out, with margins
+// that cover every rounding. So no choice of kernel or instruction set can change a trajectory.
+// Pairs that are not ruled out go to first_contact(), with a time before which they do not meet.
+// One body (near_needles_body.h) serves all instruction sets. With vectors of one float it is the
+// scalar twin. All give the same bits.
 //
-// Lengths are in L. Velocities are scaled by a power of two, the caller's unit of time, so that
-// they are of order 1; times are in that unit and count from a moment that the caller sets anew
-// before they exceed `longest_time`.
+// The caller chooses a unit of length and a unit of time, both powers of two: the unit of length so
+// that no needle is longer than one unit, the unit of time so that speeds are of order 1. All
+// lengths and times below are in these units. Times count from a moment that the caller moves
+// forward before they exceed `longest_time`.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +24,15 @@ inline constexpr float longest_time = 8;       ///< of the times below, see thei
 
 /// Up to 16 needles of one cell, in columns: where they have been placed, relative to the corner of
 /// the cell. Cells with more needles chain blocks.
-struct alignas(64) Block {
+struct alignas(64) NeedleBlock {
   enum Column { x, y, z, a_x, a_y, a_z, time, columns };
 
   float column[columns][block_size];  ///< centre; director or velocity; time of the centre
   std::uint32_t needle[block_size];
 };
 
-/// What belongs to a block and is better kept apart, for many cells are empty.
+/// What describes a block. It is stored apart from the blocks, because many cells are empty and
+/// their blocks need not be read.
 struct BlockLink {
   static constexpr std::uint32_t none = 0xffffffff;
 
@@ -43,8 +45,10 @@ struct alignas(64) Motion {
   float r[3], v[3], u[3], p[3];  ///< p = w x u / |w|, or 0
   float omega;                   ///< |w|
   float time;                    ///< of r, u and p
-  float until;                   ///< when the needle will be placed anew
+  float until;                   ///< when the needle will be placed again
+  float half;                    ///< half its length
 };
+static_assert(sizeof(Motion) == 64);
 
 /// A cell to look into: its first block and its corner less that of the searching needle's cell.
 struct CellView {
@@ -54,11 +58,11 @@ struct CellView {
 
 /// The cells around a needle.
 struct Surroundings {
-  const Block* blocks;
+  const NeedleBlock* blocks;
   const BlockLink* links;  ///< one for each block
   const CellView* cells;
   std::size_t cell_count;
-  const Motion* motions = nullptr;  ///< of all needles; those of found ones are brought near
+  const Motion* motions = nullptr;  ///< of all needles; those of found ones are prefetched
 };
 
 /// Needles found in the cells, in columns with room for one block more than there are needles.
@@ -70,15 +74,16 @@ struct Found {
 /// The needle that searches.
 struct Seeker {
   Motion motion;         ///< at `now`
-  float r[3], u[3];      ///< centre and director of its hull, as in its block
+  float r[3], u[3];      ///< centre and director of its bounding volume, as in its block
   float now;             ///< present time
   float ahead;           ///< how far it searches
-  float margin;          ///< of lengths; covers what rounding did to the columns [L]
+  float margin;          ///< of lengths; covers what rounding did to the columns
+  float longest_half;    ///< half the length of the longest needle, which each other one may have
   std::uint32_t needle;  ///< itself; not reported, nor its images
 };
 
 /// Pairs to be looked at more closely, in columns: the second needle as seen from the seeker.
-/// Columns have room for two blocks more, which isolate() overwrites.
+/// Columns have room for two blocks more, which bracket() overwrites.
 struct PairColumns {
   enum Column {
     r_x,
@@ -94,10 +99,11 @@ struct PairColumns {
     p_y,
     p_z,
     omega,  // the other's rotation
+    half,   // half the other's length
     age,    // time since the other's u and p
     until,  // how far ahead this pair is searched
-    from,   // looked at from this time from now on; result: it meets nothing between that and
-            // this time; infinite: nor later
+    from,   // in: the pair is searched from this time from now on; out: it does not meet between
+            // that time and this one; infinite: it does not meet until `until`
     columns
   };
   float* column[columns];
@@ -105,7 +111,7 @@ struct PairColumns {
 
 /// The contact function of pairs, in columns with room for one block more than there are pairs. The
 /// error bounds hold where the bounding spheres overlap and phases, |w| times the time since a
-/// needle's u and p, are below 2^12 in sum; elsewhere isolate() does not use them.
+/// needle's u and p, are below 2^12 in sum; elsewhere bracket() does not use them.
 struct ContactColumns {
   enum Column {
     f,
@@ -122,7 +128,7 @@ struct ContactColumns {
   float* column[columns];
 };
 
-/// What a scan of cells came to.
+/// The counts of a scan of cells.
 struct Scan {
   std::size_t seen;   ///< needles in the cells
   std::size_t found;  ///< of these, how many were found
@@ -133,18 +139,19 @@ struct NearKernels {
   Isa isa;
   std::size_t lanes;
 
-  /// Needles whose hulls, capsules of radius `radius` around where they have been placed, overlap
-  /// the seeker's.
+  /// Needles whose bounding volumes, capsules of radius `radius` around where they have been
+  /// placed, overlap the seeker's.
   Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius,
                       const Found& found);
-  /// Needles whose bounding spheres come to overlap the seeker's in the time ahead; their columns
-  /// a are velocities.
+  /// Needles whose bounding spheres overlap the seeker's at some time ahead; the columns a of
+  /// their blocks are velocities.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
-  /// What isolate() knows of the first n pairs at time s from now.
+  /// The contact function of the first n pairs at time s from now, as bracket() computes it.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
                            const ContactColumns& out);
-  /// Sets `from` of the first n pairs. Returns the evaluations of the contact function, by lanes.
-  std::size_t (*isolate)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
+  /// Brackets the first contact of the first n pairs from below: sets their columns `from`. Returns
+  /// how many vectors of contact functions it has evaluated.
+  std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };
 
 /// Kernels of an instruction set that is available().

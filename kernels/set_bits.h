@@ -1,4 +1,4 @@
-// Where the bits set in a byte are: a table to bring lanes together by.
+// Where the bits set in a byte are: a table to pack the lanes of a vector.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Sine and cosine of our own, so that they are the same bits on every machine and in every lane.
+// Own sine and cosine, which give the same bits on every machine and in every vector.
 //
-// The argument is reduced by the nearest multiple of pi/2, taken off in three parts; what is left,
+// The argument is reduced by the nearest multiple of pi/2, subtracted in three parts. The rest,
 // |r| <= pi/4, goes through the Taylor series, whose first neglected terms are below 2^-57 (double)
 // and 2^-110 (double-double).
 #pragma once
@@ -20,7 +20,7 @@ struct SineCosine {
 
 namespace sine_cosine_detail {
 
-// Without branches: no processor can foretell the quadrant.
+// Without branches: no processor can predict the quadrant.
 inline SineCosine<double> turned(double shifted, double s, double c) {
   const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(shifted);
   const std::uint64_t s_bits = std::bit_cast<std::uint64_t>(s);

@@ -1,6 +1,6 @@
 // Included in the namespace of each number type, which has turned(); see sine_cosine.h.
 
-/// Sine and cosine of a double, or of lanes of them.
+/// Sine and cosine of a double, or of a vector of them.
 template <class T>
 NEEDLEWORK_INLINE SineCosine<T> sine_cosine_of(const T& x) {
   // 2^52 + 2^51: adding it rounds to an integer, whose low bits are then those of the sum.

@@ -1,4 +1,4 @@
-// Stretches of time, and what the contact function does on them: by one way of isolation.
+// What the contact function does on an interval of time, found in one of three ways (`Isolation`).
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace needlework::kernels {
 
-/// What f does on a stretch: keeps its sign; its first, or second, derivative does; or it is not
-/// told from 0 anywhere, even in double-double.
+/// What f does on an interval: it keeps its sign; its first, or second, derivative does; or it
+/// cannot be distinguished from 0 anywhere, even in double-double.
 enum class Shape { free, monotone, folded, flat, unknown };
 
 struct Interval {
@@ -21,7 +21,8 @@ struct Interval {
   double half() const { return 0.5 * (end - begin); }
 };
 
-/// Tells the shape of stretches, by that stretch alone, not by what was searched before.
+/// Finds the shape of f on an interval. The answer depends on that interval alone, not on what was
+/// searched before.
 template <Isolation isolation, Escalation escalation>
 class Stretches {
  public:
@@ -44,7 +45,7 @@ class Stretches {
   // From this depth on, bounds are sharpened by the coefficients of f: costly, but the only way
   // when f is small everywhere, as for needles in nearly one plane.
   static constexpr int sharpen_depth = 3;
-  // From this depth on, stretches that intervals leave open are looked at by those bounds too.
+  // From this depth on, those bounds are tried too where interval arithmetic does not decide.
   static constexpr int forget_depth = 6;
   // Without error bounds, f is taken to vanish where it stays below this share of the distance.
   static constexpr double flat_in_double = 8 * noise_in_double;
@@ -59,8 +60,8 @@ class Stretches {
   ContactValues<escalation>& values_;
   std::optional<Amplitude> amplitude_;
   bool vanishes_ = false;
-  // With isolation by intervals: the frame, and what it says of the interval at hand, if that
-  // settled it.
+  // For interval arithmetic: the frame, and the ranges of the derivatives on the interval at hand,
+  // where they decided its shape.
   struct Enclosure {
     Range df, ddf;
   };
@@ -190,7 +191,7 @@ template <Isolation isolation, Escalation escalation>
 Shape Stretches<isolation, escalation>::classify_by_intervals(const Interval& interval,
                                                               Estimate& e) {
   enclosure_.reset();
-  if (!ranges_) ranges_ = enclose(values_.precise_frame(), values_.pair());
+  if (!ranges_) ranges_ = enclose(values_.precise_frame(), values_.pair(), values_.scale());
   values_.counters().evaluated += 2;
   const Sample<Range> whole = evaluate(*ranges_, Range(interval.begin, interval.end));
   const Sample<Range> middle = evaluate(*ranges_, Range(interval.middle()));
@@ -200,7 +201,7 @@ Shape Stretches<isolation, escalation>::classify_by_intervals(const Interval& in
   const Range f = common(whole.f, middle.f + way * middle.df + bent);
   const auto centre = [](const Range& a) { return a.lo + 0.5 * (a.hi - a.lo); };
   const auto width = [](const Range& a) { return round_up(a.hi - a.lo); };
-  // The centre may lie beyond what is known of the whole interval, and then not have its sign.
+  // The centre may lie outside the range known for the whole interval, and then have another sign.
   const auto within = [&](const Range& a, const Range& known) {
     return std::clamp(centre(a), known.lo, known.hi);
   };
@@ -222,7 +223,8 @@ Shape Stretches<isolation, escalation>::classify_by_intervals(const Interval& in
   const bool by_rounding = width(middle.f) > 0x1p-6 * width(f) ||
                            width(middle.df) > 0x1p-6 * width(df) ||
                            width(middle.ddf) > 0x1p-6 * width(ddf);
-  // Intervals forget that f is small everywhere, as it is for needles in nearly one plane.
+  // Interval arithmetic does not see that f is small everywhere, as for needles in nearly one
+  // plane.
   const bool forgotten = interval.depth >= forget_depth;
   return by_rounding || forgotten ? classify_precisely(interval, e) : shape;
 }

@@ -10,10 +10,10 @@
 namespace needlework::bench {
 namespace {
 
-using kernels::Block;
 using kernels::BlockLink;
 using kernels::Flight;
 using kernels::Motion;
+using kernels::NeedleBlock;
 using kernels::Seeker;
 
 constexpr std::uint64_t needles_drawn = 4000;
@@ -63,6 +63,7 @@ Motion motion_of(const Flight& flight, const Vec3d& corner) {
   store(out.u, flight.u);
   store(out.p, flight.p);
   out.omega = static_cast<float>(flight.omega);
+  out.half = 0.5f;
   return out;
 }
 
@@ -73,6 +74,7 @@ Seeker seeker_of(const Motion& motion, double ahead, std::uint32_t needle) {
   std::copy(std::begin(motion.u), std::end(motion.u), out.u);
   out.ahead = static_cast<float>(ahead);
   out.margin = margin;
+  out.longest_half = 0.5f;
   out.needle = needle;
   return out;
 }
@@ -148,10 +150,10 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
     const Vec3d r = needle.r - corner_of(needle.r);
     const Vec3d& a = columns == Columns::directors ? needle.u : needle.v;
     for (int axis = 0; axis < 3; ++axis) {
-      blocks[b].column[Block::x + axis][lane] = static_cast<float>(component(r, axis));
-      blocks[b].column[Block::a_x + axis][lane] = static_cast<float>(component(a, axis));
+      blocks[b].column[NeedleBlock::x + axis][lane] = static_cast<float>(component(r, axis));
+      blocks[b].column[NeedleBlock::a_x + axis][lane] = static_cast<float>(component(a, axis));
     }
-    blocks[b].column[Block::time][lane] = 0;
+    blocks[b].column[NeedleBlock::time][lane] = 0;
     blocks[b].needle[lane] = i;
   }
 
@@ -214,6 +216,7 @@ PairBatch::PairBatch(const std::vector<NearPair>& pairs, double time_ahead)
       to.column[C::p_x + axis][n] = static_cast<float>(component(second.p, axis));
     }
     to.column[C::omega][n] = static_cast<float>(second.omega);
+    to.column[C::half][n] = 0.5f;
     to.column[C::until][n] = seeker.ahead;
   }
 }

@@ -51,18 +51,18 @@ struct Neighbourhoods {
     return {blocks.data(), links.data(), one.cells.data(), one.cells.size()};
   }
 
-  std::vector<kernels::Block> blocks;
+  std::vector<kernels::NeedleBlock> blocks;
   std::vector<kernels::BlockLink> links;
   std::vector<Neighbourhood> all;
   std::size_t most_needles = 0;  ///< of any
 };
 
-/// Pairs of one needle with those that meet its bounding sphere, as isolate() takes them.
+/// Pairs of one needle with those that meet its bounding sphere, as bracket() takes them.
 struct PairBatch {
   explicit PairBatch(const std::vector<NearPair>& pairs, double time_ahead);
 
   kernels::PairColumns columns();
-  /// Undoes what isolate() has written.
+  /// Undoes what bracket() has written.
   void restart();
 
   kernels::Seeker seeker{};

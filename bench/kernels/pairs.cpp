@@ -37,7 +37,7 @@ void spheres(benchmark::State& state, double density) {
   const double ahead = time_ahead(density);
   for_pairs(state, pairs, [&](const NearPair& pair, std::size_t) {
     return kernels::spheres_stay_apart(pair.first.r - pair.second.r, pair.first.v - pair.second.v,
-                                       ahead);
+                                       1, ahead);
   });
 }
 
@@ -45,7 +45,8 @@ void closest_approach(benchmark::State& state, double density) {
   for_pairs(state, near_pairs(density, pair_count), [](const NearPair& pair, std::size_t) {
     const Vec3d x = cross(pair.first.u, pair.second.u);
     return kernels::segment_distance_squared(pair.first.r - pair.second.r, pair.first.u,
-                                             pair.second.u, x, dot(x, x));
+                                             pair.second.u, x, dot(x, x),
+                                             kernels::half_lengths(0.5, 0.5));
   });
 }
 

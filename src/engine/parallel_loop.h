@@ -185,7 +185,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   // The previous phase may have been long ago, so its largest speed is rescaled.
   phase_.begin(fastest_to_thermal_ * thermal_speed(), plan_.most_of_a_thread());
   for (auto& thread : threads_) thread.begin();
-  [[maybe_unused]] const Time base = search_.hulls().base;
+  [[maybe_unused]] const Time base = search_.volumes().base;
   const TimeKey end_key = cell_calendar_.key_of(end);
   const int threads = static_cast<int>(threads_.size());
   {
@@ -207,7 +207,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
       }
     }
   }
-  assert(search_.hulls().base == base);  // no thread may rebase while others work
+  assert(search_.volumes().base == base);  // no thread may rebase while others work
   ++run_.tally.counters.phases;
   const double fastest = phase_.fronts.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;

@@ -15,6 +15,7 @@
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
+#include "src/search/lengths.h"
 #include "src/search/sizing.h"
 
 namespace needlework {
@@ -83,7 +84,8 @@ struct Simulation::Implementation {
   }
 
   void begin_loop(ReplacedRecords replaced = {}) {
-    LoopChoice choice = choice_of(scene, run, sizing ? sizing->density() : run.gas.density());
+    LoopChoice choice =
+        choice_of(scene, run, sizing ? sizing->density() : reduced_density(run.gas));
     choice.replaced = std::move(replaced);
     loop = make_loop(run, std::move(choice));
     search = loop->search_name();

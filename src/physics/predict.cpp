@@ -48,10 +48,11 @@ kernels::Flight flight_of(const FreeNeedle& needle) {
 struct NearInterval {
   double enter, exit;
 };
-NearInterval near_interval(const kernels::Flight& a, const kernels::Flight& b) {
+NearInterval near_interval(const kernels::Pair& pair) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Vec3d r = a.r - b.r, v = a.v - b.v;
-  const double reach = 1 + 0x1p-20 + 0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
+  const Vec3d r = pair.first->r - pair.second->r, v = pair.first->v - pair.second->v;
+  const double reach = (pair.half_first + pair.half_second) * (1 + 0x1p-20) +
+                       0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
   const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (scale == 0) return {dot(r, r) <= reach * reach ? 0 : infinity, infinity};
   const Vec3d d = v * (1 / scale);
@@ -76,7 +77,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const NearInterval near = near_interval(a, b);
+  const NearInterval near = near_interval(pair);
   const double end = near.enter + most_turned / (a.omega + b.omega);
   const kernels::Contact contact =
       kernels::first_contact(pair, 0, std::min(horizon, end), counters, accuracy);

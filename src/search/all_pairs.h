@@ -1,5 +1,5 @@
-// Search without a structure: every needle, every image that could come near. The truth that other
-// searches are tested against; cost grows with N.
+// Search without a structure: every needle, every image that could come near. Other searches are
+// tested against it. Its cost grows with the number of needles.
 #pragma once
 
 #include <cmath>
@@ -34,9 +34,10 @@ class AllPairs {
       const Record& b = gas_.records[j];
       const Vec3d r = filter.centre() - centre_after(b.flight, gas_.clock.difference(now, b.time));
       const Vec3d v = v_i - b.flight.v;
-      const Range x = images(r.x, v.x, filter.ahead(), gas_.box[0]);
-      const Range y = images(r.y, v.y, filter.ahead(), gas_.box[1]);
-      const Range z = images(r.z, v.z, filter.ahead(), gas_.box[2]);
+      const double reach = half_length_of(gas_, i) + half_length_of(gas_, j);
+      const Range x = images(r.x, v.x, reach, filter.ahead(), gas_.box[0]);
+      const Range y = images(r.y, v.y, reach, filter.ahead(), gas_.box[1]);
+      const Range z = images(r.z, v.z, reach, filter.ahead(), gas_.box[2]);
       for (std::int32_t sx = x.first; sx <= x.last; ++sx) {
         for (std::int32_t sy = y.first; sy <= y.last; ++sy) {
           for (std::int32_t sz = z.first; sz <= z.last; ++sz) {
@@ -51,12 +52,11 @@ class AllPairs {
   struct Range {
     std::int32_t first, last;
   };
-  // The images m for which |r + v s - m box| <= L somewhere in [0, dt], with a margin.
-  static Range images(double r, double v, double dt, double box) {
-    constexpr double reach = 1 + 0x1p-10;
-    const double travel = v == 0 ? 0 : v * dt;
-    return {static_cast<std::int32_t>(std::ceil((r + std::fmin(0, travel) - reach) / box)),
-            static_cast<std::int32_t>(std::floor((r + std::fmax(0, travel) + reach) / box))};
+  // The images m for which |r + v s - m box| <= reach somewhere in [0, dt], with a margin.
+  static Range images(double r, double v, double reach, double dt, double box) {
+    const double wide = reach * (1 + 0x1p-10), travel = v == 0 ? 0 : v * dt;
+    return {static_cast<std::int32_t>(std::ceil((r + std::fmin(0, travel) - wide) / box)),
+            static_cast<std::int32_t>(std::floor((r + std::fmax(0, travel) + wide) / box))};
   }
 
   const Gas& gas_;

@@ -6,6 +6,7 @@
 #include "kernels/bounding_spheres.h"
 #include "needlework/counters.h"
 #include "src/physics/gas.h"
+#include "src/search/lengths.h"
 
 namespace needlework {
 
@@ -13,7 +14,12 @@ namespace needlework {
 class BoundingFilter {
  public:
   BoundingFilter(const Gas& gas, Counters& counters, Needle i, Time now, double ahead)
-      : gas_(gas), counters_(counters), now_(now), ahead_(ahead), v_(gas.records[i].flight.v) {
+      : gas_(gas),
+        counters_(counters),
+        now_(now),
+        ahead_(ahead),
+        half_(half_length_of(gas, i)),
+        v_(gas.records[i].flight.v) {
     const Record& record = gas.records[i];
     centre_ = centre_after(record.flight, gas.clock.difference(now, record.time));
   }
@@ -25,7 +31,8 @@ class BoundingFilter {
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
     const Vec3d r =
         (centre_ - centre_after(other.flight, gas_.clock.difference(now_, other.time))) - image;
-    if (kernels::spheres_stay_apart(r, v_ - other.flight.v, ahead_)) {
+    const double reach = half_ + half_length_of(gas_, j);
+    if (kernels::spheres_stay_apart(r, v_ - other.flight.v, reach, ahead_)) {
       ++counters_.filtered;
     } else {
       ahead_ = visit(j, shift, 0.0, std::numeric_limits<double>::infinity());
@@ -39,7 +46,7 @@ class BoundingFilter {
   const Gas& gas_;
   Counters& counters_;
   Time now_;
-  double ahead_;
+  double ahead_, half_;
   Vec3d centre_, v_;
 };
 

@@ -90,22 +90,24 @@ class CellGrid {
   struct AxisCell {
     std::int32_t cell;  ///< not wrapped
     std::int32_t wrapped;
-    float offset;       ///< of its corner from that of the cell `origin` [L]
-    float gap_squared;  ///< of its distance from the interval, not above [L^2]
+    float offset;       ///< of its corner from that of the cell `origin` [unit]
+    float gap_squared;  ///< of its distance from the interval, not above [unit^2]
   };
 
   /// Appends the cells of an axis that, made larger by `overlap` on either side, are not farther
-  /// than `reach` from [low, high].
+  /// than `reach` from [low, high]. They are described in a unit of length of which L contains
+  /// `per_length`, a power of two.
   void append_near(int axis, std::int32_t origin, double low, double high, double overlap,
-                   double reach, std::vector<AxisCell>& out) const {
+                   double reach, double per_length, std::vector<AxisCell>& out) const {
     low -= overlap;
     high += overlap;
     const std::int32_t first = floor((low - reach) * reciprocal_[axis]);
     const std::int32_t last = floor((high + reach) * reciprocal_[axis]);
     std::int32_t wrapped = wrap(first, axis);
     for (std::int32_t c = first; c <= last; ++c) {
-      const double gap = std::max({0.0, c * side_[axis] - high, low - (c + 1) * side_[axis]});
-      out.push_back({c, wrapped, static_cast<float>((c - origin) * side_[axis]),
+      const double gap =
+          std::max({0.0, c * side_[axis] - high, low - (c + 1) * side_[axis]}) * per_length;
+      out.push_back({c, wrapped, static_cast<float>((c - origin) * side_[axis] * per_length),
                      static_cast<float>(gap * gap * (1 - 0x1p-20))});
       if (++wrapped == count_[axis]) wrapped = 0;
     }

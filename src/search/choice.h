@@ -1,6 +1,6 @@
-// What `auto` stands for, by the number of needles per L^3 around a needle; see sizing.h.
-// `needlework bench hulls` compares that with sizes by hand, from masses at the tips to ones at the
-// centre.
+// What `auto` stands for, by the number of needles per L^3 around a needle, L the length of the
+// longest needle; see sizing.h. `needlework bench hulls` compares these sizes with others, for
+// masses from the tips to the centre of the needles.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ inline double auto_capsule_radius(double density) {
   return std::clamp(0.6 / std::cbrt(density * density), 0.02, 1.0);
 }
 
-/// Side of the cells of capsules [L], of about 12 needles, which fill the lanes; a few fewer where
-/// several threads are to have equal parts of them.
+/// Side of the cells of capsules [L], of about 12 needles, which fill the vectors; a few fewer
+/// where several threads are to have equal parts of them.
 inline double auto_side_for_capsules(double density) { return std::cbrt(12 / density); }
 
 /// Side of linked cells [L], of about 8 needles. In a dilute gas it pays to look through more, as

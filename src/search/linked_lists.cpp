@@ -8,19 +8,19 @@ namespace {
 
 // A needle stays in its cell until it is out of it by so much, which rounding of its centre in a
 // wide box must not undo.
-double margin_of(const std::array<double, 3>& box) {
-  return 0x1p-30 + 0x1p-48 * std::max({box[0], box[1], box[2]});
+double margin_of(const Gas& gas) {
+  return 0x1p-30 * gas.longest + 0x1p-48 * std::max({gas.box[0], gas.box[1], gas.box[2]});
 }
 
 }  // namespace
 
 LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& setup)
-    : gas_(gas), counters_(counters), margin_(margin_of(gas.box)), place_(gas.size()) {
+    : gas_(gas), counters_(counters), margin_(margin_of(gas)), place_(gas.size()) {
   // Cells much emptier than one needle each would only cost memory and crossings.
   const double needles = std::max<double>(1, static_cast<double>(gas.size()));
   const double volume = gas.box[0] * gas.box[1] * gas.box[2];
   const double side = setup.cell_side.value_or(std::cbrt(volume / (2 * needles)));
-  grid_ = CellGrid(gas.box, std::max(1 + 4 * margin_, side), gas.size());
+  grid_ = CellGrid(gas.box, std::max(gas.longest + 4 * margin_, side), gas.size());
   head_.assign(grid_.size(), no_needle);
 }
 

@@ -1,7 +1,8 @@
-// Linked cells as the classical codes have them, and the paper: the box is cut into cells of side
-// about L, or larger where there would be more than two for each needle, each with a linked list of
-// its needles; needles in contact are in the same or in neighbouring cells. Plain, and slow when
-// dense, since a cell cannot be smaller than a needle: the baseline of every benchmark.
+// Linked cells as classical codes and the paper have them: the box is cut into cells of about the
+// length of a needle, or larger where there would be more than two cells for each needle. Each cell
+// has a linked list of its needles; needles in contact are in the same cell or in neighbouring
+// ones. Simple, and slow in dense gases, since a cell cannot be smaller than a needle: the baseline
+// of every benchmark.
 #pragma once
 
 #include <vector>

@@ -1,132 +1,82 @@
-// Searches by lanes over rows of cells: linked cells and capsules.
+// Searches with SIMD kernels over rows of cells: `linked-cells` and `capsules`.
 //
-// A needle is placed where it is: it gets a hull, a region fixed in space that it will not leave
-// before a known time, and an entry in a cell. Only needles whose hulls come near can meet before
-// one of them is placed anew, and whoever is placed anew searches. So nothing has to be kept: no
-// lists, and no trace of a needle with its neighbours.
+// Both look through the cells around a needle (bounding_volumes.h) with a filter, and follow the
+// pairs that pass it: bracket() of kernels/near_needles.h finds the time before which a pair cannot
+// meet, or that it does not meet at all.
 //
-//   linked-cells  the hull is the cell and a fifth of its side around it; filtered by bounding
-//                 spheres in flight.
-//                 For dilute gases: needles stay long, and neighbours are few.
-//   capsules      the hull is a capsule of radius delta around the needle; filtered by the overlap
-//                 of capsules. For dense gases: the few needles next to this one are nearly all.
-//
-// What a filter passes is looked at once more, by lanes: isolate() of kernels/near_needles.h
-// follows both needles until they cannot meet, or to where they may.
+//   linked-cells  needles whose bounding spheres meet in flight; for dilute gases, where needles
+//                 stay long in their cells and neighbours are few
+//   capsules      needles whose capsules overlap; for dense gases, where the few needles next to a
+//                 needle are nearly all that it can meet
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "kernels/near_needles.h"
-#include "needlework/counters.h"
-#include "src/memory/large_array.h"
 #include "src/memory/prefetch.h"
-#include "src/physics/gas.h"
-#include "src/search/cell_grid.h"
+#include "src/search/bounding_volumes.h"
+#include "src/search/pair_table.h"
 #include "src/search/search.h"
-#include "src/search/setup.h"
 
 namespace needlework {
 
-/// Where all needles are: their hulls, and the cells that hold them. Several threads may use it at
-/// once, as long as none reads what another writes: placing a needle writes to the cells that it
-/// leaves and enters, finding its neighbours reads cells within `Phase::neighbours` of its own
-/// (src/engine/phase.h).
-struct Hulls {
-  enum class Kind { cell, capsule };
-
-  struct Place {
-    Cell cell{};
-    std::uint32_t block = kernels::BlockLink::none;
-    std::uint32_t lane = 0;
-    Time until = Time::never();
-  };
-
-  Hulls(const Gas& gas, const SearchSetup& setup, Kind kind);
-
-  void rebase(Time now);
-  void set_motion(Needle i, Time now);
-  void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
-  /// Returns whether i has come from another cell.
-  bool enter(Needle i, const Cell& cell);
-  void leave(Needle i);
-  double since_base(Time t) const { return gas.clock.difference(t, base) * unit; }
-
-  const Gas& gas;
-  Kind kind;
-  double radius;       ///< of capsules; else 0 [L]
-  double overlap = 0;  ///< how far a needle may go beyond its cell; 0 for capsules [L]
-  CellGrid grid;
-  float margin = 0;  ///< of lengths, see kernels::Seeker [L]
-  double unit = 0;   ///< 1 / unit of time: a power of two; 0 before the first needle
-  Time base;         ///< from which times in blocks and motions count
-  LargeArray<Place> places;
-  LargeArray<kernels::Motion> motions;
-  LargeArray<kernels::Block> blocks;  ///< first those of the cells, then those chained to them
-  LargeArray<kernels::BlockLink> links;
-  std::vector<std::uint32_t> free_blocks;
-  std::mutex chaining;  ///< held while blocks are taken from or given to the free ones
-  std::atomic<std::size_t> longest_chain = 1;  ///< blocks of one cell that there have ever been
-};
-
-/// A thread's own part of the search.
+/// One thread's part of the search.
 class NearSearch {
  public:
-  /// `gas` must outlive the search; needles are entered by place().
-  NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, Hulls::Kind kind);
-  /// For another thread, with counters of its own; shares the hulls.
+  /// `gas` and `counters` must outlive the search; needles are entered by place().
+  NearSearch(const Gas& gas, Counters& counters, const SearchSetup& setup, BoundingVolume kind);
+  /// For another thread, with counters of its own; shares the bounding volumes.
   NearSearch(const NearSearch& other, Counters& counters);
 
-  /// The kind that scenes name so, if any.
-  static std::optional<Hulls::Kind> kind_of(std::string_view name) {
-    if (name == "linked-cells") return Hulls::Kind::cell;
-    if (name == "capsules") return Hulls::Kind::capsule;
-    return std::nullopt;
+  static constexpr const char* name_of(BoundingVolume kind) {
+    return kind == BoundingVolume::cell ? "linked-cells" : "capsules";
   }
-  const char* name() const {
-    return hulls_->kind == Hulls::Kind::cell ? "linked-cells" : "capsules";
+  /// The kind that scenes name so, if any.
+  static std::optional<BoundingVolume> kind_of(std::string_view name) {
+    for (const auto kind : {BoundingVolume::cell, BoundingVolume::capsule}) {
+      if (name == name_of(kind)) return kind;
+    }
+    return std::nullopt;
   }
 
   Time place(Needle i, Time now);
-  void renumber(const std::vector<Needle>& ranks);
-  void prefetch(Needle i) const {
-    needlework::prefetch(&hulls_->places[i]);
-    needlework::prefetch(&hulls_->motions[i]);
-  }
-
+  void renumber(const std::vector<Needle>& ranks) { volumes_->renumber(ranks); }
+  /// Candidates come in the order of the times from which on they may meet.
   template <class Visit>
-  void find(Needle i, Needle just_hit, Time now, double ahead, Visit&& visit) {
-    for (const Candidate& candidate : candidates(i, just_hit, now, ahead)) {
-      if (candidate.from > ahead) break;  // they are in this order
+  void find(Needle i, Needle just_hit, Time, double ahead, Visit&& visit) {
+    for (const Candidate& candidate : candidates(i, just_hit, ahead)) {
+      if (candidate.from > ahead) break;
       ahead = visit(candidate.needle, candidate.shift, candidate.from, candidate.to);
     }
   }
-
-  const Hulls& hulls() const { return *hulls_; }
-  const CellGrid& grid() const { return hulls_->grid; }
-  /// The cell in which needle i has been placed, in the frame of its record.
-  const Cell& cell_of(Needle i) const { return hulls_->places[i].cell; }
+  const char* name() const { return name_of(volumes_->kind); }
   std::size_t cells() const { return grid().size(); }
   std::uint32_t cell_index(Needle i) const {
     return static_cast<std::uint32_t>(grid().index_of(cell_of(i)));
   }
-  /// How far from its cell a needle may come before it is placed anew. [L]
-  double drift() const { return hulls_->kind == Hulls::Kind::cell ? hulls_->overlap : radius(); }
+  void prefetch(Needle i) const {
+    needlework::prefetch(&volumes_->places[i]);
+    needlework::prefetch(&volumes_->motions[i]);
+  }
+
+  const BoundingVolumes& volumes() const { return *volumes_; }
+  const CellGrid& grid() const { return volumes_->grid; }
+  /// The cell in which needle i has been placed, in the frame of its record.
+  const Cell& cell_of(Needle i) const { return volumes_->places[i].cell; }
+  /// How far from its cell a needle may come before it is placed again. [L]
+  double drift() const {
+    return volumes_->kind == BoundingVolume::cell ? volumes_->overlap : radius();
+  }
   /// How far from where a needle is it may be placed. [L]
-  double radius() const { return hulls_->radius; }
-  /// Makes times from now on fit for place(). Returns until when they are: till then several
-  /// threads may call it.
+  double radius() const { return volumes_->radius; }
+  /// Makes times from now on fit for place(). Returns until when they are: up to then several
+  /// threads may call place().
   Time prepare(Time now) {
-    Hulls& hulls = *hulls_;
-    // From the middle on anew, so that there is always as much ahead.
-    if (hulls.unit == 0 || hulls.since_base(now) > 0.5 * kernels::longest_time) hulls.rebase(now);
-    return hulls.gas.clock.add(hulls.base, kernels::longest_time / hulls.unit);
+    volumes_->prepare(now);
+    return volumes_->prepared_until();
   }
 
  private:
@@ -137,21 +87,24 @@ class NearSearch {
     Shift shift;
   };
 
-  std::span<const Candidate> candidates(Needle i, Needle just_hit, Time now, double ahead);
+  std::span<const Candidate> candidates(Needle i, Needle just_hit, double ahead);
+  kernels::Seeker seeker_for(Needle i, double ahead) const;
   void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
-  kernels::PairColumns pair_columns(std::size_t n);
+  void view_cells_near(double reach);
+  void follow(const kernels::Seeker& seeker, Needle just_hit, const kernels::Found& found,
+              std::size_t count);
+  void propose(const kernels::Found& found, std::size_t k, double from, double to);
 
-  std::shared_ptr<Hulls> hulls_;
+  std::shared_ptr<BoundingVolumes> volumes_;
   Counters& counters_;
   const kernels::NearKernels& kernels_;
-  bool by_lanes_;  ///< whether pairs are followed by lanes before they are proposed
+  bool follows_;  ///< whether pairs are followed by SIMD before they are proposed
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;
   std::vector<Cell> view_cells_;      ///< of the views, not wrapped into the box
   std::vector<std::uint32_t> found_;  ///< needles, then their cells, each in one half
-  std::vector<float> pair_storage_;
-  std::size_t pair_capacity_ = 0;
+  PairTable pairs_;
   std::vector<Candidate> candidates_;
 };
 

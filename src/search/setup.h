@@ -9,13 +9,18 @@
 
 namespace needlework {
 
+/// The region in which a needle stays for a while: its cell and some space around it, or a capsule
+/// around the needle.
+enum class BoundingVolume { cell, capsule };
+
 struct SearchSetup {
   kernels::Isa isa = kernels::Isa::scalar;
-  /// That for which the search chooses what follows; absent: of the gas in its box. [1 / L^3]
+  /// Needles per cube of the longest one, by which the search chooses what follows; absent: that of
+  /// the gas in its box.
   std::optional<double> density;
   std::optional<double> cell_side;       ///< least side of cells; absent: the search chooses [L]
   std::optional<double> capsule_radius;  ///< absent: the search chooses [L]
-  bool float_filter = true;              ///< see kernels/accuracy.h
+  bool float_filter = true;              ///< see needlework/accuracy.h
   /// Where the search chooses its cells, their counts along the axes are multiples of these if
   /// near.
   std::array<std::int32_t, 3> count_multiples = {1, 1, 1};

@@ -4,26 +4,29 @@
 #include <cmath>
 #include <vector>
 
+#include "src/search/lengths.h"
+
 namespace needlework {
 namespace {
 
-// Sizes for another density than this times that in use, or its inverse, are worth the time that it
-// takes to place all needles anew: that of a third of a collision for each.
+// Sizes for a density larger or smaller than that in use by this factor are worth the time that it
+// takes to place all needles again: that of a third of a collision for each.
 constexpr double worth_it = 2;
 // Collisions per needle from one count to the next; a count takes as long as a few percent of one.
 constexpr std::uint64_t apart = 2;
 // Fewer pairs may have come together by chance.
 constexpr double fewest_pairs = 50;
-// Side of the cells in which needles are counted, about. [L]
-constexpr double side = 2;
+// About the side of the cells in which needles are counted, in lengths of the longest one.
+constexpr double side_in_lengths = 2;
 
-// Others near a needle, per L^3, on average over all needles. Counted by sorting, not in a grid, so
-// that a box may be as large as it likes.
+// Others near a needle, per cube of the longest one, on average over all needles. Counted by
+// sorting, not in a grid, so that a box of any size will do.
 double density_around(const Gas& gas, Time now) {
+  const double length = gas.longest, side = side_in_lengths * length;
   double volume = 1, count[3];
   for (int axis = 0; axis < 3; ++axis) {
     count[axis] = std::clamp(std::floor(gas.box[axis] / side), 1.0, 0x1p20);
-    volume *= gas.box[axis] / count[axis];
+    volume *= gas.box[axis] / length / count[axis];
   }
   std::vector<std::uint64_t> cells;
   cells.reserve(gas.size());
@@ -44,13 +47,13 @@ double density_around(const Gas& gas, Time now) {
     before = cells[n] == cells[n - 1] ? before + 1 : 0;
     pairs += before;
   }
-  if (pairs < fewest_pairs) return gas.density();
+  if (pairs < fewest_pairs) return reduced_density(gas);
   return 2 * pairs / static_cast<double>(gas.size()) / volume;
 }
 
 }  // namespace
 
-Sizing::Sizing(const Gas& gas, Time now) : density_(gas.density()) { look(0, gas, now); }
+Sizing::Sizing(const Gas& gas, Time now) : density_(reduced_density(gas)) { look(0, gas, now); }
 
 bool Sizing::look(std::uint64_t collisions, const Gas& gas, Time now) {
   next_ = collisions + std::max<std::uint64_t>(1, apart * gas.size() / 2);

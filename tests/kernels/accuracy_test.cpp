@@ -60,7 +60,7 @@ ExactTime exact_time(const KernelPair& held, const DoubleDouble& near) {
              test::norm(test::cross(here.u[1], here.r));
     }
   }
-  const Quad unit = scale.per_velocity;
+  const Quad unit = scale.per_rate;
   return {s * unit, Quad(0x1p-94) * size / slope * unit};
 }
 

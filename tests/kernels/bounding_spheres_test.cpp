@@ -1,4 +1,4 @@
-// The first filter: it must never drop a pair that comes within L, and should drop the rest.
+// The first filter: it must never drop a pair that comes within reach, and should drop the rest.
 #include "kernels/bounding_spheres.h"
 
 #include <gtest/gtest.h>
@@ -51,9 +51,10 @@ TEST(BoundingSpheres, NeverDropAPairThatComesWithinReach) {
     const Passage p = passage(random, distance, n % 3 == 0 ? 0 : time, speed);
     // Some searches end before the nearest approach, next to it, or after.
     const double until = n % 5 == 0 ? time : n % 5 == 1 ? time * random.uniform() : 3 * time;
+    const double reach = n % 7 == 0 ? random.log_uniform(1e-3, 1e3) : 1;
     if (least_square(p.r, p.v, until) > 1) continue;
     ++near;
-    ASSERT_FALSE(spheres_stay_apart(p.r, p.v, until))
+    ASSERT_FALSE(spheres_stay_apart(p.r * reach, p.v * reach, reach, until))
         << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
         << seed << ", pair " << n;
   }
@@ -69,9 +70,10 @@ TEST(BoundingSpheres, DropAPairThatStaysBeyondTheMargin) {
     const double distance = 1 + random.log_uniform(1e-6, 1);
     const Passage p = passage(random, distance, time, speed);
     const double until = 2 * random.uniform() * time;
+    const double reach = n % 7 == 0 ? random.log_uniform(1e-3, 1e3) : 1;
     if (least_square(p.r, p.v, until) < 1 + 0x1p-19) continue;
     ++apart;
-    ASSERT_TRUE(spheres_stay_apart(p.r, p.v, until))
+    ASSERT_TRUE(spheres_stay_apart(p.r * reach, p.v * reach, reach, until))
         << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
         << seed << ", pair " << n;
   }
@@ -89,7 +91,7 @@ TEST(BoundingSpheres, AgreeWithSampledMotion) {
       const Vec3d here = r + v * (until * i / 200);
       least = std::min(least, dot(here, here));
     }
-    const bool says = spheres_stay_apart(r, v, until);
+    const bool says = spheres_stay_apart(r, v, 1, until);
     apart += says;
     // Between two samples the distance changes by at most |v| until / 400.
     const double slack = std::sqrt(dot(v, v)) * until / 400;
@@ -103,28 +105,32 @@ TEST(BoundingSpheres, AgreeWithSampledMotion) {
 }
 
 TEST(BoundingSpheres, SettleTheSimpleCases) {
-  EXPECT_FALSE(spheres_stay_apart({0.5, 0, 0}, {1, 0, 0}, 1)) << "within reach at once";
-  EXPECT_FALSE(spheres_stay_apart({1, 0, 0}, {0, 0, 0}, 1)) << "on the border";
-  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {0, 0, 0}, 1e300)) << "at rest";
-  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {1, 0, 0}, 1e300)) << "parting";
-  EXPECT_TRUE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 1.9)) << "not there yet";
-  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 2.1)) << "there in time";
-  EXPECT_TRUE(spheres_stay_apart({3, 1.01, 0}, {-1, 0, 0}, 10)) << "passing by";
-  EXPECT_FALSE(spheres_stay_apart({3, 0.99, 0}, {-1, 0, 0}, 10)) << "passing through";
-  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, HUGE_VAL)) << "without an end";
+  EXPECT_FALSE(spheres_stay_apart({0.5, 0, 0}, {1, 0, 0}, 1, 1)) << "within reach at once";
+  EXPECT_FALSE(spheres_stay_apart({1, 0, 0}, {0, 0, 0}, 1, 1)) << "on the border";
+  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {0, 0, 0}, 1, 1e300)) << "at rest";
+  EXPECT_TRUE(spheres_stay_apart({1.1, 0, 0}, {1, 0, 0}, 1, 1e300)) << "parting";
+  EXPECT_TRUE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 1, 1.9)) << "not there yet";
+  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 1, 2.1)) << "there in time";
+  EXPECT_TRUE(spheres_stay_apart({3, 1.01, 0}, {-1, 0, 0}, 1, 10)) << "passing by";
+  EXPECT_FALSE(spheres_stay_apart({3, 0.99, 0}, {-1, 0, 0}, 1, 10)) << "passing through";
+  EXPECT_FALSE(spheres_stay_apart({3, 0, 0}, {-1, 0, 0}, 1, HUGE_VAL)) << "without an end";
 }
 
-TEST(BoundingSpheres, KnowNoUnitOfTime) {
+TEST(BoundingSpheres, KnowNoUnitOfTimeOrLength) {
   Random random(seed);
   for (int n = 0; n < 5000; ++n) {
     const Passage p =
         passage(random, 1 + random.uniform(-0x1p-19, 0x1p-18), random.uniform(0, 5), 1);
     const double until = random.uniform(0, 5);
-    const bool says = spheres_stay_apart(p.r, p.v, until);
+    const bool says = spheres_stay_apart(p.r, p.v, 1, until);
     for (const double slow : {0x1p-60, 0x1p60, 0x1p-300}) {
-      ASSERT_EQ(spheres_stay_apart(p.r, p.v * slow, until / slow), says) << "seed " << seed;
+      ASSERT_EQ(spheres_stay_apart(p.r, p.v * slow, 1, until / slow), says) << "seed " << seed;
     }
-    ASSERT_EQ(spheres_stay_apart(-p.r, -p.v, until), says) << "seed " << seed;
+    for (const double length : {0x1p-60, 0x1p-1, 0x1p7, 0x1p100}) {
+      ASSERT_EQ(spheres_stay_apart(p.r * length, p.v * length, length, until), says)
+          << "seed " << seed;
+    }
+    ASSERT_EQ(spheres_stay_apart(-p.r, -p.v, 1, until), says) << "seed " << seed;
   }
 }
 

@@ -1,11 +1,12 @@
-// Distances of segments in double and by lanes of float, and the sine and cosine of lanes.
+// Distances of segments in double and in the SIMD kernels' float, and the sine and cosine of the
+// latter.
 #include "kernels/closest_approach.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/kernels/scalar_lanes.h"
+#include "tests/kernels/exposed_simd.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 #include "tests/support/segments.h"
@@ -25,25 +26,29 @@ constexpr int thin = 20;
 
 struct Segments {
   Vec3d r, u1, u2;  ///< first centre less the second
+  double half1 = 0.5, half2 = 0.5;
 };
 
 double in_double(const Segments& s) {
   const Vec3d x = cross(s.u1, s.u2);
-  return segment_distance_squared(s.r, s.u1, s.u2, x, dot(x, x));
+  return segment_distance_squared(s.r, s.u1, s.u2, x, dot(x, x), half_lengths(s.half1, s.half2));
 }
 
 double in_float(const Segments& s) {
-  using scalar::Lanes;
+  using scalar::Floats;
   using V = scalar::exposed::V3;
-  const auto lanes = [](const Vec3d& a) {
+  const auto floats = [](const Vec3d& a) {
     return V{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
   };
-  const V u1 = lanes(s.u1), u2 = lanes(s.u2), x = cross(u1, u2);
-  return scalar::exposed::segment_distance_squared(lanes(s.r), u1, u2, x, dot(x, x)).v;
+  const V u1 = floats(s.u1), u2 = floats(s.u2), x = cross(u1, u2);
+  const Floats half1(static_cast<float>(s.half1)), half2(static_cast<float>(s.half2));
+  return scalar::exposed::segment_distance_squared(floats(s.r), u1, u2, x, dot(x, x),
+                                                   scalar::exposed::half_lengths(half1, half2))
+      .v;
 }
 
 double truth(const Segments& s) {
-  const Vec3d gap = test::nearest_points(s.r, s.u1, {}, s.u2).gap;
+  const Vec3d gap = test::nearest_points(s.r, s.u1, {}, s.u2, s.half1, s.half2).gap;
   return dot(gap, gap);
 }
 
@@ -72,6 +77,10 @@ TEST(SegmentDistance, IsThatOfTheNearestPoints) {
       s.u2 = normalised(s.u1 + vec3(random.direction()) * random.log_uniform(1e-12, 0.1));
     if (kind == 2) s.r = s.u1 * random.uniform(-1.5, 1.5) + s.u2 * random.uniform(-1.5, 1.5);
     if (kind == 3) s.r = s.r * random.log_uniform(1e-9, 1);
+    if (random.coin()) {
+      s.half1 = random.log_uniform(0.01, 0.5);
+      s.half2 = random.log_uniform(0.01, 0.5);
+    }
     ASSERT_NO_FATAL_FAILURE(expect_right(s));
     ASSERT_FALSE(HasFailure()) << "kind " << kind << ", seed " << seed << ", case " << n;
   }
@@ -95,7 +104,12 @@ TEST(SegmentDistance, IsRightInDegenerateCases) {
                {{{0, 3, 0}, x, y}, 2.5},
                {{{1, 1, 0}, x, y}, std::sqrt(0.5)},
                {{{2, 0, 1}, x, -x}, std::sqrt(2)},
-               {{{-0.5, 0.25, 0}, x, y}, 0}};
+               {{{-0.5, 0.25, 0}, x, y}, 0},
+               {{{2, 0, 0}, x, x, 0.25, 0.5}, 1.25},
+               {{{1.5, 0, 0}, x, y, 0.125, 0.5}, 1.375},
+               {{{0, 3, 0}, x, y, 0.125, 0.25}, 2.75},
+               {{{0.25, 0.5, 1}, x, y, 0.25, 0.5}, 1},
+               {{{0.5, 0.5, 1}, x, y, 0.25, 0.25}, std::sqrt(1.125)}};
   for (const auto& [segments, distance] : cases) {
     EXPECT_NEAR(in_double(segments), distance * distance, 1e-15) << distance;
     EXPECT_NEAR(in_float(segments), distance * distance, 1e-6) << distance;
@@ -110,7 +124,7 @@ void expect_right(float angle) {
   EXPECT_NEAR(turned.cosine.v, std::cos(exact), 0x1p-20) << std::hexfloat << angle;
 }
 
-TEST(SineCosineOfLanes, IsGoodTo20BitsForAnglesBelow4096) {
+TEST(SineCosineOfFloats, IsGoodTo20BitsForAnglesBelow4096) {
   Random random(seed);
   for (int n = 0; n < 2000000 / thin; ++n) {
     const double size = random.coin() ? 0x1p12 * random.uniform()

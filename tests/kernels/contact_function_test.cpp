@@ -169,7 +169,7 @@ void expect_bounds_hold(Kind kind, int count, double loosest) {
     }
     EXPECT_NEAR(e.distance, static_cast<double>(test::norm(exact.r)), 1e-13 * (1 + e.distance))
         << where;
-    EXPECT_GE(frame.w_sum, (held.first.omega + held.second.omega) * scale.per_velocity);
+    EXPECT_GE(frame.w_sum, (held.first.omega + held.second.omega) * scale.per_rate);
   }
   looseness.print(name(kind));
   for (int derivative = 0; derivative < 3; ++derivative) {
@@ -311,7 +311,7 @@ TEST(ContactFunctionByHand, IsTheDistanceTimesTheSineOfTheAngle) {
   held.second = test::flight({0, 0, 0}, {0, 1, 0}, {}, {});
   const Pair pair = held.view();
   const PairScale scale = scale_of(pair);
-  EXPECT_EQ(scale.per_velocity, 1);
+  EXPECT_EQ(scale.per_rate, 1);
   const Frame<double> frame = make_frame<double>(pair, scale);
   const Sample<double> sample = evaluate(frame, 2.0);
   EXPECT_EQ(sample.f, 1.5);
@@ -330,9 +330,9 @@ TEST(PairScale, BringsTheRateBetweenOneAndTwo) {
     const Vec3d v = held.first.v - held.second.v;
     const double rate = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) +
                         (held.first.omega + held.second.omega);
-    ASSERT_GE(rate * scale.per_velocity, 1) << "seed " << seed;
-    ASSERT_LT(rate * scale.per_velocity, 2) << "seed " << seed;
-    ASSERT_EQ(scale.per_velocity * scale.per_time, 1);
+    ASSERT_GE(rate * scale.per_rate, 1) << "seed " << seed;
+    ASSERT_LT(rate * scale.per_rate, 2) << "seed " << seed;
+    ASSERT_EQ(scale.per_rate * scale.per_time, 1);
   }
 }
 

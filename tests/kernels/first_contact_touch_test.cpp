@@ -119,7 +119,7 @@ TEST(FirstContactAfterCollision, DoesNotReturnWhileItAcceleratesAway) {
     for (int n = 0; n < count; ++n) {
       const KernelPair pair = draw_bounce(random, slope, 1);
       // f - f(0) > slope s + 0.15 s^2 - |f'''| s^3 / 6 is positive for a while.
-      const double rate = 1 / scale_of(pair.view()).per_velocity;
+      const double rate = 1 / scale_of(pair.view()).per_rate;
       EXPECT_FALSE(find(pair, 0.01 / rate).found)
           << "slope " << slope << ", seed " << seed << ", pair " << n;
     }
@@ -175,7 +175,7 @@ TEST(FirstContactAfterCollision, AReturnBelowRoundingIsUnresolvable) {
     ++unresolvable;
     // On the other side f'' leads away.
     pair.touch.side = -pair.touch.side;
-    const double rate = 1 / scale_of(pair.view()).per_velocity;
+    const double rate = 1 / scale_of(pair.view()).per_rate;
     EXPECT_FALSE(find(pair, 0.01 / rate).found) << "seed " << seed << ", pair " << n;
   }
   EXPECT_GT(unresolvable, count / 2);
@@ -212,7 +212,7 @@ TEST(FirstContactFromACarriedGap, ClosesOnlyWhenItApproaches) {
     for (int n = 0; n < count; ++n) {
       KernelPair pair = on_contact(random, random.coin() ? 0.5 : -0.5);
       const int moves = at_start(pair).df > 0 ? 1 : -1;
-      const double rate = 1 / scale_of(pair.view()).per_velocity;
+      const double rate = 1 / scale_of(pair.view()).per_rate;
       const double soon = 0.01 / rate;
       for (const int side : {1, -1}) {
         pair.touch = {.touching = true, .collided = false, .side = side, .gap = side * gap};

@@ -1,4 +1,4 @@
-// Free flight by lanes: the bits of one needle at a time.
+// Free flight by SIMD: the same bits as one needle at a time.
 #include "kernels/free_flight.h"
 
 #include <gtest/gtest.h>

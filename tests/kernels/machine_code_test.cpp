@@ -69,8 +69,8 @@ TEST(MachineCode, HasNoFusedMultiplyAdd) {
 }
 
 // The namespaces of Highway's targets are part of the symbols. Compilers may pair two scalars, such
-// as squares of the needle's own that the lanes share, in one packed operation of the least width.
-TEST(MachineCode, OfLanesUsesTheRegistersOfItsInstructionSet) {
+// as squares of the needle's own that all lanes share, in one packed operation of the least width.
+TEST(MachineCode, OfSimdUsesTheRegistersOfItsInstructionSet) {
 #if !defined(__x86_64__)
   GTEST_SKIP() << "the names of registers are those of x86";
 #endif

@@ -1,5 +1,5 @@
-// Kernels by lanes: the same bits on every instruction set, whoever is in the other lanes; never a
-// contact lost; and most of what does not meet ruled out.
+// SIMD kernels: the same bits on every instruction set, whatever the other lanes hold; never a
+// contact lost, whatever the lengths; and most pairs that do not meet ruled out.
 #include "kernels/near_needles.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "kernels/first_contact.h"
-#include "tests/kernels/lane_pairs.h"
+#include "tests/kernels/simd_pairs.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
@@ -24,8 +24,8 @@ static void PrintTo(Isa isa, std::ostream* out) { *out << name_of(isa); }
 
 namespace {
 
+using test::bracketed;
 using test::draw_pairs;
-using test::isolated;
 using test::KernelPair;
 using test::motion_of;
 using test::PairRow;
@@ -44,7 +44,7 @@ constexpr std::size_t thin = 20;
 
 /// Blocks of needles in cells around a seeker, whatever they hold.
 struct Neighbourhood {
-  std::vector<Block> blocks;
+  std::vector<NeedleBlock> blocks;
   std::vector<BlockLink> links;
   std::vector<CellView> cells;
   Seeker seeker{};
@@ -52,7 +52,8 @@ struct Neighbourhood {
   Surroundings around() const { return {blocks.data(), links.data(), cells.data(), cells.size()}; }
 };
 
-/// What a kernel finds around a seeker; `apply` calls it. What it leaves beyond is of no account.
+/// What a kernel finds around a seeker; `apply` calls it. What it leaves behind the last one does
+/// not matter.
 template <class Apply>
 std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhood& near,
                                                               Apply&& apply) {
@@ -65,7 +66,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhoo
 }
 
 /// Numbers for one needle in a block.
-using BlockRow = std::array<float, Block::columns>;
+using BlockRow = std::array<float, NeedleBlock::columns>;
 
 /// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
 /// stands beyond the last needle of a block is not a number.
@@ -77,7 +78,7 @@ Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<Block
     const auto first = static_cast<std::uint32_t>(out.blocks.size());
     out.cells.push_back({first, {}});
     for (int chained = random.below(3); chained >= 0; --chained) {
-      Block& block = out.blocks.emplace_back();
+      NeedleBlock& block = out.blocks.emplace_back();
       for (auto& column : block.column) {
         std::fill(std::begin(column), std::end(column), std::numeric_limits<float>::quiet_NaN());
       }
@@ -87,7 +88,7 @@ Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<Block
       link.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, rows.size() - next));
       if (chained > 0) link.next = static_cast<std::uint32_t>(out.blocks.size());
       for (std::uint32_t lane = 0; lane < link.size; ++lane, ++next) {
-        for (int c = 0; c < Block::columns; ++c) block.column[c][lane] = rows[next][c];
+        for (int c = 0; c < NeedleBlock::columns; ++c) block.column[c][lane] = rows[next][c];
         block.needle[lane] = static_cast<std::uint32_t>(next + 1);
       }
     }
@@ -120,8 +121,13 @@ std::vector<std::uint32_t> bits(const Values& values) {
   return out;
 }
 
+/// Half lengths of two needles, in units of length.
+struct Halves {
+  double first = 0.5, second = 0.5;
+};
+
 /// One pair of a family, the first needle seeking.
-struct LanePair {
+struct SimdPair {
   KernelPair pair;
   Contact truth;
   double unit;
@@ -129,9 +135,14 @@ struct LanePair {
   PairRow row;
 };
 
-LanePair lane_pair(Random& random, const test::NeedlePair& drawn) {
-  LanePair out;
-  out.pair = kernel_pair(drawn);
+/// The pair as large as its longer needle, so that only the other one is shorter than drawn. Pairs
+/// that have just collided, within both needles, keep equal lengths.
+SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves halves = {}) {
+  SimdPair out;
+  if (drawn.just_collided) halves.second = halves.first;
+  out.pair = lengthened(kernel_pair(drawn), 2 * std::max(halves.first, halves.second));
+  out.pair.half_first = halves.first;
+  out.pair.half_second = halves.second;
   if (drawn.just_collided) {
     const int side = side_after(out.pair.view());
     out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
@@ -142,14 +153,30 @@ LanePair lane_pair(Random& random, const test::NeedlePair& drawn) {
   // The gas may be faster or slower than this pair, and the partner placed some time ago.
   out.unit = unit_of(out.pair.first, out.pair.second) * std::ldexp(1.0, random.below(5) - 2);
   const double age = random.coin() ? 0 : random.uniform(0, 4) / out.unit;
-  const auto until = static_cast<float>(horizon * out.unit) + test::lane_time_margin;
-  out.seeker = seeker_of(motion_of(out.pair.first, 0, out.unit), until);
-  const Motion other = motion_of(out.pair.second, -age, out.unit);
+  const auto until = static_cast<float>(horizon * out.unit) + test::simd_time_margin;
+  out.seeker = seeker_of(motion_of(out.pair.first, 0, out.unit, halves.first), until);
+  const Motion other = motion_of(out.pair.second, -age, out.unit, halves.second);
   const double from = out.truth.found && random.below(4) == 0
                           ? random.uniform() * out.truth.elapsed.hi * out.unit
                           : 0;
   out.row = row_of(out.seeker, other, static_cast<float>(from), until);
   return out;
+}
+
+/// Equal or not, often those of needles of length 1.
+Halves any_halves(Random& random) {
+  switch (random.below(4)) {
+    case 0:
+      return {0.5, random.uniform(0.02, 0.5)};
+    case 1:
+      return {random.uniform(0.02, 0.5), 0.5};
+    case 2: {
+      const double half = random.uniform(0.25, 0.5);
+      return {half, half};
+    }
+    default:
+      return {};
+  }
 }
 
 std::vector<std::string_view> family_names() {
@@ -179,8 +206,8 @@ class OnEveryIsa : public testing::TestWithParam<Isa> {
 
   /// The same as the twin, and in any order.
   void expect_same(Random& random, const Seeker& seeker, const std::vector<PairRow>& rows) {
-    const std::vector<float> truth = isolated(twin(), seeker, rows);
-    EXPECT_EQ(bits(isolated(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
+    const std::vector<float> truth = bracketed(twin(), seeker, rows);
+    EXPECT_EQ(bits(bracketed(kernels(), seeker, rows)), bits(truth)) << "seed " << seed;
     const auto s = static_cast<float>(random.uniform());
     const auto values = test::contact_functions(kernels(), seeker, rows, s);
     const auto expected_values = test::contact_functions(twin(), seeker, rows, s);
@@ -198,7 +225,7 @@ class OnEveryIsa : public testing::TestWithParam<Isa> {
       shuffled.push_back(rows[n]);
       expected.push_back(truth[n]);
     }
-    EXPECT_EQ(bits(isolated(kernels(), seeker, shuffled)), bits(expected)) << "seed " << seed;
+    EXPECT_EQ(bits(bracketed(kernels(), seeker, shuffled)), bits(expected)) << "seed " << seed;
   }
 };
 
@@ -210,7 +237,7 @@ TEST_P(OnEveryIsa, HasItsOwnKernels) {
 
 // Partners from every family for one seeker: what they were built around is lost but for the first,
 // directors and speeds of all kinds stay.
-TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
+TEST_P(OnEveryIsa, BracketsToTheSameBits) {
   Random random(seed);
   std::size_t ruled_out = 0, pairs = 0;
   for (const std::size_t count : {1, 2, 7, 8, 9, 15, 16, 17, 33, 100}) {
@@ -219,14 +246,14 @@ TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
       Seeker seeker{};
       for (const std::string_view family : family_names()) {
         for (const test::NeedlePair& drawn : draw_pairs(family, 1 + count / 11, random.bits())) {
-          const LanePair pair = lane_pair(random, drawn);
+          const SimdPair pair = simd_pair(random, drawn, any_halves(random));
           if (rows.empty()) seeker = pair.seeker;
           rows.push_back(pair.row);
         }
       }
       rows.resize(count, rows.front());
       expect_same(random, seeker, rows);
-      for (const float from : isolated(twin(), seeker, rows)) ruled_out += std::isinf(from);
+      for (const float from : bracketed(twin(), seeker, rows)) ruled_out += std::isinf(from);
       pairs += count;
     }
     ASSERT_FALSE(HasFailure()) << count << " pairs";
@@ -235,7 +262,7 @@ TEST_P(OnEveryIsa, IsolatesToTheSameBits) {
   EXPECT_LT(ruled_out, pairs * 9 / 10);
 }
 
-TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
+TEST_P(OnEveryIsa, BracketsAnyNumbersToTheSameBits) {
   Random random(seed);
   for (std::size_t n = 0; n < 3000 / thin; ++n) {
     // From all sane but for one column to all wild.
@@ -247,6 +274,7 @@ TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
       return static_cast<float>(a);
     };
     Seeker seeker = seeker_of({}, 1);
+    seeker.motion.half = draw(PairColumns::half);
     for (int axis = 0; axis < 3; ++axis) {
       seeker.motion.v[axis] = draw(axis);
       seeker.motion.u[axis] = draw(axis);
@@ -258,7 +286,7 @@ TEST_P(OnEveryIsa, IsolatesAnyNumbersToTheSameBits) {
       for (int c = 0; c < PairColumns::columns; ++c) row[c] = draw(c);
     }
     expect_same(random, seeker, rows);
-    for (const float from : isolated(twin(), seeker, rows)) ASSERT_GE(from, 0);
+    for (const float from : bracketed(twin(), seeker, rows)) ASSERT_GE(from, 0);
     ASSERT_FALSE(HasFailure()) << n;
   }
 }
@@ -273,6 +301,7 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
                                           : static_cast<float>(random.normal());
     };
     Seeker seeker = seeker_of({}, 1);
+    seeker.motion.half = random.coin() ? 0.5f : static_cast<float>(random.uniform());
     const Vec3d u = vec3(random.direction());
     seeker.u[0] = static_cast<float>(u.x);
     seeker.u[1] = static_cast<float>(u.y);
@@ -285,6 +314,7 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
     for (BlockRow& row : rows) {
       for (float& value : row) value = draw();
     }
+    seeker.longest_half = wild ? draw() : 0.5f;
     Neighbourhood near = fill(random, seeker, rows);
     if (!rows.empty()) {
       near.seeker.needle =
@@ -321,15 +351,15 @@ class SimdContactFunction : public testing::TestWithParam<test::PairFamily> {};
 
 // Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
 // claim.
-TEST_P(SimdContactFunction, IsWithinBounds) {
+void expect_within_bounds(const test::PairFamily& family, bool any_lengths) {
   using C = ContactColumns;
-  const test::PairFamily& family = GetParam();
   Random random(seed);
-  const std::size_t count = (family.thermal ? 50000 : 10000) / thin;
+  const std::size_t count = (family.thermal ? 50000 : 10000) / thin / (any_lengths ? 2 : 1);
   std::size_t near = 0;
   double worst[5] = {};
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 2)) {
-    const LanePair pair = lane_pair(random, drawn);
+    const Halves halves = any_lengths ? any_halves(random) : Halves{};
+    const SimdPair pair = simd_pair(random, drawn, halves);
     const auto s = static_cast<float>(random.uniform()) * pair.row[PairColumns::until];
     const auto frame = make_frame<DoubleDouble>(pair.pair.view(), {true, 1 / pair.unit, pair.unit});
     const DoubleDouble at(static_cast<double>(s));
@@ -337,7 +367,8 @@ TEST_P(SimdContactFunction, IsWithinBounds) {
     const Vec3d r = to_double(exact.r);
     const double phase = to_double(frame.omega[0]) * s +
                          to_double(frame.omega[1]) * (s + pair.row[PairColumns::age]);
-    if (dot(r, r) > 1 || phase > 0x1p11) continue;
+    const double reach = halves.first + halves.second;
+    if (dot(r, r) > reach * reach || phase > 0x1p11) continue;
     ++near;
     const auto got =
         test::contact_functions(near_kernels(Isa::scalar), pair.seeker, {pair.row}, s)[0];
@@ -353,8 +384,9 @@ TEST_P(SimdContactFunction, IsWithinBounds) {
                                   << test::csv_line(0, drawn);
       if (error > 0) worst[n] = std::max(worst[n], error / bound);
     }
-    const Vec3d gap =
-        test::nearest_points(r, to_double(exact.u[0]), Vec3d{}, to_double(exact.u[1])).gap;
+    const Vec3d gap = test::nearest_points(r, to_double(exact.u[0]), Vec3d{}, to_double(exact.u[1]),
+                                           halves.first, halves.second)
+                          .gap;
     const double error = std::abs(got[C::gap] - std::sqrt(dot(gap, gap)));
     ASSERT_LE(error, got[C::error_f] / 4) << "gap at " << s << ", seed " << seed << "\n"
                                           << test::csv_line(0, drawn);
@@ -365,22 +397,25 @@ TEST_P(SimdContactFunction, IsWithinBounds) {
   EXPECT_GT(near, count / 20);
 }
 
+TEST_P(SimdContactFunction, IsWithinBounds) { expect_within_bounds(GetParam(), false); }
+TEST_P(SimdContactFunction, OfAnyLengthsIsWithinBounds) { expect_within_bounds(GetParam(), true); }
+
 INSTANTIATE_TEST_SUITE_P(Families, SimdContactFunction, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- no contact lost ----
 
-class Isolate : public testing::TestWithParam<test::PairFamily> {};
+class Bracket : public testing::TestWithParam<test::PairFamily> {};
 
-TEST_P(Isolate, IsNeverTooLate) {
+TEST_P(Bracket, IsNeverTooLate) {
   const test::PairFamily& family = GetParam();
   const NearKernels& kernels = near_kernels(Isa::scalar);
   Random random(seed);
   std::size_t contacts = 0, id = 0;
   const std::size_t count = (family.thermal ? 100000 : 10000) / thin;
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed)) {
-    const LanePair pair = lane_pair(random, drawn);
-    const double from = isolated(kernels, pair.seeker, {pair.row})[0];
+    const SimdPair pair = simd_pair(random, drawn);
+    const double from = bracketed(kernels, pair.seeker, {pair.row})[0];
     ++id;
     if (!pair.truth.found) continue;
     ++contacts;
@@ -398,13 +433,34 @@ TEST_P(Isolate, IsNeverTooLate) {
   EXPECT_GT(contacts, count / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Isolate, testing::ValuesIn(test::pair_families()),
+// The contact that the pair was built around often lies beyond a tip of shorter needles.
+TEST_P(Bracket, OfAnyLengthsIsNeverTooLate) {
+  const test::PairFamily& family = GetParam();
+  const NearKernels& kernels = near_kernels(Isa::scalar);
+  Random random(seed + 3);
+  std::size_t contacts = 0;
+  const std::size_t count = (family.thermal ? 50000 : 10000) / thin;
+  for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 3)) {
+    const Halves halves = any_halves(random);
+    const SimdPair pair = simd_pair(random, drawn, halves);
+    if (!pair.truth.found) continue;
+    ++contacts;
+    const double from = bracketed(kernels, pair.seeker, {pair.row})[0];
+    ASSERT_LE(from / pair.unit, pair.truth.elapsed.hi)
+        << "of " << drawn.horizon << ", half lengths " << halves.first << " and " << halves.second
+        << ", seed " << seed << "\n"
+        << test::csv_line(contacts, drawn);
+  }
+  EXPECT_GT(contacts, count / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
 // ---- most of the rest ruled out ----
 
 // 99.9 % of the pairs, and times before 98 % of the contacts by less than a tenth.
-TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
+TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
   Random random(seed);
   std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
   for (const test::NeedlePair& drawn : draw_pairs("thermal-k6", 20000 / thin, seed + 1)) {
@@ -419,7 +475,7 @@ TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
     const Seeker seeker = seeker_of(motion_of(kernel.first, 0, unit), until);
     const Motion other = motion_of(kernel.second, 0, unit);
     const double from =
-        isolated(near_kernels(Isa::scalar), seeker, {row_of(seeker, other, 0, until)})[0];
+        bracketed(near_kernels(Isa::scalar), seeker, {row_of(seeker, other, 0, until)})[0];
     if (truth.found) {
       ++contacts;
       close += from / unit > 0.9 * truth.elapsed.hi;
@@ -433,18 +489,21 @@ TEST(IsolateOfThermalPairs, RulesOutMostThatDoNotMeet) {
   EXPECT_GT(static_cast<double>(close), 0.9 * static_cast<double>(contacts));
 }
 
-// ---- hulls and spheres ----
+// ---- bounding volumes and spheres ----
 
 // Capsules that just overlap, just do not, and any.
-TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
+TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
   Random random(seed);
   std::size_t overlaps = 0, apart = 0;
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
     const double radius = random.log_uniform(1e-3, 10);
     const Vec3d corner{4, 4, 4}, r = vec3(random.direction()) * random.uniform(0, 1.7);
     const Vec3d u = vec3(random.direction());
+    const Halves halves = any_halves(random);
+    const double h1 = halves.first, h2 = halves.second;
     Motion motion{};
-    Seeker seeker = seeker_of(motion, 1);
+    motion.half = static_cast<float>(h1);
+    Seeker seeker = seeker_of(motion, 1, h2);
     const auto store = [](auto* to, const Vec3d& a) {
       to[0] = static_cast<float>(a.x);
       to[1] = static_cast<float>(a.y);
@@ -461,7 +520,7 @@ TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
       Vec3d other = r + vec3(random.direction()) * random.uniform(0, 2 * radius + 1);
       if (kind < 3) {
         // Moved along their closest approach to overlap by very little, or not quite.
-        const auto nearest = test::nearest_points(r, u, other, a);
+        const auto nearest = test::nearest_points(r, u, other, a, h1, h2);
         const double length = std::sqrt(dot(nearest.gap, nearest.gap));
         if (length > 1e-3) {
           const double wanted =
@@ -469,10 +528,10 @@ TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
           other = other + nearest.gap * ((length - wanted) / length);
         }
       }
-      const Vec3d gap = test::nearest_points(r, u, other, a).gap;
+      const Vec3d gap = test::nearest_points(r, u, other, a, h1, h2).gap;
       distance.push_back(std::sqrt(dot(gap, gap)));
-      store(row.data() + Block::x, corner + other);
-      store(row.data() + Block::a_x, a);
+      store(row.data() + NeedleBlock::x, corner + other);
+      store(row.data() + NeedleBlock::a_x, a);
     }
     const Neighbourhood near = fill(random, seeker, rows);
     std::vector<bool> found(rows.size());
@@ -496,15 +555,15 @@ TEST(Overlapping, LosesNoHullsThatOverlapAndFindsFewOthers) {
   EXPECT_GT(apart, 5000 / thin);
 }
 
-// Whether |r + v s| <= 1 for some s in [0, until], in many digits.
-bool spheres_meet(const Vec3d& r, const Vec3d& v, double until) {
+// Whether |r + v s| <= reach for some s in [0, until], in many digits.
+bool spheres_meet(const Vec3d& r, const Vec3d& v, double reach, double until) {
   const auto product = [](const Vec3d& a, const Vec3d& b) {
     return test::Quad(test::Quad(a.x) * b.x + test::Quad(a.y) * b.y + test::Quad(a.z) * b.z);
   };
   const test::Quad vv = product(v, v), rv = product(r, v);
   test::Quad s = vv > 0 ? test::Quad(-rv / vv) : test::Quad(0);
   s = std::min(std::max(s, test::Quad(0)), test::Quad(until));
-  return product(r, r) + 2 * rv * s + vv * s * s <= 1;
+  return product(r, r) + 2 * rv * s + vv * s * s <= test::Quad(reach) * reach;
 }
 
 // Centres in a cell of side 8, at times up to the longest, speeds around the unit and far from it.
@@ -517,11 +576,13 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
       const int kind = random.below(8);
       return kind == 0 ? 0.0 : kind == 1 ? random.log_uniform(1e-6, 1e3) : 1.0;
     };
+    const Halves halves = any_halves(random);
+    const double reach = halves.first + halves.second;
     Flight mine;
     mine.r = vec3(random.direction()) * random.uniform(0, 3);
     mine.v = vec3(random.normal_vector(speed()));
-    Seeker seeker =
-        seeker_of(motion_of(mine, 0, 1), static_cast<float>(ahead) + test::lane_time_margin);
+    Seeker seeker = seeker_of(motion_of(mine, 0, 1, halves.first),
+                              static_cast<float>(ahead) + test::simd_time_margin, halves.second);
     seeker.motion.time = seeker.now = static_cast<float>(now);
     std::vector<BlockRow> rows(40);
     std::vector<Flight> others(rows.size());
@@ -531,16 +592,16 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
       other.v = vec3(random.normal_vector(speed()));
       other.r = vec3(random.direction()) * random.uniform(0, 4);
       if (random.coin()) {
-        // Passing at a distance next to 1.
+        // Passing at a distance next to the reach.
         const Vec3d w = other.v - mine.v;
         const Vec3d across = normalised(cross(vec3(random.direction()), w + Vec3d{1e-30, 0, 0}));
-        const double passing = 1 + (random.coin() ? 1 : -1) * random.log_uniform(1e-9, 1e-2);
+        const double passing = reach + (random.coin() ? 1 : -1) * random.log_uniform(1e-9, 1e-2);
         other.r = mine.r + across * passing - w * random.uniform(0, 1.2 * ahead);
       }
       const Vec3d then = other.r - other.v * age - Vec3d{-4, -4, -4};
       const Vec3d v = other.v;
       const double values[] = {then.x, then.y, then.z, v.x, v.y, v.z, now - age};
-      for (int c = 0; c < Block::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
+      for (int c = 0; c < NeedleBlock::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
     }
     const Neighbourhood near = fill(random, seeker, rows);
     std::vector<bool> found(rows.size());
@@ -548,14 +609,14 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
       found[needle - 1] = true;
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      // Within a cell while it flew there; beyond, its block would have been written anew.
+      // Within a cell while it flew there; beyond, its block would have been written again.
       const Vec3d then{rows[k][0], rows[k][1], rows[k][2]};
       if (dot(then, then) > 400) continue;
       const Vec3d r = mine.r - others[k].r, v = mine.v - others[k].v;
-      if (spheres_meet(r, v, ahead)) {
+      if (spheres_meet(r, v, reach, ahead)) {
         ++meetings;
         ASSERT_TRUE(found[k]) << "seed " << seed << ", case " << n;
-      } else if (!spheres_meet(r * 0.99, v * 0.99, ahead)) {
+      } else if (!spheres_meet(r, v, reach + 0.01, ahead)) {
         ++apart;
         found_apart += found[k];
       }

@@ -11,7 +11,7 @@
 #include "kernels/first_contact.h"
 #include "kernels/free_flight.h"
 #include "kernels/near_needles.h"
-#include "tests/kernels/lane_pairs.h"
+#include "tests/kernels/simd_pairs.h"
 #include "tests/support/random.h"
 
 namespace needlework::kernels {
@@ -93,17 +93,17 @@ TEST(OneAnswer, OfFilters) {
     Random random(2);
     const NearKernels& kernels = near_kernels(isa);
     for (int n = 0; n < 200; ++n) {
-      Block blocks[2];
+      NeedleBlock blocks[2];
       const BlockLink links[2] = {{block_size, 1},
                                   {static_cast<std::uint32_t>(1 + n % 16), BlockLink::none}};
       const CellView cells[] = {{0, {0.5f, 0, 0}}, {0, {0, -0.5f, 1}}};
       std::uint32_t id = 1;
-      for (Block& block : blocks) {
+      for (NeedleBlock& block : blocks) {
         for (std::size_t lane = 0; lane < block_size; ++lane) {
           const auto a = random.direction();
           const Vec3d r = any_vector(random, 1);
           const double row[] = {r.x, r.y, r.z, a[0], a[1], a[2], random.uniform(-1, 0)};
-          for (int c = 0; c < Block::columns; ++c) {
+          for (int c = 0; c < NeedleBlock::columns; ++c) {
             block.column[c][lane] = static_cast<float>(row[c]);
           }
           block.needle[lane] = id++;
@@ -139,7 +139,7 @@ TEST(OneAnswer, OfTheContactFunctionAndItsIsolation) {
       for (const auto& values : test::contact_functions(near_kernels(isa), seeker, rows, 0.5f)) {
         for (const float value : values) out.take(value);
       }
-      for (const float from : test::isolated(near_kernels(isa), seeker, rows)) out.take(from);
+      for (const float from : test::bracketed(near_kernels(isa), seeker, rows)) out.take(from);
     }
   });
 }

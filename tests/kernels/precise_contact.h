@@ -27,13 +27,14 @@ struct PreciseContact {
   Vec<Real> u[2], r, x;
 };
 
-/// At scaled time s: time / scale.per_velocity after s = 0.
+/// At scaled time s, s / scale.per_time after s = 0, in scaled lengths.
 template <class Real>
 PreciseContact<Real> precise_contact(const kernels::Pair& pair, const kernels::PairScale& scale,
                                      const Real& s) {
   const kernels::Flight* flight[2] = {pair.first, pair.second};
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
-  const Real unit = scale.per_velocity;  // scaled time per time
+  const Real unit = scale.per_rate;      // time per scaled time
+  const Real length = scale.per_length;  // scaled length per length
   PreciseContact<Real> out;
   Vec<Real> centre[2], du[2], ddu[2];
   for (int i = 0; i < 2; ++i) {
@@ -47,8 +48,9 @@ PreciseContact<Real> precise_contact(const kernels::Pair& pair, const kernels::P
     ddu[i] = Real(-rate * rate) * out.u[i];
     centre[i] = real<Real>(flight[i]->r) + time * real<Real>(flight[i]->v);
   }
-  out.r = centre[0] - centre[1] - real<Real>(pair.shift);
-  const Vec<Real> v = unit * (real<Real>(flight[0]->v) - real<Real>(flight[1]->v));
+  out.r = length * Vec<Real>(centre[0] - centre[1] - real<Real>(pair.shift));
+  const Vec<Real> v =
+      Real(length * unit) * Vec<Real>(real<Real>(flight[0]->v) - real<Real>(flight[1]->v));
   out.x = cross(out.u[0], out.u[1]);
   const Vec<Real> dx = cross(du[0], out.u[1]) + cross(out.u[0], du[1]);
   const Vec<Real> ddx =

@@ -103,9 +103,11 @@ TEST(Range, ContactFunctionsAreEnclosed) {
         const auto boxes = [&] { return two_prod(random.below(3) - 1, random.uniform(2, 9)); };
         held.shift = {boxes(), boxes(), boxes()};
       }
+      held = resized(held, random.below(9) - 4);
       const kernels::Pair pair = held.view();
       const kernels::PairScale scale = kernels::scale_of(pair);
-      const auto frame = kernels::enclose(kernels::make_frame<DoubleDouble>(pair, scale), pair);
+      const auto frame =
+          kernels::enclose(kernels::make_frame<DoubleDouble>(pair, scale), pair, scale);
       const double end = drawn.horizon * scale.per_time;
       for (int k = 0; k < 4; ++k) {
         const double begin = end * random.uniform();
@@ -134,7 +136,7 @@ TEST(Range, ContinuationsFromATouchAreEnclosed) {
       const double gap = 1e-13 * random.normal(), bend = 1e-12 * random.normal();
       frame.offset = DoubleDouble(gap) - kernels::evaluate(frame, DoubleDouble(0.0)).f;
       frame.slope = DoubleDouble(bend);
-      const auto wide = kernels::enclose(frame, pair);
+      const auto wide = kernels::enclose(frame, pair, scale);
       const double end = drawn.horizon * scale.per_time;
       const double begin = end * random.uniform();
       const Range time{begin, begin + std::ldexp(end, -random.below(50))};

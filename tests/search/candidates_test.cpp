@@ -31,13 +31,13 @@ constexpr int thin = 10;
 #endif
 
 Needle any_needle(Random& random, const Gas& gas) {
-  return static_cast<Needle>(random.below(static_cast<int>(gas.size())));
+  return Needle(random.below(static_cast<int>(gas.size())));
 }
 
 /// One gas and how it is watched. Times are in flights of one length at its fastest speed.
 struct Setting {
   const char* name;
-  Needle count;
+  std::size_t count;
   std::array<double, 3> box;
   Speeds speeds;
   double span;  ///< how far ahead contacts are looked for
@@ -45,6 +45,7 @@ struct Setting {
   int checks;
   double collisions;  ///< probability of one at each check
   long least_contacts;
+  std::vector<double> lengths = {1};  ///< of needles, in turn
 };
 
 class Contacts : public testing::TestWithParam<Setting> {};
@@ -54,7 +55,7 @@ TEST_P(Contacts, AreProposedByEverySearch) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   const double unit = 1 / (s.speeds.sigma * s.speeds.fast);
   Random random(seed);
-  Gas gas = test::random_gas(random, s.count, s.box, s.speeds);
+  Gas gas = test::random_gas(random, s.count, s.box, s.speeds, s.lengths);
   GasDrive drive(gas, random, test::search_choices(), s.span * unit);
   const int checks = std::max(3, s.checks / thin);
   for (int n = 0; n < checks; ++n) {
@@ -93,10 +94,14 @@ INSTANTIATE_TEST_SUITE_P(
         Setting{"chained_blocks", 400, {4.1, 4.2, 4.3}, thermal, 0.3, 0.01, 60, 0.5, 2000},
         Setting{"racing", 80, {3, 3.1, 3.2}, from_rest_to_racing, 2, 0.1, 300, 0.3, 5000},
         Setting{"some_fast", 80, {3, 3.1, 3.2}, with_some_fast, 2, 0.1, 300, 0.3, 5000},
-        Setting{"far_from_records", 20, {2.2, 3.3, 4.4}, thermal, 1, 2, 150, 0, 1500}),
+        Setting{"far_from_records", 20, {2.2, 3.3, 4.4}, thermal, 1, 2, 150, 0, 1500},
+        Setting{"of_length_0p6", 100, {1.3, 2, 3}, thermal, 0.5, 0.05, 200, 0.3, 1500, {0.6}},
+        Setting{"of_length_3", 40, {6.1, 7, 9}, thermal, 1, 0.1, 200, 0.3, 1000, {3}},
+        Setting{"of_two_lengths", 80, {3, 3.1, 3.2}, thermal, 0.7, 0.05, 200, 0.3, 500, {1, 0.2}},
+        Setting{"of_many", 80, {4, 4.1, 4.2}, thermal, 1, 0.1, 200, 0.3, 500, {1.9, 1, 0.3}}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// Searches count time from a moment that they set anew when it lies 8 flights back, with a unit
+// Searches count time from a moment that they move forward when it lies 8 flights back, with a unit
 // taken from the speeds at that moment; needles may be much slower or faster by then.
 TEST(ContactsInALongRun, AreProposedWhileTheGasCoolsAndHeats) {
   Random random(seed);
@@ -143,7 +148,7 @@ TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
   for (const double box : {2.01, 3.0, 4.0, 6.4}) {
     SCOPED_TRACE("box " + std::to_string(box) + ", seed " + std::to_string(seed));
     Random random(seed);
-    constexpr Needle count = 60;
+    constexpr std::size_t count = 60;
     Gas gas = test::gas_of(count, {box, box, box});
     const std::vector<std::array<double, 3>> sides = cell_sides(choices, gas);
     const auto on_border = [&] {
@@ -180,7 +185,7 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
     Gas gas = test::gas_of(100, {1.1 * box, 0.7 * box, box / 3});
     const std::vector<std::array<double, 3>> sides = cell_sides(choices, gas);
     // Pairs near each other, anywhere; many across borders of cells.
-    for (Needle i{0}; i < gas.size(); i += 2) {
+    for (std::size_t n = 0; n < gas.size(); n += 2) {
       const auto anywhere = [&](int axis) {
         if (random.coin()) return gas.box[axis] * random.uniform();
         const double side = sides[random.below(static_cast<int>(sides.size()))][axis];
@@ -188,8 +193,9 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
       };
       const Vec3d r{anywhere(0), anywhere(1), anywhere(2)};
       const test::Velocities a = draw_velocities(random, {}), b = draw_velocities(random, {});
-      put(gas, i, r, vec3(random.direction()), a.v, a.w);
-      put(gas, i + 1, r + vec3(random.normal_vector(0.3)), vec3(random.direction()), b.v, b.w);
+      put(gas, Needle(n), r, vec3(random.direction()), a.v, a.w);
+      put(gas, Needle(n + 1), r + vec3(random.normal_vector(0.3)), vec3(random.direction()), b.v,
+          b.w);
     }
     GasDrive drive(gas, random, choices, 2);
     for (int n = 0; n < 20; ++n) {
@@ -200,17 +206,17 @@ TEST(ContactsInAHugeBox, AreProposedByEverySearch) {
   }
 }
 
-// Records made anew next to a needle, at a distance that rounding may explain or, for needles in
+// Records replaced next to a needle, at a distance that rounding may explain or, for needles in
 // nearly one plane, up to 2^-18: whether they part or close, the engine has to see them at once.
 TEST(TouchingNeedles, AreProposedAtOnceByEverySearch) {
   Random random(seed);
-  constexpr Needle count = 40;
+  constexpr std::size_t count = 40;
   Gas gas = test::random_gas(random, count, {3, 4, 5}, {});
   GasDrive drive(gas, random, test::search_choices(), 1);
   for (int n = 0; n < 400 / thin; ++n) {
     SCOPED_TRACE("touch " + std::to_string(n) + ", seed " + std::to_string(seed));
     ASSERT_NO_FATAL_FAILURE(drive.advance(random.uniform(0, 0.1)));
-    const Needle i = any_needle(random, gas), j = (i + 1) % count;
+    const Needle i = any_needle(random, gas), j((i + 1) % count);
     const Record& other = gas.records[j];
     const double elapsed = gas.clock.difference(drive.now(), other.time);
     const Vec3d u = director_after(other.flight, elapsed);
@@ -232,19 +238,27 @@ TEST(TouchingNeedles, AreProposedAtOnceByEverySearch) {
   EXPECT_GE(drive.touches(), static_cast<long>(390 / thin * drive.choices().size()));
 }
 
-// What a search says, times scaled back to the unit of the velocities times 2^power.
+// What a search says, times scaled back to the unit of the velocities.
 using Said = std::vector<std::tuple<Needle, Shift, double>>;
 
-TEST(Searches, KnowNoUnitOfTime) {
-  const auto said = [](const SearchChoice& choice, int power) {
+// Velocities times 2^power and lengths times 2^size; angular velocities follow.
+TEST(Searches, KnowNoUnitOfTimeOrLength) {
+  const auto said = [](const SearchChoice& asked, int power, int size) {
+    SearchChoice choice = asked;
+    const double length = std::ldexp(1, size);
+    if (choice.setup.cell_side) choice.setup.cell_side = *choice.setup.cell_side * length;
+    if (choice.setup.capsule_radius) {
+      choice.setup.capsule_radius = *choice.setup.capsule_radius * length;
+    }
+    const int slower = size - power;  // times are 2^slower as long
     Random random(seed);
-    Gas gas = test::gas_of(30, {4, 3, 2.5});
-    gas.clock = Clock(std::ldexp(1.0, -power));
+    Gas gas = test::gas_of(30, {4 * length, 3 * length, 2.5 * length}, {length, 0.7 * length});
+    gas.clock = Clock(std::ldexp(1.0, slower));
     for (Needle i{0}; i < gas.size(); ++i) {
       const test::Velocities drawn = draw_velocities(random, {});
-      put(gas, i, {random.uniform(0, 4), random.uniform(0, 3), random.uniform(0, 2.5)},
-          vec3(random.direction()), drawn.v * std::ldexp(1.0, power),
-          drawn.w * std::ldexp(1.0, power));
+      const Vec3d r{random.uniform(0, 4), random.uniform(0, 3), random.uniform(0, 2.5)};
+      put(gas, i, r * length, vec3(random.direction()), drawn.v * std::ldexp(1.0, power),
+          drawn.w * std::ldexp(1.0, -slower));
     }
     Counters counters;
     const auto search = make_search(choice, gas, counters);
@@ -254,28 +268,56 @@ TEST(Searches, KnowNoUnitOfTime) {
     for (int n = 0; n < 40; ++n) {
       for (Needle i{0}; i < gas.size(); ++i) {
         const Time end = search->place(i, now);
-        out.push_back({i, {}, std::ldexp(gas.clock.since_start(end), power)});
-        const double ahead = std::min(gas.clock.difference(end, now), std::ldexp(0.5, -power));
-        search->find(i, now, ahead, [&](Needle j, const Shift& shift, double from, double) {
-          out.push_back({j, shift, std::ldexp(from, power)});
-          return ahead;
-        });
+        out.push_back({i, {}, std::ldexp(gas.clock.since_start(end), -slower)});
+        const double ahead = std::min(gas.clock.difference(end, now), std::ldexp(0.5, slower));
+        search->find(i, no_needle, now, ahead,
+                     [&](Needle j, const Shift& shift, double from, double) {
+                       out.push_back({j, shift, std::ldexp(from, -slower)});
+                       return ahead;
+                     });
       }
-      now = gas.clock.add(now, std::ldexp(0.3, -power));
+      now = gas.clock.add(now, std::ldexp(0.3, slower));
     }
     return out;
   };
   for (const SearchChoice& choice : test::search_choices()) {
-    const Said truth = said(choice, 0);
+    const Said truth = said(choice, 0, 0);
     EXPECT_GT(truth.size(), 1200u) << choice.name();
-    for (const int power : {60, -60, 300, -300}) {
-      EXPECT_EQ(said(choice, power), truth) << choice.name() << ", power " << power;
+    for (const auto [power, size] : {std::pair{60, 0},
+                                     {-60, 0},
+                                     {300, 0},
+                                     {-300, 0},
+                                     {0, 1},
+                                     {0, -5},
+                                     {0, 60},
+                                     {7, -60},
+                                     {-300, 3}}) {
+      EXPECT_EQ(said(choice, power, size), truth)
+          << choice.name() << ", velocities times 2^" << power << ", lengths times 2^" << size;
+    }
+  }
+}
+
+// A calendar groups needles by these.
+TEST(Searches, NameTheCellsOfTheirNeedles) {
+  Random random(seed);
+  Gas gas = test::random_gas(random, 200, {5, 6, 7}, {});
+  for (const SearchChoice& choice : test::search_choices()) {
+    SCOPED_TRACE(choice.name());
+    Counters counters;
+    const auto search = make_search(choice, gas, counters);
+    EXPECT_EQ(search->name(), choice.search);
+    const CellGrid* grid = search->grid();
+    EXPECT_EQ(search->cells(), grid ? grid->size() : 1);
+    for (Needle i{0}; i < gas.size(); ++i) {
+      search->place(i, {});
+      ASSERT_LT(search->cell_index(i), search->cells());
     }
   }
 }
 
 TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
-  const auto counts = [](Needle needles, std::array<double, 3> box) {
+  const auto counts = [](std::size_t needles, std::array<double, 3> box) {
     Counters counters;
     return LinkedLists(test::gas_of(needles, box), counters, {}).grid().counts();
   };

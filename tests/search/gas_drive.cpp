@@ -9,6 +9,7 @@
 
 #include "src/engine/space_order.h"
 #include "src/physics/collision.h"
+#include "src/search/lengths.h"
 #include "tests/support/kernel_pair.h"
 
 namespace needlework::test {
@@ -43,7 +44,7 @@ void for_each_image(const Gas& gas, Needle i, Needle j, Time now, double span, V
   const auto v = components(gas.records[i].flight.v - gas.records[j].flight.v);
   Images range[3];
   for (int axis = 0; axis < 3; ++axis) {
-    range[axis] = images(r[axis], v[axis] * span, gas.box[axis], 1 + 1e-9);
+    range[axis] = images(r[axis], v[axis] * span, gas.box[axis], gas.longest * (1 + 1e-9));
   }
   for (std::int32_t x = range[0].first; x <= range[0].last; ++x) {
     for (std::int32_t y = range[1].first; y <= range[1].last; ++y) {
@@ -57,19 +58,37 @@ std::string describe(Needle i, Needle j, const Shift& shift) {
          std::to_string(shift[0]) + " " + std::to_string(shift[1]) + " " + std::to_string(shift[2]);
 }
 
+double reach_of(const Gas& gas, Needle i, Needle j) {
+  return half_length_of(gas, i) + half_length_of(gas, j);
+}
+
+kernels::Pair pair_in_order(const Gas& gas, Needle a, Needle b, const Shift& shift) {
+  kernels::Pair pair = make_pair(gas, a, gas.records[a], b, gas.records[b], shift);
+  pair.half_first = half_length_of(gas, a);
+  pair.half_second = half_length_of(gas, b);
+  return pair;
+}
+
 // The needle with the lower id comes first; `shift` is added to the centre of j.
 kernels::Pair pair_of(const Gas& gas, Needle i, Needle j, const Shift& shift) {
-  if (gas.ids[i] < gas.ids[j]) return make_pair(gas, i, gas.records[i], j, gas.records[j], shift);
-  return make_pair(gas, j, gas.records[j], i, gas.records[i], -shift);
+  const bool in_order = gas.ids[i] < gas.ids[j];
+  const Needle a = in_order ? i : j, b = in_order ? j : i;
+  return pair_in_order(gas, a, b, in_order ? shift : -shift);
 }
 
 }  // namespace
 
-Gas gas_of(Needle count, std::array<double, 3> box) {
+Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<double>& lengths) {
   Gas gas;
   gas.records.resize(count);
   gas.ids.resize(count);
-  for (Needle i{0}; i < count; ++i) gas.ids[i] = i;
+  for (Needle i{0}; i < count; ++i) {
+    gas.ids[i] = Id{i.index};
+    gas.records[i].species = static_cast<SpeciesIndex>(i % lengths.size());
+  }
+  std::vector<Species> species;
+  for (const double length : lengths) species.push_back({.length = length});
+  gas.set_species(species);
   gas.images.resize(count);
   gas.box = box;
   return gas;
@@ -78,7 +97,7 @@ Gas gas_of(Needle count, std::array<double, 3> box) {
 void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
   gas.records[i].flight.r = r;
   gas.records[i].flight.v = {};
-  renew_record(gas, i, gas.records[i].time, u, v, w);
+  renew_record(gas, i, gas.records[i].time, {u, v, w, 2 * half_length_of(gas, i)});
 }
 
 Velocities draw_velocities(Random& random, const Speeds& speeds) {
@@ -92,9 +111,10 @@ Velocities draw_velocities(Random& random, const Speeds& speeds) {
   return out;
 }
 
-Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Speeds& speeds) {
-  Gas gas = gas_of(count, box);
-  gas.clock = Clock(1 / std::max(speeds.sigma, speeds.sigma * speeds.fast));
+Gas random_gas(Random& random, std::size_t count, std::array<double, 3> box, const Speeds& speeds,
+               const std::vector<double>& lengths) {
+  Gas gas = gas_of(count, box, lengths);
+  gas.clock = Clock(gas.longest / std::max(speeds.sigma, speeds.sigma * speeds.fast));
   for (Needle i{0}; i < count; ++i) {
     const Velocities velocities = draw_velocities(random, speeds);
     put(gas, i,
@@ -112,7 +132,8 @@ std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
     const Vec3d r = mine - centre(gas, j, now);
     for_each_image(gas, i, j, now, 0, [&](const Shift& shift) {
       const Vec3d image{shift[0] * gas.box[0], shift[1] * gas.box[1], shift[2] * gas.box[2]};
-      if (dot(r - image, r - image) < 1 - 1e-12) out.push_back({j, shift});
+      const double reach = reach_of(gas, i, j);
+      if (dot(r - image, r - image) < reach * reach * (1 - 1e-12)) out.push_back({j, shift});
     });
   }
   return out;
@@ -198,7 +219,7 @@ void GasDrive::advance(double dt) {
 void GasDrive::strike(Needle i, const Velocities& velocities) {
   const Record& record = gas_.records[i];
   const Vec3d u = director_after(record.flight, gas_.clock.difference(now_, record.time));
-  renew_record(gas_, i, now_, u, velocities.v, velocities.w);
+  renew_record(gas_, i, now_, {u, velocities.v, velocities.w, 2 * half_length_of(gas_, i)});
   place_everywhere(i);
 }
 
@@ -208,12 +229,19 @@ void GasDrive::set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& v
   place_everywhere(i);
 }
 
+Needle GasDrive::hint(Needle i) {
+  if (random_.below(16) == 0) return Needle(random_.below(static_cast<int>(gas_.size())));
+  if (now_ != struck_at_) return no_needle;
+  return i == struck_[0] ? struck_[1] : i == struck_[1] ? struck_[0] : no_needle;
+}
+
 std::vector<GasDrive::Proposal> GasDrive::proposals(Followed& followed, Needle i, double ahead) {
   std::vector<Proposal> out;
-  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from, double to) {
-    out.push_back({j, shift, from, to});
-    return ahead;
-  });
+  followed.search->find(i, hint(i), now_, ahead,
+                        [&](Needle j, const Shift& shift, double from, double to) {
+                          out.push_back({j, shift, from, to});
+                          return ahead;
+                        });
   return out;
 }
 
@@ -244,12 +272,13 @@ void GasDrive::expect_proposed(std::size_t n, Needle i, double ahead,
   }
   // An event loop wants the earliest and shortens the time ahead by what it finds.
   double shortened = ahead;
-  followed.search->find(i, now_, ahead, [&](Needle j, const Shift& shift, double from, double) {
-    EXPECT_LE(from, shortened);
-    const auto it = known.find({j, shift});
-    if (it != known.end()) shortened = std::min(shortened, it->second);
-    return shortened;
-  });
+  followed.search->find(i, hint(i), now_, ahead,
+                        [&](Needle j, const Shift& shift, double from, double) {
+                          EXPECT_LE(from, shortened);
+                          const auto it = known.find({j, shift});
+                          if (it != known.end()) shortened = std::min(shortened, it->second);
+                          return shortened;
+                        });
   ASSERT_LE(shortened, earliest) << "needle " << i << " lacks its earliest contact";
 }
 
@@ -305,18 +334,24 @@ void GasDrive::bounce(Needle i, double epsilon) {
   ASSERT_NO_FATAL_FAILURE(advance(gas_.clock.difference(then, now_)));
   if (Gas::start_of(first, second) != start) return;  // renewed on the way
   now_ = then;
-  const kernels::ContactGeometry at = contact_geometry(make_pair(gas_, a, first, b, second, shift),
-                                                       gas_.clock.exact_difference(now_, start));
-  const Impact impact = collide<true>(first.flight, second.flight, at, next->contact.side, gas_.k,
+  const kernels::ContactGeometry at =
+      contact_geometry(pair_in_order(gas_, a, b, shift), gas_.clock.exact_difference(now_, start));
+  const Impact impact = collide<true>({first.flight, second.flight, gas_.bodies[first.species],
+                                       gas_.bodies[second.species], at, next->contact.side},
                                       {.epsilon = epsilon, .beta = -1});
-  const Shift wraps_a = renew_record(gas_, a, now_, at.u_first, impact.v_first, impact.w_first);
-  const Shift wraps_b = renew_record(gas_, b, now_, at.u_second, impact.v_second, impact.w_second);
+  const Shift wraps_a = renew_record(
+      gas_, a, now_, {at.u_first, impact.v_first, impact.w_first, 2 * half_length_of(gas_, a)});
+  const Shift wraps_b = renew_record(
+      gas_, b, now_, {at.u_second, impact.v_second, impact.w_second, 2 * half_length_of(gas_, b)});
   const Shift wrapped = shift + wraps_b - wraps_a;
   const kernels::Touch touch{
       .touching = true, .collided = true, .side = next->contact.side, .gap = 0};
-  gas_.records[a].touches.push_back({b, gas_.records[b].serial, wrapped, touch});
-  gas_.records[b].touches.push_back({a, gas_.records[a].serial, -wrapped, touch});
+  gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], gas_.records[b].serial, wrapped, touch));
+  gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], gas_.records[a].serial, -wrapped, touch));
   ++bounces_;
+  struck_[0] = a;
+  struck_[1] = b;
+  struck_at_ = now_;
   place_everywhere(a);
   place_everywhere(b);
   ASSERT_NO_FATAL_FAILURE(check(a));
@@ -325,12 +360,13 @@ void GasDrive::bounce(Needle i, double epsilon) {
 
 void GasDrive::shuffle() {
   std::vector<Needle> order(gas_.size());
-  std::iota(order.begin(), order.end(), Needle{0});
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = Needle(n);
   for (std::size_t n = order.size(); n > 1; --n) {
     std::swap(order[n - 1], order[random_.below(static_cast<int>(n))]);
   }
   const std::vector<Needle> ranks = ranks_of(order);
   reorder(gas_, order);
+  struck_at_ = Time::never();
   for (Followed& followed : followed_) {
     followed.search->renumber(ranks);
     permute(followed.placed_until, order);
@@ -341,7 +377,7 @@ void GasDrive::shuffle() {
 void GasDrive::check_near(Needle i) {
   place_everywhere(i);
   for (std::size_t n = 0; n < followed_.size(); ++n) {
-    if (choices_[n].by_lanes()) continue;
+    if (choices_[n].uses_simd()) continue;
     Followed& followed = followed_[n];
     Time until = gas_.clock.add(now_, span_);
     for (const Time placed : followed.placed_until) until = std::min(until, placed);

@@ -17,12 +17,12 @@
 
 namespace needlework::test {
 
-/// `count` needles, all of them still to be set by put().
-Gas gas_of(Needle count, std::array<double, 3> box);
+/// `count` needles, of these lengths in turn, all of them still to be set by put().
+Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<double>& lengths = {1});
 /// Gives needle i its first record, at time 0, the centre wrapped into the box.
 void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w);
 
-/// Speeds of needles, drawn anew for each: Gaussian velocities, angular ones of the same size.
+/// Speeds of needles, drawn for each: Gaussian velocities, angular ones of the same size.
 struct Speeds {
   double sigma = 1;
   double fast = 1;      ///< every fourth needle is so much faster,
@@ -37,11 +37,12 @@ struct Velocities {
 Velocities draw_velocities(Random& random, const Speeds& speeds);
 
 /// `count` needles anywhere in the box.
-Gas random_gas(Random& random, Needle count, std::array<double, 3> box, const Speeds& speeds);
+Gas random_gas(Random& random, std::size_t count, std::array<double, 3> box, const Speeds& speeds,
+               const std::vector<double>& lengths = {1});
 
 using Candidate = std::pair<Needle, Shift>;
 
-/// All images of all other needles with centres nearer than L at this time, beyond rounding.
+/// All images of all other needles whose bounding spheres overlap at this time, beyond rounding.
 std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now);
 
 /// A contact that lies ahead of a needle.
@@ -80,9 +81,9 @@ class GasDrive {
   void check(Needle i);
   void check_all();
   /// Lets time pass until shortly before the next contact of i, if there is one, and checks both
-  /// needles: then even the hulls that last least last to the contact.
+  /// needles: then even the bounding volumes that last least last to the contact.
   void check_before_contact(Needle i);
-  /// The plain searches propose all that comes near while nobody is placed anew.
+  /// The plain searches propose all that comes near while no needle is placed again.
   void check_near(Needle i);
 
   Time now() const { return now_; }
@@ -108,6 +109,8 @@ class GasDrive {
     double from, to;
   };
 
+  /// The needle that i has just hit, if any; now and then any needle, for that is only a hint.
+  Needle hint(Needle i);
   void place(Followed& followed, Needle i);
   void place_everywhere(Needle i);
   void settle_next(Needle i);
@@ -120,8 +123,10 @@ class GasDrive {
   std::vector<SearchChoice> choices_;
   double span_;
   std::vector<Followed> followed_;
-  std::vector<Time> next_;  ///< of each needle: placed anew in some search, or renewed
+  std::vector<Time> next_;  ///< of each needle: when it is placed again in some search, or renewed
   Time now_;
+  Needle struck_[2];  ///< the pair that collided last, and when
+  Time struck_at_ = Time::never();
   long contacts_ = 0, touches_ = 0, bounces_ = 0, near_ = 0;
 };
 

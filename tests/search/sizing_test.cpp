@@ -10,7 +10,7 @@ namespace needlework::test {
 namespace {
 
 // In the part of the box up to `filled` of its edge.
-Gas gas_in(double filled, Needle count, double edge) {
+Gas gas_in(double filled, std::size_t count, double edge) {
   Random random(5);
   Gas gas = gas_of(count, {edge, edge, edge});
   const auto place = [&] { return random.uniform(0, filled * edge); };
@@ -64,7 +64,7 @@ TEST(Sizing, OfASmallCloudIsTheDensityInIt) {
 
 // A few pairs may be near each other by chance.
 TEST(Sizing, OfFewNeedlesIsTheirDensity) {
-  for (const Needle count : {2u, 10u, 64u, 150u}) {
+  for (const std::size_t count : {2, 10, 64, 150}) {
     for (const double edge : {2.01, 10.0, 30.0, 120.0}) {
       const Gas gas = gas_in(1, count, edge);
       EXPECT_EQ(Sizing(gas, {}).density(), gas.density()) << count << ' ' << edge;

@@ -18,6 +18,7 @@ struct KernelPair {
   Vec3dd shift;
   kernels::Touch touch;
   double touch_within = 0;
+  double half_first = 0.5, half_second = 0.5;
 
   /// A view of this pair, which must outlive it.
   kernels::Pair view() const {
@@ -26,6 +27,8 @@ struct KernelPair {
             .elapsed_first = elapsed_first,
             .elapsed_second = elapsed_second,
             .shift = shift,
+            .half_first = half_first,
+            .half_second = half_second,
             .touch = touch,
             .touch_within = touch_within};
   }
@@ -65,6 +68,7 @@ inline DoubleDouble power_of_two(const DoubleDouble& a, int power) {
 inline KernelPair exchanged(KernelPair pair) {
   std::swap(pair.first, pair.second);
   std::swap(pair.elapsed_first, pair.elapsed_second);
+  std::swap(pair.half_first, pair.half_second);
   pair.shift = -pair.shift;
   return pair;
 }
@@ -95,6 +99,28 @@ inline KernelPair slowed(KernelPair pair, int power) {
   pair.elapsed_first = power_of_two(pair.elapsed_first, power);
   pair.elapsed_second = power_of_two(pair.elapsed_second, power);
   return pair;
+}
+
+/// Lengths times `factor`, times as they are; exact for powers of two.
+inline KernelPair lengthened(KernelPair pair, double factor) {
+  for (kernels::Flight* needle : {&pair.first, &pair.second}) {
+    needle->r = needle->r * factor;
+    needle->v = needle->v * factor;
+  }
+  const auto longer = [&](const DoubleDouble& a) {
+    return DoubleDouble(a.hi * factor, a.lo * factor);
+  };
+  pair.shift = {longer(pair.shift.x), longer(pair.shift.y), longer(pair.shift.z)};
+  pair.touch.gap *= factor;
+  pair.touch_within *= factor;
+  pair.half_first *= factor;
+  pair.half_second *= factor;
+  return pair;
+}
+
+/// Lengths times 2^power.
+inline KernelPair resized(const KernelPair& pair, int power) {
+  return lengthened(pair, std::ldexp(1.0, power));
 }
 
 }  // namespace needlework::test

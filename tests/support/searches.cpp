@@ -12,38 +12,40 @@
 namespace needlework::test {
 namespace {
 
-template <class Search>
+const CellGrid* grid_of(const AllPairs&) { return nullptr; }
+const CellGrid* grid_of(const LinkedLists& search) { return &search.grid(); }
+const CellGrid* grid_of(const NearSearch& search) { return &search.grid(); }
+
+template <Search S>
 class Wrapped final : public AnySearch {
  public:
-  Wrapped(const Gas& gas, Counters& counters, const SearchSetup& setup)
-      : search_(gas, counters, setup) {}
+  template <class... Arguments>
+  explicit Wrapped(Arguments&&... arguments) : search_(arguments...) {}
 
   Time place(Needle i, Time now) override { return search_.place(i, now); }
   void renumber(const std::vector<Needle>& ranks) override { search_.renumber(ranks); }
-  void find(Needle i, Time now, double ahead, const Visit& visit) override {
-    search_.find(i, now, ahead, visit);
+  void find(Needle i, Needle just_hit, Time now, double ahead, const Visit& visit) override {
+    search_.find(i, just_hit, now, ahead, visit);
   }
-  const CellGrid* grid() const override {
-    if constexpr (requires { search_.grid(); }) {
-      return &search_.grid();
-    } else {
-      return nullptr;
-    }
-  }
+  const char* name() const override { return search_.name(); }
+  std::size_t cells() const override { return search_.cells(); }
+  std::uint32_t cell_index(Needle i) const override { return search_.cell_index(i); }
+  const CellGrid* grid() const override { return grid_of(search_); }
 
  private:
-  Search search_;
+  S search_;
 };
+
+constexpr const char* linked_cells = NearSearch::name_of(BoundingVolume::cell);
+constexpr const char* capsules = NearSearch::name_of(BoundingVolume::capsule);
 
 }  // namespace
 
-bool SearchChoice::by_lanes() const {
-  return search == LinkedCells::name || search == Capsules::name;
-}
+bool SearchChoice::uses_simd() const { return NearSearch::kind_of(search).has_value(); }
 
 std::string SearchChoice::name() const {
   std::string out = search;
-  if (by_lanes()) out += fmt::format("_{}", kernels::name_of(setup.isa));
+  if (uses_simd()) out += fmt::format("_{}", kernels::name_of(setup.isa));
   if (setup.cell_side) out += fmt::format("_side_{}", *setup.cell_side);
   if (setup.capsule_radius) out += fmt::format("_radius_{}", *setup.capsule_radius);
   std::replace(out.begin(), out.end(), '-', '_');
@@ -66,31 +68,33 @@ std::vector<SearchChoice> search_choices() {
     out.push_back({search, {isa, side, radius}});
   };
   const std::optional<double> chosen;
-  add(AllPairs::name, sets.front(), chosen, chosen);
-  add(LinkedLists::name, sets.front(), chosen, chosen);
-  add(LinkedLists::name, sets.front(), 1.6, chosen);
+  add(AllPairs::search_name, sets.front(), chosen, chosen);
+  add(LinkedLists::search_name, sets.front(), chosen, chosen);
+  add(LinkedLists::search_name, sets.front(), 1.6, chosen);
   for (const kernels::Isa isa : sets) {
-    add(LinkedCells::name, isa, chosen, chosen);
-    add(Capsules::name, isa, chosen, chosen);
+    add(linked_cells, isa, chosen, chosen);
+    add(capsules, isa, chosen, chosen);
   }
   // Small cells are seen from several cells away, wide ones hold chains of blocks; capsules may be
   // thinner and thicker than needles are apart.
-  for (const double side : {0.4, 1.0, 2.5}) add(LinkedCells::name, sets.back(), side, chosen);
-  for (const double radius : {0.01, 0.3, 1.5}) add(Capsules::name, sets.back(), chosen, radius);
-  add(Capsules::name, sets.back(), 0.4, 0.1);
-  add(Capsules::name, sets.back(), 4.0, 0.1);
+  for (const double side : {0.4, 1.0, 2.5}) add(linked_cells, sets.back(), side, chosen);
+  for (const double radius : {0.01, 0.3, 1.5}) add(capsules, sets.back(), chosen, radius);
+  add(capsules, sets.back(), 0.4, 0.1);
+  add(capsules, sets.back(), 4.0, 0.1);
   return out;
 }
 
 std::unique_ptr<AnySearch> make_search(const SearchChoice& choice, const Gas& gas,
                                        Counters& counters) {
-  const auto make = [&]<class Search>() -> std::unique_ptr<AnySearch> {
-    return std::make_unique<Wrapped<Search>>(gas, counters, choice.setup);
-  };
-  if (choice.search == AllPairs::name) return make.operator()<AllPairs>();
-  if (choice.search == LinkedLists::name) return make.operator()<LinkedLists>();
-  if (choice.search == LinkedCells::name) return make.operator()<LinkedCells>();
-  if (choice.search == Capsules::name) return make.operator()<Capsules>();
+  if (const auto kind = NearSearch::kind_of(choice.search)) {
+    return std::make_unique<Wrapped<NearSearch>>(gas, counters, choice.setup, *kind);
+  }
+  if (choice.search == AllPairs::search_name) {
+    return std::make_unique<Wrapped<AllPairs>>(gas, counters, choice.setup);
+  }
+  if (choice.search == LinkedLists::search_name) {
+    return std::make_unique<Wrapped<LinkedLists>>(gas, counters, choice.setup);
+  }
   throw std::invalid_argument("no search is named " + choice.search);
 }
 

@@ -24,7 +24,7 @@ struct SearchChoice {
   /// As a test may be named: "capsules_avx2_radius_0p3".
   std::string name() const;
   /// True for those that compute with this setup's instruction set.
-  bool by_lanes() const;
+  bool uses_simd() const;
   void apply(Scene& scene) const;
 };
 
@@ -33,7 +33,7 @@ inline void PrintTo(const SearchChoice& choice, std::ostream* out) { *out << cho
 /// All-pairs first.
 std::vector<SearchChoice> search_choices();
 
-/// A search as src/search/all_pairs.h describes it, its type forgotten.
+/// A search as src/search/search.h describes it, its type erased.
 class AnySearch {
  public:
   using Visit = std::function<double(Needle, const Shift&, double from, double to)>;
@@ -41,7 +41,10 @@ class AnySearch {
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
   virtual void renumber(const std::vector<Needle>& ranks) = 0;
-  virtual void find(Needle i, Time now, double ahead, const Visit& visit) = 0;
+  virtual void find(Needle i, Needle just_hit, Time now, double ahead, const Visit& visit) = 0;
+  virtual const char* name() const = 0;
+  virtual std::size_t cells() const = 0;
+  virtual std::uint32_t cell_index(Needle i) const = 0;
   /// Null for a search without cells.
   virtual const CellGrid* grid() const = 0;
 };

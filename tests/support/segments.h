@@ -1,4 +1,4 @@
-// Closest approach of two segments of length 1, the slow and sure way.
+// Closest approach of two segments, the slow and sure way.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,17 @@ struct NearestPoints {
 };
 
 /// In many digits: a tip of one and the nearest point of the other, or two points within both.
+/// Centres, directors and half lengths.
 inline NearestPoints nearest_points(const Vec3d& r1, const Vec3d& u1, const Vec3d& r2,
-                                    const Vec3d& u2) {
+                                    const Vec3d& u2, double half1 = 0.5, double half2 = 0.5) {
   using V = Vec3<Quad>;
   const auto wide = [](const Vec3d& a) { return V{Quad(a.x), Quad(a.y), Quad(a.z)}; };
   const V r = wide(r1) - wide(r2), a = wide(u1), b = wide(u2);
-  const Quad half(0.5), aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
+  const Quad h1(half1), h2(half2), aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
   const Quad ra = dot(r, a), rb = dot(r, b);
-  const auto clamped = [&](const Quad& x) { return std::clamp<Quad>(x, -half, half); };
+  const auto clamped = [](const Quad& x, const Quad& half) {
+    return std::clamp<Quad>(x, -half, half);
+  };
   V best{};
   Quad least(-1);
   const auto consider = [&](const Quad& s, const Quad& t) {
@@ -31,14 +34,12 @@ inline NearestPoints nearest_points(const Vec3d& r1, const Vec3d& u1, const Vec3
       best = gap;
     }
   };
-  for (const Quad& tip : {Quad(-half), half}) {
-    consider(tip, clamped((rb + tip * ab) / bb));
-    consider(clamped((tip * ab - ra) / aa), tip);
-  }
+  for (const Quad& tip : {Quad(-h1), h1}) consider(tip, clamped((rb + tip * ab) / bb, h2));
+  for (const Quad& tip : {Quad(-h2), h2}) consider(clamped((tip * ab - ra) / aa, h1), tip);
   const Quad determinant = aa * bb - ab * ab;
   if (determinant > 0) {
     const Quad s = (ab * rb - bb * ra) / determinant, t = (aa * rb - ab * ra) / determinant;
-    if (abs(s) <= half && abs(t) <= half) consider(s, t);
+    if (abs(s) <= h1 && abs(t) <= h2) consider(s, t);
   }
   return {{static_cast<double>(best.x), static_cast<double>(best.y), static_cast<double>(best.z)}};
 }

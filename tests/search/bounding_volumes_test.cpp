@@ -1,6 +1,7 @@
-// Hulls by themselves, without the filters behind them, which would hide what no contact needs: a
-// needle stays in its hull for as long as that says, and all needles whose hulls come near are
-// found. How near and how long is tight, so that neither holds because hulls are too large.
+// Bounding volumes by themselves, without the filters behind them, which would hide errors that
+// cost no contact: a needle stays in its bounding volume for as long as place() says, and all
+// needles whose bounding volumes come near are found. How near and how long is tight, so that
+// neither holds only because bounding volumes are too large.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ constexpr int steps = 100;
 
 struct Setting {
   const char* name;
-  Needle needles;
+  std::size_t needles;
   std::array<double, 3> box;
   Speeds speeds;
   SearchSetup setup;
@@ -71,7 +72,8 @@ double distance(const Vec3d& point, const Segment& axis) {
 
 double distance(const Segment& a, const Segment& b) {
   const Vec3d x = cross(a.u, b.u);
-  return std::sqrt(kernels::segment_distance_squared(a.r - b.r, a.u, b.u, x, dot(x, x)));
+  return std::sqrt(kernels::segment_distance_squared(a.r - b.r, a.u, b.u, x, dot(x, x),
+                                                     kernels::half_lengths(0.5, 0.5)));
 }
 
 // The least distance of two centres in the next `span`.
@@ -83,12 +85,11 @@ double least_distance(const Vec3d& r, const Vec3d& v, double span) {
 }
 
 // A search in a gas whose needles are placed when their times come.
-template <class Search>
 struct Moving {
-  Moving(const Setting& setting, Random& draws)
+  Moving(const Setting& setting, BoundingVolume volume, Random& draws)
       : random(draws),
         gas(random_gas(draws, setting.needles, setting.box, setting.speeds)),
-        search(gas, counters, setting.setup),
+        search(gas, counters, setting.setup, volume),
         until(gas.size()) {
     for (Needle i{0}; i < gas.size(); ++i) until[i] = search.place(i, now);
   }
@@ -99,28 +100,28 @@ struct Moving {
       const auto next = std::min_element(until.begin(), until.end());
       if (*next > end) break;
       now = *next;
-      place(static_cast<Needle>(next - until.begin()));
+      place(Needle(next - until.begin()));
     }
     now = end;
   }
   void place(Needle i) { until[i] = search.place(i, now); }
-  Needle any() { return static_cast<Needle>(random.below(static_cast<int>(gas.size()))); }
+  Needle any() { return Needle(random.below(static_cast<int>(gas.size()))); }
   double left(Needle i) const { return std::min(gas.clock.difference(until[i], now), 1e3); }
 
-  Segment hull(Needle i) const {
-    const Hulls& hulls = search.hulls();
-    const Hulls::Place& place = hulls.places[i];
-    const kernels::Block& block = hulls.blocks[place.block];
-    EXPECT_EQ(block.needle[place.lane], i);
-    const auto column = [&](int c) { return double{block.column[c][place.lane]}; };
-    using B = kernels::Block;
-    return {hulls.grid.corner(place.cell) + Vec3d{column(B::x), column(B::y), column(B::z)},
+  Segment axis(Needle i) const {
+    const BoundingVolumes& volumes = search.volumes();
+    const BoundingVolumes::Place& place = volumes.places[i];
+    const kernels::NeedleBlock& block = volumes.cells[place.slot.block];
+    EXPECT_EQ(block.needle[place.slot.lane], i);
+    const auto column = [&](int c) { return double{block.column[c][place.slot.lane]}; };
+    using B = kernels::NeedleBlock;
+    return {volumes.grid.corner(place.cell) + Vec3d{column(B::x), column(B::y), column(B::z)},
             {column(B::a_x), column(B::a_y), column(B::a_z)}};
   }
 
   std::set<Candidate> found(Needle i, double ahead) {
     std::set<Candidate> out;
-    search.find(i, now, ahead, [&](Needle j, const Shift& shift, double, double) {
+    search.find(i, no_needle, now, ahead, [&](Needle j, const Shift& shift, double, double) {
       EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
       return ahead;
     });
@@ -151,35 +152,36 @@ struct Moving {
   Random& random;
   Gas gas;
   Counters counters;
-  Search search;
+  NearSearch search;
   std::vector<Time> until;
   Time now;
 };
 
-// How far a needle is out of the middle of its hull, as a share of what it may be.
-double share_of_hull(const Moving<Capsules>& moving, Needle i, Time t) {
-  const Segment needle = needle_at(moving.gas, i, t), hull = moving.hull(i);
-  const double off = std::max(distance(needle.r + needle.u * 0.5, hull),
-                              distance(needle.r - needle.u * 0.5, hull));
-  return (off - moving.search.hulls().margin) / moving.search.radius();
+// How far a needle is out of the middle of its bounding volume, as a share of what it may be.
+double share_of_capsule(const Moving& moving, Needle i, Time t) {
+  const Segment needle = needle_at(moving.gas, i, t), axis = moving.axis(i);
+  const double off = std::max(distance(needle.r + needle.u * 0.5, axis),
+                              distance(needle.r - needle.u * 0.5, axis));
+  return (off - moving.search.volumes().margin) / moving.search.radius();
 }
-double share_of_hull(const Moving<LinkedCells>& moving, Needle i, Time t) {
-  const Hulls& hulls = moving.search.hulls();
-  const Vec3d r = needle_at(moving.gas, i, t).r - hulls.grid.corner(hulls.places[i].cell);
-  const auto sides = hulls.grid.sides();
+double share_of_cell(const Moving& moving, Needle i, Time t) {
+  const BoundingVolumes& volumes = moving.search.volumes();
+  const Vec3d r = needle_at(moving.gas, i, t).r - volumes.grid.corner(volumes.places[i].cell);
+  const auto sides = volumes.grid.sides();
   double share = 0;
   const double at[3] = {r.x, r.y, r.z};
   for (int axis = 0; axis < 3; ++axis) {
     const double half = 0.5 * sides[axis];
-    share = std::max(share, (std::abs(at[axis] - half) - hulls.margin) / (half + hulls.overlap));
+    share =
+        std::max(share, (std::abs(at[axis] - half) - volumes.margin) / (half + volumes.overlap));
   }
   return share;
 }
 
-template <class Search>
-void expect_held(const Setting& setting, double fullest) {
+void expect_held(BoundingVolume volume, const Setting& setting, double fullest) {
   Random random(seed);
-  Moving<Search> moving(setting, random);
+  Moving moving(setting, volume, random);
+  const auto share_of = volume == BoundingVolume::cell ? share_of_cell : share_of_capsule;
   const double step = 0.1 / setting.speeds.sigma;
   double most = 0;
   for (int n = 0; n < steps; ++n) {
@@ -189,8 +191,8 @@ void expect_held(const Setting& setting, double fullest) {
       if (k % 2 == 0) moving.place(i);
       for (const double part : {0.0, random.uniform(), 1.0}) {
         const Time t = moving.gas.clock.add(moving.now, part * moving.left(i));
-        const double share = share_of_hull(moving, i, std::min(t, moving.until[i]));
-        ASSERT_LE(share, 1) << "needle " << i << " has left its hull, step " << n;
+        const double share = share_of(moving, i, std::min(t, moving.until[i]));
+        ASSERT_LE(share, 1) << "needle " << i << " has left its bounding volume, step " << n;
         most = std::max(most, share);
       }
     }
@@ -198,28 +200,27 @@ void expect_held(const Setting& setting, double fullest) {
   EXPECT_GT(most, fullest);
 }
 
-// Of each pair: how near its hulls are, and within what they have to be found.
+// Of each pair: how near its bounding volumes are, and within what they have to be found.
 struct Nearness {
   double here, within;
 };
-Nearness nearness(const Moving<Capsules>& moving, Needle i, Needle j, const Vec3d& image, double) {
-  Segment other = moving.hull(j);
+Nearness of_capsules(const Moving& moving, Needle i, Needle j, const Vec3d& image, double) {
+  Segment other = moving.axis(j);
   other.r += image;
-  return {distance(moving.hull(i), other), 2 * moving.search.radius()};
+  return {distance(moving.axis(i), other), 2 * moving.search.radius()};
 }
-// What comes near after one of the two has been placed anew is found then.
-Nearness nearness(const Moving<LinkedCells>& moving, Needle i, Needle j, const Vec3d& image,
-                  double ahead) {
+// What comes near after one of the two has been placed again is found then.
+Nearness of_cells(const Moving& moving, Needle i, Needle j, const Vec3d& image, double ahead) {
   const Vec3d r =
       needle_at(moving.gas, i, moving.now).r - (needle_at(moving.gas, j, moving.now).r + image);
   const Vec3d v = moving.gas.records[i].flight.v - moving.gas.records[j].flight.v;
   return {least_distance(r, v, std::min(ahead, moving.left(j))), 1};
 }
 
-template <class Search>
-void expect_found(const Setting& setting) {
+void expect_found(BoundingVolume volume, const Setting& setting) {
   Random random(seed + 1);
-  Moving<Search> moving(setting, random);
+  Moving moving(setting, volume, random);
+  const auto nearness = volume == BoundingVolume::cell ? of_cells : of_capsules;
   const double step = 0.1 / setting.speeds.sigma;
   long near = 0, spare = 0;
   for (int n = 0; n < steps; ++n) {
@@ -232,27 +233,35 @@ void expect_found(const Setting& setting) {
       const Nearness pair = nearness(moving, i, j, image, ahead);
       const bool proposed = found.contains({j, shift});
       near += pair.here < pair.within;
-      spare += proposed && pair.here > 1.01 * pair.within + 8 * moving.search.hulls().margin;
+      spare += proposed && pair.here > 1.01 * pair.within + 8 * moving.search.volumes().margin;
       ASSERT_TRUE(proposed || pair.here >= pair.within)
           << "needles " << i << " and " << j << " at " << pair.here << ", step " << n;
     });
   }
   EXPECT_GT(near, steps / 4);
-  // Linked cells do not look at when the other one will be placed anew.
-  if (std::is_same_v<Search, Capsules>) {
+  // Linked cells do not look at when the other one will be placed again.
+  if (volume == BoundingVolume::capsule) {
     EXPECT_EQ(spare, 0);
   }
   EXPECT_LT(spare, near);
 }
 
-class HullsOf : public testing::TestWithParam<Setting> {};
+class BoundingVolumesOf : public testing::TestWithParam<Setting> {};
 
-TEST_P(HullsOf, CellsHoldTheirNeedles) { expect_held<LinkedCells>(GetParam(), 0.999); }
-TEST_P(HullsOf, CapsulesHoldTheirNeedles) { expect_held<Capsules>(GetParam(), 0.9); }
-TEST_P(HullsOf, CellsFindAllThatComeNear) { expect_found<LinkedCells>(GetParam()); }
-TEST_P(HullsOf, CapsulesFindAllThatComeNear) { expect_found<Capsules>(GetParam()); }
+TEST_P(BoundingVolumesOf, CellsHoldTheirNeedles) {
+  expect_held(BoundingVolume::cell, GetParam(), 0.999);
+}
+TEST_P(BoundingVolumesOf, CapsulesHoldTheirNeedles) {
+  expect_held(BoundingVolume::capsule, GetParam(), 0.9);
+}
+TEST_P(BoundingVolumesOf, CellsFindAllThatComeNear) {
+  expect_found(BoundingVolume::cell, GetParam());
+}
+TEST_P(BoundingVolumesOf, CapsulesFindAllThatComeNear) {
+  expect_found(BoundingVolume::capsule, GetParam());
+}
 
-INSTANTIATE_TEST_SUITE_P(Settings, HullsOf, testing::ValuesIn(settings),
+INSTANTIATE_TEST_SUITE_P(Settings, BoundingVolumesOf, testing::ValuesIn(settings),
                          [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace

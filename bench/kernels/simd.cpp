@@ -1,4 +1,4 @@
-// Kernels by lanes, each on all instruction sets of this CPU; scalar is the twin. Names are
+// SIMD kernels, each on all instruction sets of this CPU; scalar is the twin. Names are
 // KERNEL/GAS/ISA, items are pairs of needles (free-flight: needles). The answer is compared with
 // the twin's before the clock starts.
 #include <benchmark/benchmark.h>
@@ -158,11 +158,11 @@ void contact_function(benchmark::State& state, Isa isa, double density) {
   count_pairs(state, done);
 }
 
-void isolate(benchmark::State& state, Isa isa, double density) {
+void bracket(benchmark::State& state, Isa isa, double density) {
   std::vector<PairBatch> batches = pair_batches(density, searches);
   const auto result = [](PairBatch& pairs, Isa by) {
     pairs.restart();
-    kernels::near_kernels(by).isolate(pairs.seeker, pairs.columns(), pairs.size);
+    kernels::near_kernels(by).bracket(pairs.seeker, pairs.columns(), pairs.size);
     const float* from = pairs.columns().column[kernels::PairColumns::from];
     std::vector<std::uint32_t> bits;
     for (std::size_t n = 0; n < pairs.size; ++n) {
@@ -171,7 +171,7 @@ void isolate(benchmark::State& state, Isa isa, double density) {
     return bits;
   };
   for (PairBatch& pairs : batches) {
-    require(result(pairs, isa) == result(pairs, Isa::scalar), "isolate", isa);
+    require(result(pairs, isa) == result(pairs, Isa::scalar), "bracket", isa);
   }
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
@@ -180,7 +180,7 @@ void isolate(benchmark::State& state, Isa isa, double density) {
     PairBatch& one = batches[n];
     one.restart();
     evaluations +=
-        static_cast<double>(chosen.isolate(one.seeker, one.columns(), one.size) * chosen.lanes);
+        static_cast<double>(chosen.bracket(one.seeker, one.columns(), one.size) * chosen.lanes);
     benchmark::ClobberMemory();
     pairs += static_cast<double>(one.size);
     n = n + 1 < batches.size() ? n + 1 : 0;
@@ -197,7 +197,7 @@ const bool added = [] {
              {"overlapping", overlapping},
              {"approaching", approaching},
              {"contact-function", contact_function},
-             {"isolate", isolate}};
+             {"bracket", bracket}};
   for (const auto& kernel : all) {
     for (const GasName& gas : gases) {
       for (const Isa isa : kernels::available()) {

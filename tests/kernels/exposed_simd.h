@@ -4,8 +4,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "kernels/lanes_scalar.h"
 #include "kernels/near_needles.h"
+#include "kernels/simd_scalar.h"
 
 #define NEEDLEWORK_TARGET
 // Apart from the twin that the library holds.

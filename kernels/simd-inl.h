@@ -1,10 +1,11 @@
-// Lanes of float of the instruction set that is being compiled, with the operators of a number, so
-// that one source serves lanes and the scalar twin. Included once for each instruction set.
-#if defined(NEEDLEWORK_LANES_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef NEEDLEWORK_LANES_INL
-#undef NEEDLEWORK_LANES_INL
+// `Floats`: a vector of floats of the instruction set that is being compiled, with the operators of
+// a number, so that one source serves vectors and the scalar twin. Included once for each
+// instruction set.
+#if defined(NEEDLEWORK_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef NEEDLEWORK_SIMD_INL
+#undef NEEDLEWORK_SIMD_INL
 #else
-#define NEEDLEWORK_LANES_INL
+#define NEEDLEWORK_SIMD_INL
 #endif
 
 #include <hwy/highway.h>
@@ -29,41 +30,42 @@ HWY_INLINE Mask operator&(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
 HWY_INLINE Mask operator|(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE Mask operator!(Mask a) { return {hn::Not(a.m)}; }
 
-struct Lanes {
+struct Floats {
   hn::Vec<Tag> v;
 
-  Lanes() = default;
-  HWY_ATTR HWY_INLINE Lanes(hn::Vec<Tag> raw) : v(raw) {}
-  HWY_ATTR HWY_INLINE Lanes(float a) : v(hn::Set(Tag(), a)) {}
+  Floats() = default;
+  HWY_ATTR HWY_INLINE Floats(hn::Vec<Tag> raw) : v(raw) {}
+  HWY_ATTR HWY_INLINE Floats(float a) : v(hn::Set(Tag(), a)) {}
 };
 
-inline constexpr std::size_t lanes_at_once = hn::MaxLanes(Tag());
-HWY_INLINE Lanes load_lanes(const float* p) { return hn::LoadU(Tag(), p); }
-HWY_INLINE void store_lanes(Lanes a, float* p) { hn::StoreU(a.v, Tag(), p); }
-/// 0, 1, 2, ...
-HWY_INLINE Lanes counting() { return hn::Iota(Tag(), 0.0f); }
+inline constexpr std::size_t floats_at_once = hn::MaxLanes(Tag());
+HWY_INLINE Floats load_floats(const float* p) { return hn::LoadU(Tag(), p); }
+HWY_INLINE void store_floats(Floats a, float* p) { hn::StoreU(a.v, Tag(), p); }
+/// Holds for the first n lanes, or all of fewer.
+HWY_INLINE Mask first_lanes(std::size_t n) { return {hn::FirstN(Tag(), n)}; }
 
-HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
-HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
-HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
-HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
-HWY_INLINE Lanes operator-(Lanes a) { return hn::Neg(a.v); }
-HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
-HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
-HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
-HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+HWY_INLINE Floats operator+(Floats a, Floats b) { return hn::Add(a.v, b.v); }
+HWY_INLINE Floats operator-(Floats a, Floats b) { return hn::Sub(a.v, b.v); }
+HWY_INLINE Floats operator*(Floats a, Floats b) { return hn::Mul(a.v, b.v); }
+HWY_INLINE Floats operator/(Floats a, Floats b) { return hn::Div(a.v, b.v); }
+HWY_INLINE Floats operator-(Floats a) { return hn::Neg(a.v); }
+HWY_INLINE Mask operator<(Floats a, Floats b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator>(Floats a, Floats b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator<=(Floats a, Floats b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Mask operator>=(Floats a, Floats b) { return {hn::Ge(a.v, b.v)}; }
 
 // Of a NaN and a number, both give b, as the comparisons of the twin do.
-HWY_INLINE Lanes minimum(Lanes a, Lanes b) { return hn::Min(a.v, b.v); }
-HWY_INLINE Lanes maximum(Lanes a, Lanes b) { return hn::Max(a.v, b.v); }
-HWY_INLINE Lanes absolute(Lanes a) { return hn::Abs(a.v); }
-HWY_INLINE Lanes square_root(Lanes a) { return hn::Sqrt(a.v); }
-HWY_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return hn::IfThenElse(m.m, a.v, b.v); }
+HWY_INLINE Floats minimum(Floats a, Floats b) { return hn::Min(a.v, b.v); }
+HWY_INLINE Floats maximum(Floats a, Floats b) { return hn::Max(a.v, b.v); }
+HWY_INLINE Floats absolute(Floats a) { return hn::Abs(a.v); }
+HWY_INLINE Floats square_root(Floats a) { return hn::Sqrt(a.v); }
+HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m, a.v, b.v); }
 HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 
-/// The lanes for which a mask holds, brought together in front, in their order; what follows them
-/// is anything. (GCC 12 copies the tables of Highway's Compress onto the stack at each call.)
+/// Packs the lanes for which a mask holds to the front of a vector, in their order; the lanes
+/// behind them hold anything. (GCC 12 copies the tables of Highway's Compress onto the stack at
+/// each call.)
 struct Packing {
 #if HWY_TARGET == HWY_AVX3
   hn::Mask<Tag> chosen;
@@ -84,7 +86,7 @@ HWY_INLINE Packing packing_of(Mask m) {
   return {hn::IndicesFromVec(Tag(), order), hn::CountTrue(Tag(), m.m)};
 #endif
 }
-HWY_INLINE Lanes packed(Lanes a, const Packing& packing) {
+HWY_INLINE Floats packed(Floats a, const Packing& packing) {
 #if HWY_TARGET == HWY_AVX3
   return hn::Compress(a.v, packing.chosen);
 #else
@@ -92,25 +94,25 @@ HWY_INLINE Lanes packed(Lanes a, const Packing& packing) {
 #endif
 }
 
-// Numbers without sign beside the lanes.
-HWY_INLINE Lanes load_numbers(const std::uint32_t* p) {
+// Unsigned integers in the bits of floats.
+HWY_INLINE Floats load_numbers(const std::uint32_t* p) {
   return hn::BitCast(Tag(), hn::LoadU(hn::RebindToUnsigned<Tag>(), p));
 }
-HWY_INLINE void store_numbers(Lanes a, std::uint32_t* p) {
+HWY_INLINE void store_numbers(Floats a, std::uint32_t* p) {
   const hn::RebindToUnsigned<Tag> whole;
   hn::StoreU(hn::BitCast(whole, a.v), whole, p);
 }
-HWY_INLINE Lanes number(std::uint32_t a) {
+HWY_INLINE Floats number(std::uint32_t a) {
   return hn::BitCast(Tag(), hn::Set(hn::RebindToUnsigned<Tag>(), a));
 }
-HWY_INLINE Mask same_numbers(Lanes a, Lanes b) {
+HWY_INLINE Mask same_numbers(Floats a, Floats b) {
   const hn::RebindToUnsigned<Tag> whole;
   return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
-/// Turns (cosine, sine) by k quarters of a circle, told by the last bits of `shifted`, 1.5 * 2^23 +
-/// k.
-HWY_INLINE void turn(Lanes shifted, Lanes& cosine, Lanes& sine) {
+/// Turns (cosine, sine) by k quarters of a circle, k in the last bits of `shifted`, which is
+/// 1.5 * 2^23 + k.
+HWY_INLINE void turn(Floats shifted, Floats& cosine, Floats& sine) {
   const hn::RebindToSigned<Tag> whole;
   const auto q = hn::BitCast(whole, shifted.v);
   const auto odd = hn::MaskFromVec(

@@ -1,4 +1,4 @@
-// Pairs of needles as the kernels by lanes see them: in float, with a unit of time, from a cell.
+// Pairs of needles as the SIMD kernels see them: in float, with a unit of time, from a cell.
 #pragma once
 
 #include <array>
@@ -14,15 +14,16 @@
 
 namespace needlework::test {
 
-inline constexpr float lane_time_margin = 0x1p-18f;
+inline constexpr float simd_time_margin = 0x1p-18f;
 
 /// Cell in which needles of test pairs lie, and what a search takes as its margin then.
-inline constexpr double lane_cell_corner = -4, lane_cell_side = 8;
-inline constexpr float lane_margin = static_cast<float>(0x1p-16 + lane_cell_side * 0x1p-20);
+inline constexpr double simd_cell_corner = -4, simd_cell_side = 8;
+inline constexpr float simd_margin = static_cast<float>(0x1p-16 + simd_cell_side * 0x1p-20);
 
-/// The needle's motion at `elapsed` since its record, lengths from the corner of the cell, times in
-/// units of 1 / unit.
-inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, double unit) {
+/// The motion at `elapsed` since its record of a needle of half length `half`, lengths from the
+/// corner of the cell, times in units of 1 / unit.
+inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, double unit,
+                                 double half = 0.5) {
   const auto store = [](float(&to)[3], const Vec3d& a) {
     to[0] = static_cast<float>(a.x);
     to[1] = static_cast<float>(a.y);
@@ -31,12 +32,13 @@ inline kernels::Motion motion_of(const kernels::Flight& flight, double elapsed, 
   const SineCosine<double> turned = sine_cosine(flight.omega * elapsed);
   kernels::Motion out{};
   store(out.r, centre_after(flight, elapsed) -
-                   Vec3d{lane_cell_corner, lane_cell_corner, lane_cell_corner});
+                   Vec3d{simd_cell_corner, simd_cell_corner, simd_cell_corner});
   store(out.v, flight.v * (1 / unit));
   store(out.u, flight.u * turned.cosine + flight.p * turned.sine);
   store(out.p, flight.p * turned.cosine - flight.u * turned.sine);
   out.omega = static_cast<float>(flight.omega / unit);
   out.time = static_cast<float>(elapsed * unit);
+  out.half = static_cast<float>(half);
   return out;
 }
 
@@ -49,7 +51,8 @@ inline double unit_of(const kernels::Flight& first, const kernels::Flight& secon
   return fastest > 0 ? std::ldexp(1.0, std::ilogb(fastest)) : 1;
 }
 
-inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead) {
+inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead,
+                                 double longest_half = 0.5) {
   kernels::Seeker out{};
   out.motion = motion;
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +61,8 @@ inline kernels::Seeker seeker_of(const kernels::Motion& motion, float ahead) {
   }
   out.now = motion.time;
   out.ahead = ahead;
-  out.margin = lane_margin;
+  out.margin = simd_margin;
+  out.longest_half = static_cast<float>(longest_half);
   out.needle = 0;
   return out;
 }
@@ -78,13 +82,14 @@ inline PairRow row_of(const kernels::Seeker& seeker, const kernels::Motion& othe
     row[C::p_x + axis] = other.p[axis];
   }
   row[C::omega] = other.omega;
+  row[C::half] = other.half;
   row[C::age] = age;
   row[C::until] = until;
   row[C::from] = from;
   return row;
 }
 
-/// Pairs in columns. Lanes beyond them hold what a search may have left there.
+/// Pairs in columns. Floats beyond them hold what a search may have left there.
 class PairTable {
  public:
   explicit PairTable(const std::vector<PairRow>& rows)
@@ -108,13 +113,13 @@ class PairTable {
   std::vector<float> storage_;
 };
 
-/// What isolate() says of these pairs.
-inline std::vector<float> isolated(const kernels::NearKernels& kernels,
-                                   const kernels::Seeker& seeker,
-                                   const std::vector<PairRow>& rows) {
+/// What bracket() says of these pairs.
+inline std::vector<float> bracketed(const kernels::NearKernels& kernels,
+                                    const kernels::Seeker& seeker,
+                                    const std::vector<PairRow>& rows) {
   PairTable table(rows);
   const float* from = table.view().column[kernels::PairColumns::from];
-  kernels.isolate(seeker, table.view(), rows.size());
+  kernels.bracket(seeker, table.view(), rows.size());
   return {from, from + rows.size()};
 }
 

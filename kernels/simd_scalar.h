@@ -1,0 +1,75 @@
+// Vectors of one float with the interface of simd-inl.h: they make the scalar twin of a SIMD
+// kernel.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace needlework::kernels::scalar {
+
+struct Mask {
+  bool m;
+};
+
+inline Mask operator&(Mask a, Mask b) { return {a.m && b.m}; }
+inline Mask operator|(Mask a, Mask b) { return {a.m || b.m}; }
+inline Mask operator!(Mask a) { return {!a.m}; }
+
+struct Floats {
+  float v;
+
+  Floats() = default;
+  Floats(float a) : v(a) {}
+};
+
+inline constexpr std::size_t floats_at_once = 1;
+inline Floats load_floats(const float* p) { return *p; }
+inline void store_floats(Floats a, float* p) { *p = a.v; }
+inline Mask first_lanes(std::size_t n) { return {n > 0}; }
+
+inline Floats operator+(Floats a, Floats b) { return a.v + b.v; }
+inline Floats operator-(Floats a, Floats b) { return a.v - b.v; }
+inline Floats operator*(Floats a, Floats b) { return a.v * b.v; }
+inline Floats operator/(Floats a, Floats b) { return a.v / b.v; }
+inline Floats operator-(Floats a) { return -a.v; }
+inline Mask operator<(Floats a, Floats b) { return {a.v < b.v}; }
+inline Mask operator>(Floats a, Floats b) { return {a.v > b.v}; }
+inline Mask operator<=(Floats a, Floats b) { return {a.v <= b.v}; }
+inline Mask operator>=(Floats a, Floats b) { return {a.v >= b.v}; }
+
+inline Floats minimum(Floats a, Floats b) { return a.v < b.v ? a : b; }
+inline Floats maximum(Floats a, Floats b) { return a.v > b.v ? a : b; }
+inline Floats absolute(Floats a) { return std::abs(a.v); }
+inline Floats square_root(Floats a) { return std::sqrt(a.v); }
+inline Floats select(Mask m, Floats a, Floats b) { return m.m ? a : b; }
+inline Mask select(Mask m, Mask a, Mask b) { return m.m ? a : b; }
+inline bool any(Mask m) { return m.m; }
+
+struct Packing {
+  std::size_t count;
+};
+inline Packing packing_of(Mask m) { return {m.m}; }
+inline Floats packed(Floats a, Packing) { return a; }
+
+inline Floats load_numbers(const std::uint32_t* p) { return std::bit_cast<float>(*p); }
+inline void store_numbers(Floats a, std::uint32_t* p) { *p = std::bit_cast<std::uint32_t>(a.v); }
+inline Floats number(std::uint32_t a) { return std::bit_cast<float>(a); }
+inline Mask same_numbers(Floats a, Floats b) {
+  return {std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v)};
+}
+
+inline void turn(Floats shifted, Floats& cosine, Floats& sine) {
+  const auto q = std::bit_cast<std::uint32_t>(shifted.v);
+  const auto flipped = [](float a, bool flip) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(a) ^
+                                (flip ? std::uint32_t{1} << 31 : 0));
+  };
+  const float c = q & 1 ? sine.v : cosine.v;
+  const float s = q & 1 ? cosine.v : sine.v;
+  cosine = flipped(c, (q + 1) & 2);
+  sine = flipped(s, q & 2);
+}
+
+}  // namespace needlework::kernels::scalar

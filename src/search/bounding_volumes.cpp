@@ -1,0 +1,175 @@
+#include "src/search/bounding_volumes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/power_of_two.h"
+#include "src/physics/permutation.h"
+#include "src/search/choice.h"
+#include "src/search/lengths.h"
+
+namespace needlework {
+namespace {
+
+using kernels::Motion;
+using kernels::NeedleBlock;
+
+// A needle stays in its cell until it is out of it by this share of the cell's side: one that goes
+// to and fro across a border, or crosses a corner, need not be placed again so often.
+constexpr double overlap_of_side = 0.2;
+// Cells that a search may choose to have, by needles: those around a cloud are empty, and take half
+// a kilobyte each.
+constexpr double most_cells = 2;
+constexpr double roundup = 1 + 0x1p-20;
+
+CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
+  if (setup.cell_side) return CellGrid(gas.box, *setup.cell_side, gas.size());
+  const double density = setup.density.value_or(reduced_density(gas));
+  const double side =
+      kind == BoundingVolume::cell ? auto_cell_side(density) : auto_side_for_capsules(density);
+  return CellGrid(gas.box, side * gas.longest, gas.size(), setup.count_multiples, most_cells);
+}
+
+double radius_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
+  if (kind == BoundingVolume::cell) return 0;
+  if (setup.capsule_radius) return *setup.capsule_radius;
+  return auto_capsule_radius(setup.density.value_or(reduced_density(gas))) * gas.longest;
+}
+
+void store(float (&to)[3], const Vec3d& a) {
+  to[0] = static_cast<float>(a.x);
+  to[1] = static_cast<float>(a.y);
+  to[2] = static_cast<float>(a.z);
+}
+
+}  // namespace
+
+BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, BoundingVolume which)
+    : gas(all),
+      kind(which),
+      longest(all.longest),
+      per_length(1 / needlework::unit_of_length(all)),
+      radius(radius_for(all, setup, kind)),
+      grid(grid_for(all, setup, kind)),
+      places(all.size()),
+      motions(all.size()),
+      cells(grid.size(), all.size()) {
+  const auto sides = grid.sides();
+  if (kind == BoundingVolume::cell) {
+    overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
+  }
+  const double widest = std::max({sides[0], sides[1], sides[2]}) + overlap;
+  margin = static_cast<float>(0x1p-16 + widest * per_length * 0x1p-19);
+}
+
+bool BoundingVolumes::place(Needle i, Time now) {
+  if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now);
+  const Record& record = gas.records[i];
+  const kernels::Flight& flight = record.flight;
+  const double elapsed = gas.clock.difference(now, record.time);
+  Vec3d r = centre_after(flight, elapsed), a;
+  double stay;
+  if (kind == BoundingVolume::cell) {
+    stay = grid.time_to_leave(grid.cell_of(r), r, flight.v, overlap);
+    a = flight.v * (per_length / per_time);
+  } else {
+    // The capsule is around where the needle will be in half of its time there, so that it may
+    // move by the radius before that and after.
+    const double speed = std::sqrt(dot(flight.v, flight.v)) + half_length_of(gas, i) * flight.omega;
+    const double half = radius / speed;
+    stay = 2 * half;
+    const double middle = std::isfinite(half) ? elapsed + half : elapsed;
+    r = centre_after(flight, middle);
+    a = director_after(flight, middle);
+  }
+  const bool crosses = enter(i, grid.cell_of(r));
+  places[i].until = gas.clock.add(now, stay);
+  write_entry(i, r, a, now);
+  set_motion(i, now);
+  return crosses;
+}
+
+void BoundingVolumes::prepare(Time now) {
+  // From the middle on, so that there is always as much time ahead.
+  if (per_time == 0 || since_base(now) > 0.5 * kernels::longest_time) rebase(now);
+}
+
+Time BoundingVolumes::prepared_until() const {
+  return gas.clock.add(base, kernels::longest_time / per_time);
+}
+
+void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
+  const std::vector<Needle> order = ranks_of(ranks);
+  permute(places, order);
+  permute(motions, order);
+  cells.renumber(ranks);
+}
+
+// Chooses the unit of time and the origin of times in blocks and motions again, before times grow
+// so long that floats lose digits of them.
+void BoundingVolumes::rebase(Time now) {
+  double sum = 0;
+  for (const Record& record : gas.records) {
+    const Vec3d v = record.flight.v * per_length;
+    sum += dot(v, v) + 0.25 * record.flight.omega * record.flight.omega;
+  }
+  const double speed = std::sqrt(sum / static_cast<double>(gas.size()));
+  per_time = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
+  base = now;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    if (!places[i].is_entered()) continue;
+    set_motion(i, now);
+    if (kind == BoundingVolume::capsule) continue;
+    const Record& record = gas.records[i];
+    const double elapsed = gas.clock.difference(now, record.time);
+    write_entry(i, centre_after(record.flight, elapsed), record.flight.v * (per_length / per_time),
+                now);
+  }
+}
+
+void BoundingVolumes::set_motion(Needle i, Time now) {
+  const Record& record = gas.records[i];
+  const kernels::Flight& flight = record.flight;
+  const double elapsed = gas.clock.difference(now, record.time);
+  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
+  const double unit_of_time = 1 / per_time;
+  Motion& out = motions[i];
+  store(out.r, (centre_after(flight, elapsed) - grid.corner(places[i].cell)) * per_length);
+  store(out.v, flight.v * (per_length * unit_of_time));
+  store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
+  store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
+  out.omega = static_cast<float>(flight.omega * unit_of_time);
+  out.time = static_cast<float>(since_base(now));
+  out.until = static_cast<float>(since_base(places[i].until) * roundup);
+  out.half = static_cast<float>(half_length_of(gas, i) * per_length);
+}
+
+// Writes the needle's entry into its slot.
+void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
+  const Place& place = places[i];
+  NeedleBlock& block = cells[place.slot.block];
+  const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
+  const double values[NeedleBlock::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
+  for (int column = 0; column < NeedleBlock::columns; ++column) {
+    block.column[column][place.slot.lane] = static_cast<float>(values[column]);
+  }
+  block.needle[place.slot.lane] = i.index;
+}
+
+bool BoundingVolumes::enter(Needle i, const Cell& cell) {
+  Place& place = places[i];
+  const bool entered = place.is_entered();
+  const auto index = static_cast<std::uint32_t>(grid.index_of(cell));
+  if (entered) {
+    const auto old = static_cast<std::uint32_t>(grid.index_of(place.cell));
+    place.cell = cell;
+    if (old == index) return false;
+    const Needle moved = cells.leave(old, place.slot);
+    if (moved != i) places[moved].slot = place.slot;
+  }
+  place.cell = cell;
+  place.slot = cells.enter(index);
+  return entered;
+}
+
+}  // namespace needlework

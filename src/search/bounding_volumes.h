@@ -1,0 +1,72 @@
+// Where all needles are: the bounding volume of each, and the cells that hold them.
+//
+// A needle that is placed gets a bounding volume, a region fixed in space that it does not leave
+// before a known time, and an entry in the cell that its centre is in. Only needles whose bounding
+// volumes come near each other can meet before one of them is placed again, and a needle that is
+// placed again searches again. So nothing else is kept: there are no neighbour lists.
+//
+//   cell     the bounding volume is the cell and a fifth of its side around it
+//   capsule  the bounding volume is a capsule of radius delta around the needle
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/near_needles.h"
+#include "src/memory/large_array.h"
+#include "src/physics/gas.h"
+#include "src/search/cell_grid.h"
+#include "src/search/needle_cells.h"
+#include "src/search/setup.h"
+
+namespace needlework {
+
+/// Several threads may use it at once, as long as none reads what another writes: placing a needle
+/// writes to the cells that it leaves and enters, finding its neighbours reads cells within
+/// `Phase::neighbours` of its own (src/engine/phase.h).
+///
+/// Blocks and motions hold floats in units that are powers of two: lengths in units of
+/// 1 / per_length, times in units of 1 / per_time and counted from `base`.
+struct BoundingVolumes {
+  struct Place {
+    Cell cell{};
+    NeedleCells::Slot slot;
+    Time until = Time::never();
+
+    bool is_entered() const { return slot.block != kernels::BlockLink::none; }
+  };
+
+  BoundingVolumes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
+
+  /// Enters needle i where it is now. Returns whether it has come from another cell.
+  bool place(Needle i, Time now);
+  /// Makes times from now on fit for place(), if they are not.
+  void prepare(Time now);
+  /// Until when they are.
+  Time prepared_until() const;
+  void renumber(const std::vector<Needle>& ranks);
+
+  double unit_of_length() const { return 1 / per_length; }
+  double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
+
+  const Gas& gas;
+  BoundingVolume kind;
+  double longest;     ///< length of the longest needle [L]
+  double per_length;  ///< 1 / unit of length
+  double radius;      ///< of capsules; else 0 [L]
+  CellGrid grid;
+  double overlap = 0;   ///< how far a needle may go beyond its cell; 0 for capsules [L]
+  float margin = 0;     ///< of lengths, see kernels::Seeker [unit of length]
+  double per_time = 0;  ///< 1 / unit of time; 0 before the first needle
+  Time base;
+  LargeArray<Place> places;
+  LargeArray<kernels::Motion> motions;
+  NeedleCells cells;
+
+ private:
+  void rebase(Time now);
+  void set_motion(Needle i, Time now);
+  void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
+  bool enter(Needle i, const Cell& cell);
+};
+
+}  // namespace needlework
