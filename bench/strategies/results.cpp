@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "needlework/error.h"
+#include "src/cli/json.h"
 
 namespace needlework::bench {
 namespace {
@@ -96,7 +97,7 @@ double per_collision(const CaseResult& result, const char* name) {
 std::string about_text(const Json& about, const char* key) {
   const auto value = about.find(key);
   if (value == about.end()) return "?";
-  return value->is_string() ? value->get<std::string>() : value->dump();
+  return value->is_string() ? value->get<std::string>() : cli::json_text(*value);
 }
 
 double CaseResult::best() const { return least(us_per_collision); }
@@ -159,7 +160,7 @@ Results read_results(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw IoError(file + ": cannot be read");
   try {
-    return results_from(Json::parse(in));
+    return results_from(cli::parse_json(in));
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: {}: expected a file that needlework bench --json has written",
                                  file, error.what()));

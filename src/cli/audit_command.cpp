@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,9 +11,8 @@
 #include "needlework/simulation.h"
 #include "src/audit/audit.h"
 #include "src/cli/audit_state.h"
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
-#include "src/cli/number_in.h"
 #include "src/cli/progress.h"
 #include "src/cli/signals.h"
 #include "src/observe/completion.h"
@@ -30,14 +28,6 @@ namespace {
 
 /// Longest stay in the event loop between two looks at the clock [s].
 constexpr double longest_step = 0.25;
-
-struct AuditArguments {
-  SceneArguments scene;
-  double share = 1;
-  std::uint64_t seed = 0;
-  std::optional<std::string> state;
-  bool json = false, quiet = false;
-};
 
 struct Outcome {
   Stop stop = Stop::time;
@@ -161,7 +151,9 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
   return tally.clean() ? ok : differences_found;
 }
 
-int run_audit(const AuditArguments& arguments) {
+}  // namespace
+
+int run(const AuditArguments& arguments) {
   const LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
   for (const std::string& warning : warnings(scene)) print_warning(warning);
@@ -194,31 +186,11 @@ int run_audit(const AuditArguments& arguments) {
                     arguments.share, tally.collisions));
   }
   if (arguments.json) {
-    fmt::print("{}\n", json_of(tally, arguments, outcome).dump(2));
+    fmt::print("{}\n", json_text(json_of(tally, arguments, outcome), 2));
   } else if (!arguments.quiet) {
     fmt::print("{}", text_of(tally, arguments, outcome));
   }
   return exit_code_of(tally, outcome, arguments.state);
-}
-
-}  // namespace
-
-void add_audit_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("audit", "check each collision of a scene, and that none was missed");
-  const auto arguments = std::make_shared<AuditArguments>();
-  add_scene_arguments(*command, arguments->scene);
-  command->add_option("--share", arguments->share, "share of all pairs to check")
-      ->option_text("P")
-      ->check(number_in(0, 1));
-  command->add_option("--seed", arguments->seed, "says which pairs these are")
-      ->option_text("N")
-      ->check(number_in(0, 0x1p64));
-  command->add_option("--state", arguments->state, "where an interrupted audit goes on from")
-      ->option_text("FILE");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
-  command->callback([arguments, &exit_code] { exit_code = run_audit(*arguments); });
 }
 
 }  // namespace needlework::cli

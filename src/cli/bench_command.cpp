@@ -4,18 +4,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <ctime>
 #include <fstream>
-#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/strategies/cases.h"
 #include "bench/strategies/compare.h"
 #include "bench/strategies/results.h"
 #include "needlework/error.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
-#include "src/cli/number_in.h"
 #include "src/cli/version.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -25,14 +24,6 @@ namespace needlework::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct BenchArguments {
-  std::string subset = bench::subsets().front().name;
-  bool list = false, json = false, quiet = false, force = false;
-  std::string json_file, compare, results;
-  int repetitions = 5;
-  double min_time = 0.25;
-};
 
 /// Which case is being measured: one line on a terminal, drawn again and again; elsewhere a line
 /// every 10 s.
@@ -146,6 +137,8 @@ int list_subsets() {
   return ok;
 }
 
+}  // namespace
+
 int run(const BenchArguments& arguments) {
   if (arguments.list) return list_subsets();
   const bool measures = arguments.results.empty();
@@ -166,9 +159,9 @@ int run(const BenchArguments& arguments) {
     comparison = bench::compare(*before, results);
     json["comparison"] = comparison->json;
   }
-  if (!arguments.json_file.empty()) write_file(arguments.json_file, json.dump(1, ' '));
+  if (!arguments.json_file.empty()) write_file(arguments.json_file, json_text(json, 1));
   if (arguments.json && arguments.json_file.empty()) {
-    fmt::print("{}\n", json.dump(1, ' '));
+    fmt::print("{}\n", json_text(json, 1));
   } else {
     fmt::print("{}", table_of(results));
     if (comparison) fmt::print("\n{}", comparison->text);
@@ -176,7 +169,7 @@ int run(const BenchArguments& arguments) {
   return comparison && comparison->differs ? differences_found : ok;
 }
 
-std::string subset_help() {
+std::string help_on_subsets() {
   std::string out = "what to measure: ";
   for (const bench::Subset& subset : bench::subsets()) {
     out += fmt::format("{}{} ({})", &subset == &bench::subsets().front() ? "" : "; ", subset.name,
@@ -185,44 +178,9 @@ std::string subset_help() {
   return out;
 }
 
-}  // namespace
-
-void add_bench_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench",
-      "measure scenes by several searches, queues and instruction sets, against the "
-      "classical method as baseline");
-  command->add_option("SUBSET", arguments->subset, subset_help())->option_text("[quick]");
-  command->add_flag("--list", arguments->list, "list all subsets and their cases, measure nothing");
-  command->add_option("--repetitions", arguments->repetitions, "of all cases in turn")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command
-      ->add_option("--min-time", arguments->min_time,
-                   "least CPU time of a case in each repetition [s]")
-      ->check(number_in(0, 3600))
-      ->capture_default_str();
-  command
-      ->add_option("--json", arguments->json_file,
-                   "print the results as one JSON object, or write them to a file and print the "
-                   "table")
-      ->expected(0, 1)
-      ->option_text("[FILE.json]");
-  command->add_option("--compare", arguments->compare, "older results, to be compared with")
-      ->option_text("OLD.json");
-  command
-      ->add_option("--results", arguments->results,
-                   "take the results from a file instead of measuring")
-      ->option_text("FILE.json");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->add_flag("--force", arguments->force, "replace an existing file");
-  command->footer(std::string("Verdicts of --compare. ") + bench::rule_of_verdicts +
-                  " Exit code 1: a case became faster or slower.");
-  command->callback([arguments, command, &exit_code] {
-    arguments->json = command->count("--json") > 0;
-    exit_code = run(*arguments);
-  });
+std::string help_on_verdicts() {
+  return std::string("Verdicts of --compare. ") + bench::rule_of_verdicts +
+         " Exit code 1: a case became faster or slower.";
 }
 
 }  // namespace needlework::cli

@@ -2,9 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 #include "src/observe/forecast.h"
 #include "src/runs/resources.h"
 #include "src/runs/scene_source.h"
@@ -96,7 +97,7 @@ std::string stop_name(const Course& course) {
   return "nothing_can_happen";
 }
 
-Json json_of(const Report& report) {
+std::string json_of(const Report& report) {
   const Totals& last = report.course.last;
   const Stopwatch& loop = report.course.loop;
   const Scene& scene = report.scene;
@@ -142,7 +143,7 @@ Json json_of(const Report& report) {
   json["title"] = scene.title;
   json["file"] = scene.output.file.empty() ? Json(nullptr) : Json(scene.output.file);
   json["stats"] = stats_of(simulation.counters());
-  return json;
+  return json_text(json, 2);
 }
 
 }  // namespace needlework::cli

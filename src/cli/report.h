@@ -1,7 +1,6 @@
 // What is told of a run when it is over.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -36,7 +35,7 @@ struct Report {
 std::string stop_name(const Course& course);
 
 /// The object that `run --json` prints.
-nlohmann::ordered_json json_of(const Report& report);
+std::string json_of(const Report& report);
 
 /// Some lines for people: what happened, how it compares with theory, what it cost.
 std::string summary_of(const Report& report);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -18,12 +17,6 @@
 
 namespace needlework::cli {
 namespace {
-
-struct RunArguments {
-  SceneArguments scene;
-  std::optional<std::string> out;
-  bool json = false, quiet = false, force = false;
-};
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
@@ -44,6 +37,8 @@ int exit_code_of(const Course& course, const Scene& scene) {
   return ok;
 }
 
+}  // namespace
+
 int run(const RunArguments& arguments) {
   LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
@@ -62,25 +57,11 @@ int run(const RunArguments& arguments) {
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (arguments.json) {
-    fmt::print("{}\n",
-               json_of(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_of(report));
   } else if (!arguments.quiet) {
     fmt::print("{}", summary_of(report));
   }
   return exit_code_of(course, prepared.scene());
-}
-
-}  // namespace
-
-void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "simulate a scene");
-  const auto arguments = std::make_shared<RunArguments>();
-  add_scene_arguments(*command, arguments->scene);
-  command->add_option("--out", arguments->out, "H5MD file to write")->option_text("FILE.h5");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
-  command->add_flag("--force", arguments->force, "replace an existing output file");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "needlework/error.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/sweep_report.h"
 #include "src/runs/engine_choice.h"
@@ -34,13 +34,6 @@ using State = SweepFolder::State;
 /// Part `k` of `m`, from 0.
 struct Share {
   std::size_t k = 0, m = 1;
-};
-
-struct SweepArguments {
-  std::string grid;
-  std::optional<std::string> member, out, isa;
-  std::optional<int> threads;
-  bool summary = false, json = false, quiet = false, force = false;
 };
 
 // Codes of members that this process knows nothing of; less than all exit codes.
@@ -224,7 +217,7 @@ void Sweep::tell(std::span<const sweep::PointSummary> summary) {
               {"version", NEEDLEWORK_VERSION},
               {"file", summary.empty() ? Json(nullptr) : Json(folder_->summary_file())},
               {"points", json_of(grid_, summary)}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
   } else if (!arguments_.quiet && !summary.empty()) {
     fmt::print("{}", table_of(grid_, summary));
   }
@@ -238,6 +231,8 @@ std::vector<std::string> Sweep::names_of(int code) const {
   return names;
 }
 
+}  // namespace
+
 int run(const SweepArguments& arguments) {
   const auto share = arguments.member ? parse_share(*arguments.member) : Share();
   if (!share) {
@@ -248,30 +243,6 @@ int run(const SweepArguments& arguments) {
     return bad_usage;
   }
   return Sweep(arguments, *share).run();
-}
-
-}  // namespace
-
-void add_sweep_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("sweep", "run a grid of parameters and seeds, and sum it up");
-  const auto arguments = std::make_shared<SweepArguments>();
-  command->add_option("GRID", arguments->grid, "grid file (TOML)")->required();
-  command->add_option("--out", arguments->out, "folder for the results")->option_text("DIR");
-  command->add_option("--threads", arguments->threads, "members to run at a time; default: cores")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--isa", arguments->isa, "instruction set: auto, scalar, sse4, avx2 or avx512")
-      ->option_text("NAME");
-  command->add_option("--member", arguments->member, "run the K-th of M parts only")
-      ->option_text("K/M");
-  command->add_flag("--summary", arguments->summary, "run nothing, sum up what is there");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
-  command->add_flag("--force", arguments->force,
-                    "go on in a folder of another grid; members that differ are made anew");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 
 namespace needlework::cli {
 namespace {

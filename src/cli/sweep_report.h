@@ -1,7 +1,7 @@
 // What is told of a sweep when it is over.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 

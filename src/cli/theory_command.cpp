@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "needlework/theory.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/runs/exit_codes.h"
 
@@ -38,16 +37,6 @@ constexpr NumberFlag k_flag{"--k", 1e-12, 1e12, "a number in [1e-12, 1e12]"};
 constexpr NumberFlag t_rot0_flag{"--t-rot0", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberFlag tau_flag{"--tau", 0.0, largest, "a finite number, 0 or more"};
 
-/// The flags as given. They stay text until the command runs, so that what is no number and what is
-/// out of range get the same kind of message.
-struct Arguments {
-  std::string epsilon, k;
-  std::string beta = "-1";
-  std::string t_rot0 = "1";
-  std::vector<std::string> taus;
-  bool json = false;
-};
-
 struct Predictions {
   theory::Gas gas;
   double ratio;            ///< T_tr / T_rot in the end, NaN in an elastic gas
@@ -69,7 +58,7 @@ double number_of(const NumberFlag& flag, std::string_view text) {
   return value;
 }
 
-Predictions predictions_of(const Arguments& arguments) {
+Predictions predictions_of(const TheoryArguments& arguments) {
   Predictions result{};
   result.gas = {.k = number_of(k_flag, arguments.k),
                 .epsilon = number_of(epsilon_flag, arguments.epsilon),
@@ -86,7 +75,7 @@ Predictions predictions_of(const Arguments& arguments) {
 }
 
 /// NaN becomes null, and numbers keep all their digits.
-std::string json_text(const Predictions& predictions) {
+std::string json_of(const Predictions& predictions) {
   nlohmann::ordered_json json{{"epsilon", predictions.gas.epsilon},
                               {"beta", predictions.gas.beta},
                               {"k", predictions.gas.k},
@@ -102,7 +91,7 @@ std::string json_text(const Predictions& predictions) {
   json["t_tr"] = t_tr;
   json["t_rot"] = t_rot;
   json["energy"] = energy;
-  return json.dump() + "\n";
+  return json_text(json) + '\n';
 }
 
 std::string table_text(const Predictions& predictions) {
@@ -123,46 +112,18 @@ std::string table_text(const Predictions& predictions) {
   return text;
 }
 
-int run(const Arguments& arguments) {
+}  // namespace
+
+int run(const TheoryArguments& arguments) {
   try {
     const Predictions predictions = predictions_of(arguments);
-    const std::string text = arguments.json ? json_text(predictions) : table_text(predictions);
+    const std::string text = arguments.json ? json_of(predictions) : table_text(predictions);
     std::fputs(text.c_str(), stdout);
     return ok;
   } catch (const std::invalid_argument& error) {
     print_error(error.what());
     return bad_usage;
   }
-}
-
-}  // namespace
-
-void add_theory_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("theory", "tell what kinetic theory predicts for a homogeneous gas");
-  command->add_option(epsilon_flag.name, arguments->epsilon, "normal restitution, in [0, 1]")
-      ->required()
-      ->type_name("E");
-  command
-      ->add_option(k_flag.name, arguments->k,
-                   "m L^2 / (2 I); 6 for a uniform rod, 2 for mass at the tips")
-      ->required()
-      ->type_name("K");
-  command
-      ->add_option(beta_flag.name, arguments->beta,
-                   "tangential restitution, in [-1, 1]; -1 is smooth")
-      ->capture_default_str()
-      ->type_name("B");
-  command->add_option(t_rot0_flag.name, arguments->t_rot0, "initial T_rot; the initial T_tr is 1")
-      ->capture_default_str()
-      ->type_name("X");
-  command
-      ->add_option(tau_flag.name, arguments->taus,
-                   "time at which to print the temperatures, (2/3) sqrt(pi) n t; may be repeated")
-      ->type_name("T");
-  command->add_flag("--json", arguments->json, "print one JSON object");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

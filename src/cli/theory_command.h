@@ -1,13 +1,23 @@
-// The command `needlework theory`: what kinetic theory predicts for a gas.
+// `needlework theory`: what kinetic theory predicts for a gas.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <string>
+#include <vector>
 
 namespace needlework::cli {
 
-/// Registers the subcommand with `app`. When it is given, parsing ends by printing the predictions
-/// on stdout and setting `exit_code` to 0, or by printing one line on stderr that names flag, value
-/// and expectation and setting it to 2. `exit_code` must outlive `app`.
-void add_theory_command(CLI::App& app, int& exit_code);
+/// The flags as given. They stay text until the command runs, so that what is no number and what is
+/// out of range get the same kind of message.
+struct TheoryArguments {
+  std::string epsilon, k;
+  std::string beta = "-1";
+  std::string t_rot0 = "1";
+  std::vector<std::string> taus;
+  bool json = false;
+};
+
+/// Prints the predictions on stdout and returns 0, or prints one line on stderr that names option,
+/// value and expectation and returns 2.
+int run(const TheoryArguments& arguments);
 
 }  // namespace needlework::cli

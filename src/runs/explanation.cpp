@@ -5,9 +5,10 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "src/calendar/choice.h"
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/runs/estimates.h"
 #include "src/runs/resources.h"
@@ -138,7 +139,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       memory(estimated_memory(scene)),
       warnings(needlework::warnings(scene)) {}
 
-Json json_of(const Explanation& e) {
+std::string json_of(const Explanation& e) {
   const Scene& scene = e.scene;
   Json json;
   json["title"] = scene.title;
@@ -176,7 +177,7 @@ Json json_of(const Explanation& e) {
   json["memory_bytes"] = number(e.memory);
   json["available_bytes"] = number(available_memory());
   json["warnings"] = e.warnings;
-  return json;
+  return json_text(json, 2);
 }
 
 std::string text_of(const Explanation& e) {

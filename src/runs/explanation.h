@@ -1,7 +1,6 @@
 // What can be said of a scene before it runs.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +25,7 @@ struct Explanation {
 };
 
 /// The object that `check --json` prints.
-nlohmann::ordered_json json_of(const Explanation& explanation);
+std::string json_of(const Explanation& explanation);
 
 /// Some lines for people.
 std::string text_of(const Explanation& explanation);

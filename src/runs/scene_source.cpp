@@ -29,22 +29,6 @@ State read_initial_state(const Scene& scene) {
 
 }  // namespace
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("SCENE", arguments.path, "scene file (TOML)")->required();
-  command
-      .add_option("--set", arguments.overrides,
-                  "replace a key of the scene, such as needles.count=500; may be repeated")
-      ->option_text("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--threads", arguments.engine.threads, "number of threads")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024));
-  command
-      .add_option("--isa", arguments.engine.isa,
-                  "instruction set: auto, scalar, sse4, avx2 or avx512")
-      ->option_text("NAME");
-}
-
 LoadedScene load_scene(const SceneArguments& arguments) {
   return complete_scene(read_scene(arguments.path, arguments.overrides), arguments.engine);
 }

@@ -1,7 +1,6 @@
 // Scenes as the commands get them: a file, overrides, and the initial state that it may name.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +18,6 @@ struct SceneArguments {
   std::vector<std::string> overrides;
   EngineFlags engine;
 };
-
-/// Declares SCENE.toml, --set, --threads and --isa.
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
 
 /// A scene that is complete: where its initial state comes from a file, that is read, and count and
 /// box are filled in from it.
