@@ -14,16 +14,19 @@
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/progress.h"
+#include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
 #include "src/observe/completion.h"
+#include "src/runs/amount_text.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/resources.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 /// Longest stay in the event loop between two looks at the clock [s].
@@ -32,7 +35,7 @@ constexpr double longest_step = 0.25;
 struct Outcome {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< of the run
-  Stopwatch clock;
+  runs::Stopwatch clock;
 
   bool is_complete() const { return stop != Stop::interrupted && stop != Stop::wall_time; }
 };
@@ -52,11 +55,11 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   RunProgress progress(quiet);
   Outcome outcome;
   outcome.clock.start();
-  const double begin = seconds_since_launch();
+  const double begin = runs::seconds_since_launch();
   const Totals initial = simulation.totals();
   try {
     for (;;) {
-      const double elapsed = seconds_since_launch() - begin;
+      const double elapsed = runs::seconds_since_launch() - begin;
       if (SignalGuard::received()) {
         outcome.stop = Stop::interrupted;
         break;
@@ -119,7 +122,7 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
   std::string text =
       fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", tally.checked,
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
-                  tally.collisions, duration_text(outcome.clock.wall()));
+                  tally.collisions, runs::duration_text(outcome.clock.wall()));
   for (const audit::Kind kind : audit::kinds) {
     const double bound = tally.bound95(kind);
     text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), tally.count(kind),
@@ -154,12 +157,13 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
 }  // namespace
 
 int run(const AuditArguments& arguments) {
-  const LoadedScene loaded = load_scene(arguments.scene);
+  const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
   for (const std::string& warning : warnings(scene)) print_warning(warning);
-  if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
+  if (arguments.state)
+    runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
-  require_events(simulation, scene, arguments.scene.path);
+  runs::require_events(simulation, scene, arguments.scene.path);
   audit::Audit audit(simulation.state(), setup_of(scene, arguments, simulation.epoch_length()));
   const AuditIdentity identity =
       fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);

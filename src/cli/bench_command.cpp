@@ -21,6 +21,8 @@
 #include "src/runs/resources.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -33,8 +35,8 @@ class CaseProgress {
   ~CaseProgress() { clear(); }
 
   void show(int repetition, int repetitions, const std::string& name) {
-    if (quiet_ || (!terminal_ && seconds_since_launch() < next_)) return;
-    next_ = seconds_since_launch() + 10;
+    if (quiet_ || (!terminal_ && runs::seconds_since_launch() < next_)) return;
+    next_ = runs::seconds_since_launch() + 10;
     clear();
     const std::string line = fmt::format("repetition {} of {}: {}", repetition, repetitions, name);
     fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
@@ -54,7 +56,7 @@ class CaseProgress {
 
 Json about(const BenchArguments& arguments) {
   return {{"subset", arguments.subset},
-          {"machine", processor_name()},
+          {"machine", runs::processor_name()},
           {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
           {"compiler", compiler_name()},
           {"flags", NEEDLEWORK_FLAGS},
@@ -118,7 +120,7 @@ void require_json_file(const BenchArguments& arguments) {
   if (!arguments.json_file.ends_with(".json")) {
     throw InputError(place + ": expected a name that ends in .json");
   }
-  require_writable(arguments.json_file, arguments.force, place);
+  runs::require_writable(arguments.json_file, arguments.force, place);
 }
 
 void write_file(const std::string& file, const std::string& text) {

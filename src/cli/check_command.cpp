@@ -2,20 +2,24 @@
 
 #include <fmt/format.h>
 
+#include "src/cli/check_report.h"
 #include "src/cli/messages.h"
+#include "src/cli/scene_arguments.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/explanation.h"
 #include "src/runs/output_path.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
 
+using enum runs::ExitCode;
+
 int run(const CheckArguments& arguments) {
-  const LoadedScene loaded = load_scene(arguments.scene);
+  const runs::LoadedScene loaded = load_scene(arguments.scene);
   const std::string& file = loaded.scene.output.file;
-  if (!file.empty()) require_writable(file, true, place_of(loaded.scene, "output.file", file));
-  const Explanation explanation(loaded);
+  if (!file.empty())
+    runs::require_writable(file, true, place_of(loaded.scene, "output.file", file));
+  const runs::Explanation explanation(loaded);
   for (const std::string& warning : explanation.warnings) print_warning(warning);
   fmt::print("{}", arguments.json ? json_of(explanation) + '\n' : text_of(explanation));
   return ok;

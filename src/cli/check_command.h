@@ -1,7 +1,7 @@
 // `needlework check`.
 #pragma once
 
-#include "src/runs/scene_source.h"
+#include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
 

@@ -20,6 +20,8 @@
 #include "src/runs/exit_codes.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 // A number from `least` to `most`. CLI::Range lets nan pass.

@@ -7,8 +7,10 @@
 
 namespace needlework::cli {
 
+using enum runs::ExitCode;
+
 int run(const ExportArguments& arguments) {
-  require_writable(arguments.to, arguments.force, arguments.to);
+  runs::require_writable(arguments.to, arguments.force, arguments.to);
   io::write_vtkhdf(arguments.to, arguments.force, io::read_last_frame(arguments.from));
   return ok;
 }

@@ -7,6 +7,8 @@
 
 namespace needlework::cli {
 
+using enum runs::ExitCode;
+
 int run(const InfoArguments& arguments) {
   std::string text = io::describe(arguments.file);
   if (!text.empty() && text.back() != '\n') text += '\n';

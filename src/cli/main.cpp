@@ -8,13 +8,15 @@
 #include "src/runs/failure.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 int run_program(int argc, char** argv) {
   try {
     return run_command_line(argc, argv);
   } catch (const std::exception&) {
-    const Failure failure = current_failure();
+    const runs::Failure failure = runs::current_failure();
     print_error(failure.message);
     return failure.exit_code;
   }

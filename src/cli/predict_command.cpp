@@ -20,6 +20,8 @@
 #include "src/scene/check.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 using Json = nlohmann::ordered_json;  // keys in the order of the columns

@@ -15,7 +15,7 @@ namespace needlework::cli {
 struct Report {
   const Scene& scene;
   const Simulation& simulation;
-  const Course& course;
+  const runs::Course& course;
   double setup_s = 0;
 
   /// Per needle and unit time, over the run; NaN if no time has passed.
@@ -32,7 +32,7 @@ struct Report {
 };
 
 /// One word for why the run stopped.
-std::string stop_name(const Course& course);
+std::string stop_name(const runs::Course& course);
 
 /// The object that `run --json` prints.
 std::string json_of(const Report& report);

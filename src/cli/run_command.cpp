@@ -6,16 +6,19 @@
 #include <utility>
 
 #include "src/cli/messages.h"
+#include "src/cli/progress.h"
 #include "src/cli/report.h"
+#include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/run_driver.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 std::string where_saved(const Scene& scene) {
@@ -23,7 +26,7 @@ std::string where_saved(const Scene& scene) {
   return file.empty() ? "nothing is saved, as no output file is named" : "saved in " + file;
 }
 
-int exit_code_of(const Course& course, const Scene& scene) {
+int exit_code_of(const runs::Course& course, const Scene& scene) {
   if (course.failure) {
     print_error(fmt::format("{} ({})", *course.failure, where_saved(scene)));
     return invalid_state;
@@ -40,20 +43,21 @@ int exit_code_of(const Course& course, const Scene& scene) {
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  LoadedScene loaded = load_scene(arguments.scene);
+  runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
     scene.output.file = *arguments.out;
     scene.places["output.file"] = "--out " + *arguments.out;
   }
   const std::string& file = scene.output.file;
-  if (!file.empty()) require_writable(file, arguments.force, place_of(scene, "output.file", file));
+  if (!file.empty())
+    runs::require_writable(file, arguments.force, place_of(scene, "output.file", file));
   for (const std::string& warning : warnings(scene)) print_warning(warning);
 
-  PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
   const SignalGuard guard(prepared.simulation());
   RunProgress progress(arguments.quiet);
-  const Course course = prepared.drive(progress);
+  const runs::Course course = prepared.drive(progress);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (arguments.json) {

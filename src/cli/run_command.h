@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "src/runs/scene_source.h"
+#include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
 

@@ -14,10 +14,14 @@
 #include "needlework/error.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/cli/progress.h"
+#include "src/cli/ranks.h"
+#include "src/cli/scene_arguments.h"
+#include "src/cli/signals.h"
 #include "src/cli/sweep_report.h"
+#include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
-#include "src/runs/ranks.h"
 #include "src/runs/resources.h"
 #include "src/runs/sweep_folder.h"
 #include "src/runs/sweep_grid.h"
@@ -29,7 +33,9 @@ namespace needlework::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using State = SweepFolder::State;
+using State = runs::SweepFolder::State;
+namespace sweep = runs::sweep;
+using enum runs::ExitCode;
 
 /// Part `k` of `m`, from 0.
 struct Share {
@@ -52,10 +58,10 @@ std::optional<Share> parse_share(const std::string& text) {
 }
 
 // Before any of them runs.
-void require_engines(const sweep::Grid& grid, const std::optional<std::string>& isa) {
-  for (const sweep::Member& member : grid.members) {
-    Scene scene = member.scene;
-    choose_engine(scene, {.threads = 1, .isa = isa});
+void choose_engines(sweep::Grid& grid, const std::optional<std::string>& isa) {
+  for (sweep::Member& member : grid.members) {
+    apply({.threads = {}, .isa = isa}, member.scene);
+    runs::choose_engine(member.scene);
   }
 }
 
@@ -68,6 +74,16 @@ void tell_warnings(const sweep::Grid& grid) {
       if (told.insert(warning).second) print_warning(warning);
     }
   }
+}
+
+void require_memory(const runs::MemberRuns& runs) {
+  const double needed = runs::estimated_memory(runs);
+  const double available = runs::available_memory();
+  if (needed <= available) return;
+  throw InputError(fmt::format(
+      "--threads {}: expected fewer: so many members at a time need about {} of memory, and {} are "
+      "available here",
+      runs.threads, runs::bytes_text(needed), runs::bytes_text(available)));
 }
 
 /// One sweep, step by step; all steps are done on all ranks.
@@ -90,7 +106,7 @@ class Sweep {
   const Share share_;
   const Ranks ranks_;
   sweep::Grid grid_;
-  std::optional<SweepFolder> folder_;
+  std::optional<runs::SweepFolder> folder_;
   std::vector<double> costs_;
   std::vector<std::size_t> members_;  ///< of the share
   std::vector<int> codes_;            ///< of all members of the grid
@@ -117,7 +133,7 @@ int Sweep::run() {
 
 void Sweep::prepare() {
   grid_ = sweep::read_grid(arguments_.grid);
-  require_engines(grid_, arguments_.isa);
+  choose_engines(grid_, arguments_.isa);
   const std::string out = arguments_.out.value_or(grid_.out);
   if (out.empty()) {
     throw InputError(arguments_.grid + ": out is missing: expected a folder, or --out DIR");
@@ -128,10 +144,10 @@ void Sweep::prepare() {
   }
   folder_.emplace(out, grid_, arguments_.force, place);
   if (ranks_.rank() == 0) tell_warnings(grid_);
-  costs_ = estimated_costs(grid_);
+  costs_ = runs::estimated_costs(grid_);
   std::vector<std::size_t> all(grid_.members.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  members_ = share_of(all, costs_, share_.k, share_.m);
+  members_ = runs::share_of(all, costs_, share_.k, share_.m);
   threads_ = arguments_.threads.value_or(omp_get_max_threads());
 }
 
@@ -155,16 +171,13 @@ void Sweep::run_what_is_missing() {
     }
   }
   computed_ = missing.size();
-  const auto mine = share_of(missing, costs_, ranks_.rank(), ranks_.count());
-  const MemberRuns runs{.grid = grid_,
-                        .folder = *folder_,
-                        .members = mine,
-                        .costs = costs_,
-                        .threads = threads_,
-                        .isa = arguments_.isa,
-                        .quiet = arguments_.quiet || ranks_.rank() > 0};
+  const auto mine = runs::share_of(missing, costs_, ranks_.rank(), ranks_.count());
+  const runs::MemberRuns runs{
+      .grid = grid_, .folder = *folder_, .members = mine, .costs = costs_, .threads = threads_};
   require_memory(runs);
-  run_members(runs, codes_);
+  SweepProgress progress(arguments_.quiet || ranks_.rank() > 0);
+  const SignalGuard guard;
+  runs::run_members(runs, progress, codes_);
 }
 
 // Members that were in the hands of another process may be done by now.
@@ -213,7 +226,7 @@ void Sweep::tell(std::span<const sweep::PointSummary> summary) {
               {"failed", names_of(invalid_state)},
               {"threads", threads_},
               {"ranks", ranks_.count()},
-              {"total_s", seconds_since_launch()},
+              {"total_s", runs::seconds_since_launch()},
               {"version", NEEDLEWORK_VERSION},
               {"file", summary.empty() ? Json(nullptr) : Json(folder_->summary_file())},
               {"points", json_of(grid_, summary)}};

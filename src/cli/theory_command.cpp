@@ -20,6 +20,8 @@
 
 namespace needlework::cli {
 
+using enum runs::ExitCode;
+
 namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();

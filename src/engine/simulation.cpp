@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "needlework/error.h"
-#include "needlework/h5md.h"
 #include "needlework/initial_state.h"
 #include "src/calendar/all.h"
 #include "src/calendar/choice.h"
@@ -57,10 +56,9 @@ std::unique_ptr<Loop> make_loop(const Scene& scene, Run& run, double density) {
 
 State initial_state(const Scene& scene) {
   if (scene.initial.file.empty()) return draw_initial_state(scene);
-  State state = io::read_last_frame(scene.initial.file);
-  Scene completed = scene;
-  adopt_count_and_box(completed, state);
-  return state;
+  throw InputError(place_of(scene, "initial.file", scene.initial.file) +
+                   ": expected none, as Simulation(scene) reads no files: read the state with "
+                   "io::read_last_frame() and pass it to Simulation(scene, state)");
 }
 
 std::string name_effects(const Scene::Collisions& collisions) {
