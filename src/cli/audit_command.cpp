@@ -18,6 +18,7 @@
 #include "src/cli/signals.h"
 #include "src/observe/completion.h"
 #include "src/runs/amount_text.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
@@ -130,7 +131,7 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
                             ? "no bound, as there was nothing to check"
                             : fmt::format("at most {:.2g} of all collisions (95 %)", bound));
   }
-  text += fmt::format("{:12} {:8}   rounding decides\n", "undecided", tally.undecided);
+  text += fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", tally.undecided);
   for (const audit::Difference& difference : tally.listed) {
     text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
                         difference.first, difference.second, difference.time);
@@ -159,7 +160,7 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
 int run(const AuditArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
-  for (const std::string& warning : warnings(scene)) print_warning(warning);
+  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);

@@ -171,11 +171,10 @@ int run(const BenchArguments& arguments) {
   return comparison && comparison->differs ? differences_found : ok;
 }
 
-std::string help_on_subsets() {
-  std::string out = "what to measure: ";
+std::string names_of_subsets() {
+  std::string out;
   for (const bench::Subset& subset : bench::subsets()) {
-    out += fmt::format("{}{} ({})", &subset == &bench::subsets().front() ? "" : "; ", subset.name,
-                       subset.what);
+    out += (out.empty() ? "" : "|") + subset.name;
   }
   return out;
 }

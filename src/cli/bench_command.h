@@ -16,8 +16,8 @@ struct BenchArguments {
 /// Returns the exit code.
 int run(const BenchArguments& arguments);
 
-/// What each subset is, and when --compare calls a case faster or slower.
-std::string help_on_subsets();
+/// Their names with | between them, and when --compare calls a case faster or slower.
+std::string names_of_subsets();
 std::string help_on_verdicts();
 
 }  // namespace needlework::cli

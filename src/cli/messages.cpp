@@ -19,4 +19,14 @@ void print_line(std::string_view kind, std::string_view message) {
 void print_error(std::string_view message) { print_line("", message); }
 void print_warning(std::string_view message) { print_line("warning: ", message); }
 
+void warn_of_name(std::string_view place, std::string_view file,
+                  std::initializer_list<std::string_view> endings) {
+  const bool fits = std::any_of(endings.begin(), endings.end(),
+                                [&](std::string_view ending) { return file.ends_with(ending); });
+  if (fits) return;
+  print_warning(
+      fmt::format("{}: will be an HDF5 file all the same: expected a name that ends in {}", place,
+                  *endings.begin()));
+}
+
 }  // namespace needlework::cli

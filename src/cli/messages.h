@@ -1,6 +1,7 @@
 // Messages to people, on stderr.
 #pragma once
 
+#include <initializer_list>
 #include <string_view>
 
 namespace needlework::cli {
@@ -10,5 +11,9 @@ void print_error(std::string_view message);
 
 /// Prints "needlework: warning: MESSAGE" as one line.
 void print_warning(std::string_view message);
+
+/// Warns, naming the place, if the name of a file that is to be written has none of these endings.
+void warn_of_name(std::string_view place, std::string_view file,
+                  std::initializer_list<std::string_view> endings);
 
 }  // namespace needlework::cli

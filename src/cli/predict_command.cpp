@@ -12,6 +12,7 @@
 
 #include "needlework/error.h"
 #include "needlework/predict.h"
+#include "src/cli/file_kind.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/pairs_file.h"
@@ -86,7 +87,8 @@ std::string as_json(const std::vector<Answer>& answers) {
 
 int run(const PredictArguments& arguments) {
   for (const std::string& warning : accuracy_warnings(arguments.engine)) print_warning(warning);
-  const std::vector<PairLine> pairs = read_pairs(arguments.path);
+  const std::vector<PairLine> pairs =
+      read_file(arguments.path, FileKind::pairs, [&] { return read_pairs(arguments.path); });
   if (pairs.empty()) print_warning(arguments.path + ": there are no pairs in it");
   const std::vector<Answer> answers = solve(pairs, accuracy_of(arguments.engine), arguments.path);
   const std::string out = arguments.json ? as_json(answers) : as_lines(answers);

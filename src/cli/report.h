@@ -1,4 +1,4 @@
-// What is told of a run when it is over.
+// The result of a run, as printed when it is over.
 #pragma once
 
 #include <optional>

@@ -10,6 +10,7 @@
 #include "src/cli/report.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
@@ -50,9 +51,12 @@ int run(const RunArguments& arguments) {
     scene.places["output.file"] = "--out " + *arguments.out;
   }
   const std::string& file = scene.output.file;
-  if (!file.empty())
-    runs::require_writable(file, arguments.force, place_of(scene, "output.file", file));
-  for (const std::string& warning : warnings(scene)) print_warning(warning);
+  if (!file.empty()) {
+    const std::string place = place_of(scene, "output.file", file);
+    runs::require_writable(file, arguments.force, place);
+    warn_of_name(place, file, {".h5", ".hdf5", ".h5md"});
+  }
+  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
   const SignalGuard guard(prepared.simulation());

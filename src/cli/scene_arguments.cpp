@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "needlework/parse.h"
+#include "src/cli/file_kind.h"
 #include "src/runs/engine_choice.h"
 
 namespace needlework::cli {
@@ -21,7 +24,8 @@ void apply(const EngineOptions& options, Scene& scene) {
 }
 
 runs::LoadedScene load_scene(const SceneArguments& arguments) {
-  Scene scene = read_scene(arguments.path, arguments.overrides);
+  Scene scene = read_file(arguments.path, FileKind::scene,
+                          [&] { return read_scene(arguments.path, arguments.overrides); });
   apply(arguments.engine, scene);
   return runs::complete_scene(std::move(scene));
 }

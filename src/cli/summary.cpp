@@ -177,11 +177,11 @@ std::string summary_of(const Report& report) {
                         per_cent(last.collisions ? share : 0));
   }
   const int threads = scene.engine.threads.value_or(1);
-  text += line("took", "{}", runs::duration_text(report.course.loop.wall()));
+  text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
   if (last.collisions > 0) {
     text.pop_back();
-    text += fmt::format(", {:.3g} us per collision{}\n", report.us_per_collision(),
-                        threads > 1 ? ", CPU time of all threads" : "");
+    text += fmt::format("; {:.3g} us per collision of CPU time{}\n", report.us_per_collision(),
+                        threads > 1 ? ", all threads together" : "");
   }
   if (threads > 1) text += thread_line(threads, report);
   if (!scene.output.file.empty()) text += line("file", "{}", scene.output.file);

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "needlework/error.h"
+#include "src/cli/file_kind.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/progress.h"
@@ -65,13 +66,13 @@ void choose_engines(sweep::Grid& grid, const std::optional<std::string>& isa) {
   }
 }
 
-void tell_warnings(const sweep::Grid& grid) {
-  std::set<std::string> told;
+void print_warnings(const sweep::Grid& grid) {
+  std::set<std::string> printed;
   for (const sweep::Member& member : grid.members) {
     Scene scene = member.scene;
     scene.output.file = member.name;  // output does go somewhere
     for (const std::string& warning : warnings(scene)) {
-      if (told.insert(warning).second) print_warning(warning);
+      if (printed.insert(warning).second) print_warning(warning);
     }
   }
 }
@@ -99,7 +100,7 @@ class Sweep {
   void run_what_is_missing();
   void look_at_those_of_others();
   void sum_up();
-  void tell(std::span<const sweep::PointSummary> summary);
+  void print(std::span<const sweep::PointSummary> summary);
   std::vector<std::string> names_of(int code) const;
 
   const SweepArguments& arguments_;
@@ -132,7 +133,8 @@ int Sweep::run() {
 }
 
 void Sweep::prepare() {
-  grid_ = sweep::read_grid(arguments_.grid);
+  grid_ =
+      read_file(arguments_.grid, FileKind::grid, [&] { return sweep::read_grid(arguments_.grid); });
   choose_engines(grid_, arguments_.isa);
   const std::string out = arguments_.out.value_or(grid_.out);
   if (out.empty()) {
@@ -143,12 +145,16 @@ void Sweep::prepare() {
     throw InputError(place + ": expected the folder of a sweep, to sum up: it does not exist");
   }
   folder_.emplace(out, grid_, arguments_.force, place);
-  if (ranks_.rank() == 0) tell_warnings(grid_);
+  if (ranks_.rank() == 0) print_warnings(grid_);
   costs_ = runs::estimated_costs(grid_);
   std::vector<std::size_t> all(grid_.members.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   members_ = runs::share_of(all, costs_, share_.k, share_.m);
   threads_ = arguments_.threads.value_or(omp_get_max_threads());
+  if (arguments_.threads && threads_ > runs::cores() && ranks_.rank() == 0) {
+    print_warning(fmt::format("--threads {}: expected at most {}, the number of cores here",
+                              threads_, runs::cores()));
+  }
 }
 
 void Sweep::find_out_what_is_there() {
@@ -204,10 +210,10 @@ void Sweep::sum_up() {
         grid_, [&](const sweep::Member& member) { return folder_->finished_run(member); });
     sweep::write_summary(folder_->summary_file(), grid_, summary);
   }
-  tell(summary);
+  print(summary);
 }
 
-void Sweep::tell(std::span<const sweep::PointSummary> summary) {
+void Sweep::print(std::span<const sweep::PointSummary> summary) {
   const std::size_t stops = names_of(stopped).size();
   if (stops > 0) {
     print_error(

@@ -1,4 +1,4 @@
-// What is told of a sweep when it is over.
+// The result of a sweep, as printed when it is over.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "needlework/scene.h"
-#include "needlework/theory.h"
 #include "needlework/stop.h"
+#include "needlework/theory.h"
 #include "needlework/totals.h"
 
 namespace needlework {
@@ -13,7 +13,7 @@ namespace needlework {
 /// Where a gas that stays homogeneous and Gaussian meets the first of its end conditions.
 struct Forecast {
   Stop stop = Stop::time;            ///< the condition
-  double time = 0;                   ///< since the start of the run
+  double time = 0;                   ///< since the start of the run; may be infinite
   double collisions_per_needle = 0;  ///< without those of the t_c rule
   double energy_ratio = 1;           ///< E / E(0)
 };

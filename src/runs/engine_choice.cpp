@@ -82,6 +82,20 @@ void choose_engine(Scene& scene) {
   if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
 }
 
+int cores() { return omp_get_num_procs(); }
+
+std::vector<std::string> all_warnings(const Scene& scene) {
+  std::vector<std::string> all = warnings(scene);
+  const int threads = scene.engine.threads.value_or(1);
+  if (threads > cores()) {
+    all.push_back(fmt::format(
+        "{}: expected at most {}, the number of cores here: more threads than cores make a run "
+        "slower, not faster",
+        place_of(scene, "engine.threads", fmt::to_string(threads)), cores()));
+  }
+  return all;
+}
+
 std::string resolved_isa(const Scene::Engine& engine) {
   return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
 }

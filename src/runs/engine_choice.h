@@ -17,6 +17,12 @@ std::vector<std::string> instruction_sets();
 /// takes one. Throws InputError naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene);
 
+/// The warnings of check.h, and one if there are more threads than cores.
+std::vector<std::string> all_warnings(const Scene& scene);
+
+/// Cores that the process may use.
+int cores();
+
 /// The name that `auto` stands for.
 std::string resolved_isa(const Scene::Engine& engine);
 

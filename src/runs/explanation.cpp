@@ -1,5 +1,6 @@
 #include "src/runs/explanation.h"
 
+#include <cmath>
 #include <limits>
 
 #include "src/calendar/choice.h"
@@ -35,13 +36,15 @@ Explanation::Explanation(const LoadedScene& loaded)
       expected(forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta}, initial,
                         density, scene.until)),
       collisions(collisions_of(expected, scene)),
-      seconds(collisions * estimated_seconds_per_collision(scene, density)),
+      seconds(expected && std::isfinite(expected->time)
+                  ? collisions * estimated_seconds_per_collision(scene, density)
+                  : undefined),
       memory(estimated_memory(scene)),
       search(chosen_search(scene.engine.search, density)),
       queue(chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1))),
       accuracy(accuracy_name(scene.engine)),
       isa(resolved_isa(scene.engine)),
       threads(scene.engine.threads.value_or(1)),
-      warnings(needlework::warnings(scene)) {}
+      warnings(all_warnings(scene)) {}
 
 }  // namespace needlework::runs

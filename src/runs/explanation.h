@@ -21,7 +21,7 @@ struct Explanation {
   double mean_free_time;             ///< at the start, 1 / theory::collision_rate
   std::optional<Forecast> expected;  ///< none: never met, or wall_s alone
   double collisions;                 ///< of all needles until then; NaN if nothing is expected
-  double seconds;                    ///< estimate of the wall time; NaN if nothing is expected
+  double seconds;                    ///< estimate of the wall time; NaN if no end is expected
   double memory;                     ///< estimate [bytes]
   std::string search, queue, accuracy, isa;  ///< of the engine, `auto` resolved
   int threads;

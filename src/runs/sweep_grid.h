@@ -50,8 +50,8 @@ struct Grid {
   std::size_t points() const { return members.size() / seeds.size(); }
   /// The value that a parameter has at a point.
   const Value& value(std::size_t parameter, std::size_t point) const;
-  /// What tells a point from the others, such as "epsilon=0.9,count=100"; empty if it is the only
-  /// one.
+  /// What distinguishes a point, such as "epsilon=0.9,count=100"; empty if it is
+  /// the only one.
   std::string name_of_point(std::size_t point) const;
 };
 

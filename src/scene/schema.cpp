@@ -248,6 +248,8 @@ std::string expected_instead_of_section(std::string_view name) {
 
 }  // namespace
 
+std::span<const SceneKey> scene_keys() { return keys; }
+
 const SceneKey* find_scene_key(std::string_view section, std::string_view key) {
   const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const SceneKey& k) {
     return k.section == section && k.key == key;

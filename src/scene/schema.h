@@ -19,6 +19,9 @@ struct SceneKey {
   bool (*read)(Scene& scene, const Value& value);
 };
 
+/// All of them, in the order of their documentation.
+std::span<const SceneKey> scene_keys();
+
 /// The key of that name, or null.
 const SceneKey* find_scene_key(std::string_view section, std::string_view key);
 
