@@ -6,7 +6,22 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Manual and completions are printed by the program itself.
+set(reference ${PROJECT_BINARY_DIR}/reference)
+file(MAKE_DIRECTORY ${reference})
+foreach(form_and_file "man needlework.1" "bash needlework" "zsh _needlework" "fish needlework.fish")
+  separate_arguments(form_and_file)
+  list(GET form_and_file 0 form)
+  list(GET form_and_file 1 file)
+  add_custom_command(TARGET needlework_program POST_BUILD
+                     COMMAND needlework_program --print-reference ${form} > ${reference}/${file}
+                     BYPRODUCTS ${reference}/${file} VERBATIM)
+endforeach()
 install(TARGETS needlework_program)
+install(FILES ${reference}/needlework.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${reference}/needlework DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${reference}/_needlework DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${reference}/needlework.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
         FILES_MATCHING PATTERN *.toml)
 

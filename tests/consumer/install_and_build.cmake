@@ -29,6 +29,14 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 run(${prefix}/bin/needlework --version)
 run(${prefix}/bin/needlework check ${prefix}/share/needlework/profiles/cooling-dilute.toml)
 
+foreach(file man/man1/needlework.1 bash-completion/completions/needlework zsh/site-functions/_needlework
+             fish/vendor_completions.d/needlework.fish)
+  file(READ ${prefix}/share/${file} text)
+  if(NOT text MATCHES "needlework")
+    message(FATAL_ERROR "expected share/${file} to be about needlework")
+  endif()
+endforeach()
+
 build_and_run(all_ninja needlework "" -G Ninja -DCMAKE_PREFIX_PATH=${prefix})
 build_and_run(all_default needlework "needlework;core" -DCMAKE_PREFIX_PATH=${prefix})
 
