@@ -320,16 +320,19 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->check(number_in(0.0, 3600.0))
       ->capture_default_str();
   command
-      ->add_option("--json", arguments->json_file,
-                   "print the results as one JSON object, or write them to a file and print the "
-                   "table")
+      ->add_option(
+          "--json", arguments->json_file,
+          "print all that was measured as one JSON object; or print the table, and write to "
+          "a file what --compare and --results need")
       ->expected(0, 1)
       ->option_text("[FILE.json]");
-  command->add_option("--compare", arguments->compare, "older results to compare with")
+  command
+      ->add_option("--compare", arguments->compare,
+                   "older results, which --json has written to a file, to compare with")
       ->option_text("OLD.json");
   command
       ->add_option("--results", arguments->results,
-                   "take the results from this file, and measure nothing")
+                   "take the results from a file that --json has written, and measure nothing")
       ->option_text("FILE.json");
   command->add_flag("--quiet", arguments->quiet, "no progress");
   command->add_flag("--force", arguments->force, "replace an existing file");
