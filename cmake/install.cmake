@@ -1,17 +1,38 @@
-# Installs the library with its public headers, the program, and a CMake package, so that
-#   find_package(Needlework)
-#   target_link_libraries(mine PRIVATE needlework::needlework)
+# Installs the program with its manual, completions and profiles, and the library with its public
+# headers and a CMake package, so that
+#   find_package(Needlework)                        find_package(Needlework COMPONENTS core)
+#   target_link_libraries(mine needlework::needlework)            ... needlework::core
 # and #include <needlework/simulation.h> work elsewhere.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(DIRECTORY include/needlework TYPE INCLUDE)
-
+# Manual and completions are printed by the program itself.
+set(reference ${PROJECT_BINARY_DIR}/reference)
+file(MAKE_DIRECTORY ${reference})
+foreach(form_and_file "man needlework.1" "bash needlework" "zsh _needlework" "fish needlework.fish")
+  separate_arguments(form_and_file)
+  list(GET form_and_file 0 form)
+  list(GET form_and_file 1 file)
+  add_custom_command(TARGET needlework_program POST_BUILD
+                     COMMAND needlework_program --print-reference ${form} > ${reference}/${file}
+                     BYPRODUCTS ${reference}/${file} VERBATIM)
+endforeach()
 install(TARGETS needlework_program)
+install(FILES ${reference}/needlework.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${reference}/needlework DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${reference}/_needlework DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES ${reference}/needlework.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
+        FILES_MATCHING PATTERN *.toml)
+
+install(DIRECTORY include/needlework TYPE INCLUDE)
+install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Needlework)
-install(EXPORT NeedleworkTargets NAMESPACE needlework:: DESTINATION ${package_folder})
+foreach(targets NeedleworkCoreTargets NeedleworkTargets)
+  install(EXPORT ${targets} NAMESPACE needlework:: DESTINATION ${package_folder})
+endforeach()
 configure_package_config_file(cmake/NeedleworkConfig.cmake.in NeedleworkConfig.cmake
                               INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(NeedleworkConfigVersion.cmake COMPATIBILITY SameMinorVersion)

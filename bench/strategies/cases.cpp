@@ -28,7 +28,7 @@ struct Parts {
 // The method of the original paper: cells of side about L with linked lists, no SIMD, a heap.
 const Parts baseline{"linked-lists", "indexed-heap", "scalar"};
 
-std::string widest() { return cli::instruction_sets().back(); }
+std::string widest() { return runs::instruction_sets().back(); }
 Parts searched_by(const std::string& search) { return {search, "auto", widest()}; }
 
 const GasScene dilute{"dilute", 10000, 24};
@@ -89,7 +89,7 @@ std::vector<Parts> all_queues() {
 
 std::vector<Parts> all_instruction_sets() {
   std::vector<Parts> out;
-  for (const std::string& isa : cli::instruction_sets()) out.push_back({"auto", "auto", isa});
+  for (const std::string& isa : runs::instruction_sets()) out.push_back({"auto", "auto", isa});
   return out;
 }
 

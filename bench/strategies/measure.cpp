@@ -50,8 +50,8 @@ State initial_state(const Case& what) {
 
 Message measure_here(const Case& what, double min_time) {
   Message out{};
-  const std::uint64_t before = cli::peak_memory();
-  cli::Stopwatch setup, loop;
+  const std::uint64_t before = runs::peak_memory();
+  runs::Stopwatch setup, loop;
   setup.start();
   Simulation simulation =
       what.filled == 1 ? Simulation(what.scene) : Simulation(what.scene, initial_state(what));
@@ -76,7 +76,7 @@ Message measure_here(const Case& what, double min_time) {
   out.setup_s = setup.cpu();
   out.cpu_s = loop.cpu();
   out.collisions = simulation.totals().collisions - collisions;
-  out.bytes = cli::peak_memory() - before;
+  out.bytes = runs::peak_memory() - before;
   out.counters = difference(simulation.counters(), counters);
   out.search = text_of(simulation.search());
   out.queue = text_of(simulation.queue());

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "needlework/error.h"
+#include "src/cli/json.h"
 
 namespace needlework::bench {
 namespace {
@@ -83,7 +84,7 @@ Results results_from(Json json) {
 std::string about_text(const Json& about, const char* key) {
   const auto value = about.find(key);
   if (value == about.end()) return "?";
-  return value->is_string() ? value->get<std::string>() : value->dump();
+  return value->is_string() ? value->get<std::string>() : cli::json_text(*value);
 }
 
 std::string CaseResult::scene() const { return name.substr(0, name.find('/')); }
@@ -182,11 +183,11 @@ Results read_results(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw IoError(file + ": cannot be read");
   try {
-    return results_from(Json::parse(in));
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: {}: {}", file, error.what(), expected_file));
+    return results_from(cli::parse_json(in));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file, error.what()));
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: {}: {}", file, error.what(), expected_file));
   }
 }
 

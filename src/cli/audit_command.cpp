@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,37 +11,32 @@
 #include "needlework/simulation.h"
 #include "src/audit/audit.h"
 #include "src/cli/audit_state.h"
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
-#include "src/cli/number_in.h"
 #include "src/cli/progress.h"
+#include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
 #include "src/observe/completion.h"
+#include "src/runs/amount_text.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/resources.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 /// Longest stay in the event loop between two looks at the clock [s].
 constexpr double longest_step = 0.25;
 
-struct AuditArguments {
-  SceneArguments scene;
-  double share = 1;
-  std::uint64_t seed = 0;
-  std::optional<std::string> state;
-  bool json = false, quiet = false;
-};
-
 struct Outcome {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< of the run
-  Stopwatch clock;
+  runs::Stopwatch clock;
 
   bool is_complete() const { return stop != Stop::interrupted && stop != Stop::wall_time; }
 };
@@ -62,11 +56,11 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   RunProgress progress(quiet);
   Outcome outcome;
   outcome.clock.start();
-  const double begin = seconds_since_launch();
+  const double begin = runs::seconds_since_launch();
   const Totals initial = simulation.totals();
   try {
     for (;;) {
-      const double elapsed = seconds_since_launch() - begin;
+      const double elapsed = runs::seconds_since_launch() - begin;
       if (SignalGuard::received()) {
         outcome.stop = Stop::interrupted;
         break;
@@ -129,7 +123,7 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
   std::string text =
       fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", tally.checked,
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
-                  tally.collisions, duration_text(outcome.clock.wall()));
+                  tally.collisions, runs::duration_text(outcome.clock.wall()));
   for (const audit::Kind kind : audit::kinds) {
     const double bound = tally.bound95(kind);
     text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), tally.count(kind),
@@ -137,7 +131,7 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
                             ? "no bound, as there was nothing to check"
                             : fmt::format("at most {:.2g} of all collisions (95 %)", bound));
   }
-  text += fmt::format("{:12} {:8}   rounding decides\n", "undecided", tally.undecided);
+  text += fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", tally.undecided);
   for (const audit::Difference& difference : tally.listed) {
     text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
                         difference.first, difference.second, difference.time);
@@ -161,13 +155,16 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
   return tally.clean() ? ok : differences_found;
 }
 
-int run_audit(const AuditArguments& arguments) {
-  const LoadedScene loaded = load_scene(arguments.scene);
+}  // namespace
+
+int run(const AuditArguments& arguments) {
+  const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
-  for (const std::string& warning : warnings(scene)) print_warning(warning);
-  if (arguments.state) require_writable(*arguments.state, true, "--state " + *arguments.state);
+  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
+  if (arguments.state)
+    runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
-  require_events(simulation, scene, arguments.scene.path);
+  runs::require_events(simulation, scene, arguments.scene.path);
   audit::Audit audit(simulation.copy(), setup_of(scene, arguments, simulation.epoch_length()));
   const AuditIdentity identity =
       fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);
@@ -194,31 +191,11 @@ int run_audit(const AuditArguments& arguments) {
                     arguments.share, tally.collisions));
   }
   if (arguments.json) {
-    fmt::print("{}\n", json_of(tally, arguments, outcome).dump(2));
+    fmt::print("{}\n", json_text(json_of(tally, arguments, outcome), 2));
   } else if (!arguments.quiet) {
     fmt::print("{}", text_of(tally, arguments, outcome));
   }
   return exit_code_of(tally, outcome, arguments.state);
-}
-
-}  // namespace
-
-void add_audit_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("audit", "check each collision of a scene, and that none was missed");
-  const auto arguments = std::make_shared<AuditArguments>();
-  add_scene_arguments(*command, arguments->scene);
-  command->add_option("--share", arguments->share, "share of all pairs to check")
-      ->option_text("P")
-      ->check(number_in(0, 1));
-  command->add_option("--seed", arguments->seed, "says which pairs these are")
-      ->option_text("N")
-      ->check(number_in(0, 0x1p64));
-  command->add_option("--state", arguments->state, "where an interrupted audit goes on from")
-      ->option_text("FILE");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
-  command->callback([arguments, &exit_code] { exit_code = run_audit(*arguments); });
 }
 
 }  // namespace needlework::cli

@@ -1,11 +1,23 @@
 // `needlework audit`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
 
-/// Adds the subcommand; when it has run, its exit code is in `exit_code`.
-void add_audit_command(CLI::App& app, int& exit_code);
+struct AuditArguments {
+  SceneArguments scene;
+  double share = 1;
+  std::uint64_t seed = 0;
+  std::optional<std::string> state;
+  bool json = false, quiet = false;
+};
+
+/// Returns the exit code.
+int run(const AuditArguments& arguments);
 
 }  // namespace needlework::cli

@@ -3,19 +3,21 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "needlework/error.h"
+#include "src/cli/json.h"
 
 namespace needlework::cli {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 // 64-bit keys are text: readers of JSON may hold numbers as doubles.
-json json_of(const audit::Checkpoint& checkpoint) {
+Json json_of(const audit::Checkpoint& checkpoint) {
   const audit::Tally& tally = checkpoint.tally;
-  json touches = json::array();
+  Json touches = Json::array();
   for (const auto& [pair, touch] : checkpoint.touches) {
     touches.push_back({{"pair", std::to_string(pair)},
                        {"r", touch.r.components},
@@ -23,7 +25,7 @@ json json_of(const audit::Checkpoint& checkpoint) {
                        {"side", touch.start.side}});
     if (touch.start.gap) touches.back()["gap"] = {*touch.start.gap, touch.start.gap_error};
   }
-  json listed = json::array();
+  Json listed = Json::array();
   for (const audit::Difference& difference : tally.listed) {
     listed.push_back(
         {static_cast<int>(difference.kind), difference.time, difference.first, difference.second});
@@ -39,7 +41,7 @@ json json_of(const audit::Checkpoint& checkpoint) {
           {"touches", touches}};
 }
 
-audit::Checkpoint checkpoint_of(const json& from) {
+audit::Checkpoint checkpoint_of(const Json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
   audit::Tally& tally = out.tally;
@@ -52,11 +54,11 @@ audit::Checkpoint checkpoint_of(const json& from) {
   from.at("escalated").get_to(tally.escalated);
   from.at("undecided").get_to(tally.undecided);
   from.at("differences").get_to(tally.differences);
-  for (const json& row : from.at("listed")) {
+  for (const Json& row : from.at("listed")) {
     tally.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()), row.at(1).get<double>(),
                             row.at(2).get<std::uint32_t>(), row.at(3).get<std::uint32_t>()});
   }
-  for (const json& row : from.at("touches")) {
+  for (const Json& row : from.at("touches")) {
     audit::Touch touch;
     row.at("r").get_to(touch.r.components);
     touch.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
@@ -76,7 +78,7 @@ void write_audit_state(const std::string& path, const AuditIdentity& identity,
                        const audit::Checkpoint& checkpoint) {
   const std::string draft = path + ".part";
   std::ofstream file(draft);
-  file << json{{"audit", identity}, {"state", json_of(checkpoint)}} << '\n';
+  file << json_text(Json{{"audit", identity}, {"state", json_of(checkpoint)}}) << '\n';
   file.close();
   if (!file || std::rename(draft.c_str(), path.c_str()) != 0) {
     throw IoError(path + ": cannot be written");
@@ -89,13 +91,13 @@ std::optional<audit::Checkpoint> read_audit_state(const std::string& path,
   std::ifstream file(path);
   if (!file) throw IoError(path + ": cannot be read");
   try {
-    const json content = json::parse(file);
+    const Json content = parse_json(file);
     if (content.at("audit").get<std::string>() != identity) {
       throw InputError(path +
                        ": the state of another audit: expected the same scene, engine and share");
     }
     return checkpoint_of(content.at("state"));
-  } catch (const json::exception&) {
+  } catch (const Json::exception&) {
   } catch (const std::logic_error&) {  // of numbers
   }
   throw InputError(path + ": expected the state of an interrupted audit");

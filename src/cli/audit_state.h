@@ -1,7 +1,6 @@
 // The file in which an interrupted audit keeps what it needs to go on.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 

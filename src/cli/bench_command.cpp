@@ -4,35 +4,28 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <ctime>
 #include <fstream>
-#include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/strategies/cases.h"
 #include "bench/strategies/compare.h"
 #include "bench/strategies/results.h"
 #include "needlework/error.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
-#include "src/cli/number_in.h"
 #include "src/cli/version.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/resources.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct BenchArguments {
-  std::string subset = bench::subsets().front().name;
-  bool list = false, json = false, quiet = false, force = false;
-  std::string json_file, compare, results;
-  int repetitions = 5;
-  double min_time = 0.25;
-};
 
 /// Which case is being measured: one line on a terminal, drawn again and again; elsewhere a line
 /// every 10 s.
@@ -42,8 +35,8 @@ class CaseProgress {
   ~CaseProgress() { clear(); }
 
   void show(int repetition, int repetitions, const std::string& name) {
-    if (quiet_ || (!terminal_ && seconds_since_launch() < next_)) return;
-    next_ = seconds_since_launch() + 10;
+    if (quiet_ || (!terminal_ && runs::seconds_since_launch() < next_)) return;
+    next_ = runs::seconds_since_launch() + 10;
     clear();
     const std::string line = fmt::format("repetition {} of {}: {}", repetition, repetitions, name);
     fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
@@ -63,7 +56,7 @@ class CaseProgress {
 
 Json about(const BenchArguments& arguments) {
   return {{"subset", arguments.subset},
-          {"machine", processor_name()},
+          {"machine", runs::processor_name()},
           {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
           {"compiler", compiler_name()},
           {"flags", NEEDLEWORK_FLAGS},
@@ -114,7 +107,7 @@ void require_json_file(const BenchArguments& arguments) {
   if (!arguments.json_file.ends_with(".json")) {
     throw InputError(place + ": expected a name that ends in .json");
   }
-  require_writable(arguments.json_file, arguments.force, place);
+  runs::require_writable(arguments.json_file, arguments.force, place);
 }
 
 void write_file(const std::string& file, const std::string& text) {
@@ -132,6 +125,8 @@ int list_subsets() {
   }
   return ok;
 }
+
+}  // namespace
 
 int run(const BenchArguments& arguments) {
   if (arguments.list) return list_subsets();
@@ -153,7 +148,7 @@ int run(const BenchArguments& arguments) {
   if (arguments.json && arguments.json_file.empty()) {
     Json json = json_of(results);
     if (comparison) json["comparison"] = comparison->json;
-    fmt::print("{}\n", json.dump(1, ' '));
+    fmt::print("{}\n", json_text(json, 1));
   } else {
     fmt::print("{}", table_of(results));
     if (comparison) fmt::print("\n{}", comparison->text);
@@ -161,56 +156,17 @@ int run(const BenchArguments& arguments) {
   return comparison && comparison->differs ? differences_found : ok;
 }
 
-std::string subset_help() {
-  std::string out = "what to measure: ";
+std::string names_of_subsets() {
+  std::string out;
   for (const bench::Subset& subset : bench::subsets()) {
-    out += fmt::format("{}{} ({})", &subset == &bench::subsets().front() ? "" : "; ", subset.name,
-                       subset.what);
+    out += (out.empty() ? "" : "|") + subset.name;
   }
   return out;
 }
 
-}  // namespace
-
-void add_bench_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench",
-      "measure scenes by several searches, queues and instruction sets, against the "
-      "classical method as baseline");
-  command->add_option("SUBSET", arguments->subset, subset_help())->option_text("[quick]");
-  command->add_flag("--list", arguments->list, "list all subsets and their cases, measure nothing");
-  command->add_option("--repetitions", arguments->repetitions, "of all cases in turn")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command
-      ->add_option("--min-time", arguments->min_time,
-                   "least CPU time of a case in each repetition [s]")
-      ->check(number_in(0, 3600))
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--json", arguments->json_file,
-          "print all that was measured as one JSON object; or print the table, and write to "
-          "a file what --compare and --results need")
-      ->expected(0, 1)
-      ->option_text("[FILE.json]");
-  command
-      ->add_option("--compare", arguments->compare,
-                   "older results that --json has written to a file, to be compared with")
-      ->option_text("OLD.json");
-  command
-      ->add_option("--results", arguments->results,
-                   "take the results from a file that --json has written instead of measuring")
-      ->option_text("FILE.json");
-  command->add_flag("--quiet", arguments->quiet, "no progress");
-  command->add_flag("--force", arguments->force, "replace an existing file");
-  command->footer(std::string("Verdicts of --compare. ") + bench::rule_of_verdicts +
-                  " Exit code 1: a case became faster or slower.");
-  command->callback([arguments, command, &exit_code] {
-    arguments->json = command->count("--json") > 0;
-    exit_code = run(*arguments);
-  });
+std::string help_on_verdicts() {
+  return std::string("Verdicts of --compare. ") + bench::rule_of_verdicts +
+         " Exit code 1: a case became faster or slower.";
 }
 
 }  // namespace needlework::cli

@@ -1,11 +1,16 @@
 // `needlework check`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
 
-/// Adds the subcommand; when it has run, its exit code is in `exit_code`.
-void add_check_command(CLI::App& app, int& exit_code);
+struct CheckArguments {
+  SceneArguments scene;
+  bool json = false;
+};
+
+/// Returns the exit code.
+int run(const CheckArguments& arguments);
 
 }  // namespace needlework::cli

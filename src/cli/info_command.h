@@ -1,11 +1,15 @@
 // `needlework info`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <string>
 
 namespace needlework::cli {
 
-/// Adds the subcommand; when it has run, its exit code is in `exit_code`.
-void add_info_command(CLI::App& app, int& exit_code);
+struct InfoArguments {
+  std::string file;
+};
+
+/// Returns the exit code.
+int run(const InfoArguments& arguments);
 
 }  // namespace needlework::cli

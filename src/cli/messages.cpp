@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace needlework::cli {
@@ -20,25 +19,14 @@ void print_line(std::string_view kind, std::string_view message) {
 void print_error(std::string_view message) { print_line("", message); }
 void print_warning(std::string_view message) { print_line("warning: ", message); }
 
-std::string duration_text(double seconds) {
-  if (!std::isfinite(seconds)) return "?";
-  if (seconds < 1) return fmt::format("{:.2f} s", seconds);
-  if (seconds < 99.5) return fmt::format("{:.1f} s", seconds);
-  if (seconds > 1e9) return fmt::format("{:.2g} years", seconds / 31557600);
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  if (whole < 48 * 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
-  return fmt::format("{} d {} h", whole / 86400, whole / 3600 % 24);
-}
-
-std::string bytes_text(double bytes) {
-  static constexpr const char* units[] = {"bytes", "kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  while (bytes >= 999.5 && unit + 1 < std::size(units)) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return fmt::format("{:.3g} {}", bytes, units[unit]);
+void warn_of_name(std::string_view place, std::string_view file,
+                  std::initializer_list<std::string_view> endings) {
+  const bool fits = std::any_of(endings.begin(), endings.end(),
+                                [&](std::string_view ending) { return file.ends_with(ending); });
+  if (fits) return;
+  print_warning(
+      fmt::format("{}: will be an HDF5 file all the same: expected a name that ends in {}", place,
+                  *endings.begin()));
 }
 
 }  // namespace needlework::cli

@@ -1,7 +1,7 @@
 // Messages to people, on stderr.
 #pragma once
 
-#include <string>
+#include <initializer_list>
 #include <string_view>
 
 namespace needlework::cli {
@@ -12,10 +12,8 @@ void print_error(std::string_view message);
 /// Prints "needlework: warning: MESSAGE" as one line.
 void print_warning(std::string_view message);
 
-/// A time span for people, such as "1.25 s", "3 min 20 s" or "2 h 05 min"; [s] in.
-std::string duration_text(double seconds);
-
-/// Bytes for people, such as "12.5 MB".
-std::string bytes_text(double bytes);
+/// Warns, naming the place, if the name of a file that is to be written has none of these endings.
+void warn_of_name(std::string_view place, std::string_view file,
+                  std::initializer_list<std::string_view> endings);
 
 }  // namespace needlework::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -115,6 +116,27 @@ PairLine read_pair(const Line& line) {
   return pair;
 }
 
+bool is_number(std::string_view text) {
+  double value = 0;
+  return std::from_chars(text.data(), text.data() + text.size(), value).ec == std::errc();
+}
+
+// A header names its columns; one that has them in another order is not what it seems.
+void check_header(const Line& line) {
+  for (int found = 0; found < static_cast<int>(line.fields.size()); ++found) {
+    for (int column = 0; column < column_count; ++column) {
+      if (column == found || line.fields[found] != column_name(column)) continue;
+      const std::string expected = found < column_count ? column_name(found) : "no such column";
+      line.reject(fmt::format("{}", found + 1), line.fields[found], expected);
+    }
+  }
+}
+
+// Words alone, but not those of a header.
+bool looks_like_a_header(const Line& line) {
+  return line.fields.size() > 2 && std::none_of(line.fields.begin(), line.fields.end(), is_number);
+}
+
 }  // namespace
 
 std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
@@ -129,7 +151,15 @@ std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
     const Line fields{name, number, split(line)};
     const bool header =
         fields.fields.size() > 1 && fields.fields[0] == "id" && fields.fields[1] == "family";
-    if (!(header && header_allowed)) pairs.push_back(read_pair(fields));
+    if (header && header_allowed) {
+      check_header(fields);
+    } else if (header_allowed && looks_like_a_header(fields)) {
+      fields.reject("id", fields.fields[0],
+                    "28 columns of numbers, or the header id,family,horizon, then x,y,z of "
+                    "r1,u1,v1,w1,r2,u2,v2,w2, then skip");
+    } else {
+      pairs.push_back(read_pair(fields));
+    }
     header_allowed = false;
   }
   if (in.bad()) throw IoError(fmt::format("{}: reading failed", name));

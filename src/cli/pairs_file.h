@@ -21,8 +21,8 @@ struct PairLine {
 
 /// One pair a line: id,family,horizon,r1x,r1y,r1z,u1x,...,w2z,skip (28 columns). Empty lines and
 /// lines that start with `#` are passed over, as is a header whose first two columns read
-/// "id,family". Throws InputError, "NAME: line N: column X = VALUE: expected ...", at the first
-/// bad line, and IoError when reading fails.
+/// "id,family"; the names of columns that it has must be in their places. Throws InputError, "NAME:
+/// line N: column X = VALUE: expected ...", at the first bad line, and IoError when reading fails.
 std::vector<PairLine> read_pairs(std::istream& in, std::string_view name);
 
 /// The same from a file; "-" is the standard input. Throws IoError when it cannot be opened.

@@ -1,16 +1,20 @@
 // `needlework predict`: the first contact of each pair in a file.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include <string>
+
+#include "needlework/scene.h"
 
 namespace needlework::cli {
 
-/// Adds the subcommand `predict PAIRS.csv [--accuracy LEVEL] [--json]` to `app`. When it is chosen,
-/// parsing runs it: answers go to stdout, and `exit_code`, to which `app` keeps a reference,
-/// becomes 0. Throws InputError for a line, level or pair that cannot be used, IoError for a file
-/// that cannot be read; then nothing is printed.
-void add_predict_command(CLI::App& app, int& exit_code);
+struct PredictArguments {
+  std::string path;
+  Scene::Engine engine;  ///< of which only what sets the accuracy is used
+  bool json = false;
+};
+
+/// Answers go to stdout. Returns the exit code. Throws InputError for a line, level or pair that
+/// cannot be used, IoError for a file that cannot be read; then nothing is printed.
+int run(const PredictArguments& arguments);
 
 }  // namespace needlework::cli

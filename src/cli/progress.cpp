@@ -9,6 +9,8 @@
 #include <string>
 
 #include "src/cli/messages.h"
+#include "src/cli/signals.h"
+#include "src/runs/amount_text.h"
 
 namespace needlework::cli {
 namespace {
@@ -34,7 +36,7 @@ void ProgressLine::show(double elapsed, double fraction, std::string_view more) 
   next_ = elapsed + (terminal_ ? terminal_interval : line_interval);
   const double left = elapsed / fraction - elapsed;  // infinite at 0, and then not known
   std::string line =
-      fmt::format("{:4.1f} % done, {} left: {}", 100 * fraction, duration_text(left), more);
+      fmt::format("{:4.1f} % done, {} left: {}", 100 * fraction, runs::duration_text(left), more);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;
@@ -57,5 +59,20 @@ void RunProgress::show(double elapsed, double fraction, const Totals& now, doubl
   }
   line_.show(elapsed, fraction, more);
 }
+
+bool RunProgress::stop_requested() const { return SignalGuard::received() != 0; }
+
+void SweepProgress::show(double elapsed, double fraction, std::size_t finished,
+                         std::size_t members) {
+  line_.show(elapsed, fraction, fmt::format("{} of {} members", finished, members));
+}
+
+void SweepProgress::report_failure(const runs::sweep::Member& member,
+                                   const runs::Failure& failure) {
+  line_.clear();
+  print_error(fmt::format("member {}: {}", member.name, failure.message));
+}
+
+bool SweepProgress::stop_requested() const { return SignalGuard::received() != 0; }
 
 }  // namespace needlework::cli

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "needlework/simulation.h"
+#include "src/runs/run_monitor.h"
+#include "src/runs/sweep_run.h"
 
 namespace needlework::cli {
 
@@ -31,24 +32,27 @@ class ProgressLine {
   std::size_t drawn_ = 0;  ///< columns of the line on the terminal
 };
 
-/// Who is told, from time to time, how far a run is.
-class Progress {
- public:
-  virtual ~Progress() = default;
-  /// Whether to be told now, `elapsed` seconds of wall time into the run.
-  virtual bool is_due(double elapsed) const = 0;
-  virtual void show(double elapsed, double fraction, const Totals& now, double initial_energy) = 0;
-  /// The run is over.
-  virtual void clear() {}
-};
-
-/// Shows the progress of the only run.
-class RunProgress : public Progress {
+/// Shows the progress of the only run; signals stop it.
+class RunProgress : public runs::RunMonitor {
  public:
   explicit RunProgress(bool quiet) : line_(quiet) {}
   bool is_due(double elapsed) const override { return line_.is_due(elapsed); }
   void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
   void clear() override { line_.clear(); }
+  bool stop_requested() const override;
+
+ private:
+  ProgressLine line_;
+};
+
+/// Shows the progress of a sweep and its errors; signals stop it.
+class SweepProgress : public runs::SweepMonitor {
+ public:
+  explicit SweepProgress(bool quiet) : line_(quiet) {}
+  bool is_due(double elapsed) const override { return line_.is_due(elapsed); }
+  void show(double elapsed, double fraction, std::size_t finished, std::size_t members) override;
+  void report_failure(const runs::sweep::Member& member, const runs::Failure& failure) override;
+  bool stop_requested() const override;
 
  private:
   ProgressLine line_;

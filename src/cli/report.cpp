@@ -2,12 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <span>
 
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 #include "src/observe/forecast.h"
+#include "src/runs/loaded_scene.h"
 #include "src/runs/resources.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/accuracy.h"
 
 namespace needlework::cli {
@@ -53,7 +54,7 @@ double Report::collision_rate_error() const {
 }
 
 double Report::collision_rate_exact() const {
-  if (!starts_in_equilibrium(scene)) return undefined;
+  if (!runs::starts_in_equilibrium(scene)) return undefined;
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
   return theory::equilibrium_rate(count, box[0] * box[1] * box[2], count * course.initial.energy,
@@ -72,12 +73,12 @@ double Report::us_per_collision() const {
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
   if (!scene.initial.file.empty() || !(course.initial.energy > 0)) return std::nullopt;
   const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
-  const double tau = theory_time_scale(density_of(scene)) * sample.time;
+  const double tau = theory_time_scale(runs::density_of(scene)) * sample.time;
   return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))
       .front();
 }
 
-std::string stop_name(const Course& course) {
+std::string stop_name(const runs::Course& course) {
   if (course.failure) return "invalid_state";
   switch (course.stop) {
     case Stop::time:
@@ -96,9 +97,9 @@ std::string stop_name(const Course& course) {
   return "nothing_can_happen";
 }
 
-Json json_of(const Report& report) {
+std::string json_of(const Report& report) {
   const Totals& last = report.course.last;
-  const Stopwatch& loop = report.course.loop;
+  const runs::Stopwatch& loop = report.course.loop;
   const Scene& scene = report.scene;
   const Simulation& simulation = report.simulation;
   Json json;
@@ -124,10 +125,10 @@ Json json_of(const Report& report) {
   json["setup_s"] = report.setup_s;
   json["wall_s"] = loop.wall();
   json["cpu_s"] = loop.cpu();
-  json["total_s"] = seconds_since_launch();
+  json["total_s"] = runs::seconds_since_launch();
   json["collisions_per_s"] = number(ratio(static_cast<double>(last.collisions), loop.wall()));
   json["us_per_collision"] = number(report.us_per_collision());
-  json["peak_rss_bytes"] = peak_memory();
+  json["peak_rss_bytes"] = runs::peak_memory();
   json["threads"] = scene.engine.threads.value_or(1);
   json["isa"] = simulation.isa();
   json["search"] = simulation.search();
@@ -142,7 +143,7 @@ Json json_of(const Report& report) {
   json["title"] = scene.title;
   json["file"] = scene.output.file.empty() ? Json(nullptr) : Json(scene.output.file);
   json["stats"] = stats_of(simulation.counters());
-  return json;
+  return json_text(json, 2);
 }
 
 }  // namespace needlework::cli

@@ -1,7 +1,6 @@
-// What is told of a run when it is over.
+// The result of a run, as printed when it is over.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,7 @@ namespace needlework::cli {
 struct Report {
   const Scene& scene;
   const Simulation& simulation;
-  const Course& course;
+  const runs::Course& course;
   double setup_s = 0;
 
   /// Per needle and unit time, over the run; NaN if no time has passed.
@@ -33,10 +32,10 @@ struct Report {
 };
 
 /// One word for why the run stopped.
-std::string stop_name(const Course& course);
+std::string stop_name(const runs::Course& course);
 
 /// The object that `run --json` prints.
-nlohmann::ordered_json json_of(const Report& report);
+std::string json_of(const Report& report);
 
 /// Some lines for people: what happened, how it compares with theory, what it cost.
 std::string summary_of(const Report& report);

@@ -2,35 +2,32 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "src/cli/messages.h"
+#include "src/cli/progress.h"
 #include "src/cli/report.h"
+#include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/run_driver.h"
-#include "src/runs/scene_source.h"
 #include "src/scene/check.h"
 
 namespace needlework::cli {
-namespace {
 
-struct RunArguments {
-  SceneArguments scene;
-  std::optional<std::string> out;
-  bool json = false, quiet = false, force = false;
-};
+using enum runs::ExitCode;
+namespace {
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
   return file.empty() ? "nothing is saved, as no output file is named" : "saved in " + file;
 }
 
-int exit_code_of(const Course& course, const Scene& scene) {
+int exit_code_of(const runs::Course& course, const Scene& scene) {
   if (course.failure) {
     print_error(fmt::format("{} ({})", *course.failure, where_saved(scene)));
     return invalid_state;
@@ -44,43 +41,35 @@ int exit_code_of(const Course& course, const Scene& scene) {
   return ok;
 }
 
+}  // namespace
+
 int run(const RunArguments& arguments) {
-  LoadedScene loaded = load_scene(arguments.scene);
+  runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
     scene.output.file = *arguments.out;
     scene.places["output.file"] = "--out " + *arguments.out;
   }
   const std::string& file = scene.output.file;
-  if (!file.empty()) require_writable(file, arguments.force, place_of(scene, "output.file", file));
-  for (const std::string& warning : warnings(scene)) print_warning(warning);
+  if (!file.empty()) {
+    const std::string place = place_of(scene, "output.file", file);
+    runs::require_writable(file, arguments.force, place);
+    warn_of_name(place, file, {".h5", ".hdf5", ".h5md"});
+  }
+  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
-  PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
   const SignalGuard guard(prepared.simulation());
   RunProgress progress(arguments.quiet);
-  const Course course = prepared.drive(progress);
+  const runs::Course course = prepared.drive(progress);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (arguments.json) {
-    fmt::print("{}\n",
-               json_of(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_of(report));
   } else if (!arguments.quiet) {
     fmt::print("{}", summary_of(report));
   }
   return exit_code_of(course, prepared.scene());
-}
-
-}  // namespace
-
-void add_run_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "simulate a scene");
-  const auto arguments = std::make_shared<RunArguments>();
-  add_scene_arguments(*command, arguments->scene);
-  command->add_option("--out", arguments->out, "H5MD file to write")->option_text("FILE.h5");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
-  command->add_flag("--force", arguments->force, "replace an existing output file");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

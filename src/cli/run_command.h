@@ -1,11 +1,20 @@
 // `needlework run`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
 
-/// Adds the subcommand; when it has run, its exit code is in `exit_code`.
-void add_run_command(CLI::App& app, int& exit_code);
+struct RunArguments {
+  SceneArguments scene;
+  std::optional<std::string> out;
+  bool json = false, quiet = false, force = false;
+};
+
+/// Returns the exit code.
+int run(const RunArguments& arguments);
 
 }  // namespace needlework::cli

@@ -6,7 +6,8 @@
 
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
-#include "src/runs/scene_source.h"
+#include "src/runs/amount_text.h"
+#include "src/runs/loaded_scene.h"
 
 namespace needlework::cli {
 namespace {
@@ -23,7 +24,7 @@ std::string per_cent(double share) {
   return value > 0 && value < 0.01 ? "less than 0.01 %" : fmt::format("{:.3g} %", value);
 }
 
-std::string reason(const Course& course) {
+std::string reason(const runs::Course& course) {
   if (course.failure) return "stopped in an invalid state";
   switch (course.stop) {
     case Stop::time:
@@ -43,7 +44,7 @@ std::string reason(const Course& course) {
 }
 
 // The sample nearest to a tenth of the end's time, for the slope over the last decade.
-const Totals* decade_before(const Course& course) {
+const Totals* decade_before(const runs::Course& course) {
   const Totals* found = nullptr;
   for (const Totals& sample : course.samples) {
     if (sample.time > 0 && sample.time <= 0.101 * course.last.time) found = &sample;
@@ -89,7 +90,7 @@ std::string energy_lines(const Report& report) {
 }
 
 // The sample next to a time, if there is one within a twentieth of it.
-const Totals* sample_at(const Course& course, double time) {
+const Totals* sample_at(const runs::Course& course, double time) {
   const Totals* found = nullptr;
   for (const Totals& sample : course.samples) {
     const double off = std::abs(sample.time - time);
@@ -104,7 +105,7 @@ std::string curve_lines(const Report& report) {
   constexpr int most_rows = 8;
   const Totals& first = report.course.initial;
   const double mean_free_time =
-      1 / theory::collision_rate(density_of(report.scene), {first.t_tr, first.t_rot},
+      1 / theory::collision_rate(runs::density_of(report.scene), {first.t_tr, first.t_rot},
                                  report.scene.needles.k);
   const double begin = std::ceil(std::log10(0.5 * mean_free_time));
   const double end = std::floor(std::log10(report.course.last.time));
@@ -165,8 +166,8 @@ std::string summary_of(const Report& report) {
                box[1], box[2], report.simulation.effects());
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
-  if (starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
-  if (!starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
+  if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
+  if (!runs::starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,
                last.collisions ? report.collisions_per_needle() : 0.0);
   if (scene.collisions.tc || scene.collisions.tc_relative) {
@@ -176,11 +177,11 @@ std::string summary_of(const Report& report) {
                         per_cent(last.collisions ? share : 0));
   }
   const int threads = scene.engine.threads.value_or(1);
-  text += line("took", "{}", duration_text(report.course.loop.wall()));
+  text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
   if (last.collisions > 0) {
     text.pop_back();
-    text += fmt::format(", {:.3g} us per collision{}\n", report.us_per_collision(),
-                        threads > 1 ? ", CPU time of all threads" : "");
+    text += fmt::format("; {:.3g} us per collision of CPU time{}\n", report.us_per_collision(),
+                        threads > 1 ? ", all threads together" : "");
   }
   if (threads > 1) text += thread_line(threads, report);
   if (!scene.output.file.empty()) text += line("file", "{}", scene.output.file);

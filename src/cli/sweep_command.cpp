@@ -3,21 +3,26 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <set>
 
 #include "needlework/error.h"
+#include "src/cli/file_kind.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/cli/progress.h"
+#include "src/cli/ranks.h"
+#include "src/cli/scene_arguments.h"
+#include "src/cli/signals.h"
 #include "src/cli/sweep_report.h"
+#include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
-#include "src/runs/ranks.h"
 #include "src/runs/resources.h"
 #include "src/runs/sweep_folder.h"
 #include "src/runs/sweep_grid.h"
@@ -29,18 +34,13 @@ namespace needlework::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using State = SweepFolder::State;
+using State = runs::SweepFolder::State;
+namespace sweep = runs::sweep;
+using enum runs::ExitCode;
 
 /// Part `k` of `m`, from 0.
 struct Share {
   std::size_t k = 0, m = 1;
-};
-
-struct SweepArguments {
-  std::string grid;
-  std::optional<std::string> member, out, isa;
-  std::optional<int> threads;
-  bool summary = false, json = false, quiet = false, force = false;
 };
 
 // Codes of members that this process knows nothing of; less than all exit codes.
@@ -59,22 +59,32 @@ std::optional<Share> parse_share(const std::string& text) {
 }
 
 // Before any of them runs.
-void require_engines(const sweep::Grid& grid, const std::optional<std::string>& isa) {
-  for (const sweep::Member& member : grid.members) {
-    Scene scene = member.scene;
-    choose_engine(scene, {.threads = 1, .isa = isa});
+void choose_engines(sweep::Grid& grid, const std::optional<std::string>& isa) {
+  for (sweep::Member& member : grid.members) {
+    apply({.threads = {}, .isa = isa}, member.scene);
+    runs::choose_engine(member.scene);
   }
 }
 
-void tell_warnings(const sweep::Grid& grid) {
-  std::set<std::string> told;
+void print_warnings(const sweep::Grid& grid) {
+  std::set<std::string> printed;
   for (const sweep::Member& member : grid.members) {
     Scene scene = member.scene;
     scene.output.file = member.name;  // output does go somewhere
     for (const std::string& warning : warnings(scene)) {
-      if (told.insert(warning).second) print_warning(warning);
+      if (printed.insert(warning).second) print_warning(warning);
     }
   }
+}
+
+void require_memory(const runs::MemberRuns& runs) {
+  const double needed = runs::estimated_memory(runs);
+  const double available = runs::available_memory();
+  if (needed <= available) return;
+  throw InputError(fmt::format(
+      "--threads {}: expected fewer: so many members at a time need about {} of memory, and {} are "
+      "available here",
+      runs.threads, runs::bytes_text(needed), runs::bytes_text(available)));
 }
 
 /// One sweep, step by step; all steps are done on all ranks.
@@ -90,14 +100,14 @@ class Sweep {
   void run_what_is_missing();
   void look_at_those_of_others();
   void sum_up();
-  void tell(std::span<const sweep::PointSummary> summary);
+  void print(std::span<const sweep::PointSummary> summary);
   std::vector<std::string> names_of(int code) const;
 
   const SweepArguments& arguments_;
   const Share share_;
   const Ranks ranks_;
   sweep::Grid grid_;
-  std::optional<SweepFolder> folder_;
+  std::optional<runs::SweepFolder> folder_;
   std::vector<double> costs_;
   std::vector<std::size_t> members_;  ///< of the share
   std::vector<int> codes_;            ///< of all members of the grid
@@ -123,8 +133,9 @@ int Sweep::run() {
 }
 
 void Sweep::prepare() {
-  grid_ = sweep::read_grid(arguments_.grid);
-  require_engines(grid_, arguments_.isa);
+  grid_ =
+      read_file(arguments_.grid, FileKind::grid, [&] { return sweep::read_grid(arguments_.grid); });
+  choose_engines(grid_, arguments_.isa);
   const std::string out = arguments_.out.value_or(grid_.out);
   if (out.empty()) {
     throw InputError(arguments_.grid + ": out is missing: expected a folder, or --out DIR");
@@ -134,12 +145,16 @@ void Sweep::prepare() {
     throw InputError(place + ": expected the folder of a sweep, to sum up: it does not exist");
   }
   folder_.emplace(out, grid_, arguments_.force, place);
-  if (ranks_.rank() == 0) tell_warnings(grid_);
-  costs_ = estimated_costs(grid_);
+  if (ranks_.rank() == 0) print_warnings(grid_);
+  costs_ = runs::estimated_costs(grid_);
   std::vector<std::size_t> all(grid_.members.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  members_ = share_of(all, costs_, share_.k, share_.m);
+  members_ = runs::share_of(all, costs_, share_.k, share_.m);
   threads_ = arguments_.threads.value_or(omp_get_max_threads());
+  if (arguments_.threads && threads_ > runs::cores() && ranks_.rank() == 0) {
+    print_warning(fmt::format("--threads {}: expected at most {}, the number of cores here",
+                              threads_, runs::cores()));
+  }
 }
 
 void Sweep::find_out_what_is_there() {
@@ -162,16 +177,13 @@ void Sweep::run_what_is_missing() {
     }
   }
   computed_ = missing.size();
-  const auto mine = share_of(missing, costs_, ranks_.rank(), ranks_.count());
-  const MemberRuns runs{.grid = grid_,
-                        .folder = *folder_,
-                        .members = mine,
-                        .costs = costs_,
-                        .threads = threads_,
-                        .isa = arguments_.isa,
-                        .quiet = arguments_.quiet || ranks_.rank() > 0};
+  const auto mine = runs::share_of(missing, costs_, ranks_.rank(), ranks_.count());
+  const runs::MemberRuns runs{
+      .grid = grid_, .folder = *folder_, .members = mine, .costs = costs_, .threads = threads_};
   require_memory(runs);
-  run_members(runs, codes_);
+  SweepProgress progress(arguments_.quiet || ranks_.rank() > 0);
+  const SignalGuard guard;
+  runs::run_members(runs, progress, codes_);
 }
 
 // Members that were in the hands of another process may be done by now.
@@ -198,10 +210,10 @@ void Sweep::sum_up() {
         grid_, [&](const sweep::Member& member) { return folder_->finished_run(member); });
     sweep::write_summary(folder_->summary_file(), grid_, summary);
   }
-  tell(summary);
+  print(summary);
 }
 
-void Sweep::tell(std::span<const sweep::PointSummary> summary) {
+void Sweep::print(std::span<const sweep::PointSummary> summary) {
   const std::size_t stops = names_of(stopped).size();
   if (stops > 0) {
     print_error(
@@ -220,11 +232,11 @@ void Sweep::tell(std::span<const sweep::PointSummary> summary) {
               {"failed", names_of(invalid_state)},
               {"threads", threads_},
               {"ranks", ranks_.count()},
-              {"total_s", seconds_since_launch()},
+              {"total_s", runs::seconds_since_launch()},
               {"version", NEEDLEWORK_VERSION},
               {"file", summary.empty() ? Json(nullptr) : Json(folder_->summary_file())},
               {"points", json_of(grid_, summary)}};
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(json, 2));
   } else if (!arguments_.quiet && !summary.empty()) {
     fmt::print("{}", table_of(grid_, summary));
   }
@@ -238,6 +250,8 @@ std::vector<std::string> Sweep::names_of(int code) const {
   return names;
 }
 
+}  // namespace
+
 int run(const SweepArguments& arguments) {
   const auto share = arguments.member ? parse_share(*arguments.member) : Share();
   if (!share) {
@@ -248,30 +262,6 @@ int run(const SweepArguments& arguments) {
     return bad_usage;
   }
   return Sweep(arguments, *share).run();
-}
-
-}  // namespace
-
-void add_sweep_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("sweep", "run a grid of parameters and seeds, and sum it up");
-  const auto arguments = std::make_shared<SweepArguments>();
-  command->add_option("GRID", arguments->grid, "grid file (TOML)")->required();
-  command->add_option("--out", arguments->out, "folder for the results")->option_text("DIR");
-  command->add_option("--threads", arguments->threads, "members to run at a time; default: cores")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024));
-  command
-      ->add_option("--isa", arguments->isa, "instruction set: auto, scalar, sse4, avx2 or avx512")
-      ->option_text("NAME");
-  command->add_option("--member", arguments->member, "run the K-th of M parts only")
-      ->option_text("K/M");
-  command->add_flag("--summary", arguments->summary, "run nothing, sum up what is there");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
-  command->add_flag("--force", arguments->force,
-                    "go on in a folder of another grid; members that differ are made anew");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

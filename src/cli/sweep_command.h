@@ -1,11 +1,19 @@
 // `needlework sweep`: a grid of parameters and seeds, and what its runs have in common.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <optional>
+#include <string>
 
 namespace needlework::cli {
 
-/// Adds the subcommand; when it has run, its exit code is in `exit_code`.
-void add_sweep_command(CLI::App& app, int& exit_code);
+struct SweepArguments {
+  std::string grid;
+  std::optional<std::string> member, out, isa;
+  std::optional<int> threads;
+  bool summary = false, json = false, quiet = false, force = false;
+};
+
+/// Returns the exit code.
+int run(const SweepArguments& arguments);
 
 }  // namespace needlework::cli

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "src/cli/json_number.h"
+#include "src/cli/json.h"
 
 namespace needlework::cli {
 namespace {
@@ -23,11 +24,11 @@ Json json_of_value(const Value& value) {
   return array;
 }
 
-Json json_of_estimate(const sweep::Estimate& estimate) {
+Json json_of_estimate(const runs::sweep::Estimate& estimate) {
   return {{"mean", number(estimate.mean)}, {"standard_error", number(estimate.standard_error)}};
 }
 
-Json json_of_series(const sweep::Series& series) {
+Json json_of_series(const runs::sweep::Series& series) {
   Json means = Json::array(), errors = Json::array();
   for (std::size_t at = 0; at < series.estimates.size(); at += series.width) {
     Json mean = Json::array(), error = Json::array();
@@ -41,31 +42,31 @@ Json json_of_series(const sweep::Series& series) {
   return {{"mean", means}, {"standard_error", errors}};
 }
 
-std::string text_of(const sweep::Estimate& estimate) {
+std::string text_of(const runs::sweep::Estimate& estimate) {
   return fmt::format("{:.6g} +- {:.1e}", estimate.mean, estimate.standard_error);
 }
 
-const sweep::Estimate& result(const sweep::PointSummary& point, std::string_view name) {
+const runs::sweep::Estimate& result(const runs::sweep::PointSummary& point, std::string_view name) {
   return std::find_if(point.results.begin(), point.results.end(),
-                      [&](const sweep::Result& r) { return r.name == name; })
+                      [&](const runs::sweep::Result& r) { return r.name == name; })
       ->estimate;
 }
 
 }  // namespace
 
-Json json_of(const sweep::Grid& grid, std::span<const sweep::PointSummary> summary) {
+Json json_of(const runs::sweep::Grid& grid, std::span<const runs::sweep::PointSummary> summary) {
   Json points = Json::array();
   for (std::size_t p = 0; p < summary.size(); ++p) {
-    const sweep::PointSummary& point = summary[p];
+    const runs::sweep::PointSummary& point = summary[p];
     Json parameters = Json::object(), results = Json::object(), series = Json::object();
     for (std::size_t k = 0; k < grid.parameters.size(); ++k) {
       parameters[grid.parameters[k].key] = json_of_value(grid.value(k, p));
     }
-    for (const sweep::Result& result : point.results) {
+    for (const runs::sweep::Result& result : point.results) {
       results[result.name] = json_of_estimate(result.estimate);
     }
     series["time"] = point.times;
-    for (const sweep::Series& one : point.series) series[one.name] = json_of_series(one);
+    for (const runs::sweep::Series& one : point.series) series[one.name] = json_of_series(one);
     points.push_back({{"name", grid.name_of_point(p)},
                       {"parameters", parameters},
                       {"seeds", point.seeds},
@@ -75,7 +76,8 @@ Json json_of(const sweep::Grid& grid, std::span<const sweep::PointSummary> summa
   return points;
 }
 
-std::string table_of(const sweep::Grid& grid, std::span<const sweep::PointSummary> summary) {
+std::string table_of(const runs::sweep::Grid& grid,
+                     std::span<const runs::sweep::PointSummary> summary) {
   std::size_t width = 5;
   for (std::size_t p = 0; p < summary.size(); ++p) {
     width = std::max(width, grid.name_of_point(p).size());
@@ -83,7 +85,7 @@ std::string table_of(const sweep::Grid& grid, std::span<const sweep::PointSummar
   std::string table = fmt::format("{:{}}  {:>7}  {:24}  {:24}  {}\n", "point", width, "members",
                                   "collisions per needle", "time", "E/E(0)");
   for (std::size_t p = 0; p < summary.size(); ++p) {
-    const sweep::PointSummary& point = summary[p];
+    const runs::sweep::PointSummary& point = summary[p];
     const std::string name = grid.name_of_point(p);
     table += fmt::format("{:{}}  {:>7}  {:24}  {:24}  {}\n", name.empty() ? "all" : name, width,
                          point.seeds.size(), text_of(result(point, "collisions_per_needle")),

@@ -1,7 +1,7 @@
-// What is told of a sweep when it is over.
+// The result of a sweep, as printed when it is over.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 
@@ -11,10 +11,11 @@
 namespace needlework::cli {
 
 /// The points of the grid with their means and standard errors.
-nlohmann::ordered_json json_of(const sweep::Grid& grid,
-                               std::span<const sweep::PointSummary> summary);
+nlohmann::ordered_json json_of(const runs::sweep::Grid& grid,
+                               std::span<const runs::sweep::PointSummary> summary);
 
 /// A table for people, a line for each point.
-std::string table_of(const sweep::Grid& grid, std::span<const sweep::PointSummary> summary);
+std::string table_of(const runs::sweep::Grid& grid,
+                     std::span<const runs::sweep::PointSummary> summary);
 
 }  // namespace needlework::cli

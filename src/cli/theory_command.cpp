@@ -1,168 +1,227 @@
-// The command `needlework theory`: what kinetic theory predicts for a gas.
 #include "src/cli/theory_command.h"
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "needlework/theory.h"
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/cli/scene_arguments.h"
+#include "src/observe/forecast.h"
 #include "src/runs/exit_codes.h"
+#include "src/runs/explanation.h"
 
 namespace needlework::cli {
 
+using enum runs::ExitCode;
+
 namespace {
 
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// A flag that takes numbers, and which.
-struct NumberFlag {
+/// An option that takes numbers, and which.
+struct NumberOption {
   const char* name;
   double least, most;
   const char* expectation;
 };
 
-constexpr NumberFlag epsilon_flag{"--epsilon", 0.0, 1.0, "a number in [0, 1]"};
-constexpr NumberFlag beta_flag{"--beta", -1.0, 1.0, "a number in [-1, 1]"};
-constexpr NumberFlag k_flag{"--k", 1e-12, 1e12, "a number in [1e-12, 1e12]"};
-constexpr NumberFlag t_rot0_flag{"--t-rot0", 0.0, largest, "a finite number, 0 or more"};
-constexpr NumberFlag tau_flag{"--tau", 0.0, largest, "a finite number, 0 or more"};
+constexpr NumberOption epsilon_option{"--epsilon", 0.0, 1.0, "a number in [0, 1]"};
+constexpr NumberOption beta_option{"--beta", -1.0, 1.0, "a number in [-1, 1]"};
+constexpr NumberOption k_option{"--k", 1e-12, 1e12, "a number in [1e-12, 1e12]"};
+constexpr NumberOption t_rot0_option{"--t-rot0", 0.0, largest, "a finite number, 0 or more"};
+constexpr NumberOption tau_option{"--tau", 0.0, largest, "a finite number, 0 or more"};
+constexpr NumberOption time_option{"--time", 0.0, largest, "a finite number, 0 or more"};
+constexpr NumberOption density_option{"--density", 0.0, 1e12, "a number in [0, 1e12]"};
 
-/// The flags as given. They stay text until the command runs, so that what is no number and what is
-/// out of range get the same kind of message.
-struct Arguments {
-  std::string epsilon, k;
-  std::string beta = "-1";
-  std::string t_rot0 = "1";
-  std::vector<std::string> taus;
-  bool json = false;
+/// What the predictions are for.
+struct Question {
+  theory::Gas gas;
+  theory::Temperatures initial;
+  std::optional<double> density;  ///< [L^-3]
+  std::vector<double> taus;
 };
 
-struct Predictions {
-  theory::Gas gas;
+struct Predictions : Question {
   double ratio;            ///< T_tr / T_rot in the end, NaN in an elastic gas
   double equipartition_k;  ///< NaN for rough needles, where it depends on epsilon and beta
-  std::vector<double> taus;
   std::vector<theory::Temperatures> curve;
+  std::vector<double> collisions;  ///< per needle
+
+  double time(std::size_t i) const { return taus[i] / theory_time_scale(*density); }
 };
 
-double number_of(const NumberFlag& flag, std::string_view text) {
+double number_of(const NumberOption& option, std::string_view text) {
   std::string_view digits = text;
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  if (!is_number || !(value >= flag.least && value <= flag.most)) {
+  if (!is_number || !(value >= option.least && value <= option.most)) {
     throw std::invalid_argument(
-        fmt::format("{} {}: expected {}", flag.name, text, flag.expectation));
+        fmt::format("{} {}: expected {}", option.name, text, option.expectation));
   }
   return value;
 }
 
-Predictions predictions_of(const Arguments& arguments) {
-  Predictions result{};
-  result.gas = {.k = number_of(k_flag, arguments.k),
-                .epsilon = number_of(epsilon_flag, arguments.epsilon),
-                .beta = number_of(beta_flag, arguments.beta)};
-  const theory::Temperatures initial{.t_tr = 1.0,
-                                     .t_rot = number_of(t_rot0_flag, arguments.t_rot0)};
-  for (const std::string& tau : arguments.taus) result.taus.push_back(number_of(tau_flag, tau));
+// The option's number, or else the scene's; without both it is missing.
+double choose(const NumberOption& option, const std::optional<std::string>& text,
+              const std::optional<double>& of_scene) {
+  if (text) return number_of(option, *text);
+  if (of_scene) return *of_scene;
+  throw std::invalid_argument(
+      fmt::format("{} is missing: expected {}, or a scene (see needlework "
+                  "theory --help)",
+                  option.name, option.expectation));
+}
 
+// By decades, from a tenth of the mean free time to the end that is expected, or five decades on.
+std::vector<double> usual_taus(const runs::Explanation& scene) {
+  const double scale = theory_time_scale(scene.density);
+  if (!std::isfinite(scene.mean_free_time)) return {};
+  const double first = std::floor(std::log10(scene.mean_free_time));
+  double last = first + 5;
+  if (scene.expected && std::isfinite(scene.expected->time) && scene.expected->time > 0) {
+    last = std::max(first, std::ceil(std::log10(scene.expected->time)));
+  }
+  std::vector<double> taus{0};
+  for (double decade = first; decade <= last; ++decade)
+    taus.push_back(scale * std::pow(10, decade));
+  return taus;
+}
+
+// Takes out of the values of an option what is a scene: these options take all that follows them.
+void take_scene(std::vector<std::string>& values, std::string& scene) {
+  if (!scene.empty() || values.empty() || !values.back().ends_with(".toml")) return;
+  scene = values.back();
+  values.pop_back();
+}
+
+Question question_of(TheoryArguments arguments) {
+  take_scene(arguments.taus, arguments.scene);
+  take_scene(arguments.times, arguments.scene);
+  Question question;
+  std::optional<double> epsilon, k, beta = -1.0, t_tr = 1.0, t_rot = 1.0;
+  std::vector<double> usual;
+  if (!arguments.scene.empty()) {
+    const runs::LoadedScene loaded =
+        load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
+    const runs::Explanation scene(loaded);
+    epsilon = loaded.scene.collisions.epsilon;
+    beta = loaded.scene.collisions.beta;
+    k = loaded.scene.needles.k;
+    t_tr = scene.initial.t_tr;
+    t_rot = scene.initial.t_rot;
+    question.density = scene.density;
+    usual = usual_taus(scene);
+  } else if (!arguments.overrides.empty()) {
+    throw std::invalid_argument(
+        fmt::format("--set {}: expected a scene that it changes", arguments.overrides[0]));
+  }
+  question.gas.epsilon = choose(epsilon_option, arguments.epsilon, epsilon);
+  question.gas.k = choose(k_option, arguments.k, k);
+  question.gas.beta = choose(beta_option, arguments.beta, beta);
+  question.initial = {.t_tr = *t_tr, .t_rot = choose(t_rot0_option, arguments.t_rot0, t_rot)};
+  if (arguments.density) question.density = number_of(density_option, *arguments.density);
+  for (const std::string& tau : arguments.taus) {
+    question.taus.push_back(number_of(tau_option, tau));
+  }
+  for (const std::string& time : arguments.times) {
+    const double value = number_of(time_option, time);
+    if (!question.density) {
+      throw std::invalid_argument(fmt::format(
+          "--time {}: expected --density N beside it, or a scene: tau = (2/3) sqrt(pi) n t", time));
+    }
+    question.taus.push_back(theory_time_scale(*question.density) * value);
+  }
+  if (question.taus.empty()) question.taus = usual;
+  return question;
+}
+
+Predictions predictions_of(const TheoryArguments& arguments) {
+  Predictions result{question_of(arguments), undefined, undefined, {}, {}};
   result.ratio = theory::asymptotic_ratio(result.gas);
-  result.equipartition_k = result.gas.beta == -1.0 ? theory::equipartition_k()
-                                                   : std::numeric_limits<double>::quiet_NaN();
-  result.curve = theory::cooling_curve(result.gas, initial, result.taus);
+  if (result.gas.beta == -1.0) result.equipartition_k = theory::equipartition_k();
+  result.curve = theory::cooling_curve(result.gas, result.initial, result.taus);
+  result.collisions = theory::collisions_per_needle(result.gas, result.initial, result.taus);
   return result;
 }
 
 /// NaN becomes null, and numbers keep all their digits.
-std::string json_text(const Predictions& predictions) {
+std::string json_of(const Predictions& predictions) {
   nlohmann::ordered_json json{{"epsilon", predictions.gas.epsilon},
                               {"beta", predictions.gas.beta},
                               {"k", predictions.gas.k},
-                              {"c", predictions.ratio},
-                              {"k_star", predictions.equipartition_k},
+                              {"c", number(predictions.ratio)},
+                              {"k_star", number(predictions.equipartition_k)},
                               {"tau", predictions.taus}};
-  std::vector<double> t_tr, t_rot, energy;
-  for (const theory::Temperatures& now : predictions.curve) {
-    t_tr.push_back(now.t_tr);
-    t_rot.push_back(now.t_rot);
-    energy.push_back(now.energy());
+  std::vector<double> t_tr, t_rot, energy, times;
+  for (std::size_t i = 0; i < predictions.taus.size(); ++i) {
+    t_tr.push_back(predictions.curve[i].t_tr);
+    t_rot.push_back(predictions.curve[i].t_rot);
+    energy.push_back(predictions.curve[i].energy());
+    if (predictions.density) times.push_back(predictions.time(i));
   }
   json["t_tr"] = t_tr;
   json["t_rot"] = t_rot;
   json["energy"] = energy;
-  return json.dump() + "\n";
+  if (predictions.density) {
+    json["density"] = *predictions.density;
+    json["time"] = times;
+    json["collisions_per_needle"] = predictions.collisions;
+  }
+  return json_text(json) + "\n";
 }
 
 std::string table_text(const Predictions& predictions) {
-  const auto& [gas, ratio, equipartition_k, taus, curve] = predictions;
-  std::string text = fmt::format("epsilon {}, beta {}, k {}\n", gas.epsilon, gas.beta, gas.k);
-  text += std::isnan(ratio) ? std::string("elastic: T_tr/T_rot tends to 1, and nothing cools\n")
-                            : fmt::format("T_tr/T_rot tends to {:.10g}\n", ratio);
-  if (!std::isnan(equipartition_k)) {
-    text += fmt::format("equipartition for every epsilon at k = {:.10g}\n", equipartition_k);
+  const theory::Gas& gas = predictions.gas;
+  std::string text = fmt::format("epsilon {}, beta {}, k {}", gas.epsilon, gas.beta, gas.k);
+  if (predictions.density) text += fmt::format(", density {:.6g}", *predictions.density);
+  text += std::isnan(predictions.ratio)
+              ? std::string("\nelastic: T_tr/T_rot tends to 1, and nothing cools\n")
+              : fmt::format("\nT_tr/T_rot tends to c = {:.10g}\n", predictions.ratio);
+  if (!std::isnan(predictions.equipartition_k)) {
+    text += fmt::format("c = 1, equipartition, for every epsilon at k = {:.10g}\n",
+                        predictions.equipartition_k);
   }
-  if (taus.empty()) return text;
+  if (predictions.taus.empty()) return text;
 
-  text += fmt::format("\n{:>16}  {:>16}  {:>16}  {:>16}\n", "tau", "T_tr", "T_rot", "energy");
-  for (std::size_t i = 0; i < taus.size(); ++i) {
-    text += fmt::format("{:>16.10g}  {:>16.10g}  {:>16.10g}  {:>16.10g}\n", taus[i], curve[i].t_tr,
-                        curve[i].t_rot, curve[i].energy());
+  text += fmt::format("\n{}{:>16}  {:>16}  {:>16}  {:>16}\n",
+                      predictions.density ? fmt::format("{:>12}  ", "time") : "", "tau", "T_tr",
+                      "T_rot", "energy");
+  for (std::size_t i = 0; i < predictions.taus.size(); ++i) {
+    const theory::Temperatures& now = predictions.curve[i];
+    if (predictions.density) text += fmt::format("{:>12.6g}  ", predictions.time(i));
+    text += fmt::format("{:>16.10g}  {:>16.10g}  {:>16.10g}  {:>16.10g}\n", predictions.taus[i],
+                        now.t_tr, now.t_rot, now.energy());
   }
   return text;
 }
 
-int run(const Arguments& arguments) {
+}  // namespace
+
+int run(const TheoryArguments& arguments) {
   try {
     const Predictions predictions = predictions_of(arguments);
-    const std::string text = arguments.json ? json_text(predictions) : table_text(predictions);
+    const std::string text = arguments.json ? json_of(predictions) : table_text(predictions);
     std::fputs(text.c_str(), stdout);
     return ok;
   } catch (const std::invalid_argument& error) {
     print_error(error.what());
     return bad_usage;
   }
-}
-
-}  // namespace
-
-void add_theory_command(CLI::App& app, int& exit_code) {
-  const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
-      app.add_subcommand("theory", "tell what kinetic theory predicts for a homogeneous gas");
-  command->add_option(epsilon_flag.name, arguments->epsilon, "normal restitution, in [0, 1]")
-      ->required()
-      ->type_name("E");
-  command
-      ->add_option(k_flag.name, arguments->k,
-                   "m L^2 / (2 I); 6 for a uniform rod, 2 for mass at the tips")
-      ->required()
-      ->type_name("K");
-  command
-      ->add_option(beta_flag.name, arguments->beta,
-                   "tangential restitution, in [-1, 1]; -1 is smooth")
-      ->capture_default_str()
-      ->type_name("B");
-  command->add_option(t_rot0_flag.name, arguments->t_rot0, "initial T_rot; the initial T_tr is 1")
-      ->capture_default_str()
-      ->type_name("X");
-  command
-      ->add_option(tau_flag.name, arguments->taus,
-                   "time at which to print the temperatures, (2/3) sqrt(pi) n t; may be repeated")
-      ->type_name("T");
-  command->add_flag("--json", arguments->json, "print one JSON object");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 }  // namespace needlework::cli

@@ -1,13 +1,24 @@
-// The command `needlework theory`: what kinetic theory predicts for a gas.
+// `needlework theory`: what kinetic theory predicts for a gas.
 #pragma once
 
-#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace needlework::cli {
 
-/// Registers the subcommand with `app`. When it is given, parsing ends by printing the predictions
-/// on stdout and setting `exit_code` to 0, or by printing one line on stderr that names flag, value
-/// and expectation and setting it to 2. `exit_code` must outlive `app`.
-void add_theory_command(CLI::App& app, int& exit_code);
+/// The options as given. Numbers stay text until the command runs, so that what is no number and
+/// what is out of range get the same kind of message.
+struct TheoryArguments {
+  std::string scene;  ///< path, empty for none
+  std::vector<std::string> overrides;
+  std::optional<std::string> epsilon, k, beta, t_rot0, density;
+  std::vector<std::string> taus, times;
+  bool json = false;
+};
+
+/// Prints the predictions on stdout and returns 0, or prints one line on stderr that names option,
+/// value and expectation and returns 2. Throws InputError and IoError for a scene.
+int run(const TheoryArguments& arguments);
 
 }  // namespace needlework::cli

@@ -18,7 +18,7 @@ std::string compiler_name() {
 std::string version_text() {
   return fmt::format("needlework {}\ncompiler  {}\nflags     {}\nISA       {}\nHDF5      {}",
                      NEEDLEWORK_VERSION, compiler_name(), NEEDLEWORK_FLAGS,
-                     fmt::join(instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
+                     fmt::join(runs::instruction_sets(), " "), NEEDLEWORK_HDF5_VERSION);
 }
 
 }  // namespace needlework::cli

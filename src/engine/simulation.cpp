@@ -138,8 +138,8 @@ struct Simulation::Implementation {
 Simulation::Simulation(const Scene& scene) {
   if (!scene.initial.file.empty()) {
     throw InputError(place_of(scene, "initial.file", scene.initial.file) +
-                     ": expected the state that the file holds as a second argument; the engine "
-                     "reads no files");
+                     ": expected none, as Simulation(scene) reads no files: read the state with "
+                     "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
   // The state's arrays are freed before the rest of the run allocates its memory.
   Gas gas = make_gas(scene, draw_initial_state(scene));

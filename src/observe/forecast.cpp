@@ -1,6 +1,8 @@
 #include "src/observe/forecast.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -40,6 +42,26 @@ struct Curve {
     return {stop, mix(tau, 0), mix(collisions, 0), mix(energy_ratio, 1)};
   }
 };
+
+// Where the curve ends, a gas that cools follows Haff's law: E ~ tau^-2, and the collisions grow
+// with log tau. The time is infinite where a double cannot hold it.
+std::optional<Forecast> beyond(const Curve& curve, const Scene::Until& until) {
+  const std::size_t last = curve.tau.size() - 1;
+  const double per_log = (curve.collisions[last] - curve.collisions[last - 1]) /
+                         std::log(curve.tau[last] / curve.tau[last - 1]);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double to_collisions =
+      until.collisions_per_needle
+          ? (*until.collisions_per_needle - curve.collisions[last]) / per_log
+          : never;
+  const double to_energy =
+      until.energy_ratio ? 0.5 * std::log(curve.energy_ratio[last] / *until.energy_ratio) : never;
+  const double growth = std::min(to_collisions, to_energy);  // of log tau
+  if (growth == never) return std::nullopt;
+  return Forecast{growth == to_energy ? Stop::energy : Stop::collisions,
+                  curve.tau[last] * std::exp(growth), curve.collisions[last] + per_log * growth,
+                  curve.energy_ratio[last] * std::exp(-2 * growth)};
+}
 
 // The interpolation weight of `target` between two values: logarithmic, but linear for i = 0,
 // which is the start.
@@ -83,7 +105,11 @@ std::optional<Forecast> forecast(const theory::Gas& gas, theory::Temperatures in
       return in_units_of_the_scene(curve.between(i, weight, Stop::energy));
     }
   }
-  if (!until.time) return std::nullopt;
+  if (!until.time) {
+    const bool cools = !std::isnan(theory::asymptotic_ratio(gas));
+    const auto result = cools ? beyond(curve, until) : std::nullopt;
+    return result ? std::optional(in_units_of_the_scene(*result)) : std::nullopt;
+  }
   return in_units_of_the_scene(curve.at(curve.tau.size() - 1, Stop::time));
 }
 

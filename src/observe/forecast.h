@@ -13,7 +13,7 @@ namespace needlework {
 /// Where a gas that stays homogeneous and Gaussian meets the first of its end conditions.
 struct Forecast {
   Stop stop = Stop::time;            ///< the condition that is met
-  double time = 0;                   ///< since the start of the run
+  double time = 0;                   ///< since the start of the run; may be infinite
   double collisions_per_needle = 0;  ///< without collisions by the t_c rule
   double energy_ratio = 1;           ///< E / E(0)
 };

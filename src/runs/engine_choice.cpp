@@ -12,7 +12,7 @@
 #include "needlework/error.h"
 #include "src/scene/check.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -52,25 +52,18 @@ std::vector<std::string> instruction_sets() {
   return names;
 }
 
-void choose_engine(Scene& scene, const EngineFlags& flags) {
+void choose_engine(Scene& scene) {
   Scene::Engine& engine = scene.engine;
   std::string isa_place = place_of(scene, "engine.isa", engine.isa);
   const char* isa_of_environment = std::getenv("NEEDLEWORK_ISA");
-  if (flags.isa) {
-    engine.isa = *flags.isa;
-    isa_place = "--isa " + engine.isa;
-  } else if (engine.isa == "auto" && isa_of_environment && *isa_of_environment) {
+  if (engine.isa == "auto" && isa_of_environment && *isa_of_environment) {
     engine.isa = isa_of_environment;
     isa_place = "NEEDLEWORK_ISA=" + engine.isa;
   }
   require_instruction_set(engine.isa, isa_place);
 
-  std::string threads_place =
+  const std::string threads_place =
       place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
-  if (flags.threads) {
-    engine.threads = *flags.threads;
-    threads_place = fmt::format("--threads {}", *flags.threads);
-  }
   const bool parallel = (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
                         (engine.queue == "auto" || contains(parallel_queues, engine.queue));
   if (engine.threads && *engine.threads > 1 && !parallel) {
@@ -89,8 +82,22 @@ void choose_engine(Scene& scene, const EngineFlags& flags) {
   if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
 }
 
+int cores() { return omp_get_num_procs(); }
+
+std::vector<std::string> all_warnings(const Scene& scene) {
+  std::vector<std::string> all = warnings(scene);
+  const int threads = scene.engine.threads.value_or(1);
+  if (threads > cores()) {
+    all.push_back(fmt::format(
+        "{}: expected at most {}, the number of cores here: more threads than cores make a run "
+        "slower, not faster",
+        place_of(scene, "engine.threads", fmt::to_string(threads)), cores()));
+  }
+  return all;
+}
+
 std::string resolved_isa(const Scene::Engine& engine) {
   return engine.isa == "auto" ? instruction_sets().back() : engine.isa;
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

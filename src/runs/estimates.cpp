@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "needlework/error.h"
-#include "src/cli/messages.h"
+#include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 // Peak resident memory, measured from N = 1e3 to 1e6 with the searches by lanes, and what frames
@@ -53,4 +53,4 @@ void require_memory(const Scene& scene) {
                   bytes_text(needed), bytes_text(available)));
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -1,9 +1,9 @@
-// What a run will need, told before it begins.
+// Estimates of what a run will need, made before it begins.
 #pragma once
 
 #include "needlework/scene.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// Memory of a run of this scene at its peak [bytes].
 double estimated_memory(const Scene& scene);
@@ -14,4 +14,4 @@ double estimated_seconds_per_collision(const Scene& scene, double density);
 /// Throws InputError naming needles.count if the run needs more memory than there is.
 void require_memory(const Scene& scene);
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

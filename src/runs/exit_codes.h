@@ -1,7 +1,7 @@
-// How the program ends.
+// How a run ends, as the exit code of a program.
 #pragma once
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 enum ExitCode {
   ok = 0,
@@ -13,4 +13,4 @@ enum ExitCode {
   stopped = 75,  ///< by a signal or a time limit, after saving if there is a file
 };
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -1,127 +1,29 @@
 #include "src/runs/explanation.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cmath>
 #include <limits>
 
 #include "src/calendar/choice.h"
-#include "src/cli/json_number.h"
-#include "src/cli/messages.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
-#include "src/runs/resources.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-template <class T>
-Json optional_number(const std::optional<T>& x) {
-  return x ? number(*x) : Json(nullptr);
-}
-
-const char* name_of(Stop stop) {
-  switch (stop) {
-    case Stop::collisions:
-      return "collisions_per_needle";
-    case Stop::energy:
-      return "energy_ratio";
-    default:
-      return "time";
-  }
-}
-
-double collisions_of(const Explanation& e) {
-  return 0.5 * e.expected->collisions_per_needle * static_cast<double>(e.scene.needles.count);
-}
-
-std::string line(const char* name, const std::string& text) {
-  return fmt::format("  {:<16}{}\n", name, text);
-}
-
-std::string shape_text(double k) {
-  if (k == 6) return "k = 6, uniform rods";
-  if (k == 2) return "k = 2, all mass at the tips";
-  return fmt::format("k = {:g}", k);
-}
-
-std::string start_text(const Explanation& e) {
-  const Scene::Initial& initial = e.scene.initial;
-  const std::string from = initial.file.empty()
-                               ? fmt::format("drawn, seed {}", e.scene.needles.seed)
-                               : "read from " + initial.file;
-  return fmt::format("{}; T_tr = {:.6g}, T_rot = {:.6g}, E = {:.6g} per needle", from,
-                     e.initial.t_tr, e.initial.t_rot, e.initial.energy());
-}
-
-std::string collision_text(const Scene::Collisions& c) {
-  const std::string normal = c.epsilon < 1 ? "inelastic" : "elastic";
-  const std::string tangential = c.beta == -1  ? "smooth"
-                                 : c.beta == 1 ? "perfectly rough"
-                                               : "rough";
-  return fmt::format("{} (epsilon = {:g}), {} (beta = {:g})", normal, c.epsilon, tangential,
-                     c.beta);
-}
-
-std::string contact_time_text(const Scene::Collisions& c) {
-  if (c.tc) return fmt::format("on, {:g}", *c.tc);
-  if (c.tc_relative) return fmt::format("on, {:g} of the present mean free time", *c.tc_relative);
-  return "off";
-}
-
-std::string until_text(const Scene::Until& until) {
-  std::vector<std::string> conditions;
-  const auto add = [&](const char* name, const std::optional<double>& value) {
-    if (value) conditions.push_back(fmt::format("{} = {:g}", name, *value));
-  };
-  add("time", until.time);
-  add("collisions_per_needle", until.collisions_per_needle);
-  add("energy_ratio", until.energy_ratio);
-  add("wall_s", until.wall_s);
-  return fmt::format("{}", fmt::join(conditions, " or "));
-}
-
-std::string expected_text(const Explanation& e) {
-  if (!e.expected) {
-    return e.scene.until.wall_s ? "runs until wall_s is over" : "never ends, as far as theory goes";
-  }
-  return fmt::format(
-      "{} is met first, at time {:.3g} with E/E(0) = {:.3g}, after about {:.3g} "
-      "collisions ({:.3g} per needle)",
-      name_of(e.expected->stop), e.expected->time, e.expected->energy_ratio, collisions_of(e),
-      e.expected->collisions_per_needle);
-}
-
-std::string engine_text(const Scene::Engine& engine, double density) {
-  return fmt::format(
-      "search {}, queue {}, accuracy {}, {} thread{}, {}", chosen_search(engine.search, density),
-      chosen_calendar(engine.queue, engine.threads.value_or(1)), accuracy_name(engine),
-      engine.threads.value_or(1), engine.threads.value_or(1) == 1 ? "" : "s", resolved_isa(engine));
-}
-
-std::string output_text(const Scene::Output& output) {
-  if (output.file.empty()) return "none";
-  std::string text = fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
-                                 output.series_per_decade);
-  if (output.frames_per_decade) {
-    text += fmt::format("{:g} frames per decade", *output.frames_per_decade);
-  } else if (!output.frame_times.empty()) {
-    text += fmt::format("{} frames and the first and last", output.frame_times.size());
-  } else {
-    text += "the first and the last frame";
-  }
-  return text + (output.events ? ", every collision" : "");
-}
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
   if (!loaded.initial) return {loaded.scene.initial.t_tr, loaded.scene.initial.t_rot};
   const Totals totals = totals_of(*loaded.initial, loaded.scene.needles.k);
   return {totals.t_tr, totals.t_rot};
+}
+
+double collisions_of(const std::optional<Forecast>& expected, const Scene& scene) {
+  if (!expected) return undefined;
+  return 0.5 * expected->collisions_per_needle * static_cast<double>(scene.needles.count);
 }
 
 }  // namespace
@@ -133,71 +35,16 @@ Explanation::Explanation(const LoadedScene& loaded)
       mean_free_time(1 / theory::collision_rate(density, initial, scene.needles.k)),
       expected(forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta}, initial,
                         density, scene.until)),
-      seconds(expected ? collisions_of(*this) * estimated_seconds_per_collision(scene, density)
-                       : std::numeric_limits<double>::quiet_NaN()),
+      collisions(collisions_of(expected, scene)),
+      seconds(expected && std::isfinite(expected->time)
+                  ? collisions * estimated_seconds_per_collision(scene, density)
+                  : undefined),
       memory(estimated_memory(scene)),
-      warnings(needlework::warnings(scene)) {}
+      search(chosen_search(scene.engine.search, density)),
+      queue(chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1))),
+      accuracy(accuracy_name(scene.engine)),
+      isa(resolved_isa(scene.engine)),
+      threads(scene.engine.threads.value_or(1)),
+      warnings(all_warnings(scene)) {}
 
-Json json_of(const Explanation& e) {
-  const Scene& scene = e.scene;
-  Json json;
-  json["title"] = scene.title;
-  json["needles"] = scene.needles.count;
-  json["box"] = scene.needles.box;
-  json["density"] = e.density;
-  json["k"] = scene.needles.k;
-  json["seed"] = scene.needles.seed;
-  json["t_tr"] = e.initial.t_tr;
-  json["t_rot"] = e.initial.t_rot;
-  json["energy"] = e.initial.energy();
-  json["mean_free_time"] = number(e.mean_free_time);
-  json["epsilon"] = scene.collisions.epsilon;
-  json["beta"] = scene.collisions.beta;
-  json["tc"] = optional_number(scene.collisions.tc);
-  json["tc_relative"] = optional_number(scene.collisions.tc_relative);
-  json["until"] = {{"time", optional_number(scene.until.time)},
-                   {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
-                   {"energy_ratio", optional_number(scene.until.energy_ratio)},
-                   {"wall_s", optional_number(scene.until.wall_s)}};
-  json["expected"] = nullptr;
-  if (e.expected) {
-    json["expected"] = {{"stop", name_of(e.expected->stop)},
-                        {"time", number(e.expected->time)},
-                        {"collisions", number(collisions_of(e))},
-                        {"collisions_per_needle", number(e.expected->collisions_per_needle)},
-                        {"energy_ratio", number(e.expected->energy_ratio)},
-                        {"wall_s", number(e.seconds)}};
-  }
-  json["search"] = chosen_search(scene.engine.search, e.density);
-  json["queue"] = chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1));
-  json["accuracy"] = accuracy_name(scene.engine);
-  json["threads"] = scene.engine.threads.value_or(1);
-  json["isa"] = resolved_isa(scene.engine);
-  json["memory_bytes"] = number(e.memory);
-  json["available_bytes"] = number(available_memory());
-  json["warnings"] = e.warnings;
-  return json;
-}
-
-std::string text_of(const Explanation& e) {
-  const Scene& scene = e.scene;
-  const auto& box = scene.needles.box;
-  std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  text += line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
-  text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per unit of volume", box[0],
-                                  box[1], box[2], e.density));
-  text += line("start", start_text(e));
-  text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
-  text += line("collisions", collision_text(scene.collisions));
-  text += line("t_c rule", contact_time_text(scene.collisions));
-  text += line("ends", until_text(scene.until));
-  text += line("expected", expected_text(e));
-  text += line("engine", engine_text(scene.engine, e.density));
-  text += line("output", output_text(scene.output));
-  text += line("memory",
-               fmt::format("about {} of {}", bytes_text(e.memory), bytes_text(available_memory())));
-  if (e.expected) text += line("wall time", "about " + duration_text(e.seconds));
-  return text;
-}
-
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -1,15 +1,15 @@
 // What can be said of a scene before it runs.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "needlework/theory.h"
 #include "src/observe/forecast.h"
-#include "src/runs/scene_source.h"
+#include "src/runs/loaded_scene.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// The facts of a scene, for people and for programs. Borrows the scene.
 struct Explanation {
@@ -20,15 +20,12 @@ struct Explanation {
   theory::Temperatures initial;      ///< as drawn or read
   double mean_free_time;             ///< at the start, 1 / theory::collision_rate
   std::optional<Forecast> expected;  ///< none: never met, or wall_s alone
-  double seconds;                    ///< estimate of the wall time; NaN if nothing is expected
+  double collisions;                 ///< of all needles until then; NaN if nothing is expected
+  double seconds;                    ///< estimate of the wall time; NaN if no end is expected
   double memory;                     ///< estimate [bytes]
+  std::string search, queue, accuracy, isa;  ///< of the engine, `auto` resolved
+  int threads;
   std::vector<std::string> warnings;
 };
 
-/// The object that `check --json` prints.
-nlohmann::ordered_json json_of(const Explanation& explanation);
-
-/// Some lines for people.
-std::string text_of(const Explanation& explanation);
-
-}  // namespace needlework::cli
+}  // namespace needlework::runs

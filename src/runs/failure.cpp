@@ -8,7 +8,7 @@
 
 #include "needlework/error.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 Failure current_failure() {
   try {
@@ -28,4 +28,4 @@ Failure current_failure() {
   }
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

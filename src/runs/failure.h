@@ -1,11 +1,11 @@
-// What an exception means to those who use the program.
+// What an exception means to those who run a scene: a message and an exit code.
 #pragma once
 
 #include <string>
 
 #include "src/runs/exit_codes.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 struct Failure {
   ExitCode exit_code;
@@ -15,4 +15,4 @@ struct Failure {
 /// That of the exception being handled; to be called in a catch block.
 Failure current_failure();
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

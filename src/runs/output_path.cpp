@@ -7,7 +7,7 @@
 
 #include "needlework/error.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 void require_writable(const std::string& file, bool force, const std::string& place) {
   namespace fs = std::filesystem;
@@ -32,4 +32,4 @@ void require_writable(const std::string& file, bool force, const std::string& pl
   }
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -8,7 +8,7 @@
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
   if (scene.until.time) return;
@@ -51,10 +51,10 @@ Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
   return simulation;
 }
 
-Course PreparedRun::drive(Progress& progress) {
-  Course course = Drive(simulation_, scene_, writer_ ? &*writer_ : nullptr, progress).run();
+Course PreparedRun::drive(RunMonitor& monitor) {
+  Course course = RunDriver(simulation_, scene_, writer_ ? &*writer_ : nullptr, monitor).run();
   if (writer_) writer_->close();
   return course;
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -7,10 +7,10 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
+#include "src/runs/loaded_scene.h"
 #include "src/runs/run_driver.h"
-#include "src/runs/scene_source.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// Throws InputError, which names the scene by `path`, if nothing can ever happen and no end in
 /// time is set.
@@ -25,8 +25,8 @@ class PreparedRun {
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
-  /// Runs to the end, to be called once; see Drive. Closes the file.
-  Course drive(Progress& progress);
+  /// Runs to the end, to be called once; see RunDriver. Closes the file.
+  Course drive(RunMonitor& monitor);
 
   const Scene& scene() const { return scene_; }
   Simulation& simulation() { return simulation_; }
@@ -41,4 +41,4 @@ class PreparedRun {
   std::optional<io::Writer> writer_;
 };
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 const auto launch = std::chrono::steady_clock::now();
@@ -93,4 +93,4 @@ double seconds_since_launch() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - launch).count();
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// Memory that the process can expect to get [bytes]: what the machine has available, or the limit
 /// of its control group if that is less. Infinity where neither is known.
@@ -34,4 +34,4 @@ class Stopwatch {
 /// Seconds since the program began, of wall time.
 double seconds_since_launch();
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "needlework/error.h"
-#include "src/cli/signals.h"
 #include "src/observe/completion.h"
-#include "src/runs/scene_source.h"
+#include "src/runs/loaded_scene.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 /// Longest stay in the event loop between two looks at the clock [s].
@@ -26,14 +25,15 @@ Schedule frame_schedule(const Scene::Output& output, double start) {
 
 }  // namespace
 
-Drive::Drive(Simulation& simulation, const Scene& scene, io::Writer* writer, Progress& progress)
-    : simulation_(simulation), scene_(scene), writer_(writer), progress_(progress) {
+RunDriver::RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer,
+                     RunMonitor& monitor)
+    : simulation_(simulation), scene_(scene), writer_(writer), monitor_(monitor) {
   const double start = first_sample * simulation.mean_free_time();
   series_ = Schedule::logarithmic(scene.output.series_per_decade, start);
   frames_ = frame_schedule(scene.output, start);
 }
 
-Course Drive::run() {
+Course RunDriver::run() {
   start_ = std::chrono::steady_clock::now();
   listen_to_collisions();
   course_.initial = simulation_.totals();
@@ -46,17 +46,17 @@ Course Drive::run() {
     course_.failure = error.what();
     course_.loop.stop();
   }
-  progress_.clear();
+  monitor_.clear();
   sample_end();
   if (rate_) course_.system_rate = rate_->estimate(course_.last.time);
   return std::move(course_);
 }
 
-double Drive::elapsed() const {
+double RunDriver::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void Drive::listen_to_collisions() {
+void RunDriver::listen_to_collisions() {
   const bool events = writer_ && scene_.output.events;
   if (starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   if (!rate_ && !events) return;
@@ -66,9 +66,9 @@ void Drive::listen_to_collisions() {
   });
 }
 
-void Drive::step_until_end() {
+void RunDriver::step_until_end() {
   for (;;) {
-    if (SignalGuard::received()) {
+    if (monitor_.stop_requested()) {
       course_.stop = Stop::interrupted;
       return;
     }
@@ -81,12 +81,12 @@ void Drive::step_until_end() {
       return;
     }
     keep_safe();
-    if (progress_.is_due(elapsed())) show_progress();
+    if (monitor_.is_due(elapsed())) show_progress();
   }
 }
 
 // One stay in the event loop; a value when one of the scene's own conditions is met.
-std::optional<Stop> Drive::step() {
+std::optional<Stop> RunDriver::step() {
   Scene::Until until = scene_.until;
   const double next = std::min(series_.next(), frames_.next());
   const bool to_sample = std::isfinite(next) && !(until.time && *until.time <= next);
@@ -108,7 +108,7 @@ std::optional<Stop> Drive::step() {
   return std::nullopt;
 }
 
-void Drive::sample(bool series, bool frame) {
+void RunDriver::sample(bool series, bool frame) {
   const Totals totals = simulation_.totals();
   if (series) {
     course_.samples.push_back(totals);
@@ -123,7 +123,7 @@ void Drive::sample(bool series, bool frame) {
 }
 
 // The end belongs to the series and to the frames, unless it has just been sampled.
-void Drive::sample_end() {
+void RunDriver::sample_end() {
   course_.last = simulation_.totals();
   const Totals& sampled = course_.samples.back();
   const bool series =
@@ -133,17 +133,17 @@ void Drive::sample_end() {
   if (writer_) writer_->flush();
 }
 
-void Drive::keep_safe() {
+void RunDriver::keep_safe() {
   if (!writer_ || elapsed() - last_flush_ < flush_interval) return;
   writer_->flush();
   last_flush_ = elapsed();
 }
 
-void Drive::show_progress() {
+void RunDriver::show_progress() {
   const Totals now = simulation_.totals();
   const double fraction = completed_fraction(scene_.until, course_.initial, now,
                                              static_cast<double>(scene_.needles.count), elapsed());
-  progress_.show(elapsed(), fraction, now, course_.initial.energy);
+  monitor_.show(elapsed(), fraction, now, course_.initial.energy);
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -1,6 +1,7 @@
-// Drives a simulation to its end: samples, output, progress, signals.
+// Drives a simulation to its end: samples, output, progress.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,12 +9,12 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
-#include "src/cli/progress.h"
 #include "src/observe/blocks.h"
 #include "src/observe/schedule.h"
 #include "src/runs/resources.h"
+#include "src/runs/run_monitor.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// How a run went.
 struct Course {
@@ -26,14 +27,14 @@ struct Course {
 };
 
 /// Runs a simulation until its scene says so, in steps from sample to sample, and in short steps of
-/// wall time between them. Neither changes the trajectory. Looks at SignalGuard::received().
-class Drive {
+/// wall time between them. Neither changes the trajectory.
+class RunDriver {
  public:
-  /// `writer` may be null. All must live as long as the drive.
-  Drive(Simulation& simulation, const Scene& scene, io::Writer* writer, Progress& progress);
+  /// `writer` may be null. All must live as long as the driver.
+  RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer, RunMonitor& monitor);
 
-  /// Returns with everything written and flushed, also after a signal, at the limit of wall time
-  /// and when the state has become invalid.
+  /// Returns with everything written and flushed, also when the monitor asks to
+  /// stop, at the limit of wall time and when the state has become invalid.
   Course run();
 
  private:
@@ -49,7 +50,7 @@ class Drive {
   Simulation& simulation_;
   const Scene& scene_;
   io::Writer* writer_;
-  Progress& progress_;
+  RunMonitor& monitor_;
   Schedule series_, frames_;
   std::optional<BlockRate> rate_;
   Course course_;
@@ -58,4 +59,4 @@ class Drive {
   std::optional<double> last_frame_;  ///< time of the last frame written
 };
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -17,7 +17,7 @@
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ Claim::~Claim() {
   close(descriptor_);
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

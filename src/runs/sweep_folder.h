@@ -7,7 +7,7 @@
 #include "needlework/h5md.h"
 #include "src/runs/sweep_grid.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 
 /// NAME.h5 is a member that is finished, NAME.failed.h5 one that cannot be, up to where it failed.
 /// Both come by renaming NAME.h5.part, so that they are whole, and count only if they were made of
@@ -59,4 +59,4 @@ class Claim {
   int descriptor_ = -1;
 };
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -18,7 +18,7 @@
 #include "src/scene/schema.h"
 #include "src/scene/suggest.h"
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 namespace {
 
 constexpr std::string_view own_keys[] = {"scene", "seeds", "out", "parameters"};
@@ -317,6 +317,8 @@ Member Reader::make_member(std::size_t point, std::uint64_t seed) const {
   }
   member.scene = parse_overridden_scene(grid_.base, base_name_, overrides);
   member.scene.output.file.clear();
+  member.scene.engine.threads = 1;
+  member.scene.places.erase("engine.threads");
   const Scene& scene = member.scene;
   if (scene.until.wall_s) {
     throw InputError(
@@ -370,4 +372,4 @@ std::string toml_of(const Value& value) {
   return quoted + '"';
 }
 
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

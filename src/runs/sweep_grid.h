@@ -18,7 +18,7 @@
 #include "needlework/scene.h"
 #include "src/scene/document.h"
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 
 /// The most runs that a grid may have.
 inline constexpr std::size_t most_members = 100000;
@@ -34,7 +34,7 @@ struct Member {
   std::string name;  ///< such as "epsilon=0.9,seed=3"; fit for a file's name, no two are the same
   std::size_t point = 0;
   std::uint64_t seed = 0;
-  Scene scene;  ///< without an output file
+  Scene scene;  ///< without an output file, for one thread
 };
 
 struct Grid {
@@ -50,8 +50,8 @@ struct Grid {
   std::size_t points() const { return members.size() / seeds.size(); }
   /// The value that a parameter has at a point.
   const Value& value(std::size_t parameter, std::size_t point) const;
-  /// What tells a point from the others, such as "epsilon=0.9,count=100"; empty if it is the only
-  /// one.
+  /// What distinguishes a point, such as "epsilon=0.9,count=100"; empty if it is
+  /// the only one.
   std::string name_of_point(std::size_t point) const;
 };
 
@@ -63,4 +63,4 @@ Grid read_grid(const std::string& path);
 /// The value in TOML, numbers with all their digits.
 std::string toml_of(const Value& value);
 
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

@@ -5,29 +5,26 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <numeric>
 
 #include "needlework/error.h"
-#include "src/cli/messages.h"
-#include "src/cli/signals.h"
 #include "src/runs/estimates.h"
 #include "src/runs/explanation.h"
-#include "src/runs/failure.h"
 #include "src/runs/prepared_run.h"
-#include "src/runs/resources.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 /// What a member costs if nothing is known of it, and at least [s].
 constexpr double least_cost = 1e-3;
 
-/// How far all members are together; for several threads.
-class SweepProgress {
+/// The progress of all members together, of which several threads report.
+class SharedProgress {
  public:
-  SweepProgress(bool quiet, std::size_t members, double cost)
-      : line_(quiet), members_(members), cost_(cost) {}
+  SharedProgress(SweepMonitor& monitor, std::size_t members, double cost)
+      : monitor_(monitor), members_(members), cost_(cost) {}
 
   /// Some more work is done, perhaps the last of a member.
   void advance(double cost, bool finished) {
@@ -35,44 +32,45 @@ class SweepProgress {
     done_ += cost;
     finished_ += finished;
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    if (!line_.is_due(elapsed.count())) return;
-    line_.show(elapsed.count(), std::clamp(done_ / cost_, 0.0, 1.0),
-               fmt::format("{} of {} members", finished_, members_));
+    if (!monitor_.is_due(elapsed.count())) return;
+    monitor_.show(elapsed.count(), std::clamp(done_ / cost_, 0.0, 1.0), finished_, members_);
   }
 
-  void tell_error(const std::string& message) {
+  void report_failure(const sweep::Member& member, const Failure& failure) {
     const std::lock_guard lock(mutex_);
-    line_.clear();
-    print_error(message);
+    monitor_.report_failure(member, failure);
   }
+
+  bool stop_requested() const { return monitor_.stop_requested(); }
 
  private:
   std::mutex mutex_;
-  ProgressLine line_;
+  SweepMonitor& monitor_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t members_, finished_ = 0;
   double cost_, done_ = 0;
 };
 
 /// The part of one member in it, from the beginning to the end of its life.
-class MemberProgress : public Progress {
+class MemberMonitor : public RunMonitor {
  public:
-  MemberProgress(SweepProgress& sweep, double cost) : sweep_(sweep), cost_(cost) {}
-  ~MemberProgress() override { sweep_.advance(cost_ - told_, true); }
+  MemberMonitor(SharedProgress& sweep, double cost) : sweep_(sweep), cost_(cost) {}
+  ~MemberMonitor() override { sweep_.advance(cost_ - reported_, true); }
 
   bool is_due(double elapsed) const override { return elapsed >= next_; }
   void show(double elapsed, double fraction, const Totals&, double) override {
     next_ = elapsed + 1;
-    sweep_.advance(fraction * cost_ - told_, false);
-    told_ = fraction * cost_;
+    sweep_.advance(fraction * cost_ - reported_, false);
+    reported_ = fraction * cost_;
   }
+  bool stop_requested() const override { return sweep_.stop_requested(); }
 
  private:
-  SweepProgress& sweep_;
-  double cost_, told_ = 0, next_ = 1;
+  SharedProgress& sweep_;
+  double cost_, reported_ = 0, next_ = 1;
 };
 
-ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, Progress& progress) {
+ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMonitor& monitor) {
   const SweepFolder& folder = runs.folder;
   const Claim claim(folder, member);
   if (!claim.granted()) return stopped;
@@ -83,9 +81,8 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, Progres
   scene.output.file = folder.unfinished_file(member);
   const Course course = [&] {
     try {
-      PreparedRun prepared(complete_scene(std::move(scene), {.threads = 1, .isa = runs.isa}), true,
-                           runs.grid.name);
-      return prepared.drive(progress);
+      PreparedRun prepared(complete_scene(std::move(scene)), true, runs.grid.name);
+      return prepared.drive(monitor);
     } catch (...) {
       folder.remove_unfinished(member);  // the disk may be full of it
       throw;
@@ -137,21 +134,20 @@ std::vector<std::size_t> share_of(std::span<const std::size_t> members,
   return share;
 }
 
-void run_members(const MemberRuns& runs, std::span<int> exit_codes) {
+void run_members(const MemberRuns& runs, SweepMonitor& monitor, std::span<int> exit_codes) {
   const double cost =
       std::accumulate(runs.members.begin(), runs.members.end(), 0.0,
                       [&](double sum, std::size_t member) { return sum + runs.costs[member]; });
-  SweepProgress all(runs.quiet, runs.members.size(), cost);
-  const SignalGuard guard;
+  SharedProgress all(monitor, runs.members.size(), cost);
   const auto run_one = [&](std::size_t index) -> int {
-    if (SignalGuard::received()) return stopped;
+    if (all.stop_requested()) return stopped;
     const sweep::Member& member = runs.grid.members[index];
     try {
-      MemberProgress progress(all, runs.costs[index]);
-      return run_member(runs, member, progress);
+      MemberMonitor its_monitor(all, runs.costs[index]);
+      return run_member(runs, member, its_monitor);
     } catch (const std::exception&) {
       const Failure failure = current_failure();
-      all.tell_error(fmt::format("member {}: {}", member.name, failure.message));
+      all.report_failure(member, failure);
       return failure.exit_code;
     }
   };
@@ -161,19 +157,14 @@ void run_members(const MemberRuns& runs, std::span<int> exit_codes) {
   }
 }
 
-void require_memory(const MemberRuns& runs) {
+double estimated_memory(const MemberRuns& runs) {
   std::vector<double> needs;
   for (const std::size_t member : runs.members) {
     needs.push_back(estimated_memory(runs.grid.members[member].scene));
   }
   std::sort(needs.begin(), needs.end(), std::greater<>());
   const std::size_t at_once = std::min<std::size_t>(runs.threads, needs.size());
-  const double needed = std::accumulate(needs.begin(), needs.begin() + at_once, 0.0);
-  if (needed <= available_memory()) return;
-  throw InputError(fmt::format(
-      "--threads {}: expected fewer: so many members at a time need about {} of memory, and {} are "
-      "available here",
-      runs.threads, bytes_text(needed), bytes_text(available_memory())));
+  return std::accumulate(needs.begin(), needs.begin() + at_once, 0.0);
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

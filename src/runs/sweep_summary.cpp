@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 namespace {
 
 using Run = io::RecordedRun;
@@ -143,4 +143,4 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
   return summary;
 }
 
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

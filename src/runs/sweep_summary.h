@@ -12,7 +12,7 @@
 #include "needlework/h5md.h"
 #include "src/runs/sweep_grid.h"
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 
 /// A mean over seeds with its standard error, sqrt(sum (x - mean)^2 / (n (n - 1))); NaN for the
 /// mean of nothing and for the error of less than two.
@@ -72,4 +72,4 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
 void write_summary(const std::string& path, const Grid& grid,
                    std::span<const PointSummary> summary);
 
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

@@ -8,7 +8,7 @@
 #include "src/io/output_file.h"
 #include "src/runs/sweep_summary.h"
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 namespace {
 
 using io::hdf5::create_group;
@@ -112,4 +112,4 @@ void write_summary(const std::string& path, const Grid& grid,
   atomic.publish();
 }
 
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

@@ -1,13 +1,72 @@
-# Installs BUILD into a new prefix, builds SOURCE against it and runs what comes out.
-# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DTYPE=... -P this
+# Installs BUILD into a new prefix, builds SOURCE against it in several ways and runs what comes out.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -DCXX=... -DFLAGS=... -DTYPE=... -DOBJDUMP=... -P this
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+# configure(name example components option...): sets `configured` to the exit code, `messages`.
+macro(configure name example components)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -E env --unset=CMAKE_GENERATOR ${CMAKE_COMMAND} -S ${SOURCE}
+            -B ${WORK}/${name} -DCMAKE_BUILD_TYPE=${TYPE} -DCMAKE_CXX_COMPILER=${CXX}
+            -DCMAKE_CXX_FLAGS=${FLAGS} -DEXAMPLE=${example} "-DCOMPONENTS=${components}" ${ARGN}
+    RESULT_VARIABLE configured OUTPUT_VARIABLE messages ERROR_VARIABLE messages)
+endmacro()
+
+# build_and_run(name example components option...)
+function(build_and_run name example components)
+  configure(${name} ${example} "${components}" ${ARGN})
+  if(NOT configured EQUAL 0)
+    message(FATAL_ERROR "${name}: cannot be configured:\n${messages}")
+  endif()
+  run(${CMAKE_COMMAND} --build ${WORK}/${name})
+  execute_process(COMMAND ./consumer WORKING_DIRECTORY ${WORK}/${name} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
 file(REMOVE_RECURSE ${WORK})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=${TYPE}
-    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer)
-run(${WORK}/prefix/bin/needlework --version)
+set(prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run(${prefix}/bin/needlework --version)
+run(${prefix}/bin/needlework check ${prefix}/share/needlework/profiles/cooling-dilute.toml)
+
+foreach(file man/man1/needlework.1 bash-completion/completions/needlework zsh/site-functions/_needlework
+             fish/vendor_completions.d/needlework.fish)
+  file(READ ${prefix}/share/${file} text)
+  if(NOT text MATCHES "needlework")
+    message(FATAL_ERROR "expected share/${file} to be about needlework")
+  endif()
+endforeach()
+
+build_and_run(all_ninja needlework "" -G Ninja -DCMAKE_PREFIX_PATH=${prefix})
+build_and_run(all_default needlework "needlework;core" -DCMAKE_PREFIX_PATH=${prefix})
+
+# What the component core needs must be there without the rest of the library, and without HDF5.
+set(core_prefix ${WORK}/core_prefix)
+file(COPY ${prefix}/ DESTINATION ${core_prefix})
+file(GLOB_RECURSE rest ${core_prefix}/*/libneedlework.a ${core_prefix}/*/NeedleworkTargets*.cmake)
+list(LENGTH rest count)
+if(count LESS 2)
+  message(FATAL_ERROR "expected the component needlework in ${core_prefix}")
+endif()
+file(REMOVE ${rest})
+foreach(generator "-GNinja" "")
+  build_and_run(core${generator} core core ${generator} -DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON
+                -DCMAKE_PREFIX_PATH=${core_prefix})
+  execute_process(COMMAND ${OBJDUMP} -p ${WORK}/core${generator}/consumer OUTPUT_VARIABLE needed
+                  COMMAND_ERROR_IS_FATAL ANY)
+  if(needed MATCHES "hdf5" OR NOT needed MATCHES "libgomp|libomp|libfmt|libstdc")
+    message(FATAL_ERROR "core${generator}: expected a program that needs no HDF5:\n${needed}")
+  endif()
+endforeach()
+
+# Without HDF5 the component needlework says what is missing.
+file(GLOB_RECURSE config ${prefix}/*/NeedleworkConfig.cmake)
+file(READ ${config} text)
+string(REPLACE "libhdf5" "libabsent" text "${text}")
+file(WRITE ${config} "${text}")
+configure(no_hdf5 needlework needlework -DCMAKE_PREFIX_PATH=${prefix})
+string(REGEX REPLACE "[ \n]+" " " messages "${messages}")
+if(configured EQUAL 0 OR NOT messages MATCHES "needs HDF5 as it was built with: [^ ]*libabsent")
+  message(FATAL_ERROR "without HDF5: expected an error that names it:\n${messages}")
+endif()
+build_and_run(core_without_hdf5 core core -DCMAKE_PREFIX_PATH=${prefix})

@@ -77,6 +77,29 @@ TEST(Forecast, SaysNothingOfWhatNeverHappens) {
   EXPECT_FALSE(forecast(cooling, {1, 1}, 1, until));
 }
 
+// At tau = 1e20 there have been some thousand collisions per needle: Haff's law goes on from there.
+TEST(Forecast, GoesOnBeyondTheCurveByHaffsLaw) {
+  Scene::Until until;
+  until.collisions_per_needle = 5000;
+  const auto far = forecast(cooling, {1, 1}, 1, until);
+  ASSERT_TRUE(far);
+  EXPECT_EQ(far->stop, Stop::collisions);
+  EXPECT_DOUBLE_EQ(far->collisions_per_needle, 5000);
+  const double tau = far->time * theory_time_scale(1);
+  const double collisions =
+      theory::collisions_per_needle(cooling, {1, 1}, std::vector<double>{tau})[0];
+  EXPECT_NEAR(collisions / 5000, 1, 1e-6);
+
+  const auto cold = forecast(cooling, {1, 1}, 1, until_energy(1e-100));
+  ASSERT_TRUE(cold);
+  EXPECT_EQ(cold->stop, Stop::energy);
+  EXPECT_NEAR(cold->energy_ratio / 1e-100, 1, 1e-9);
+  EXPECT_LT(cold->collisions_per_needle, 5000);
+
+  until.collisions_per_needle = 1e6;
+  EXPECT_TRUE(std::isinf(forecast(cooling, {1, 1}, 1, until)->time));
+}
+
 TEST(Forecast, KnowsWhatIsMetFromTheStart) {
   EXPECT_EQ(forecast(cooling, {1, 1}, 1, until_energy(1))->time, 0);
   Scene::Until until;

@@ -9,7 +9,7 @@
 #include "needlework/error.h"
 #include "tests/support/temporary_folder.h"
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ TEST(TomlOf, WritesWhatReadsTheSame) {
 }
 
 }  // namespace
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace needlework::sweep {
+namespace needlework::runs::sweep {
 namespace {
 
 TEST(Estimate, IsMeanAndStandardErrorOfIt) {
@@ -74,4 +74,4 @@ TEST(Summary, LeavesOutWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace needlework::sweep
+}  // namespace needlework::runs::sweep

@@ -1,5 +1,5 @@
 // The only file that knows MPI: its C interface, as far as a sweep needs it.
-#include "src/runs/ranks.h"
+#include "src/cli/ranks.h"
 
 #ifdef NEEDLEWORK_MPI
 #include <mpi.h>
@@ -14,6 +14,8 @@
 #include "src/runs/failure.h"
 
 namespace needlework::cli {
+
+using enum runs::ExitCode;
 namespace {
 
 // What launchers tell their processes: that of Open MPI, and the process managers of others.
@@ -66,11 +68,11 @@ std::vector<int> Ranks::greatest(std::vector<int> values) const { return values;
 #endif
 
 int Ranks::do_everywhere(const std::function<void()>& action) const {
-  Failure failure{ok, {}};
+  runs::Failure failure{ok, {}};
   try {
     action();
   } catch (const std::exception&) {
-    failure = current_failure();
+    failure = runs::current_failure();
   }
   std::vector<int> codes(count_, ok);
   codes[rank_] = failure.exit_code;

@@ -1,15 +1,15 @@
-#include "src/runs/scene_source.h"
+#include "src/runs/loaded_scene.h"
 
 #include <cmath>
 #include <utility>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "needlework/parse.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
 #include "src/scene/check.h"
 
-namespace needlework::cli {
+namespace needlework::runs {
 namespace {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
@@ -29,30 +29,10 @@ State read_initial_state(const Scene& scene) {
 
 }  // namespace
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("SCENE", arguments.path, "scene file (TOML)")->required();
-  command
-      .add_option("--set", arguments.overrides,
-                  "replace a key of the scene, such as needles.count=500; may be repeated")
-      ->option_text("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
-  command.add_option("--threads", arguments.engine.threads, "number of threads")
-      ->option_text("N")
-      ->check(CLI::Range(1, 1024));
-  command
-      .add_option("--isa", arguments.engine.isa,
-                  "instruction set: auto, scalar, sse4, avx2 or avx512")
-      ->option_text("NAME");
-}
-
-LoadedScene load_scene(const SceneArguments& arguments) {
-  return complete_scene(read_scene(arguments.path, arguments.overrides), arguments.engine);
-}
-
-LoadedScene complete_scene(Scene given, const EngineFlags& flags) {
+LoadedScene complete_scene(Scene given) {
   LoadedScene loaded{.scene = std::move(given), .initial = {}};
   Scene& scene = loaded.scene;
-  choose_engine(scene, flags);
+  choose_engine(scene);
   require_memory(scene);
   if (!scene.initial.file.empty()) {
     loaded.initial = read_initial_state(scene);
@@ -86,4 +66,4 @@ double density_of(const Scene& scene) {
   return static_cast<double>(scene.needles.count) / (box[0] * box[1] * box[2]);
 }
 
-}  // namespace needlework::cli
+}  // namespace needlework::runs

@@ -23,8 +23,8 @@ class Ranks {
   /// The greatest of all ranks' values, element by element; lengths must be equal.
   std::vector<int> greatest(std::vector<int> values) const;
 
-  /// Does something on all ranks. Where it throws, the first such rank tells why; the result is the
-  /// exit code for it on all of them, or 0.
+  /// Does something on all ranks. Where it throws, the first such rank prints why; the result is
+  /// the exit code for it on all of them, or 0.
   int do_everywhere(const std::function<void()>& action) const;
 
  private:

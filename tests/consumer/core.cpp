@@ -1,6 +1,5 @@
 // A program as someone else would write it: a scene in code, a callback, a look at the result.
 #include <needlework/error.h>
-#include <needlework/h5md.h>
 #include <needlework/parse.h>
 #include <needlework/predict.h>
 #include <needlework/scene.h>

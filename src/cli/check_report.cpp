@@ -1,0 +1,179 @@
+#include "src/cli/check_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "src/cli/json.h"
+#include "src/runs/amount_text.h"
+#include "src/runs/resources.h"
+
+namespace needlework::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json optional_number(const std::optional<T>& x) {
+  return x ? number(*x) : Json(nullptr);
+}
+
+const char* name_of(Stop stop) {
+  switch (stop) {
+    case Stop::collisions:
+      return "collisions_per_needle";
+    case Stop::energy:
+      return "energy_ratio";
+    default:
+      return "time";
+  }
+}
+
+std::string line(const char* name, const std::string& text) {
+  return fmt::format("  {:<16}{}\n", name, text);
+}
+
+std::string shape_text(double k) {
+  if (k == 6) return "k = 6, uniform rods";
+  if (k == 2) return "k = 2, all mass at the tips";
+  return fmt::format("k = {:g}", k);
+}
+
+std::string start_text(const runs::Explanation& e) {
+  const Scene::Initial& initial = e.scene.initial;
+  const std::string from = initial.file.empty()
+                               ? fmt::format("drawn, seed {}", e.scene.needles.seed)
+                               : "read from " + initial.file;
+  return fmt::format("{}; T_tr = {:.6g}, T_rot = {:.6g}, E = {:.6g} per needle", from,
+                     e.initial.t_tr, e.initial.t_rot, e.initial.energy());
+}
+
+std::string collision_text(const Scene::Collisions& c) {
+  const std::string normal = c.epsilon < 1 ? "inelastic" : "elastic";
+  const std::string tangential = c.beta == -1  ? "smooth"
+                                 : c.beta == 1 ? "perfectly rough"
+                                               : "rough";
+  return fmt::format("{} (epsilon = {:g}), {} (beta = {:g})", normal, c.epsilon, tangential,
+                     c.beta);
+}
+
+std::string contact_time_text(const Scene::Collisions& c) {
+  if (c.tc) return fmt::format("on, {:g}", *c.tc);
+  if (c.tc_relative) return fmt::format("on, {:g} of the present mean free time", *c.tc_relative);
+  return "off";
+}
+
+std::string until_text(const Scene::Until& until) {
+  std::vector<std::string> conditions;
+  const auto add = [&](const char* name, const std::optional<double>& value) {
+    if (value) conditions.push_back(fmt::format("{} = {:g}", name, *value));
+  };
+  add("time", until.time);
+  add("collisions_per_needle", until.collisions_per_needle);
+  add("energy_ratio", until.energy_ratio);
+  add("wall_s", until.wall_s);
+  return fmt::format("{}", fmt::join(conditions, " or "));
+}
+
+std::string expected_text(const runs::Explanation& e) {
+  if (!e.expected) {
+    return e.scene.until.wall_s ? "runs until wall_s is over" : "never ends, as far as theory goes";
+  }
+  if (!std::isfinite(e.expected->time)) {
+    return fmt::format("{} is not met before time 1e308: a gas that cools collides ever less often",
+                       name_of(e.expected->stop));
+  }
+  return fmt::format(
+      "{} is met first, at time {:.3g} with E/E(0) = {:.3g}, after about {:.3g} "
+      "collisions ({:.3g} per needle)",
+      name_of(e.expected->stop), e.expected->time, e.expected->energy_ratio, e.collisions,
+      e.expected->collisions_per_needle);
+}
+
+std::string engine_text(const runs::Explanation& e) {
+  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", e.search, e.queue,
+                     e.accuracy, e.threads, e.threads == 1 ? "" : "s", e.isa);
+}
+
+std::string output_text(const Scene::Output& output) {
+  if (output.file.empty()) return "none";
+  std::string text = fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
+                                 output.series_per_decade);
+  if (output.frames_per_decade) {
+    text += fmt::format("{:g} frames per decade", *output.frames_per_decade);
+  } else if (!output.frame_times.empty()) {
+    text += fmt::format("{} frames and the first and last", output.frame_times.size());
+  } else {
+    text += "the first and the last frame";
+  }
+  return text + (output.events ? ", every collision" : "");
+}
+
+}  // namespace
+
+std::string json_of(const runs::Explanation& e) {
+  const Scene& scene = e.scene;
+  Json json;
+  json["title"] = scene.title;
+  json["needles"] = scene.needles.count;
+  json["box"] = scene.needles.box;
+  json["density"] = e.density;
+  json["k"] = scene.needles.k;
+  json["seed"] = scene.needles.seed;
+  json["t_tr"] = e.initial.t_tr;
+  json["t_rot"] = e.initial.t_rot;
+  json["energy"] = e.initial.energy();
+  json["mean_free_time"] = number(e.mean_free_time);
+  json["epsilon"] = scene.collisions.epsilon;
+  json["beta"] = scene.collisions.beta;
+  json["tc"] = optional_number(scene.collisions.tc);
+  json["tc_relative"] = optional_number(scene.collisions.tc_relative);
+  json["until"] = {{"time", optional_number(scene.until.time)},
+                   {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
+                   {"energy_ratio", optional_number(scene.until.energy_ratio)},
+                   {"wall_s", optional_number(scene.until.wall_s)}};
+  json["expected"] = nullptr;
+  if (e.expected) {
+    json["expected"] = {{"stop", name_of(e.expected->stop)},
+                        {"time", number(e.expected->time)},
+                        {"collisions", number(e.collisions)},
+                        {"collisions_per_needle", number(e.expected->collisions_per_needle)},
+                        {"energy_ratio", number(e.expected->energy_ratio)},
+                        {"wall_s", number(e.seconds)}};
+  }
+  json["search"] = e.search;
+  json["queue"] = e.queue;
+  json["accuracy"] = e.accuracy;
+  json["threads"] = e.threads;
+  json["isa"] = e.isa;
+  json["memory_bytes"] = number(e.memory);
+  json["available_bytes"] = number(runs::available_memory());
+  json["warnings"] = e.warnings;
+  return json_text(json, 2);
+}
+
+std::string text_of(const runs::Explanation& e) {
+  const Scene& scene = e.scene;
+  const auto& box = scene.needles.box;
+  std::string text = scene.title.empty() ? "" : scene.title + "\n";
+  text += line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
+  text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per unit of volume", box[0],
+                                  box[1], box[2], e.density));
+  text += line("start", start_text(e));
+  text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
+  text += line("collisions", collision_text(scene.collisions));
+  text += line("t_c rule", contact_time_text(scene.collisions));
+  text += line("ends", until_text(scene.until));
+  text += line("expected", expected_text(e));
+  text += line("engine", engine_text(e));
+  text += line("output", output_text(scene.output));
+  text += line("memory", fmt::format("about {} of {}", runs::bytes_text(e.memory),
+                                     runs::bytes_text(runs::available_memory())));
+  if (std::isfinite(e.seconds))
+    text += line("wall time", "about " + runs::duration_text(e.seconds));
+  return text;
+}
+
+}  // namespace needlework::cli

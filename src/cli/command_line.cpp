@@ -1,0 +1,466 @@
+#include "src/cli/command_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "src/cli/audit_command.h"
+#include "src/cli/bench_command.h"
+#include "src/cli/check_command.h"
+#include "src/cli/export_command.h"
+#include "src/cli/info_command.h"
+#include "src/cli/messages.h"
+#include "src/cli/predict_command.h"
+#include "src/cli/reference.h"
+#include "src/cli/run_command.h"
+#include "src/cli/sweep_command.h"
+#include "src/cli/theory_command.h"
+#include "src/cli/usage.h"
+#include "src/cli/version.h"
+#include "src/runs/exit_codes.h"
+
+namespace needlework::cli {
+
+using enum runs::ExitCode;
+
+namespace {
+
+template <class Number>
+std::string number_text(Number number) {
+  return fmt::format("{:g}", static_cast<double>(number));
+}
+
+// A number from `least` to `most`. CLI::Range lets nan pass.
+template <class Number>
+CLI::Validator number_in(Number least, Number most) {
+  const std::string expected =
+      fmt::format("{} from {} to {}", std::is_integral_v<Number> ? "a whole number" : "a number",
+                  number_text(least), number_text(most));
+  return {[=](const std::string& text) -> std::string {
+            Number value = 0;
+            const bool fits =
+                CLI::detail::lexical_cast(text, value) && least <= value && value <= most;
+            return fits ? "" : fmt::format("{}: expected {}", text, expected);
+          },
+          "NUMBER"};
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  return {[=](const std::string& text) -> std::string {
+            const bool known = std::find(words.begin(), words.end(), text) != words.end();
+            return known ? "" : fmt::format("{}: expected one of {}", text, fmt::join(words, ", "));
+          },
+          "WORD"};
+}
+
+// The words in lines of at most 78 characters.
+std::string filled(const std::string& text) {
+  std::istringstream words(text);
+  std::string lines, line;
+  for (std::string word; words >> word;) {
+    if (line.size() + 1 + word.size() > 78) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return lines + line;
+}
+
+// An option with one of these words as its value.
+void add_choice(CLI::Option* option, const std::vector<std::string>& words) {
+  option->option_text(fmt::format("{}", fmt::join(words, "|")))->check(one_of(words));
+}
+
+void add_scene(CLI::App& command, std::string& path, std::vector<std::string>& overrides,
+               bool required) {
+  command.add_option("SCENE.toml", path, "scene file")->required(required);
+  command
+      .add_option("--set", overrides,
+                  "replace a key of the scene, such as needles.count=500; may be repeated")
+      ->option_text("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_isa(CLI::App& command, std::optional<std::string>& isa) {
+  command.add_option("--isa", isa, "instruction set; auto is the widest of this CPU")
+      ->option_text("auto|scalar|sse4|avx2|avx512");
+}
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  add_scene(command, arguments.path, arguments.overrides, true);
+  command.add_option("--threads", arguments.engine.threads, "number of threads")
+      ->option_text("N")
+      ->check(number_in(1, 1024));
+  add_isa(command, arguments.engine.isa);
+}
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("run", "simulate a scene");
+  const auto arguments = std::make_shared<RunArguments>();
+  add_scene_arguments(*command, arguments->scene);
+  command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
+      ->option_text("FILE.h5");
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  command->add_flag("--force", arguments->force, "replace an existing output file");
+  command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
+of theory, and what it cost. Without --out and without output.file in the
+scene, no file is written.
+
+Examples:
+  needlework run profiles/quickstart.toml
+  needlework run scene.toml --set collisions.epsilon=0.9 --out cooling.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_sweep_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "sweep", "run a scene for each point of a grid of parameters and each seed");
+  const auto arguments = std::make_shared<SweepArguments>();
+  command->add_option("GRID.toml", arguments->grid, "grid file")->required();
+  command
+      ->add_option("--out", arguments->out, "folder for the results, in place of out in the grid")
+      ->option_text("DIR");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "number of members that run at a time; by default, the number of cores")
+      ->option_text("N")
+      ->check(number_in(1, 1024));
+  add_isa(*command, arguments->isa);
+  command->add_option("--member", arguments->member, "run only part K of M")->option_text("K/M");
+  command->add_flag("--summary", arguments->summary,
+                    "run nothing; sum up the members that are finished");
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  command->add_flag("--force", arguments->force,
+                    "continue in the folder of another grid; members that differ are run again");
+  command->footer(R"(A member is one run: a point of the grid with one of the seeds. The same
+command continues a sweep that was stopped. Means and standard errors over the
+seeds are printed and written to summary.h5.
+
+Examples:
+  needlework sweep profiles/sweep-cooling.toml --out cooling-sweep
+  needlework sweep grid.toml --out results --member 3/16)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_check_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("check", "explain a scene, and estimate its time and memory");
+  const auto arguments = std::make_shared<CheckArguments>();
+  add_scene_arguments(*command, arguments->scene);
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->footer(R"(Runs nothing and writes nothing. What is expected of the run follows from
+kinetic theory.
+
+Examples:
+  needlework check profiles/quickstart.toml)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_theory_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<TheoryArguments>();
+  CLI::App* command =
+      app.add_subcommand("theory", "print what kinetic theory predicts for a homogeneous gas");
+  add_scene(*command, arguments->scene, arguments->overrides, false);
+  command->add_option("--epsilon", arguments->epsilon, "normal restitution, from 0 to 1")
+      ->option_text("E");
+  command
+      ->add_option("--k", arguments->k,
+                   "m L^2 / (2 I): 6 for a uniform rod, 2 for all mass at the tips")
+      ->option_text("K");
+  command
+      ->add_option("--beta", arguments->beta,
+                   "tangential restitution, from -1 (smooth, the default) to 1")
+      ->option_text("B");
+  command
+      ->add_option("--t-rot0", arguments->t_rot0,
+                   "initial T_rot, by default 1; the initial T_tr is 1 without a scene")
+      ->option_text("X");
+  command
+      ->add_option("--tau", arguments->taus,
+                   "print the temperatures at this scaled time; may be repeated")
+      ->option_text("T")
+      ->allow_extra_args(true);
+  command
+      ->add_option("--time", arguments->times,
+                   "print them at this time; needs a density; may be repeated")
+      ->option_text("T");
+  command->add_option("--density", arguments->density, "needles per unit of volume")
+      ->option_text("N");
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->footer(R"(Takes epsilon, k, beta, the density and the initial temperatures from the
+scene, if one is given; options come first. Without a scene, --epsilon and
+--k are needed.
+
+tau = (2/3) sqrt(pi) n t is the time t scaled by the density n, so that the
+cooling curve is the same for every density. c is the ratio T_tr / T_rot that
+a gas tends to as it cools, and k_star the k at which c = 1 for every epsilon
+(smooth needles).
+
+Examples:
+  needlework theory profiles/quickstart.toml
+  needlework theory --epsilon 0.8 --k 6 --density 0.72 --time 10 --time 100)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_predict_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("predict", "find the first contact of each pair of needles");
+  const auto arguments = std::make_shared<PredictArguments>();
+  command
+      ->add_option("PAIRS.csv", arguments->path,
+                   "pairs of needles, one a line; - reads standard input")
+      ->required();
+  Scene::Engine& engine = arguments->engine;
+  add_choice(command
+                 ->add_option("--accuracy", engine.accuracy,
+                              "level of accuracy; the options below depart from it")
+                 ->capture_default_str(),
+             {"fast", "standard", "rigorous"});
+  add_choice(
+      command->add_option("--isolation", engine.isolation, "how the first root is bracketed"),
+      {"sampling", "bounds", "intervals"});
+  add_choice(command->add_option("--escalation", engine.escalation,
+                                 "which decisions are made in double-double arithmetic"),
+             {"never", "undecided", "always"});
+  command
+      ->add_option("--root-tolerance", engine.root_tolerance,
+                   "relative size of the last step towards a root, from 0 to 1e-3")
+      ->option_text("X")
+      ->check(number_in(0.0, 1e-3));
+  command
+      ->add_option("--sampling-step", engine.sampling_step,
+                   "time between samples in the pair's own unit, from 1e-4 to 0.5")
+      ->option_text("X")
+      ->check(number_in(1e-4, 0.5));
+  command->add_flag("--json", arguments->json, "print one JSON object");
+  command->footer(R"(A line of PAIRS.csv is id,family,horizon, then x,y,z of r1,u1,v1,w1,r2,u2,
+v2,w2, then skip: 1 if the pair has just collided at time 0, else 0. Lines that
+begin with # are comments. For each pair the output has id,time,s12,s21, with
+time inf if there is no contact in (0, horizon].
+
+Examples:
+  needlework predict pairs.csv --accuracy rigorous --json)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_audit_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "audit",
+      "run a scene and check by independent arithmetic that no collision is missed or wrong");
+  const auto arguments = std::make_shared<AuditArguments>();
+  add_scene_arguments(*command, arguments->scene);
+  command
+      ->add_option("--share", arguments->share, "share of all pairs to check, from 0 to 1, drawn")
+      ->option_text("P")
+      ->check(number_in(0.0, 1.0));
+  command->add_option("--seed", arguments->seed, "seed by which these pairs are drawn")
+      ->option_text("N")
+      ->check(number_in(0.0, 0x1p64));
+  command
+      ->add_option("--state", arguments->state,
+                   "file in which an interrupted audit is kept, and from which it continues")
+      ->option_text("FILE");
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  command->footer(R"(Exit code 1: differences were found.
+
+Examples:
+  needlework audit scene.toml --set needles.count=200)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_info_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("info", "list what an H5MD file holds");
+  const auto arguments = std::make_shared<InfoArguments>();
+  command->add_option("FILE.h5", arguments->file, "H5MD file")->required();
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("export", "write the last frame of an H5MD file for ParaView and VTK");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
+  command->add_option("OUT.vtkhdf", arguments->to, "VTKHDF file to write")->required();
+  command->add_flag("--force", arguments->force, "replace an existing file");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command = app.add_subcommand(
+      "bench", "measure searches, queues and instruction sets on the same scenes");
+  command
+      ->add_option("SUBSET", arguments->subset,
+                   "what to measure, by default quick; --list describes all")
+      ->option_text(names_of_subsets());
+  command->add_flag("--list", arguments->list, "list all subsets and their cases, measure nothing");
+  command
+      ->add_option("--repetitions", arguments->repetitions,
+                   "how often all cases are measured in turn")
+      ->option_text("N")
+      ->check(number_in(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--min-time", arguments->min_time,
+                   "least CPU time of a case in each repetition [s], from 0 to 3600")
+      ->option_text("S")
+      ->check(number_in(0.0, 3600.0))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--json", arguments->json_file,
+          "print all that was measured as one JSON object; or print the table, and write to "
+          "a file what --compare and --results need")
+      ->expected(0, 1)
+      ->option_text("[FILE.json]");
+  command
+      ->add_option("--compare", arguments->compare,
+                   "older results, which --json has written to a file, to compare with")
+      ->option_text("OLD.json");
+  command
+      ->add_option("--results", arguments->results,
+                   "take the results from a file that --json has written, and measure nothing")
+      ->option_text("FILE.json");
+  command->add_flag("--quiet", arguments->quiet, "no progress");
+  command->add_flag("--force", arguments->force, "replace an existing file");
+  command->footer(filled(help_on_verdicts()));
+  command->callback([arguments, command, &exit_code] {
+    arguments->json = command->count("--json") > 0;
+    exit_code = run(*arguments);
+  });
+}
+
+OptionHelp help_of(const CLI::Option& option) {
+  OptionHelp help;
+  help.is_positional = option.get_positional();
+  if (help.is_positional) {
+    help.names = {option.get_name(true, false)};
+  } else {
+    for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
+    for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
+  }
+  const bool takes_value = help.is_positional || option.get_items_expected_max() > 0;
+  if (takes_value) help.value = option.get_option_text();
+  if (help.is_positional && help.value.empty()) help.value = help.names[0];
+  help.description = option.get_description();
+  help.default_value = option.get_default_str();
+  help.is_required = option.get_required();
+  return help;
+}
+
+CommandHelp help_of_command(const CLI::App& app) {
+  CommandHelp help{app.get_name(), app.get_description(), app.get_footer(), {}};
+  for (const CLI::Option* option : app.get_options({})) help.options.push_back(help_of(*option));
+  return help;
+}
+
+ProgramHelp help_of(const CLI::App& app) {
+  ProgramHelp help{help_of_command(app), {}};
+  for (const CLI::App* command : app.get_subcommands({})) {
+    help.commands.push_back(help_of_command(*command));
+  }
+  return help;
+}
+
+// `needlework help COMMAND`, as other programs have it.
+void add_help_command(CLI::App& app, int& exit_code) {
+  CLI::App* help = app.add_subcommand("help", "show the arguments and options of a command");
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const auto name = std::make_shared<std::string>();
+  help->add_option("COMMAND", *name, "one of the commands")
+      ->option_text(fmt::format("{}", fmt::join(names, "|")));
+  help->callback([&app, name, &exit_code] {
+    const ProgramHelp program = help_of(app);
+    if (!name->empty() && !program.find_command(*name)) {
+      print_error(unknown_command_message(program, *name, {}) + " (see needlework --help)");
+      exit_code = bad_usage;
+      return;
+    }
+    const CLI::App* about = name->empty() ? &app : app.get_subcommand(*name);
+    const std::string shown = name->empty() ? "needlework" : "needlework " + *name;
+    fmt::print("{}", app.get_formatter()->make_help(about, shown, CLI::AppFormatMode::Normal));
+  });
+}
+
+// Shows defaults beside descriptions, also where a text stands for the value.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return description_of(help_of(*option));
+  }
+};
+
+void add_commands(CLI::App& app, int& exit_code) {
+  const auto formatter = std::make_shared<HelpFormatter>();
+  formatter->column_width(28);
+  formatter->label("TEXT", "");
+  formatter->label("REQUIRED", "(required)");
+  app.formatter(formatter);
+  app.set_help_flag("-h,--help", "show this help");
+  app.require_subcommand(1);
+  app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
+  app.footer(R"(needlework COMMAND --help shows the arguments and options of a command.
+Results are printed on standard output; progress, warnings and errors on
+standard error.
+
+Exit codes:
+  0   done
+  1   differences were found (audit, bench --compare)
+  2   wrong usage
+  3   a scene or an input file that cannot be used
+  4   the state of a run became invalid
+  5   a file that cannot be read or written
+  75  stopped by a signal or a time limit, after saving if there is a file
+
+Environment:
+  NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
+  OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
+  add_run_command(app, exit_code);
+  add_sweep_command(app, exit_code);
+  add_check_command(app, exit_code);
+  add_theory_command(app, exit_code);
+  add_predict_command(app, exit_code);
+  add_audit_command(app, exit_code);
+  add_info_command(app, exit_code);
+  add_export_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  add_help_command(app, exit_code);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("event-driven simulation of gases of hard needles", "needlework");
+  int exit_code = ok;
+  add_commands(app, exit_code);
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  // Not an option of its own, as only the build needs it.
+  if (arguments.size() == 2 && arguments[0] == "--print-reference") {
+    fmt::print("{}", reference(help_of(app), arguments[1]));
+    return ok;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    print_error(usage_message(help_of(app), arguments, app.remaining(true), error.what()));
+    return bad_usage;
+  }
+  return exit_code;
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,33 @@
+#include "src/cli/scene_arguments.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "needlework/parse.h"
+#include "src/cli/file_kind.h"
+#include "src/runs/engine_choice.h"
+
+namespace needlework::cli {
+
+void apply(const EngineOptions& options, Scene& scene) {
+  if (options.threads) {
+    scene.engine.threads = *options.threads;
+    scene.places["engine.threads"] = fmt::format("--threads {}", *options.threads);
+  }
+  if (options.isa) {
+    scene.engine.isa = *options.isa;
+    scene.places["engine.isa"] = "--isa " + *options.isa;
+    // The option comes before the environment, which counts where a scene says auto.
+    if (scene.engine.isa == "auto") scene.engine.isa = runs::resolved_isa(scene.engine);
+  }
+}
+
+runs::LoadedScene load_scene(const SceneArguments& arguments) {
+  Scene scene = read_file(arguments.path, FileKind::scene,
+                          [&] { return read_scene(arguments.path, arguments.overrides); });
+  apply(arguments.engine, scene);
+  return runs::complete_scene(std::move(scene));
+}
+
+}  // namespace needlework::cli

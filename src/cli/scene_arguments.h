@@ -1,0 +1,33 @@
+// The arguments by which commands name a scene, and the scene that they stand for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "needlework/scene.h"
+#include "src/runs/loaded_scene.h"
+
+namespace needlework::cli {
+
+/// Options that take the place of keys in [engine].
+struct EngineOptions {
+  std::optional<int> threads;
+  std::optional<std::string> isa;
+};
+
+/// SCENE, --set, --threads and --isa.
+struct SceneArguments {
+  std::string path;
+  std::vector<std::string> overrides;
+  EngineOptions engine;
+};
+
+/// Puts options into the scene; messages about these keys name the options from then on.
+void apply(const EngineOptions& options, Scene& scene);
+
+/// Reads the scene, applies overrides and options, and reads the initial state if it is in a file.
+/// Throws as read_scene() and runs::complete_scene() do.
+runs::LoadedScene load_scene(const SceneArguments& arguments);
+
+}  // namespace needlework::cli

@@ -1,0 +1,33 @@
+// A scene that is ready to run: its engine is chosen, and its initial state read.
+#pragma once
+
+#include <optional>
+
+#include "needlework/scene.h"
+#include "needlework/state.h"
+#include "needlework/totals.h"
+
+namespace needlework::runs {
+
+/// A scene that is complete: where its initial state comes from a file, that is read, and count and
+/// box are filled in from it.
+struct LoadedScene {
+  Scene scene;
+  std::optional<State> initial;  ///< none: to be drawn
+};
+
+/// Chooses the engine as choose_engine() does, and reads the initial state if it is in a file.
+/// Throws InputError for an engine that is not on offer, for a state that does not fit, and for
+/// more needles than the memory of this machine can hold; IoError for a file that cannot be read.
+LoadedScene complete_scene(Scene given);
+
+/// The state's sums at time 0.
+Totals totals_of(const State& state, double k);
+
+/// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
+bool starts_in_equilibrium(const Scene& scene);
+
+/// needles.count / volume [L^-3].
+double density_of(const Scene& scene);
+
+}  // namespace needlework::runs

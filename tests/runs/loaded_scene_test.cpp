@@ -1,0 +1,60 @@
+// Scenes made ready to run.
+#include "src/runs/loaded_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/initial_state.h"
+#include "src/runs/engine_choice.h"
+#include "tests/support/runs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+TEST(LoadedScene, ReadsTheInitialStateWhoseCountAndBoxTheSceneMayGive) {
+  const test::TemporaryFolder folder;
+  const std::string file = (folder.path() / "start.h5").string();
+  const Scene drawn = test::scene_of(3, 3);
+  const State state = draw_initial_state(drawn);
+  io::Writer writer(file, true, drawn, {});
+  writer.write_frame({}, state);
+  writer.close();
+
+  const auto load = [&](std::uint64_t count, std::array<double, 3> box) {
+    Scene scene;
+    scene.initial.file = file;
+    scene.needles.count = count;
+    scene.needles.box = box;
+    return complete_scene(scene);
+  };
+  EXPECT_EQ(load(0, {}).initial->position, state.position);
+  EXPECT_EQ(load(0, {}).scene.needles.count, 3u);
+  EXPECT_EQ(load(3, {3, 3, 3}).initial->velocity, state.velocity);
+  EXPECT_EQ(load(3, {3, 3, 3 - 1e-14}).initial->box, state.box);
+  const auto refused = [&](std::uint64_t count, std::array<double, 3> box, const char* message) {
+    try {
+      load(count, box);
+      ADD_FAILURE() << "accepted: " << message;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), message + file);
+    }
+  };
+  refused(2, {}, "needles.count = 2: expected 3, as in ");
+  refused(0, {3, 3, 4}, "needles.box = [3, 3, 4]: expected [3, 3, 3], as in ");
+  refused(0, {0, 3, 3}, "needles.box = [0, 3, 3]: expected [3, 3, 3], as in ");
+}
+
+TEST(LoadedScene, HasAnEngineThatIsOnOffer) {
+  const LoadedScene loaded = complete_scene(test::scene_of(3, 3));
+  EXPECT_FALSE(loaded.initial);
+  EXPECT_GE(loaded.scene.engine.threads.value(), 1);
+  EXPECT_EQ(resolved_isa(loaded.scene.engine), instruction_sets().back());
+  Scene scene = test::scene_of(3, 3);
+  scene.engine.isa = "bogus";
+  EXPECT_THROW(complete_scene(scene), InputError);
+}
+
+}  // namespace
+}  // namespace needlework::runs
