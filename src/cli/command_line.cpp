@@ -20,6 +20,7 @@
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
+#include "src/cli/ranks.h"
 #include "src/cli/reference.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
@@ -343,6 +344,19 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   });
 }
 
+// Runs use one process. Each process of an MPI job would do the same work and write the same file.
+void require_one_process(const std::string& command) {
+  const Launch launch = mpi_launch();
+  if (launch.count <= 1 || command == "sweep") return;
+  // A launcher ends the others as soon as one fails, so only the one with the message does.
+  if (launch.rank > 0) throw CLI::RuntimeError(ok);
+  print_error(fmt::format(
+      "{}: started as {} processes by MPI: expected one: --threads N runs on several cores, and "
+      "needlework sweep shares many runs among MPI processes",
+      command, launch.count));
+  throw CLI::RuntimeError(bad_usage);
+}
+
 OptionHelp help_of(const CLI::Option& option) {
   OptionHelp help;
   help.is_positional = option.get_positional();
@@ -453,8 +467,12 @@ int run_command_line(int argc, char** argv) {
     fmt::print("{}", reference(help_of(app), arguments[1]));
     return ok;
   }
+  app.parse_complete_callback(
+      [&] { require_one_process(app.get_subcommands().front()->get_name()); });
   try {
     app.parse(argc, argv);
+  } catch (const CLI::RuntimeError& error) {
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
     print_error(usage_message(help_of(app), arguments, app.remaining(true), error.what()));

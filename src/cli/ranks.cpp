@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <initializer_list>
 
 #include "needlework/error.h"
 #include "src/cli/messages.h"
@@ -26,7 +27,21 @@ bool launched() {
                      [](const char* mark) { return std::getenv(mark) != nullptr; });
 }
 
+// The first of these variables that is set, as a number.
+int number_in(std::initializer_list<const char*> variables, int otherwise) {
+  for (const char* variable : variables) {
+    if (const char* value = std::getenv(variable)) return std::atoi(value);
+  }
+  return otherwise;
+}
+
 }  // namespace
+
+Launch mpi_launch() {
+  if (!launched()) return {};
+  return {number_in({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, 0),
+          number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1)};
+}
 
 #ifdef NEEDLEWORK_MPI
 
@@ -54,9 +69,7 @@ std::vector<int> Ranks::greatest(std::vector<int> values) const {
 #else
 
 Ranks::Ranks() {
-  const char* size = std::getenv("OMPI_COMM_WORLD_SIZE");
-  if (!size) size = std::getenv("PMI_SIZE");
-  if (launched() && size && std::atoi(size) > 1) {
+  if (mpi_launch().count > 1) {
     throw InputError("several MPI ranks: expected a program built with MPI, or --member K/M");
   }
 }

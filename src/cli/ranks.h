@@ -6,6 +6,13 @@
 
 namespace needlework::cli {
 
+/// The processes that an MPI launcher has started together, as their environment says; MPI itself
+/// is not asked.
+struct Launch {
+  int rank = 0, count = 1;
+};
+Launch mpi_launch();
+
 /// Joins the other ranks if an MPI launcher has started the program; without one there is a single
 /// rank, and MPI is not even initialised. To be made once, on the main thread, and all ranks must
 /// call the same members in the same order.

@@ -301,6 +301,22 @@ TEST_F(SweepOverRanks, GoOnAfterASignal) {
   EXPECT_EQ(rest.json()["points"], whole["points"]);
 }
 
+TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral) {
+  for (const std::string command : {"run small.toml --out twice.h5", "check small.toml"}) {
+    const Outcome outcome = run(command, launcher);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    const std::string message = "started as 2 processes by MPI: expected one: --threads N";
+    const auto first = outcome.err.find(message);
+    ASSERT_NE(first, std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find(message, first + 1), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("needlework sweep"), std::string::npos) << outcome.err;
+  }
+  EXPECT_FALSE(exists("twice.h5"));
+  EXPECT_EQ(run("run small.toml --quiet", "OMPI_COMM_WORLD_SIZE=1").exit_code, 0);
+  EXPECT_NE(run("run --help", launcher).out.find("SCENE"), std::string::npos);
+}
+
 TEST_F(SweepOverRanks, TellAnErrorOnce) {
   const Outcome outcome = run("sweep grid.toml", launcher);
   EXPECT_EQ(outcome.exit_code, 3);
