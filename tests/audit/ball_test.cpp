@@ -9,6 +9,15 @@
 #include "tests/support/random.h"
 
 namespace needlework::audit {
+
+// Short names for numbers, which the tests' names hold.
+struct InDouble {
+  using Real = double;
+};
+struct InQuad {
+  using Real = Quad;
+};
+
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
@@ -34,21 +43,16 @@ bool holds(const Ball<Real>& ball, const Wide& exact) {
   return abs(Wide(ball.middle) - exact) <= Wide(ball.radius);
 }
 
-template <class Real>
+template <class Numbers>
 class BallTest : public testing::Test {};
-using Reals = testing::Types<double, Quad>;
-struct Names {
-  template <class Real>
-  static std::string GetName(int) {
-    return std::is_same_v<Real, double> ? "double" : "quad";
-  }
-};
-TYPED_TEST_SUITE(BallTest, Reals, Names);
+using AllNumbers = testing::Types<InDouble, InQuad>;
+TYPED_TEST_SUITE(BallTest, AllNumbers);
 
 TYPED_TEST(BallTest, HoldsTheExactResult) {
   test::Random random(5);
   for (int n = 0; n < count; ++n) {
-    const auto a = draw<TypeParam>(random), b = draw<TypeParam>(random);
+    const auto a = draw<typename TypeParam::Real>(random),
+               b = draw<typename TypeParam::Real>(random);
     EXPECT_TRUE(holds(a.ball + b.ball, Wide(a.exact + b.exact)));
     EXPECT_TRUE(holds(a.ball - b.ball, Wide(a.exact - b.exact)));
     EXPECT_TRUE(holds(a.ball * b.ball, Wide(a.exact * b.exact)));
@@ -63,7 +67,7 @@ TYPED_TEST(BallTest, HoldsTheExactResult) {
 TYPED_TEST(BallTest, HoldsSineAndCosine) {
   test::Random random(6);
   for (int n = 0; n < count / 20; ++n) {
-    const auto a = draw<TypeParam>(random);
+    const auto a = draw<typename TypeParam::Real>(random);
     if (abs(a.exact) > 4096) continue;
     EXPECT_TRUE(holds(sin(a.ball), Wide(sin(a.exact)))) << a.exact;
     EXPECT_TRUE(holds(cos(a.ball), Wide(cos(a.exact)))) << a.exact;
@@ -73,8 +77,8 @@ TYPED_TEST(BallTest, HoldsSineAndCosine) {
 TYPED_TEST(BallTest, LosesLittle) {
   test::Random random(7);
   for (int n = 0; n < count; ++n) {
-    const Ball<TypeParam> a(random.uniform(0.5, 2)), b(random.uniform(0.5, 2));
-    EXPECT_LE((a * b + a / b).radius, 16 * unit_roundoff<TypeParam>);
+    const Ball<typename TypeParam::Real> a(random.uniform(0.5, 2)), b(random.uniform(0.5, 2));
+    EXPECT_LE((a * b + a / b).radius, 16 * unit_roundoff<typename TypeParam::Real>);
   }
 }
 

@@ -10,16 +10,9 @@ namespace {
 
 template <Calendar Queue>
 class CalendarEquivalence : public testing::Test {};
+TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>);
 
-struct Names {
-  template <Calendar Queue>
-  static std::string GetName(int) {
-    return Queue::name;
-  }
-};
-TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>, Names);
-
-TYPED_TEST(CalendarEquivalence, GivesTheEventsOfTheLazyHeap) {
+TYPED_TEST(CalendarEquivalence, GivesTheSameEvents) {
   for (const double epsilon : {1.0, 0.5}) {
     Scene scene = test::scene_of(300, 6, 4);
     scene.collisions.epsilon = epsilon;
