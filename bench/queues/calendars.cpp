@@ -57,14 +57,14 @@ const std::vector<double>& exponentials() {
 struct Hold {
   static constexpr const char* name = "hold";
 
-  Event draw(Needle owner, Needle, Time now) {
+  Event draw(Needle owner, std::uint32_t, Time now) {
     Event event;
     event.owner = owner;
-    event.lower_id = event.higher_id = owner;
+    event.lower_id = event.higher_id = Id{owner.index};
     event.time = later(now, times[random.bits() & 0xffff]);
     return event;
   }
-  Needle other(const Event&, Needle n) { return random.below(n); }
+  Needle other(const Event&, std::uint32_t n) { return Needle(random.below(n)); }
 
   Random random;
   const std::vector<double>& times = exponentials();
@@ -73,25 +73,28 @@ struct Hold {
 struct Mix {
   static constexpr const char* name = "mix";
 
-  Event draw(Needle owner, Needle n, Time now) {
+  Event draw(Needle owner, std::uint32_t n, Time now) {
     Event event;
     event.owner = owner;
     const std::uint64_t bits = random.bits();
     double ahead = 0.2 * times[bits & 0xffff];
-    event.lower_id = event.higher_id = owner;
+    event.lower_id = event.higher_id = Id{owner.index};
     if ((bits >> 16 & 0xff) < 128) {
       const std::uint32_t near = static_cast<std::uint32_t>(bits >> 24 & 0x3f) + 1;
-      event.partner = owner + near < n ? owner + near : owner - std::min(owner, near);
-      event.lower_id = std::min(owner, event.partner);
-      event.higher_id = std::max(owner, event.partner);
-      event.owner_is_lower = event.lower_id == owner;
+      const std::uint32_t mine = owner.index;
+      const std::uint32_t other = mine + near < n ? mine + near : mine - std::min(mine, near);
+      event.kind = EventKind::contact;
+      event.partner = Needle(other);
+      event.lower_id = Id{std::min(mine, other)};
+      event.higher_id = Id{std::max(mine, other)};
+      event.owner_is_lower = mine <= other;
     } else {
       ahead = 0.4 * static_cast<double>(bits >> 32) * 0x1p-32;
     }
     event.time = later(now, ahead);
     return event;
   }
-  Needle other(const Event& event, Needle) { return event.partner; }
+  Needle other(const Event& event, std::uint32_t) { return event.partner; }
 
   Random random;
   const std::vector<double>& times = exponentials();
@@ -100,21 +103,26 @@ struct Mix {
 template <class Model, Calendar Queue>
 class Play {
  public:
-  explicit Play(Needle n) : calendar_(n, clock_of_play), n_(n) {
-    for (Needle i{0}; i < n; ++i) calendar_.set(model_.draw(i, n, {}));
+  explicit Play(std::uint32_t n)
+      : calendar_(n, clock_of_play, (std::size_t{n} + in_block - 1) / in_block), n_(n) {
+    for (Needle i{0}; i < n; ++i) set(model_.draw(i, n, {}));
   }
   Event step() {
     const Event event = calendar_.top();
     const Needle other = model_.other(event, n_);
-    calendar_.set(model_.draw(event.owner, n_, event.time));
-    if (other != no_needle) calendar_.set(model_.draw(other, n_, event.time));
+    set(model_.draw(event.owner, n_, event.time));
+    if (other != no_needle) set(model_.draw(other, n_, event.time));
     return event;
   }
 
  private:
+  static constexpr std::uint32_t in_block = 16;  // needles, by index
+
+  void set(const Event& event) { calendar_.set(event, event.owner.index / in_block); }
+
   Model model_;
   Queue calendar_;
-  Needle n_;
+  std::uint32_t n_;
 };
 
 template <class Model, Calendar Queue>
@@ -132,9 +140,9 @@ void check_against_plain() {
 template <class Model, Calendar Queue>
 void measure(benchmark::State& state) {
   check_against_plain<Model, Queue>();
-  const Needle n = static_cast<Needle>(state.range(0));
+  const auto n = static_cast<std::uint32_t>(state.range(0));
   Play<Model, Queue> play(n);
-  for (Needle step{0}; step < 2 * n; ++step) play.step();  // to the stationary state
+  for (std::uint32_t step = 0; step < 2 * n; ++step) play.step();  // to the stationary state
   for (auto _ : state) benchmark::DoNotOptimize(play.step());
   state.SetItemsProcessed(state.iterations());
 }

@@ -1,34 +1,34 @@
-// How much is paid for the certainty and the precision of first contacts.
+// Settings for the reliability and the precision of first contacts.
 //
-// Whatever is chosen, a first contact depends on the two records alone: searches, calendars and
-// threads give the same trajectory at equal accuracy.
+// With every setting a first contact depends on the two records alone: for the same accuracy, all
+// searches, calendars and numbers of threads give the same trajectory.
 #pragma once
 
 namespace needlework {
 
-/// How stretches of time without a root of the contact function are told.
+/// How intervals of time are found to be free of roots of the contact function.
 enum class Isolation {
-  sampling,   ///< by signs at equal steps: misses pairs of roots between two of them
-  bounds,     ///< by a Taylor expansion with bounds on its rest
-  intervals,  ///< by interval arithmetic, all rounding included
+  sampling,   ///< by the signs at equal steps; misses pairs of roots between two samples
+  bounds,     ///< by a Taylor expansion with bounds on its remainder
+  intervals,  ///< by interval arithmetic, which includes all rounding errors
 };
 
-/// What goes to double-double arithmetic.
+/// What is decided in double-double arithmetic.
 enum class Escalation {
-  never,      ///< no value of f, which double decides without a look at its errors; bounds on its
-              ///< derivatives may start from coefficients in double-double
-  undecided,  ///< what the error bounds of double leave open
-  always,     ///< every sign at an end of a stretch that is asked for, and every root
+  never,      ///< no value of the contact function: double decides, whatever its errors; bounds on
+              ///< derivatives may still start from coefficients in double-double
+  undecided,  ///< what remains open within the error bounds of double
+  always,     ///< every sign at the end of an interval that is needed, and every root
 };
 
 struct Accuracy {
   Isolation isolation = Isolation::bounds;
   Escalation escalation = Escalation::undecided;
-  /// Searches follow pairs by lanes in float before double does. Else double follows all whose
-  /// hulls or bounding spheres meet.
+  /// Whether the search follows pairs in float with SIMD before double does. Otherwise double
+  /// follows all pairs whose bounding volumes meet.
   bool float_filter = true;
-  /// A root in double is done when a step is below this share of the time since the later
-  /// record; 0: when rounding takes over.
+  /// A root in double is accepted when a step is below this fraction of the time since the later
+  /// record; 0: when rounding limits it.
   double root_tolerance = 0;
   /// Time between two samples, in units of 1 / (|v12| + |w1| + |w2|) up to a factor of 2.
   double sampling_step = 0x1p-5;

@@ -1,4 +1,4 @@
-// Counters of the work done. Nothing in a trajectory depends on them.
+// Counters of the work done. No trajectory depends on them.
 #pragma once
 
 #include <cstdint>
@@ -6,30 +6,30 @@
 namespace needlework {
 
 struct Counters {
-  std::uint64_t events = 0;      ///< all that was popped
-  std::uint64_t stale = 0;       ///< popped contacts whose partner had changed
-  std::uint64_t crossings = 0;   ///< changes of cell
-  std::uint64_t rebuilds = 0;    ///< hulls set anew because their needle left them
-  std::uint64_t sorts = 0;       ///< of the storage, by place
-  std::uint64_t resized = 0;     ///< times that search and sizes were chosen anew
-  std::uint64_t renewals = 0;    ///< records renewed by their own clock
+  std::uint64_t events = 0;      ///< all events taken from the calendar
+  std::uint64_t stale = 0;       ///< contacts whose partner's record had been replaced
+  std::uint64_t crossings = 0;   ///< changes of a needle's cell
+  std::uint64_t rebuilds = 0;    ///< bounding volumes replaced because their needle left them
+  std::uint64_t sorts = 0;       ///< spatial sorts of the storage
+  std::uint64_t resized = 0;     ///< times that search and sizes were chosen again
+  std::uint64_t renewals = 0;    ///< records renewed to keep their precision
   std::uint64_t searches = 0;    ///< searches over all candidates of a needle
-  std::uint64_t candidates = 0;  ///< pairs that the search looked at
-  std::uint64_t filtered = 0;    ///< of these, settled by a filter
-  std::uint64_t isolated = 0;    ///< evaluations by lanes of the contact function in float
+  std::uint64_t candidates = 0;  ///< pairs that the search examined
+  std::uint64_t filtered = 0;    ///< candidates decided by a filter alone
+  std::uint64_t isolated = 0;    ///< evaluations of the contact function in float with SIMD
   std::uint64_t predicted = 0;   ///< pairs whose first contact was computed
   std::uint64_t evaluated = 0;   ///< evaluations of the contact function in double
   std::uint64_t escalated = 0;   ///< evaluations of the contact function in double-double
-  std::uint64_t touches = 0;     ///< third needles found touching where a record is made anew
-  // Of several threads; see docs/how-it-works.md.
+  std::uint64_t touches = 0;     ///< touching third needles found when a record was replaced
+  // For several threads; see docs/how-it-works.md.
   std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
-  std::uint64_t redone = 0;   ///< of these, done again by one thread
-  std::uint64_t border = 0;   ///< tries of events that might read what another thread writes
+  std::uint64_t redone = 0;   ///< phases that one thread had to repeat
+  std::uint64_t border = 0;   ///< attempts of events that might read what another thread writes
   std::uint64_t held = 0;     ///< times that an event had to wait for others near it
-  std::uint64_t waited = 0;   ///< turns in which a thread had no event that it might do
-  std::uint64_t foreign = 0;  ///< blocks of other threads written to
-  std::uint64_t turns = 0;    ///< rows of events that a thread did until it was blocked
-  std::uint64_t blocked = 0;  ///< time that threads were blocked, by all of them [ns]
+  std::uint64_t waited = 0;   ///< times that a thread had no event that could proceed
+  std::uint64_t foreign = 0;  ///< changes to blocks of other threads
+  std::uint64_t turns = 0;    ///< sequences of events that a thread processed until it was blocked
+  std::uint64_t blocked = 0;  ///< total time that threads were blocked [ns]
 
   Counters& operator+=(const Counters& other) {
     for (const auto member : members) this->*member += other.*member;

@@ -1,4 +1,4 @@
-// Reads scene files: TOML, strict, with errors that name line, key, value and what was expected.
+// Reads scene files in strict TOML. Errors name line, key, value and what was expected.
 #pragma once
 
 #include <cstddef>
@@ -12,39 +12,39 @@ namespace needlework {
 
 struct Override;  // document.h
 
-/// The longest scene that is read [bytes].
+/// Largest size of a scene that is read [bytes].
 inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 
 /// Parses the text of a scene. `name` is used in messages.
 ///
-/// Each override reads "section.key=value" ("title=value") with the value in TOML; what is no TOML
-/// value is taken as a string, so that engine.search=all-pairs needs no quotes. An override
-/// replaces or adds its key before anything is checked, and the last one for a key counts. It never
-/// removes a key, but two replace alternatives that the file has chosen: collisions.tc and
-/// collisions.tc_relative each replace the other, and initial.file replaces initial.t_tr and
-/// initial.t_rot. A temperature given over a file's initial.file stays an error, as it could mean
-/// either to redraw or to rescale.
+/// Each override reads "section.key=value" or "title=value" with a value in TOML. A value that is
+/// not TOML is read as a string, so that engine.search=all-pairs needs no quotes. An override
+/// replaces or adds its key before anything is checked; the last override of a key wins. Overrides
+/// do not remove other keys, with two exceptions for alternatives in the file: collisions.tc and
+/// collisions.tc_relative replace each other, and initial.file replaces initial.t_tr and
+/// initial.t_rot. Overriding a temperature is an error if the file has initial.file, because it
+/// could mean either to draw velocities or to rescale them.
 ///
-/// Without overrides the scene's text is the text as read; each override is added to it as a
-/// comment "# --set section.key=value". needles.count and needles.box may be missing only when
-/// initial.file is given, and are 0 then.
+/// Without overrides the scene's text is the text as read. Each override is appended to it as a
+/// comment "# --set section.key=value". needles.count and needles.box may be missing only if
+/// initial.file is given; they are then 0.
 ///
-/// Throws InputError with a single message about the first error (syntax, then the file by line,
-/// then the overrides in order, then missing keys): "NAME: line N: section.key = VALUE: expected
-/// ...", "NAME: section.key is missing: expected ...", "NAME: line N: REASON" for what is no TOML,
-/// or "--set section.key=VALUE: expected ...". Messages hold no control characters.
+/// Throws InputError with one message about the first error (syntax, then the file by line, then
+/// the overrides in order, then missing keys): "NAME: line N: section.key = VALUE: expected ...",
+/// "NAME: section.key is missing: expected ...", "NAME: line N: REASON" for text that is not TOML,
+/// or "--set section.key=VALUE: expected ...". Messages contain no control characters.
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {});
 
-/// The same with overrides that messages may name otherwise than --set.
+/// The same for overrides that messages may attribute to another source than --set.
 Scene parse_overridden_scene(std::string_view text, std::string_view name,
                              std::span<const Override> overrides);
 
-/// The text of a scene file, or as much of a longer one as shows that it is too long. Throws
-/// IoError when it cannot be read.
+/// The text of a scene file, or its first part if it is longer than max_scene_bytes, which
+/// parse_scene then rejects. Throws IoError if it cannot be read.
 std::string read_scene_text(const std::string& path);
 
-/// Reads and parses a scene file. Throws IoError when it cannot be read.
+/// Reads and parses a scene file. Throws IoError if it cannot be read.
 Scene read_scene(const std::string& path, std::span<const std::string> overrides = {});
 
 }  // namespace needlework

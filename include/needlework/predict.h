@@ -1,4 +1,4 @@
-// First contact of one pair of needles: the definition that every faster kernel must equal.
+// The first contact of two needles: the definition that every faster kernel must reproduce.
 #pragma once
 
 #include <array>
@@ -8,28 +8,29 @@
 
 namespace needlework {
 
-/// A needle at time 0 for `predict`. L = 1.
+/// A needle at time 0 for `predict`. The length of needles is 1.
 struct FreeNeedle {
   std::array<double, 3> position;          ///< centre [L]
-  std::array<double, 3> orientation;       ///< director; normalised on reading
+  std::array<double, 3> orientation;       ///< director, normalised when read
   std::array<double, 3> velocity;          ///< [L / time]
-  std::array<double, 3> angular_velocity;  ///< projected on the plane normal to the director
+  std::array<double, 3> angular_velocity;  ///< of which the part normal to the director is used [1
+                                           ///< / time]
 };
 
 struct FirstContact {
-  /// Infinity when there is no contact in (0, horizon]; 0 when a pair that has just collided comes
-  /// back sooner than velocities in double can tell.
+  /// Infinity if there is no contact in (0, horizon]. 0 if two needles that have just collided
+  /// return sooner than velocities in double can resolve.
   double time;
-  double arm_first;           ///< s12 [L], NaN without contact
-  double arm_second;          ///< s21 [L]
-  std::uint64_t evaluations;  ///< of the contact function in double
-  std::uint64_t escalations;  ///< decisions handed to double-double
+  double arm_first;           ///< s12 [L], NaN without a contact
+  double arm_second;          ///< s21 [L], NaN without a contact
+  std::uint64_t evaluations;  ///< evaluations of the contact function in double
+  std::uint64_t escalations;  ///< decisions passed on to double-double
 };
 
-/// The first contact of two needles in (0, horizon], no periodic images. `just_collided`: the pair
-/// has collided at time 0 and separates; that contact is not found again.
-/// Throws InputError for places beyond 1e150, velocities beyond 1e300, a director that is 0, and
-/// for needles that turn by more than 2^22 radians near each other without a contact.
+/// The first contact of two needles in (0, horizon], without periodic images. `just_collided`
+/// means that they have collided at time 0 and separate; that contact is not found again. Throws
+/// InputError for positions beyond 1e150, velocities beyond 1e300, a director that is 0, and
+/// needles that turn by more than 2^22 radians near each other without a contact.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 

@@ -1,4 +1,4 @@
-// A simulation of a gas of hard needles: the library's front door.
+// Simulates a gas of hard needles. This is the main header of the library.
 #pragma once
 
 #include <array>
@@ -18,29 +18,29 @@
 
 namespace needlework {
 
-/// A running simulation. Not safe for use from several threads at once; any number of simulations
-/// may live side by side.
+/// A running simulation. Threads must not use one simulation at the same time; any number of
+/// simulations may exist side by side.
 class Simulation {
  public:
-  /// Draws the initial state. Throws InputError for a bad scene, and for one whose initial state is
-  /// in a file: read that (needlework/h5md.h) and use the other constructor.
+  /// Draws the initial state. Throws InputError for an invalid scene, and for a scene whose
+  /// initial state is in a file: read the file (needlework/h5md.h) and use the other constructor.
   explicit Simulation(const Scene& scene);
-  /// Starts from arrays; box, count and temperatures of the scene are ignored.
+  /// Starts from the given state; box, count and temperatures of the scene are ignored.
   Simulation(const Scene& scene, const State& initial);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
 
-  /// Runs until the first of the conditions is met; `until` counts from the start of the run, not
-  /// from now. Throws InvalidStateError when the run cannot go on correctly; the state stays as it
-  /// was before the event that failed. Throws InputError without any condition, and when OpenMP no
-  /// longer gives as many threads as at the start; the run may then be tried again.
+  /// Runs until the first of the conditions is met. They count from the start of the run, not from
+  /// the present time. Throws InvalidStateError if the run cannot continue correctly; the state
+  /// then stays as it was before the event that failed. Throws InputError if no condition is
+  /// given, or if OpenMP provides fewer threads than at the start; the call may then be repeated.
   Stop advance(const Scene::Until& until);
 
-  /// Called for each collision, in order, after it happened.
+  /// Sets a function that is called after each collision, in order of time.
   void on_collision(std::function<void(const Collision&)> callback);
 
-  /// Stops `advance` soon; may be called from a signal handler or another thread.
+  /// Stops `advance` soon. May be called from a signal handler or another thread.
   void interrupt() noexcept;
 
   Totals totals() const;
@@ -48,32 +48,33 @@ class Simulation {
 
   double time() const;                  ///< since the start of the run
   double epoch_length() const;          ///< power of two near the initial mean free time
-  double mean_free_time() const;        ///< at the last window's end: 1 / collision rate per needle
+  double mean_free_time() const;        ///< 1 / (collision rate of one needle) at the end of the
+                                        ///< last window
   std::string trajectory_hash() const;  ///< 32 hexadecimal digits
 
-  /// Copies all needles at the present time, by ascending id, positions wrapped into the box, into
-  /// a state whose memory is used again. Costs some tens of nanoseconds a needle; nothing is kept.
+  /// Copies all needles at the present time into `into`, whose memory is reused. They are in order
+  /// of id, with positions wrapped into the box. Costs some tens of nanoseconds per needle;
+  /// nothing is kept inside the simulation.
   void copy(State& into) const;
   State copy() const;
-  /// A copy of one needle at the present time, its position wrapped into the box. Takes a time
-  /// proportional to the number of needles. Throws InputError for an id that does not exist.
+  /// A copy of one needle at the present time, with its position wrapped into the box. The cost is
+  /// proportional to the number of needles. Throws InputError for an unknown id.
   FreeNeedle needle(std::uint32_t id) const;
 
-  /// Replaces the velocities of all needles at the present time; rows are by ascending id, and the
-  /// part of an angular velocity along the director is taken off. Needles that touch stay on their
-  /// sides. The memory of the t_c rule, the hash of the collisions so far, all counts and the
-  /// initial energy, to which energy_ratio refers, stay as they are; temperatures, mean free time
-  /// and the contact time in force follow the new velocities. Searches all needles again, so it
-  /// costs about as much as making the simulation. Not to be called by the callback. Throws
-  /// InputError for a wrong number of rows or numbers that are not finite, and then changes
-  /// nothing.
+  /// Replaces the velocities of all needles at the present time. Rows are in order of id; the part
+  /// of an angular velocity along the director is removed. Needles that touch stay on their sides.
+  /// Temperatures, mean free time and the contact time in force follow the new velocities. The
+  /// memory of the t_c rule, the hash of previous collisions, all counts and the initial energy,
+  /// to which energy_ratio refers, are kept. Costs about as much as constructing the simulation,
+  /// because all needles are searched again. Must not be called by the callback. Throws InputError
+  /// for a wrong number of rows or for numbers that are not finite, and then changes nothing.
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity);
 
-  std::string search() const;  ///< the search in use, `auto` resolved
+  std::string search() const;  ///< the search in use, after `auto` is resolved
   std::string queue() const;
   std::string isa() const;
-  std::string effects() const;  ///< such as "inelastic tc", "elastic"
+  std::string effects() const;  ///< the effects in use, such as "inelastic tc" or "elastic"
 
  private:
   struct Implementation;

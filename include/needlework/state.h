@@ -8,18 +8,20 @@
 
 namespace needlework {
 
-/// Phase-space state of N needles as arrays of N x 3 numbers, row by row.
+/// Positions, velocities, directors and angular velocities of N needles, one row of three numbers
+/// for each needle.
 struct State {
   std::array<double, 3> box{};                          ///< edges [L]
-  std::vector<std::array<double, 3>> position;          ///< centres, wrapped or not [L]
+  std::vector<std::array<double, 3>> position;          ///< centres, inside the box or not [L]
   std::vector<std::array<double, 3>> velocity;          ///< [L / time]
   std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]
   std::vector<std::array<double, 3>> angular_velocity;  ///< normal to the director [1 / time]
-  std::vector<std::array<std::int32_t, 3>> image;       ///< box crossings; empty: none
-  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 .. N-1
+  std::vector<std::array<std::int32_t, 3>> image;       ///< number of box crossings along each
+                                                        ///< axis; empty: all 0
+  std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 to N - 1
 
   std::size_t size() const { return position.size(); }
-  /// Room for n needles, images and ids included.
+  /// Resizes all arrays to n needles, images and ids included.
   void resize(std::size_t n) {
     position.resize(n);
     velocity.resize(n);

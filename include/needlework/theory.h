@@ -1,11 +1,11 @@
-// Kinetic theory of the homogeneous needle gas: exact rates of the Gaussian state, and the cooling
-// curve that follows when the gas is assumed to stay Gaussian and homogeneous. Units: L = m = 1.
-// Relative accuracy: about 1e-14 for integrals and rates, 1e-11 for cooling curves with k in
+// Kinetic theory of the homogeneous needle gas: exact rates for Gaussian velocities, and the
+// cooling curve under the assumption that the gas stays Gaussian and homogeneous. Units: L = m =
+// 1. Relative accuracy: about 1e-14 for integrals and rates, 1e-11 for cooling curves with k in
 // [0.01, 1e4] (far outside, the smaller temperature loses digits).
 //
 // Source: M. Huthmann, T. Aspelmeier, A. Zippelius, "Granular cooling of hard needles", for smooth
-// needles (beta = -1); rough ones follow in the same way from the impulse with tangential
-// restitution. All functions are pure, so threads may call them freely; all throw
+// needles (beta = -1). The rates of rough needles follow in the same way from the impulse with
+// tangential restitution. All functions are pure, so threads may call them freely. All throw
 // std::invalid_argument, "NAME = VALUE: expected ...", for a number out of range or NaN.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace needlework::theory {
 
-/// The numbers that the theory depends on.
+/// The parameters of the theory.
 struct Gas {
   double k = 6.0;        ///< m L^2 / (2 I), [1e-12, 1e12]
   double epsilon = 1.0;  ///< normal restitution, [0, 1]
@@ -37,14 +37,14 @@ double collision_integral(double q, double k);
 /// density. T_tr = 0 with T_rot > 0 is the limit q -> infinity; both 0 give 0.
 double collision_rate(double density, Temperatures temperatures, double k);
 
-/// The elastic equilibrium rate of N needles with zero momentum and fixed energy in a volume V:
-/// density (N - 1) / V, temperature 2 E_total / (5 N - 3), times the microcanonical factor
-/// sqrt(D/2) Gamma(D/2) / Gamma((D+1)/2), D = 5 N - 3. `count` >= 2.
+/// The elastic equilibrium collision rate of one needle, for N needles with zero momentum and
+/// fixed energy in a volume V: density (N - 1) / V, temperature 2 E_total / (5 N - 3), times the
+/// microcanonical factor sqrt(D/2) Gamma(D/2) / Gamma((D+1)/2), D = 5 N - 3. `count` >= 2.
 double equilibrium_rate(double count, double volume, double total_energy, double k);
 
-/// d(T_tr, T_rot) / d tau at this instant, tau = gamma t with gamma = (2/3) sqrt(pi) n. Exact for
-/// Gaussian velocities. Either temperature may be 0. In an elastic gas the energy 3/2 T_tr + T_rot
-/// is conserved to rounding.
+/// d(T_tr, T_rot) / d tau at this instant, with tau = gamma t and gamma = (2/3) sqrt(pi) n. Exact
+/// for Gaussian velocities. Either temperature may be 0. In an elastic gas the energy 3/2 T_tr +
+/// T_rot is conserved to rounding.
 Temperatures cooling_rates(const Gas& gas, Temperatures now);
 
 /// The cooling curve: the temperatures at each of the times `taus` (finite, >= 0, any order),
@@ -52,13 +52,13 @@ Temperatures cooling_rates(const Gas& gas, Temperatures now);
 std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
                                         std::span<const double> taus);
 
-/// The collisions that one needle has taken part in, from 0 to each of the times `taus` of the same
-/// cooling curve.
+/// Collisions per needle between tau = 0 and each of the times `taus`, along the same cooling
+/// curve.
 std::vector<double> collisions_per_needle(const Gas& gas, Temperatures initial,
                                           std::span<const double> taus);
 
-/// Long-time ratio c = T_tr / T_rot of a cooling gas; NaN when the gas does not cool, which is when
-/// it is elastic (epsilon = 1 and beta = -1 or 1).
+/// The long-time ratio c = T_tr / T_rot of a cooling gas. NaN if the gas does not cool, because it
+/// is elastic (epsilon = 1 and beta = -1 or 1).
 double asymptotic_ratio(const Gas& gas);
 
 /// The k at which c = 1 for every epsilon < 1 (beta = -1).

@@ -6,9 +6,9 @@
 
 namespace needlework {
 
-/// Sums over all needles at one instant, independent of their order.
+/// Sums over all needles at one instant, which do not depend on the order of the needles.
 struct Totals {
-  double time = 0;                   ///< since the start of the run
+  double time = 0;                   ///< since the start of the run [time]
   double t_tr = 0;                   ///< (2/3) <m v^2 / 2>
   double t_rot = 0;                  ///< <I w^2 / 2>
   double energy = 0;                 ///< per needle

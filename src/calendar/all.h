@@ -1,4 +1,4 @@
-// All calendars there are.
+// The list of all calendars.
 #pragma once
 
 #include "src/calendar/bucket_calendar.h"
@@ -10,14 +10,14 @@
 
 namespace needlework {
 
-/// Types to be deduced from an argument.
+/// A list of types, to be deduced from an argument.
 template <class... Queues>
 struct CalendarList {};
 
 static_assert(Calendar<LazyHeap> && Calendar<IndexedHeap> && Calendar<Tournament> &&
               Calendar<BucketCalendar> && Calendar<CellCalendar>);
 
-/// Their types in a list, such as CalendarList or testing::Types.
+/// The types of all calendars in a list such as CalendarList or testing::Types.
 template <template <class...> class List>
 using AllCalendars = List<LazyHeap, IndexedHeap, Tournament, BucketCalendar, CellCalendar>;
 

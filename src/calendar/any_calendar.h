@@ -1,5 +1,5 @@
-// A calendar chosen at run time. The event loop is compiled once for all of them: it makes some ten
-// calls a collision, among some ten thousand instructions.
+// A calendar that is chosen at run time. The event loop is compiled once for all calendars: it
+// makes about ten virtual calls per collision, among about ten thousand instructions.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,19 @@
 
 namespace needlework {
 
-/// Who is given the new event of a needle.
+/// Receives the new event of a needle.
 class EventSink {
  public:
-  /// `by_block`: whether the block in set() matters.
+  /// `by_block`: whether the block passed to set() matters.
   explicit EventSink(bool by_block) : needs_block(by_block) {}
   virtual ~EventSink() = default;
-  /// Replaces the event of event.owner, who is in this block now.
+  /// Replaces the event of event.owner, which is now in this block.
   virtual void set(const Event& event, BlockIndex block) = 0;
 
   const bool needs_block;
 };
 
-/// Any model of the concept Calendar, by the same promises.
+/// The interface of all models of the concept Calendar, with the same promises.
 class AnyCalendar : public EventSink {
  public:
   using EventSink::EventSink;
@@ -31,17 +31,17 @@ class AnyCalendar : public EventSink {
   virtual const Event& top() const = 0;
   virtual const Event& of(Needle i) const = 0;
   virtual Needle likely_next() const = 0;
-  /// Begins again, with n needles whose events never happen. Frees the memory held before first.
+  /// Starts again with n needles whose events never happen. Frees the old memory first.
   virtual void reset(std::size_t n, const Clock& clock, std::size_t blocks) = 0;
 };
 
-/// A calendar of type C behind that interface.
+/// Implements that interface by a calendar of type C.
 template <Calendar C>
 class CalendarOf final : public AnyCalendar {
  public:
   CalendarOf() : AnyCalendar(C::by_block), calendar_(0, Clock(), 1) {}
 
-  /// The calendar itself, for those who need more of it than every calendar has.
+  /// The calendar itself, for code that needs more of it than every calendar offers.
   C& get() { return calendar_; }
 
   const char* name() const override { return C::name; }
@@ -58,8 +58,8 @@ class CalendarOf final : public AnyCalendar {
   C calendar_;
 };
 
-/// The calendar of this name, for no needles: reset() it. Throws InputError for a name that does
-/// not exist.
+/// Makes the calendar of this name, with no needles; reset() it before use. Throws InputError for
+/// an unknown name.
 std::unique_ptr<AnyCalendar> make_calendar(const std::string& name);
 
 }  // namespace needlework

@@ -7,11 +7,11 @@
 namespace needlework {
 namespace {
 
-// Measured: 4 to 16 events a bucket cost the same, with fewer there are more cache lines.
+// Measured: 4 to 16 events per bucket cost the same; fewer need more cache lines.
 constexpr double wanted_per_bucket = 8;
-// A heap of this size need not be made smaller.
+// A heap of this size or less need not be made smaller.
 constexpr std::size_t large_heap = 128;
-// Buckets for so many of the events at hand each: the buckets reach a few times as far as the
+// Number of present events for each bucket. The buckets then extend a few times as far as the
 // average event.
 constexpr std::size_t events_per_bucket = 2;
 
@@ -33,7 +33,7 @@ void BucketCalendar::set(const Event& event, BlockIndex) {
     file(i, number);
   }
   ++since_restart_;
-  // Both come after at least n events were put, so that they cost O(1) for each.
+  // Either happens after at least n calls of set, so that its cost is O(1) per call.
   const bool crowded = heap_.size() > large_heap && since_restart_ >= events_.size();
   if (crowded || filed_ + far_.size() > 4 * events_.size() + 64) restart();
   while (heap_.empty()) advance();
@@ -51,7 +51,7 @@ void BucketCalendar::enter(Needle i) {
   heap_.set(i, keys_[i], events_);
 }
 
-// For an entry that may be of a replaced event, or there twice.
+// For an entry whose event may have been replaced, or which may occur twice.
 void BucketCalendar::enter_if_due(Needle i) {
   if (number_of(keys_[i]) > present_ || heap_.contains(i)) return;
   events_.prefetch(i);
@@ -60,15 +60,15 @@ void BucketCalendar::enter_if_due(Needle i) {
 
 void BucketCalendar::file(Needle i, Number number) {
   if (number > present_ + static_cast<Number>(mask_)) {
-    // What never happens is not kept, nor what happens in the last 256 of the 2^62 epochs there
-    // are, which has the same key.
+    // Events that never happen are not stored. Neither are events in the last 256 of the 2^62
+    // epochs, which have the same key.
     if (keys_[i] != never_) far_.push_back(i);
     return;
   }
   ++filed_;
   Chunk* chunk = &bucket(number);
   if (chunk->count == Chunk::capacity) {
-    // The full one moves behind the bucket's first, which has room again.
+    // The full first chunk is moved behind an empty one, which becomes the first.
     std::uint32_t behind = free_;
     if (behind == none) {
       behind = static_cast<std::uint32_t>(chunks_.size());
@@ -114,7 +114,7 @@ void BucketCalendar::empty_bucket(Chunk& first) {
   }
 }
 
-// Returns whether the buckets are still the same.
+// Returns whether the buckets have stayed the same.
 bool BucketCalendar::begin_turn() {
   const double per_bucket = static_cast<double>(entered_) / static_cast<double>(mask_ + 1);
   entered_ = 0;
@@ -148,9 +148,9 @@ void BucketCalendar::restart() {
   distribute(needles);
 }
 
-// Chooses origin and width of the buckets for these needles' events, which are all there are but
-// for some that never happen. Heap, buckets and list are empty. The rate at which the first
-// eighth of the events follow each other is that at which events will come up.
+// Chooses origin and width of the buckets for the events of these needles, which are all events
+// but some that never happen. Heap, buckets and list must be empty. The width is based on the rate
+// of the first eighth of the events, which is the rate at which events will be taken out.
 void BucketCalendar::distribute(const std::vector<Needle>& needles) {
   since_restart_ = entered_ = 0;
   std::vector<TimeKey> ahead;
@@ -188,8 +188,8 @@ void BucketCalendar::distribute(const std::vector<Needle>& needles) {
   entered_ = 0;
 }
 
-// For the beginning, when there are no events that ever happen. All are before the end of the
-// present bucket, until a crowded heap causes a restart.
+// For the beginning, when no event ever happens. All events then count as in the present bucket,
+// until the heap becomes large and causes a restart.
 void BucketCalendar::keep_all_in_heap() {
   present_ = last_number;
   per_width_ = 0;

@@ -1,5 +1,5 @@
-// A calendar as a bounded increasing priority queue: events lie unsorted in buckets of time, and
-// only those of the present bucket are kept in a heap.
+// A calendar as a bounded increasing priority queue: events are kept unsorted in buckets of time,
+// and only the events of the present bucket are in a heap.
 #pragma once
 
 #include <array>
@@ -13,42 +13,45 @@
 
 namespace needlework {
 
-/// G. Paul, A complexity O(1) priority queue for event driven molecular dynamics simulations,
-/// J. Comput. Phys. 221, 615 (2007), with two changes: a replaced event stays in its bucket until
-/// the bucket's turn comes, when it is recognised by the time of its needle's present event; and
-/// the buckets' width follows the events.
+/// G. Paul, A complexity O(1) priority queue for event driven molecular dynamics simulations, J.
+/// Comput. Phys. 221, 615 (2007), with two changes. A replaced event stays in its bucket until
+/// that bucket becomes the present one; it is then recognised because its needle's present event
+/// has another time. The width of the buckets adapts to the events.
 ///
-/// Buckets have a power of two in number and are used in turn. Events beyond the last one wait in
-/// a list that is looked through once a turn; those that never happen are not kept anywhere until
-/// there are no others. The width is set anew, from the events present, when more or fewer events
-/// have come up in a turn than buckets are meant for, when the heap has grown, and when all events
-/// lie beyond the last bucket: so it follows any change of the time scale.
+/// The number of buckets is a power of two, and they are used in turn. Events beyond the last
+/// bucket are kept in a list, which is searched once in each round of the buckets. Events that
+/// never happen are not stored unless there are no others. The width is computed again from the
+/// present events in three cases: a round had far more or fewer events than the buckets are meant
+/// for, the heap has become large, or all events lie beyond the last bucket. So it follows any
+/// change of the time scale.
 ///
-/// `set` is O(1) amortised, `top` O(1). 140 to 240 bytes a needle.
+/// `set` is O(1) amortised, `top` O(1). 140 to 240 bytes per needle.
 class BucketCalendar {
  public:
   static constexpr const char* name = "bucket";
   static constexpr bool by_block = false;
 
-  BucketCalendar(std::size_t n, const Clock& clock, std::size_t = 1);
+  BucketCalendar(std::size_t n, const Clock& clock, std::size_t);
 
   bool empty() const { return events_.size() == 0; }
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex = 0);
+  void set(const Event& event, BlockIndex);
 
-  /// Events in heap, buckets and list, replaced ones among them.
+  /// Number of events in heap, buckets and list, replaced ones included.
   std::size_t entries() const { return heap_.size() + filed_ + far_.size(); }
-  /// How often all events were put into new buckets.
+  /// How often all events have been put into new buckets.
   std::uint64_t restarts() const { return restarts_; }
 
  private:
   using Number = std::int64_t;  ///< of a bucket, counted from the origin
   static constexpr Number last_number = std::int64_t{1} << 62;
-  static constexpr std::uint32_t none = 0;  ///< no further chunk: chunk 0 is a bucket's first
+  static constexpr std::uint32_t none = 0;  ///< no further chunk: chunk 0 is always the first of a
+                                            ///< bucket
 
-  // A cache line of a bucket's needles. The first chunks are those of the buckets, others follow.
+  // A cache line with needles of one bucket. The first chunk of each bucket comes first in memory,
+  // further chunks follow.
   struct alignas(64) Chunk {
     static constexpr std::uint32_t capacity = 14;
     std::array<Needle, capacity> needle;
@@ -70,17 +73,18 @@ class BucketCalendar {
 
   EventTable events_;
   TimeKey never_;
-  std::vector<TimeKey> keys_;  ///< of all needles' events, so that buckets are sifted without them
-  NeedleHeap heap_;            ///< needles of all events up to the present bucket's end
-  std::vector<Chunk> chunks_;  ///< each bucket's first, then further ones
-  std::uint32_t free_ = none;  ///< first of the further chunks not in use
-  std::vector<Needle> far_;    ///< of events beyond the last bucket when they were put
+  std::vector<TimeKey> keys_;  ///< of all needles, so that buckets can be emptied without reading
+                               ///< events
+  NeedleHeap heap_;            ///< needles whose event lies before the end of the present bucket
+  std::vector<Chunk> chunks_;  ///< the first chunk of each bucket, then further chunks
+  std::uint32_t free_ = none;  ///< first unused one of the further chunks
+  std::vector<Needle> far_;    ///< needles with events beyond the last bucket
   std::size_t mask_ = 0;       ///< number of buckets - 1
   std::size_t filed_ = 0;      ///< entries in buckets
   Number present_ = last_number;
   double origin_ = 0;                ///< where bucket 0 begins [time]
   double per_width_ = 0;             ///< 1 / width of a bucket [1 / time]
-  std::uint64_t entered_ = 0;        ///< events that came into the heap in this turn
+  std::uint64_t entered_ = 0;        ///< events that have entered the heap in this round
   std::uint64_t since_restart_ = 0;  ///< events put since the last restart
   std::uint64_t restarts_ = 0;
 };

@@ -1,4 +1,4 @@
-// What every event calendar offers: the next event of each needle, and the earliest of them all.
+// The interface of every event calendar: the next event of each needle, and the earliest of all.
 #pragma once
 
 #include <concepts>
@@ -9,24 +9,24 @@
 
 namespace needlework {
 
-/// Which block of cells a needle is in, for calendars that group needles by place.
+/// Index of the block of cells that a needle is in, for calendars that group needles by position.
 using BlockIndex = std::uint32_t;
 
-/// Holds exactly one event for each of n needles, at first one that never happens.
+/// Holds exactly one event for each of n needles, initially one that never happens.
 ///
-/// `C(n, clock, blocks)` makes it for needles 0 to n - 1; `clock` is that of the events' times, and
-/// needles are in blocks 0 to blocks - 1. Calendars that do not group needles ignore blocks, and
-/// say so by `by_block`.
-/// `set(event, block)` replaces the event of event.owner, who is in this block now; its time is
-/// >= 0 and may lie before top().
-/// `top()` is the least of all in the order of events; of equal ones, the two copies of one
-/// contact, it is either. It exists unless empty(), which is to say n = 0. What `top()` and `of(i)`
-/// refer to lasts until the next `set`.
-/// `likely_next()` is a needle whose event may well be the one after top(), so that what it needs
-/// can be prefetched: a guess, on which nothing else may depend. The calendar is not empty.
+/// `C(n, clock, blocks)` makes a calendar for needles 0 to n - 1. `clock` is that of the events'
+/// times, and needles are in blocks 0 to blocks - 1. Calendars that do not group needles ignore
+/// blocks, and have `by_block` = false.
+/// `set(event, block)` replaces the event of event.owner, which is now in this block. The time of
+/// the event is >= 0 and may be earlier than top().
+/// `top()` is the first event of all in the order of events. If two are equal, which are the two
+/// copies of one contact, it is either of them. It exists unless empty(), which means n = 0.
+/// References from `top()` and `of(i)` are valid until the next `set`.
+/// `likely_next()` guesses the needle whose event follows top(), so that its data can be
+/// prefetched. No result may depend on the guess. The calendar must not be empty.
 ///
 /// For the same events every calendar has the same top(), whatever it has held before. Nothing
-/// throws but for lack of memory. One thread at a time.
+/// throws except for lack of memory. Only one thread may use a calendar at a time.
 template <class C>
 concept Calendar = requires(C calendar, const C& view, const Event& event, Needle i, std::size_t n,
                             const Clock& clock, BlockIndex block) {

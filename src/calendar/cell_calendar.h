@@ -1,5 +1,5 @@
-// A calendar by place: needles of one cell of space share a block, and the blocks' next events meet
-// in a tournament, or in several, one for each thread.
+// A calendar by position: the needles of one cell of space share a block, and the next events of
+// all blocks compete in a tournament, or in several, one for each thread.
 #pragma once
 
 #include <atomic>
@@ -16,16 +16,17 @@
 
 namespace needlework {
 
-/// A block holds the keys of the needles in it, and knows its next event; its clock is the key of
-/// that. Blocks are divided among zones, at first one, and each zone has a tournament over its own.
+/// A block holds the keys of the events of its needles, and knows its next event. The key of that
+/// event is called the block's clock. Blocks are divided among zones, initially one, and each zone
+/// has a tournament of its own blocks.
 ///
-/// Alone, by `set`, it is a calendar like the others. Several threads, each with a zone, use it so:
-/// `put` changes blocks that nobody else reads or writes meanwhile; then the thread makes their
-/// clocks known by `publish`, which everybody may read at any time, and whoever has the zone plays
-/// the tournament again by `follow`.
+/// With `set` alone it is a calendar like the others. Several threads, each with a zone, use it in
+/// three steps. `put` changes blocks that no other thread reads or writes at the time. `publish`
+/// makes their new clocks visible; all threads may read them at any time. `follow`, called by the
+/// thread of the zone, updates the tournament.
 ///
-/// `set` is O(1) on average for an event that does not come up next, else O(log n); `top` O(number
-/// of zones). About 110 bytes a needle.
+/// `set` is O(1) on average for an event that does not become the next one, else O(log n). `top`
+/// is O(number of zones). About 110 bytes per needle.
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
@@ -34,8 +35,7 @@ class CellCalendar {
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};
 
-  CellCalendar(std::size_t n, const Clock& clock) : CellCalendar(n, clock, (n + 15) / 16) {}
-  /// With so many blocks, over which the needles are spread by index until they are set.
+  /// Makes this number of blocks. Needles are distributed over them by index until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
       : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
     for (Needle i{0}; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
@@ -61,8 +61,6 @@ class CellCalendar {
     return i;
   }
 
-  void set(const Event& event) { set(event, block_of(event.owner)); }
-  /// As set(event), for an owner who is in this block now.
   void set(const Event& event, Block block) {
     changed_.clear();
     put(event, block, changed_);
@@ -78,13 +76,14 @@ class CellCalendar {
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
   /// The next event of a block that has one.
   const Event& top_of(Block b) const { return events_[blocks_[b].next]; }
-  /// How far a block is: none of its events is earlier. Any thread may ask.
+  /// The clock of a block as last published: none of its events is earlier. Any thread may call
+  /// this.
   TimeKey clock_of(Block b) const { return clocks_[b].load(std::memory_order_acquire); }
   TimeKey key_of(Time time) const { return events_.key_of(time); }
   std::uint32_t zone_of(Block b) const { return owners_[b].zone; }
   std::size_t needles_in(Block b) const { return blocks_[b].keys.size(); }
 
-  /// Gives block b to zone `zone_of[b]`, and orders all blocks anew.
+  /// Assigns block b to zone `zone_of[b]`, and sets up all tournaments.
   void divide(const std::vector<std::uint32_t>& zone_of, std::uint32_t zones) {
     owners_.resize(blocks_.size());
     zones_.clear();
@@ -102,7 +101,7 @@ class CellCalendar {
       follow(b);
     }
   }
-  /// Plays all tournaments anew, with events of equal keys in their order.
+  /// Sets up all tournaments again, and sorts events of equal keys by the full order.
   void order_again() {
     for (Block b = 0; b < blocks(); ++b) {
       publish(b);
@@ -111,8 +110,8 @@ class CellCalendar {
     for (Block b = 0; b < blocks(); ++b) follow(b);
   }
 
-  /// Replaces the event of event.owner, who is in block `block` now, and appends the blocks whose
-  /// next event may be another one to `changed`.
+  /// Replaces the event of event.owner, which is now in `block`, and appends the blocks whose next
+  /// event may have changed to `changed`.
   void put(const Event& event, Block block, std::vector<Block>& changed) {
     const Needle i = event.owner;
     const TimeKey key = events_.put(event);
@@ -138,20 +137,20 @@ class CellCalendar {
     }
     changed.push_back(block);
   }
-  /// Prefetches what a change of needle i, or of one in block b, will read.
+  /// Prefetches what a change of needle i, or of a needle in block b, will read.
   void prefetch_place(Needle i) const { prefetch(&places_[i]); }
   void prefetch_keys(Block b) const {
     const Entry* keys = blocks_[b].keys.data();
     for (std::size_t line = 0; line < 3; ++line) prefetch(keys + line * 64 / sizeof(Entry));
   }
-  /// The clock that a block has come to.
+  /// The present clock of a block, published or not.
   TimeKey key_of_next(Block b) const {
     const Content& content = blocks_[b];
     return content.keys.empty() ? no_event : content.keys[places_[Needle(content.next)].slot].key;
   }
   void publish(Block b) { clocks_[b].store(key_of_next(b), std::memory_order_release); }
 
-  /// The block of a zone that comes next, by the clocks that its tournament has been told.
+  /// The block of a zone whose event is next, according to the clocks that the tournament knows.
   Block winner(std::uint32_t z) const {
     const Zone& zone = zones_[z];
     return zone.blocks.empty() ? 0 : zone.blocks[zone.order.winner()];
@@ -159,9 +158,9 @@ class CellCalendar {
   TimeKey winning_key(std::uint32_t z) const {
     return zones_[z].order.key(zones_[z].order.winner());
   }
-  /// Tells the tournament of its zone where a block is. Of equal keys the earlier event wins.
+  /// Updates the tournament of the block's zone. Of equal keys the earlier event wins.
   void follow(Block b) { follow(b, clock_of(b)); }
-  /// The same without a look at events: of equal keys the lower block wins.
+  /// The same without reading events: of equal keys the lower block wins.
   void follow_by_key(Block b, TimeKey key) {
     Zone& zone = zones_[owners_[b].zone];
     zone.order.update(
@@ -174,7 +173,7 @@ class CellCalendar {
     TimeKey key;
     Needle needle;
   };
-  // Anybody may ask, and be told late.
+  // Any thread may read this; the value may be out of date.
   struct Next {
     std::atomic<Needle> value{Needle(0)};
 
@@ -188,10 +187,10 @@ class CellCalendar {
   };
   struct Content {
     std::vector<Entry> keys;
-    Next next;  ///< of those in it
+    Next next;  ///< the needle with the block's next event
   };
   struct Place {
-    std::atomic<Block> block{0};  ///< others may ask where a needle is, and be told late
+    std::atomic<Block> block{0};  ///< any thread may read this; the value may be out of date
     std::uint32_t slot = 0;
 
     Place() = default;

@@ -11,11 +11,11 @@
 
 namespace needlework {
 
-/// Orders events by time as far as a double can tell; `never` has the greatest. Events with equal
-/// keys are compared in full.
+/// Orders events by time with the precision of a double; Time::never() has the greatest key. If
+/// two keys are equal, the events are compared in full.
 using TimeKey = std::uint64_t;
 
-/// One event for each needle: 64 bytes a needle, so that an event is one cache line.
+/// One event for each needle, in 64 bytes, so that an event is one cache line.
 class EventTable {
  public:
   EventTable(std::size_t n, const Clock& clock) : slots_(n), clock_(clock) {
@@ -26,23 +26,24 @@ class EventTable {
   const Event& operator[](Needle i) const { return slots_[i].event; }
   const Clock& clock() const { return clock_; }
 
-  /// Replaces the event of its owner and gives its key.
+  /// Replaces the event of its owner and returns the key.
   TimeKey put(const Event& event) {
     slots_[event.owner].event = event;
     return key_of(event.time);
   }
   TimeKey key(Needle i) const { return key_of(slots_[i].event.time); }
   TimeKey key_of(const Time& time) const {
-    // Numbers that are not negative are ordered as their bits are; + 0.0 makes -0 one of them.
+    // Numbers >= 0 have the same order as their bits, read as integers. Adding 0.0 turns -0 into
+    // 0.
     return std::bit_cast<std::uint64_t>(clock_.since_start(time) + 0.0);
   }
 
   static double time_of(TimeKey key) { return std::bit_cast<double>(key); }
 
-  /// The order of events in full, for those whose keys are equal.
+  /// The full order of events, for events with equal keys.
   bool before(Needle a, Needle b) const { return slots_[a].event < slots_[b].event; }
 
-  /// Brings an event that will soon be on top near.
+  /// Prefetches an event that will soon be on top.
   void prefetch([[maybe_unused]] Needle i) const {
 #ifdef __GNUC__
     __builtin_prefetch(&slots_[i]);

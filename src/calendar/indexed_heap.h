@@ -1,4 +1,4 @@
-// A calendar as an indexed 4-ary heap: an event is replaced where it stands.
+// A calendar as an indexed 4-ary heap, in which events are replaced in place.
 #pragma once
 
 #include "src/calendar/calendar.h"
@@ -6,13 +6,13 @@
 
 namespace needlework {
 
-/// `set` is O(log n), `top` O(1). 84 bytes a needle.
+/// `set` is O(log n), `top` O(1). 84 bytes per needle.
 class IndexedHeap {
  public:
   static constexpr const char* name = "indexed-heap";
   static constexpr bool by_block = false;
 
-  IndexedHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), heap_(n) {
+  IndexedHeap(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock), heap_(n) {
     for (Needle i{0}; i < n; ++i) heap_.set(i, events_.key(i), events_);
   }
 
@@ -20,7 +20,7 @@ class IndexedHeap {
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex = 0) {
+  void set(const Event& event, BlockIndex) {
     heap_.set(event.owner, events_.put(event), events_);
   }
 

@@ -1,4 +1,4 @@
-// A calendar as the standard library's heap: replaced events stay in it until they come up.
+// A calendar as the standard library's heap: replaced events stay in it until they are on top.
 #pragma once
 
 #include <queue>
@@ -10,15 +10,15 @@
 
 namespace needlework {
 
-/// The plain choice, against which the others are measured. `set` is O(log n) amortised, `top`
-/// O(1). With room for as many replaced events as others, 196 bytes a needle; 324 while it is
-/// rebuilt without them.
+/// The simple choice, against which the others are measured. `set` is O(log n) amortised, `top`
+/// O(1). 196 bytes per needle, which allows for as many replaced events as present ones; 324 while
+/// replaced events are being removed.
 class LazyHeap {
  public:
   static constexpr const char* name = "lazy-heap";
   static constexpr bool by_block = false;
 
-  LazyHeap(std::size_t n, const Clock& clock, std::size_t = 1) : events_(n, clock), version_(n) {
+  LazyHeap(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock), version_(n) {
     rebuild();
   }
 
@@ -26,11 +26,11 @@ class LazyHeap {
   const Event& top() const { return heap_.top().event; }
   const Event& of(Needle i) const { return events_[i]; }
 
-  /// Events inside, replaced ones among them.
+  /// Number of entries, replaced events included.
   std::size_t entries() const { return heap_.size(); }
 
   Needle likely_next() const { return top().owner; }
-  void set(const Event& event, BlockIndex = 0) {
+  void set(const Event& event, BlockIndex) {
     events_.put(event);
     heap_.push({event, ++version_[event.owner]});
     if (heap_.size() > 2 * version_.size() + 8) rebuild();
@@ -38,10 +38,10 @@ class LazyHeap {
   }
 
  private:
-  // Replaced events must stay in the order in which they were put, so each entry has its own copy.
+  // Replaced events must keep their position in the heap, so each entry has its own copy.
   struct Entry {
     Event event;
-    std::uint32_t version;  ///< of its owner's events; another one: replaced since
+    std::uint32_t version;  ///< of the owner's event; if it differs, the event has been replaced
   };
   struct Later {
     bool operator()(const Entry& a, const Entry& b) const { return b.event < a.event; }
@@ -49,7 +49,7 @@ class LazyHeap {
 
   bool is_stale(const Entry& entry) const { return entry.version != version_[entry.event.owner]; }
 
-  // Drops all replaced events. O(n).
+  // Removes all replaced events. O(n).
   void rebuild() {
     std::vector<Entry> entries;
     entries.reserve(2 * version_.size() + 9);

@@ -1,4 +1,4 @@
-// A 4-ary heap of needles with the place of each kept, so that any can be moved or taken out.
+// A 4-ary heap of needles that records where each needle is, so that any can be moved or removed.
 #pragma once
 
 #include <array>
@@ -9,22 +9,22 @@
 
 namespace needlework {
 
-/// Some of the needles 0 to n - 1, the one with the earliest event on top. Keys lie beside the
-/// needles, four siblings in a cache line; events are looked at only where keys are equal.
+/// Holds some of the needles 0 to n - 1, with the earliest event on top. Keys are stored with the
+/// needles, four siblings in a cache line. Events are read only if keys are equal.
 ///
-/// All changes take the table of events, in which the event of the needle at hand is already the
-/// new one. O(log size) each. 4 bytes a needle, and 16 for each one inside.
+/// All changes are given the table of events, which must already hold the new event of the needle.
+/// Each change is O(log size). 4 bytes per needle, and 16 for each needle in the heap.
 class NeedleHeap {
  public:
   explicit NeedleHeap(std::size_t n) : place_(n, absent) {}
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// The needle with the earliest event. The heap is not empty.
+  /// The needle with the earliest event. The heap must not be empty.
   Needle top() const { return at(root).needle; }
   bool contains(Needle i) const { return place_[i] != absent; }
 
-  /// Puts a needle in, or where it now belongs.
+  /// Inserts a needle, or moves it to its new position.
   void set(Needle i, TimeKey key, const EventTable& events) {
     const Entry entry{key, i};
     std::uint32_t hole = place_[i];
@@ -35,7 +35,7 @@ class NeedleHeap {
     sift(hole, entry, events);
   }
 
-  /// Takes out a needle that is in the heap.
+  /// Removes a needle that is in the heap.
   void erase(Needle i, const EventTable& events) {
     const std::uint32_t hole = place_[i];
     place_[i] = absent;
@@ -45,7 +45,7 @@ class NeedleHeap {
     if (hole != last) sift(hole, moved, events);
   }
 
-  /// Takes out all. O(size).
+  /// Removes all needles. O(size).
   void clear() {
     for (std::uint32_t at_place = root; at_place < root + size_; ++at_place) {
       place_[at(at_place).needle] = absent;
@@ -59,7 +59,7 @@ class NeedleHeap {
   static constexpr std::uint32_t root = 3;  ///< so that siblings share a cache line
   static constexpr std::uint32_t absent = 0;
 
-  // Free places have the greatest key, so that families are always compared as a whole.
+  // Unused entries have the greatest key, so that all four siblings can always be compared.
   struct Entry {
     TimeKey key = ~TimeKey{0};
     Needle needle = no_needle;
@@ -85,7 +85,7 @@ class NeedleHeap {
     place_[entry.needle] = place;
   }
 
-  // Puts an entry into a place that is free, or above or below it, where it belongs.
+  // Moves an entry up or down from a free position to where it belongs.
   void sift(std::uint32_t hole, const Entry& entry, const EventTable& events) {
     const std::uint32_t start = hole;
     while (hole != root && before(entry, at(parent_of(hole)), events)) {
@@ -108,7 +108,7 @@ class NeedleHeap {
 
   std::vector<Family> families_ = std::vector<Family>(1);
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> place_;  ///< of each needle in the heap
+  std::vector<std::uint32_t> place_;  ///< position of each needle in the heap
 };
 
 }  // namespace needlework

@@ -7,14 +7,14 @@
 
 namespace needlework {
 
-/// `set` is O(log n), and O(1) on average for an event that does not come up next; `top` O(1).
-/// 74 bytes a needle.
+/// `set` is O(log n), and O(1) on average for an event that does not become the next one. `top` is
+/// O(1). 74 bytes per needle.
 class Tournament {
  public:
   static constexpr const char* name = "tournament";
   static constexpr bool by_block = false;
 
-  Tournament(std::size_t n, const Clock& clock, std::size_t = 1)
+  Tournament(std::size_t n, const Clock& clock, std::size_t)
       : events_(n, clock), tree_(n, events_.key_of(Time::never())) {}
 
   bool empty() const { return events_.size() == 0; }
@@ -26,7 +26,7 @@ class Tournament {
     return i;
   }
 
-  void set(const Event& event, BlockIndex = 0) {
+  void set(const Event& event, BlockIndex) {
     tree_.update(
         event.owner.index, events_.put(event),
         [&](std::uint32_t a, std::uint32_t b) { return events_.before(Needle(a), Needle(b)); },

@@ -1,4 +1,4 @@
-// A tournament: matches of eight, whose winners meet in the next round.
+// A tournament tree: matches of eight players, whose winners meet in the next round.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,7 @@
 
 namespace needlework {
 
-/// Eight keys, a cache line. Places that nobody has are filled with keys greater than all others
-/// and different from each other.
+/// Eight keys in a cache line. Unused positions hold distinct keys greater than all others.
 struct alignas(64) KeyLine {
   static constexpr std::uint32_t width = 8;
 
@@ -22,8 +21,8 @@ struct alignas(64) KeyLine {
                                     ~TimeKey{4}, ~TimeKey{5}, ~TimeKey{6}, ~TimeKey{7}};
 };
 
-/// The least of the keys, and in bit n whether the one at place n is equal to it. Without branches:
-/// which key is the least cannot be foretold.
+/// The smallest key; bit n tells whether the key at position n is equal to it. Without branches,
+/// because which key is smallest cannot be predicted.
 struct LeastKeys {
   explicit LeastKeys(const KeyLine& line)
       : key(std::min(
@@ -38,16 +37,16 @@ struct LeastKeys {
   std::uint32_t places = 0;
 };
 
-/// Players 0 to n - 1 with a key each, at first equal ones; the least wins. A complete tree, but of
-/// eight to a match in place of two: a match is a cache line, and a tree of 1e6 has 7 rounds in
-/// place of 20.
+/// Players 0 to n - 1, each with a key, initially equal ones. The smallest key wins. A complete
+/// tree with eight players to a match instead of two: a match is a cache line, and a tree of 1e6
+/// players has 7 rounds instead of 20.
 ///
-/// 9.7 bytes a player.
+/// 9.7 bytes per player.
 class WinnerTree {
  public:
   explicit WinnerTree(std::size_t n, TimeKey key) {
     std::size_t players = n;
-    // n / 8 + n / 64 + ..., and one for each round that is not full.
+    // n / 8 + n / 64 + ..., and one more line for each round that is not full.
     lines_.reserve(n / 7 + 32);
     winner_.reserve(n / 7 + 32);
     do {
@@ -68,10 +67,10 @@ class WinnerTree {
     }
   }
 
-  /// The player with the least key. There is one.
+  /// The player with the smallest key.
   std::uint32_t winner() const { return winner_.back(); }
-  /// The least of those whom the winner beats in the final: often the next to win. Any player if
-  /// the tree has one round.
+  /// The smallest of those that the winner beats in the last round, which is often the next to
+  /// win. Any player if the tree has one round.
   std::uint32_t second() const {
     if (first_.size() == 1) return winner();
     const KeyLine& final = lines_.back();
@@ -87,20 +86,20 @@ class WinnerTree {
     return lines_[player / KeyLine::width].key[player % KeyLine::width];
   }
 
-  /// Gives a player a new key and plays its matches again, up to the first whose outcome stays.
-  /// Where keys are equal, before(a, b) tells whether player a is before b. `near(player)` is
-  /// called for a player who has come within one round of winning. O(log n).
+  /// Gives a player a new key and plays its matches again, up to the first whose outcome does not
+  /// change. If keys are equal, before(a, b) is whether player a is before b. `near(player)` is
+  /// called for a player that wins all rounds but the last. O(log n).
   template <class Before, class Near>
   void update(std::uint32_t player, TimeKey key, const Before& before, const Near& near) {
     std::size_t contestant = player;    // a player, then the number of the match that it won
-    std::uint32_t challenger = player;  // who comes from there
+    std::uint32_t challenger = player;  // the winner of the match just played
     for (std::size_t round = 0;; ++round) {
       const std::size_t match = first_[round] + contestant / KeyLine::width;
       KeyLine& line = lines_[match];
       line.key[contestant % KeyLine::width] = key;
       std::uint32_t& winner = winner_[match];
       if (winner != player) {
-        // One from the same place has been beaten in the round before.
+        // A winner from the same position has lost in the previous round.
         const std::size_t place = (winner >> (round * log2_width)) % KeyLine::width;
         if (place != contestant % KeyLine::width) {
           const TimeKey best = line.key[place];
@@ -121,7 +120,7 @@ class WinnerTree {
  private:
   static constexpr std::size_t log2_width = 3;
 
-  // The winner of a contestant's match, one of those whose keys are equal.
+  // Decides a match among the contestants whose keys are equal.
   template <class Before>
   std::uint32_t winner_among(std::size_t round, std::size_t contestant, std::uint32_t places,
                              const Before& before) const {
@@ -137,9 +136,9 @@ class WinnerTree {
     return best;
   }
 
-  std::vector<std::size_t> first_;     ///< line of each round
+  std::vector<std::size_t> first_;     ///< index of the first line of each round
   LargeArray<KeyLine> lines_;          ///< the matches, round by round
-  std::vector<std::uint32_t> winner_;  ///< of each match
+  std::vector<std::uint32_t> winner_;  ///< winner of each match
 };
 
 }  // namespace needlework

@@ -1,4 +1,4 @@
-// Cells around a place: boxes of cells, and all that come near to one.
+// Regions of grid cells: boxes of cells, and all cells within a distance of one cell.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace needlework {
 
-/// A box of cells on a grid that repeats itself.
+/// A box of cells on a periodic grid.
 struct CellBox {
-  CellCounts low{};   ///< in the grid
-  CellCounts more{};  ///< cells beyond `low` along each axis, fewer than the grid has
+  CellCounts low{};   ///< indices of the lowest cell in the grid
+  CellCounts more{};  ///< number of cells beyond `low` along each axis, less than the grid's count
 };
 
-/// Whether two boxes are not more than `distance` cells apart along every axis.
+/// Whether two boxes are at most `distance` cells apart along every axis.
 inline bool near(const CellBox& a, const CellBox& b, const CellCounts& cells,
                  const CellCounts& distance) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -32,8 +32,9 @@ inline bool near(const CellBox& a, const CellBox& b, const CellCounts& cells,
   return true;
 }
 
-/// Whether visit(first, end) holds for any row of cells of the box, with indices from `first` to
-/// before `end`; asks no more of them once it does. A row over the border of the grid is two.
+/// Whether visit(first, end) returns true for any row of cells of the box, where `first` to `end`
+/// - 1 are cell indices. Stops at the first row for which it does. A row that crosses the border
+/// of the grid is visited in two parts.
 template <class Visit>
 bool any_row_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
   const std::int32_t length = box.more[0] + 1;
@@ -56,7 +57,8 @@ bool any_row_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
   return false;
 }
 
-/// Whether visit(index) holds for any cell of the box; asks no more of them once it does.
+/// Whether visit(index) returns true for any cell of the box. Stops at the first one for which it
+/// does.
 template <class Visit>
 bool any_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
   return any_row_in(box, cells, [&](std::uint32_t first, std::uint32_t end) {
@@ -67,7 +69,7 @@ bool any_in(const CellBox& box, const CellCounts& cells, Visit&& visit) {
   });
 }
 
-/// Cells along each axis that cover a distance [L] from anywhere in a cell.
+/// Number of cells along each axis that covers a distance [L] from any point of a cell.
 inline CellCounts cells_within(const CellGrid& grid, double distance) {
   CellCounts out;
   for (int axis = 0; axis < 3; ++axis) {
@@ -77,8 +79,9 @@ inline CellCounts cells_within(const CellGrid& grid, double distance) {
   return out;
 }
 
-/// The cells not farther than `distance` [L] from r along the axes, and, if asked for, one more,
-/// which is next to these or among them in the frame of r.
+/// The smallest box that holds all cells within `distance` [L] of r along each axis, and the cell
+/// `one` if given. That cell must be one of these or adjacent to them, without wrapping relative
+/// to r.
 inline CellBox cells_around(const CellGrid& grid, const Vec3d& r, double distance,
                             std::optional<Cell> one = {}) {
   const Vec3d all_around{distance, distance, distance};
@@ -95,7 +98,7 @@ inline CellBox cells_around(const CellGrid& grid, const Vec3d& r, double distanc
   return out;
 }
 
-/// The cells that come nearer to a cell than some distance: about a ball of them.
+/// All cells closer than some distance to a given cell: approximately a ball.
 class CellBall {
  public:
   CellBall(const CellGrid& grid, double distance)
@@ -112,10 +115,10 @@ class CellBall {
     }
   }
 
-  /// None is farther along an axis.
+  /// Largest distance of a cell of the ball from the centre along each axis, in cells.
   const CellCounts& reach() const { return reach_; }
 
-  /// Whether a cell is of the ball around another.
+  /// Whether `cell` is in the ball around `centre`.
   bool holds(const CellCounts& centre, const CellCounts& cell) const {
     CellCounts steps;
     for (int axis = 0; axis < 3; ++axis) {
@@ -125,7 +128,8 @@ class CellBall {
     return comes_near(steps);
   }
 
-  /// Whether visit(first, end) holds for any row of cells of the ball around this one, as above.
+  /// Whether visit(first, end) returns true for any row of cells of the ball around `centre`; see
+  /// any_row_in.
   template <class Visit>
   bool any_row(const CellCounts& centre, Visit&& visit) const {
     for (const Row& row : rows_) {
@@ -139,13 +143,13 @@ class CellBall {
   }
 
  private:
-  // Cells side by side, from one at `first` from the centre on.
+  // Adjacent cells along x. `first` is the offset of the first one from the centre.
   struct Row {
     CellCounts first;
     std::int32_t more;
   };
 
-  // Whether cells so many steps apart along the axes come nearer than the distance.
+  // Whether two cells that are `steps` apart along the axes are closer than the distance.
   bool comes_near(const CellCounts& steps) const {
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {

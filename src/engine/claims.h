@@ -1,4 +1,5 @@
-// Claims: what part of space each thread is at work in, so that no two touch the same needles.
+// Claims: the part of space that each thread works in, so that no two threads access the same
+// needles.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +12,10 @@
 
 namespace needlework {
 
-/// One claim per thread: up to two boxes of cells to which it writes; it reads not farther than
-/// `distance` cells from them. Of two threads that make claims so near to each other that one would
-/// read what the other writes, at least one sees it, since each makes its claim known before it
-/// looks at those of others.
+/// One claim per thread: up to two boxes of cells to which the thread writes. It reads no farther
+/// than `distance` cells from them. When two threads claim boxes so close that one would read what
+/// the other writes, at least one of them sees the conflict, because each publishes its claim
+/// before it looks at the others.
 class Claims {
  public:
   Claims(const CellCounts& cells, const CellCounts& distance, std::size_t threads)
@@ -22,8 +23,8 @@ class Claims {
 
   enum Part { owner, partner };
 
-  /// Adds to the claim of a thread, or makes a part of it larger; waits until no other claim is in
-  /// the way. Gives up all of it and returns false when a thread of lower number is.
+  /// Sets or enlarges one part of a thread's claim, and waits until no other claim conflicts. If a
+  /// thread of lower number is in conflict, drops the whole claim and returns false.
   bool claim(std::size_t thread, Part part, const CellBox& box) {
     std::atomic<std::uint64_t>& mine = claims_[thread].part[part];
     if (mine.load(std::memory_order_relaxed) == packed(box)) return true;
@@ -49,7 +50,8 @@ class Claims {
  private:
   static constexpr std::uint64_t nothing = ~std::uint64_t{0};
   static constexpr int low_bits = 17, more_bits = 4;
-  static constexpr std::int32_t all = (1 << more_bits) - 1;  ///< an axis from end to end
+  static constexpr std::int32_t all = (1 << more_bits) - 1;  ///< stands for the whole length of an
+                                                             ///< axis
 
  public:
   static constexpr std::int32_t most_cells = 1 << low_bits;  ///< along an axis

@@ -1,5 +1,5 @@
-// What has been done since the threads last met, so that each event can look for later ones that
-// have been done near it.
+// A log of the events processed since the threads last met. Each new event is checked against
+// later ones that have already been processed near it.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,18 @@
 
 namespace needlework {
 
-/// A needle of an event: where it was then, and how fast before.
+/// One needle of a processed event: its position at the event, and its speed before.
 struct Done {
   TimeKey key;
-  Vec3d r;       ///< not wrapped into the box
+  Vec3d r;       ///< not wrapped into the box [L]
   double speed;  ///< [L/time]
   bool contact;
-  Id lower_id, higher_id;  ///< of the event's needles
-  Time time;               ///< in full, of which the key has 53 bits
+  Id lower_id, higher_id;  ///< of the event's two needles
+  Time time;               ///< the exact time, of which the key has 53 bits
 };
 
-/// The events done, by the cell in which they were. Threads may use it at once, as long as none
-/// adds to cells that another reads or adds to.
+/// The processed events, grouped by the cell in which they took place. Several threads may use it
+/// at once, as long as none adds to cells that another reads or adds to.
 class DoneLog {
  public:
   DoneLog(const CellGrid& grid, const std::array<double, 3>& box)
@@ -35,7 +35,7 @@ class DoneLog {
     std::fill(latest_.begin(), latest_.end(), TimeKey{0});
     for (std::vector<Done>& events : done_) events.clear();
   }
-  /// Prefetches what add() will need.
+  /// Prefetches the memory that add() will access.
   void prefetch(const Vec3d& r) const {
     const std::size_t cell = grid_.index_of(grid_.cell_of(r));
     needlework::prefetch(&done_[cell]);
@@ -47,16 +47,18 @@ class DoneLog {
     latest_[cell] = std::max(latest_[cell], done.key);
   }
 
-  /// Needles farther apart than this [L], the one where it has been seen at time `from`, the other
-  /// at time `until`, and with speeds of this sum in between, have not met between.
+  /// Distance [L] beyond which two needles cannot have met between `from` and `until`. The
+  /// position of one is known at time `from`, that of the other at `until`; `speeds` is the sum of
+  /// their speeds in between.
   static double reach(TimeKey from, TimeKey until, double speeds) {
     const double then = EventTable::time_of(until);
     const double time = then - EventTable::time_of(from) + 0x1p-50 * then;
     return 1 + 0x1p-20 + time * speeds * (1 + 0x1p-20);
   }
 
-  /// Whether a needle that has had this event, and has had `speed` since, may have met one whose
-  /// later event has been done, before that. Looks not farther than `farthest` along the axes.
+  /// Whether the needle of event `mine`, with `speed` since, may have met a needle whose later
+  /// event has already been processed, before that later event. Looks no farther than `farthest`
+  /// along each axis.
   bool may_have_met(const Done& mine, double speed, double farthest) const {
     return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t cell) {
       if (latest_[cell] < mine.key) return false;
@@ -70,7 +72,7 @@ class DoneLog {
  private:
   static bool comes_after(const Done& a, const Done& b) {
     if (a.time != b.time) return a.time > b.time;
-    // Two searches at one time may be made in any order.
+    // The order of two searches at the same time does not matter.
     return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
                                            std::tie(b.contact, b.lower_id, b.higher_id);
   }
@@ -87,7 +89,7 @@ class DoneLog {
   CellGrid grid_;
   std::array<double, 3> box_;
   std::vector<std::vector<Done>> done_;  ///< by cell
-  std::vector<TimeKey> latest_;          ///< of these
+  std::vector<TimeKey> latest_;          ///< latest key in each cell
 };
 
 }  // namespace needlework

@@ -1,4 +1,5 @@
-// The event loop: takes the earliest event, processes it, and so on until the end.
+// The event loop of one thread: processes the earliest event, again and again, until a limit is
+// met.
 #pragma once
 
 #include <memory>
@@ -15,11 +16,12 @@
 
 namespace needlework {
 
-/// One thread's loop, for any calendar. Search and model are compiled in.
+/// The loop of one thread, for any calendar. Search and model are compiled in.
 template <Search S, Model M>
 class EventLoop : public Loop {
  public:
-  /// `run` must outlive the loop; `replaced` are records replaced at the present time.
+  /// `run` must outlive the loop. `replaced` holds the previous state of records that were
+  /// replaced at the present time.
   EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar, ReplacedRecords replaced);
 
   std::optional<Stop> advance(const Limits& limits) override;
@@ -27,9 +29,11 @@ class EventLoop : public Loop {
   const char* calendar_name() const override { return calendar_->name(); }
 
  protected:
-  /// Whether the window ends before an event at this time; then goes on to the next window.
+  /// If the window ends before `next`, the time of the next event, opens the next window and
+  /// returns true.
   bool pass_window(Time next, const Limits& limits);
-  /// Runs events before `end` until a limit is met; without a value at `end` or at a pause.
+  /// Processes events before `end` until a limit is met. Returns nothing when it gets to `end` or
+  /// to a pause without meeting one.
   std::optional<Stop> run_alone(const Limits& limits, Time end);
   virtual void sort_storage();
 
@@ -38,7 +42,7 @@ class EventLoop : public Loop {
   S search_;
   std::unique_ptr<AnyCalendar> calendar_;
   EventProcessor<S, M> processor_;
-  std::uint64_t sorted_at_;  ///< crossings when the needles were last sorted
+  std::uint64_t sorted_at_;  ///< value of the counter `crossings` when the needles were last sorted
 };
 
 template <Search S, Model M>
@@ -51,7 +55,7 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
       processor_(run, model_, search_, *calendar_, run.tally),
       sorted_at_(run.tally.counters.crossings) {
   if constexpr (M::effects.contact_time) {
-    // Unless a loop before has filled it in.
+    // A previous loop may have filled it in already.
     run.last_collision.resize(run.gas.size(), Time{-(std::int64_t{1} << 62), 0});
   }
   const std::size_t count = run.gas.size();
@@ -99,14 +103,15 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   if (run_.window_end > until || until == Time::never()) return false;
   run_.now = run_.window_end;
   run_.open_window();
-  // Measured: after 2 to 8 of each needle the order is about as good, but sorting costs.
+  // Number of cell crossings per needle after which storage is sorted again. Measured: from 2 to 8
+  // the run time hardly changes, and sorting itself costs time.
   constexpr std::uint64_t crossings = 6;
   const std::uint64_t crossed = run_.tally.counters.crossings - sorted_at_;
   if (run_.sorted && crossed > crossings * run_.gas.size()) sort_storage();
   return true;
 }
 
-// Stores neighbours in space next to each other again, once many have moved on.
+// Sorts the needles so that neighbours in space are neighbours in memory, once many have moved.
 template <Search S, Model M>
 void EventLoop<S, M>::sort_storage() {
   Gas& gas = run_.gas;

@@ -1,10 +1,10 @@
-// Makes events happen: replaces records, and predicts the next events of the needles concerned.
+// Processes events: replaces records, and predicts the next events of the needles concerned.
 //
-// Every needle has one event in the calendar: the earliest contact that its own last search found,
-// or the horizon at which that search was cut. A contact lies only with the needle that predicted
-// it; when its partner's record has been replaced meanwhile, it is stale, and its owner searches
-// again at that time. So no cut search is ever forgotten, whatever happens to the contact that cut
-// it.
+// Each needle has one event in the calendar: the earliest contact that its own last search found,
+// or the horizon at which that search ended. A contact is stored only with the needle that
+// predicted it. If the partner's record has been replaced since then, the contact is stale, and
+// its owner searches again at the time of the contact. So every search that ended early is taken
+// up again, whatever happens to the contact at which it ended.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,8 @@
 
 namespace needlework {
 
-/// One thread's part in a run. Search, calendar and tally are its own; the run is everybody's.
+/// Processes the events of one thread. Search, calendar and tally belong to the thread; all
+/// threads share the run.
 template <Search S, Model M>
 class EventProcessor {
  public:
@@ -40,32 +41,35 @@ class EventProcessor {
   Time now() const { return predictor_.now; }
   void set_now(Time time) { predictor_.now = time; }
 
-  /// Whether this is a contact whose partner has a new record since it was predicted.
+  /// Whether the event is a contact whose partner's record has been replaced since the prediction.
   bool is_stale(const Event& event) const {
     return event.is_contact() && gas_.records[event.partner].serial != event.partner_serial;
   }
-  /// Makes the event happen.
+  /// Processes the event.
   void process(const Event& event, bool stale);
-  /// Searches the contacts of needle i from now on and enters its next event. `just_hit`: the
-  /// needle with which it has just collided.
+  /// Searches the next contact of needle i from now on and puts its next event into the calendar.
+  /// `just_hit` is the needle with which it has just collided, if any.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, Needle just_hit = no_needle);
   void enter(const Event& event) {
     calendar_.set(event, calendar_.needs_block ? search_.cell_index(event.owner) : 0);
   }
-  /// Prefetches what an event of this needle will read.
+  /// Prefetches what the processing of an event of this needle will read.
   void prefetch(Needle i) const {
     needlework::prefetch(&gas_.records[i]);
     search_.prefetch(i);
   }
-  /// Needles have other places in storage, or records have been put back.
+  /// Discards cached predictions. To be called after needles have moved in storage, or after
+  /// records have been put back.
   void forget() { predictor_.forget(); }
-  /// Takes over records that were replaced at the present time.
+  /// Sets the previous state of records that were replaced at the present time by a caller.
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
-  UndoLog* undo = nullptr;                    ///< where to note what is replaced, if anywhere
-  std::vector<Collision>* reports = nullptr;  ///< where to put collisions in place of the callback
+  UndoLog* undo = nullptr;                    ///< if not null, receives what the processor replaces
+  std::vector<Collision>* reports = nullptr;  ///< if not null, receives collisions in place of the
+                                              ///< callback
 #ifndef NDEBUG
-  /// Whether a record from later than the event has been read, of a needle within reach then.
+  /// Whether a record from later than the event has been read, of a needle in reach of contact
+  /// then.
   bool has_read_ahead() const { return predictor_.read_ahead; }
   void watch_reading_ahead() { predictor_.read_ahead = false; }
 #endif
@@ -75,7 +79,7 @@ class EventProcessor {
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
   void horizon(Needle i);
-  // A function apart, so that a test can read what code an effect has.
+  // A separate function, so that a test can inspect the machine code that an effect adds.
   [[gnu::noinline]] void collide(const Event& event);
   bool by_contact_time(Needle a, Needle b) const;
   void count_at_instant(Needle a, Needle b);
@@ -107,7 +111,8 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
   }
 }
 
-// A horizon is the end of the record's precision, of the search's candidates, or of the span ahead.
+// A horizon is where the needle's record loses precision, where its list of candidates expires, or
+// where the span of time that is searched ahead ends.
 template <Search S, Model M>
 void EventProcessor<S, M>::horizon(Needle i) {
   if (gas_.records[i].renewal <= now()) {
@@ -202,14 +207,14 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit
   enter(best);
 }
 
-// Looks for a contact of i with this candidate before `best`, and makes it the best. It can only be
-// between the times `from` and `to` from now.
+// Looks for a contact of i with candidate j that is earlier than `best`, and replaces `best` by
+// it. The contact can only lie between the times `from` and `to` after now.
 template <Search S, Model M>
 void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, double from, double to,
                                     Event& best) {
   const Record& mine = gas_.records[i];
   const Record& other = gas_.records[j];
-  // Beyond the renewal of j its own event takes over.
+  // After the renewal of j's record, the renewal event of j finds the contact.
   const Time until = std::min({best.time, other.renewal, gas_.clock.add(now(), to)});
   Event event;
   event.kind = EventKind::contact;
@@ -235,9 +240,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
   if (event < best) best = event;
 }
 
-// Three needles or more can collapse too, by hitting each other in turn. When the clock no longer
-// advances, more collisions happen at one instant than needles could have there. Rough needles
-// have been seen to part after more than four thousand.
+// Three needles or more can collapse by hitting each other in turn. The time then no longer
+// advances, and more collisions happen at one instant than is possible otherwise. Rough needles
+// have been observed to separate after more than four thousand.
 template <Search S, Model M>
 void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
   if (now() != tally_.instant) tally_.at_instant = 0;

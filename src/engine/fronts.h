@@ -1,5 +1,5 @@
-// How far threads are in time, told to each other: what they have not seen of each other can only
-// be judged as long as they are near.
+// How far each thread is in simulated time. A thread can check which events of others it has
+// missed only while the threads are close in time, so each publishes its own progress.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,11 @@ namespace needlework {
 
 class Fronts {
  public:
-  /// `sight`: how far from an event others' events are seen. [L]
+  /// `sight`: distance from an event to which processed events of other threads can be checked.
+  /// [L]
   Fronts(std::size_t threads, double sight) : fronts_(threads), sight_(sight) {}
 
-  /// Of a new phase; `expected`: a guess at the speed of its fastest needle. [L/time]
+  /// Starts a new phase. `expected` is an estimate of the largest speed of its needles. [L/time]
   void begin(double expected) {
     expected_ = expected;
     for (Front& front : fronts_) {
@@ -25,22 +26,22 @@ class Fronts {
       front.fastest = 0;
     }
   }
-  /// The speed of the fastest needle of an event, before that.
+  /// The largest speed of a needle of any event of the phase, just before the event. [L/time]
   double fastest() const {
     double out = 0;
     for (const Front& front : fronts_) out = std::max(out, front.fastest.load());
     return out;
   }
 
-  /// The earliest event that a thread has.
-  void tell_next(std::size_t thread, TimeKey key) {
+  /// Publishes the earliest event that a thread has still to process.
+  void publish_next(std::size_t thread, TimeKey key) {
     look_away();
     fronts_[thread].next.store(key, std::memory_order_relaxed);
   }
-  /// An event that a thread is to do, before it does; of the two told by threads at once, whichever
-  /// asks reach_of_later() last knows of the other. Returns whether the thread has done no later
-  /// one.
-  bool tell_taken(std::size_t thread, TimeKey key, double speed) {
+  /// Publishes an event before the thread processes it. If two threads publish at the same time,
+  /// the one that calls reach_of_later() last sees the event of the other. Returns whether the
+  /// event is later than all that the thread has processed in this phase.
+  bool publish_event(std::size_t thread, TimeKey key, double speed) {
     Front& mine = fronts_[thread];
     const bool in_order = key > mine.latest;
     if (speed > mine.fastest) mine.fastest = speed;
@@ -48,8 +49,9 @@ class Fronts {
     return in_order;
   }
 
-  /// Whether a thread is so far behind an event that it could not be told who may have met
-  /// meanwhile; or nearly so, as threads go on while one looks. The hindmost is never ahead.
+  /// Whether another thread is so far behind an event that needles could have met unseen in
+  /// between. Keeps a margin of a factor of 2, because threads go on meanwhile. Never true for the
+  /// thread that is farthest behind.
   bool is_too_far_ahead(TimeKey key) const {
     look_away();
     TimeKey hindmost = key;
@@ -62,8 +64,9 @@ class Fronts {
     return hindmost < key && is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest));
   }
 
-  /// How far needles of later events may be that a needle of an event can have met before them,
-  /// with this speed since. 0: there are none. `in_order`: none of the thread itself. [L]
+  /// Distance beyond which no needle of a later event can have met, before that event, a needle
+  /// with an event at `key` and this speed since. 0 if no later event has been processed.
+  /// `in_order` means that this thread itself has processed no later one. [L]
   double reach_of_later(std::size_t thread, TimeKey key, double speed, bool in_order) const {
     TimeKey latest = 0;
     double fastest = speed;

@@ -1,5 +1,4 @@
-// How the next event of a run is found and made to happen, whatever the search, calendar, effects
-// and number of threads.
+// The interface of all event loops, whatever the search, calendar, effects and number of threads.
 #pragma once
 
 #include <chrono>
@@ -11,27 +10,28 @@
 
 namespace needlework {
 
-/// Ends of a call of Simulation::advance().
+/// The limits at which a call of Simulation::advance() stops.
 struct Limits {
-  /// Throws InputError without any condition.
+  /// Throws InputError if no condition is given.
   Limits(const Run& run, const Scene::Until& until);
 
-  /// Brings a run that is at its end, or in which nothing can happen, there.
+  /// Handles a run that is already at its end, or in which nothing can happen, without processing
+  /// events. The time of the latter becomes the limit of time, if there is one.
   std::optional<Stop> reached_without_events(Run& run) const;
-  /// The limit that has been met, of those of the state.
+  /// The limit on collisions or energy that has been met, if any.
   std::optional<Stop> reached(const Run& run) const {
     if (static_cast<double>(run.tally.collisions) >= collisions) return Stop::collisions;
     if (run.energy() <= energy) return Stop::energy;
     return std::nullopt;
   }
-  /// The limit that has been met, of those from outside.
+  /// Whether the caller has interrupted the run, or the limit on wall time has passed.
   std::optional<Stop> called_off(const Run& run) const;
 
-  Time time;  ///< never: none
+  Time time;  ///< Time::never(): no limit
   double collisions;
   double energy;
   std::chrono::steady_clock::time_point wall;
-  /// Soon after so many collisions the loop comes back without having met a limit.
+  /// The loop returns soon after this number of collisions, without having met a limit.
   std::uint64_t pause = std::numeric_limits<std::uint64_t>::max();
 };
 
@@ -39,8 +39,9 @@ class Loop {
  public:
   virtual ~Loop() = default;
 
-  /// Goes on until a limit is met; without a value when it pauses before. Throws InvalidStateError
-  /// when the run cannot go on correctly; the state stays as it was before the event that failed.
+  /// Processes events until a limit is met, or until the pause, when it returns nothing. Throws
+  /// InvalidStateError when the run cannot continue correctly; the state then stays as it was
+  /// before the event that failed.
   virtual std::optional<Stop> advance(const Limits& limits) = 0;
   virtual const char* search_name() const = 0;
   virtual const char* calendar_name() const = 0;

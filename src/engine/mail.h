@@ -1,5 +1,5 @@
-// What threads tell each other of the calendar's blocks, and how they find that nothing is left to
-// do.
+// Messages between threads about changed blocks of the calendar, and how threads detect that no
+// event is left to process.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,15 @@
 
 namespace needlework {
 
-/// A box of mail for each thread: blocks of its zone to which others have written. A thread without
-/// anything left to do rests until there is mail; when all rest, there is none under way.
+/// A mailbox for each thread: blocks of its zone that other threads have changed. A thread without
+/// events left rests until mail arrives. When all threads rest, no mail is on its way.
 class Mail {
  public:
   using Block = CellCalendar::Block;
 
   explicit Mail(std::size_t threads) : boxes_(threads) {}
 
-  /// Of a new phase.
+  /// Starts a new phase with empty mailboxes.
   void begin() {
     resting_ = 0;
     finished_ = false;
@@ -51,8 +51,8 @@ class Mail {
     return blocks;
   }
 
-  /// Waits for mail, for a thread that has nothing left to do, nor will have unless mail comes.
-  /// Returns false when there is some, true when all threads wait, or `given_up` is set.
+  /// Waits for mail. For a thread without events left, which can get new ones only by mail.
+  /// Returns false when there is mail, and true when all threads rest or `given_up` is set.
   bool rest(std::size_t thread, const std::atomic<bool>& given_up, Patience patience) {
     {
       const std::lock_guard alone(meeting_);
@@ -74,7 +74,7 @@ class Mail {
   };
 
   std::vector<Box> boxes_;
-  alignas(128) std::mutex meeting_;  ///< for the boxes' blocks, and who rests
+  alignas(128) std::mutex meeting_;  ///< protects the blocks and resting states of all boxes
   std::size_t resting_ = 0;
   alignas(128) std::atomic<bool> finished_ = false;
 };

@@ -10,45 +10,48 @@
 
 namespace needlework {
 
-/// One thread's predictions. Remembers what was predicted of two needles just after their
-/// collision, as both search the pair, and the records that the present event has replaced.
+/// The predictions of one thread. Caches what it predicted for two needles just after their
+/// collision, because both search that pair, and keeps the records that the present event has
+/// replaced.
 template <Model M>
 class PairPredictor {
  public:
   PairPredictor(const M& model, Counters& counters)
       : model_(model), gas_(model.gas()), counters_(counters) {}
 
-  /// An event happens at this time; no record has been replaced then yet.
+  /// Begins an event at this time. No record has been replaced at it yet.
   void begin(Time time) {
     now = time;
     replaced_.clear();
   }
-  /// Replaces the record of needle i by renew(), which returns the boxes its centre was wrapped by.
+  /// Replaces the record of needle i by calling renew(), which returns the number of boxes by
+  /// which the centre was wrapped.
   template <class Renew>
   Shift replace(Needle i, Renew&& renew) {
     ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
     return entry.wraps = renew();
   }
-  /// Takes over records that were replaced at the present time.
+  /// Sets the previous state of records that were replaced at the present time by a caller.
   void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }
-  /// Needles have other places in storage, or records have been put back.
+  /// Discards what is cached. To be called after needles have moved in storage, or after records
+  /// have been put back.
   void forget() {
     last_ = {};
     replaced_.clear();
   }
 
-  /// The first contact of two needles, a with the lower id, in times from `from_now` after now up
-  /// to `until`. `shift` is added to b's centre.
+  /// The first contact of two needles in the interval from `from_now` after now up to `until`.
+  /// Needle a has the lower id; `shift` is added to b's centre.
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from_now, Time until);
 
   Time now;
 #ifndef NDEBUG
-  /// Whether a record from later than now has been read, of a needle within reach then.
+  /// Whether a record from later than now has been read, of a needle in reach of contact then.
   bool read_ahead = false;
 #endif
 
  private:
-  // What was predicted of two needles just after their collision.
+  // The prediction for two needles just after their collision.
   struct Prediction {
     Needle a, b;
     std::uint32_t serial_a = 0, serial_b = 0;
@@ -80,11 +83,12 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   const Record& first = gas_.records[a];
   const Record& second = gas_.records[b];
   const Time start = Gas::start_of(first, second);
-  // With several threads a record may be from later than now; till then the needles do not meet.
+  // With several threads a record may be from later than now. Before its time the needles do not
+  // meet.
   if (until < start) return {};
-  // Rounded outwards; the times themselves are compared exactly.
+  // The interval is rounded outwards. The times themselves are compared exactly.
   double from = std::max(0.0, (gas_.clock.difference(now, start) + from_now) * (1 - 0x1p-50));
-  // A little later may be the same time on the clock, where the ids decide.
+  // A slightly later contact may round to the same time, for which the ids decide the order.
   const double to = (gas_.clock.difference(until, start) + gas_.clock.resolution()) * (1 + 0x1p-50);
   kernels::Pair pair = model_.pair(a, first, b, second, shift);
 #ifndef NDEBUG
@@ -96,7 +100,7 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
     if (dot(apart, apart) <= reach * reach) read_ahead = true;
   }
 #endif
-  // Both partners of a collision search the pair, with records made now.
+  // Both needles of a collision search the pair, with records made at the present time.
   const bool shared = pair.touch.collided && first.time == second.time;
   const Prediction& last = last_;
   if (shared && last.a == a && last.b == b && same(last.shift, shift) &&
@@ -110,7 +114,7 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
     pair = model_.pair(a, first, b, second, shift);
     contact = first_contact(pair, from, to);
   }
-  // A return that the clock cannot tell from the collision before.
+  // A return so soon that its time cannot be distinguished from that of the previous collision.
   if (contact.found && pair.touch.collided && contact.elapsed.hi < 64 * gas_.clock.resolution()) {
     contact.unresolvable = true;
   }
@@ -118,8 +122,9 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   return contact;
 }
 
-// A record has just been replaced so near to touching another needle that rounding it may have
-// moved it to the other side. The gap is continued from the records before.
+// Decides on which side a needle stands of another that it touches to within rounding. Rounding
+// the new record may have moved it to the other side, so the gap is continued from the records
+// before.
 template <Model M>
 void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
   if (std::max(gas_.records[a].time, gas_.records[b].time) > now) {
@@ -142,23 +147,23 @@ void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
   const double elapsed = gas_.clock.difference(now, start);
   kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};
   const double tick = gas_.clock.resolution();
-  // Largest error of the predicted time of a contact, as a share of that time.
+  // Largest error of the predicted time of a contact, relative to that time.
   const double off = std::max(0x1p-38, 2 * model_.accuracy().root_tolerance);
   const kernels::Contact due = first_contact(before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50),
                                              (elapsed + tick) * (1 + off));
   const double gap = model_.gap(before, gas_.clock.exact_difference(now, start));
   const int side = gap > 0 ? 1 : gap < 0 ? -1 : 0;
-  // A contact is due now and has not happened yet; or it is due so soon that its predicted time
-  // lies after the moment at which f vanishes.
+  // A contact is due now and has not happened yet, or it is due so soon that its predicted time
+  // lies after the root of f.
   if (due.found && (gas_.clock.add(start, due.elapsed.hi) <= now || side != due.side)) {
     touch.side = due.side;
   } else {
     touch.gap = gap;
     touch.side = side;
-    // Exactly on the contact: a collision that happened at this instant, or a touch.
+    // Exactly at contact: either a collision at this instant or a touch without one.
     const bool just_had = before.touch.touching && elapsed == 0;
     if (touch.side == 0) touch.side = just_had ? before.touch.side : model_.side_after(before);
-    // Needles that turned centre on centre had no side.
+    // Needles that rotate with coinciding centres had no side before.
     if (touch.side == 0) {
       touch.side = model_.side_after(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
     }

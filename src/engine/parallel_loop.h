@@ -1,24 +1,25 @@
-// The event loop on several threads, with the trajectory of one.
+// The event loop on several threads, with the same trajectory as on one.
 //
-// Each thread has a zone of the box and makes the events of the needles there happen, the earliest
-// first. What an event reads and writes lies within some cells of it, so events far from each other
-// may happen in any order, or at once. An event waits while the clock of any block within reach
-// is behind it; other events of the zone, far from the waiting ones, go on. A thread waits as
-// well while another is very far behind in time. Where zones are near, a thread claims the cells
-// that its event may write to before it reads any.
+// The box is divided into zones, one for each thread. A thread processes the events of the needles
+// in its zone, the earliest first. An event reads and writes only within some cells of its place,
+// so events that are far apart may be processed in any order, or at the same time. An event waits
+// while a block within reach has an earlier one; other events of the zone, far from the waiting
+// ones, go on. A thread also waits while another thread is very far behind in time. Near other
+// zones a thread claims the cells to which its event may write before it reads any.
 //
-// That is nearly always enough, and nothing of the kind can be enough for sure: between two needles
-// there may be a row of others that hand a push on in no time, from an event outside the reach to
-// one that has been done. So every event looks for later ones that have been done near it. They do
-// no harm unless the needles of both may meet in the time between: until then nothing that one does
-// can matter to the other, and from then on each has been searched after the other was placed. When
-// they may, or when anything else has gone amiss, the whole phase since the threads last met is
-// undone, and one thread does it again. Counters tell how often (`redone`).
+// This is nearly always enough, but no such rule can be enough with certainty: a chain of
+// collisions may propagate in almost no time, from an event outside the reach to the place of one
+// that has already been processed. So every event looks for later ones that have been processed
+// near it. They do no harm if no needle of the one event can meet a needle of the other in
+// between: then neither event affects the other before the later time, and the contacts after it
+// have been searched with the new records of both. If they may meet, or if anything else has gone
+// wrong, the whole phase, which is the time since the threads last met, is undone, and one thread
+// processes it again. The counter `redone` counts such phases.
 //
-// The same serves ends that lie at one collision of the total order: a phase in which one is passed
-// is done again by one thread, which stops there.
+// A limit that stops the run at one collision is handled in the same way: a phase that passes it
+// is undone, and one thread processes it again and stops there.
 //
-// What a thread does is in zone_thread.h, what all of them share in phase.h.
+// zone_thread.h holds what one thread does in a phase, phase.h what all threads share.
 #pragma once
 
 #include <omp.h>
@@ -40,12 +41,14 @@
 
 namespace needlework {
 
-/// How far threads look and how much work they share; other values are for tests.
+/// How far threads look and how much work they share. Values other than the defaults are for
+/// tests.
 struct ParallelTuning {
-  /// How far from its cell an event looks for earlier ones. Where it is shorter, phases are undone
-  /// again and again; longer, events wait without need. [L]
+  /// Distance from its cell within which an event looks for earlier ones. If it is shorter, phases
+  /// are undone repeatedly; if it is longer, events wait without need. [L]
   double sight = 1.5;
-  double least = PhasePlan::usual_least;  ///< collisions that make a phase worth sharing
+  double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
+                                          ///< shared
 };
 
 /// Asks OpenMP for whole teams, and leaves its setting as found.
@@ -93,7 +96,7 @@ class ParallelLoop final : public EventLoop<S, M> {
   void undo();
   void report();
 
-  /// Collisions in a time, by the mean free time.
+  /// Collisions of the whole gas per time, from the mean free time.
   double thermal_rate() const {
     return 0.5 * static_cast<double>(run_.gas.size()) / run_.mean_free_time;
   }
@@ -102,7 +105,8 @@ class ParallelLoop final : public EventLoop<S, M> {
   CellCalendar& cell_calendar_;
   Phase<S> phase_;
   std::deque<ZoneThread<S, M>> threads_;
-  double fastest_to_thermal_;  ///< speed of the fastest in the phase before, over thermal_speed()
+  double fastest_to_thermal_;  ///< speed of the fastest needle of the previous phase, divided by
+                               ///< thermal_speed()
   PhasePlan plan_;
 };
 
@@ -155,7 +159,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
       return Stop::time;
     }
     if (next == Time::never()) return Stop::nothing_can_happen;
-    // Till `ready` no thread finds that the search has to begin its times anew.
+    // Before `ready` no thread has to rebase the times that the search stores.
     const Time ready = search_.prepare(run_.now);
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
     const PhasePlan::Stretch stretch =
@@ -173,12 +177,12 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
   }
 }
 
-// Runs events before `end` on all threads. Undoes all when that is not what one thread would have
-// done, or when it would have stopped before; then one thread has to do it. Undoes all as well when
-// there are many more collisions than expected; then threads try less at once.
+// Processes events before `end` on all threads. If the result may differ from that of one thread,
+// or if one thread would have stopped earlier, undoes the phase and leaves it to one thread. If
+// there are many more collisions than expected, undoes it and makes the next phases shorter.
 template <Search S, Model M>
 void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
-  // The phase before may be long ago.
+  // The previous phase may have been long ago, so its largest speed is rescaled.
   phase_.begin(fastest_to_thermal_ * thermal_speed(), plan_.most_of_a_thread());
   for (auto& thread : threads_) thread.begin();
   [[maybe_unused]] const Time base = search_.volumes().base;
@@ -193,7 +197,8 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
         try {
           threads_[zone].work(end_key);
         } catch (...) {
-          // Whatever it was, one thread will come to it, if it is so, with all that was before.
+          // If the error is real, the thread that repeats the phase meets it too, after all earlier
+          // events.
           phase_.amiss = true;
         }
         phase_.claims.drop(zone);
@@ -202,7 +207,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
       }
     }
   }
-  assert(search_.volumes().base == base);  // which no thread may change for the others
+  assert(search_.volumes().base == base);  // no thread may rebase while others work
   ++run_.tally.counters.phases;
   const double fastest = phase_.fronts.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
@@ -232,7 +237,7 @@ void ParallelLoop<S, M>::undo() {
   for (auto& thread : threads_) thread.undo(needles);
   std::sort(needles.begin(), needles.end());
   needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
-  cell_calendar_.order_again();  // events that were held among them
+  cell_calendar_.order_again();  // they may include held events
   processor_.set_now(run_.now);
   processor_.forget();
   std::vector<Time> placed_until;
@@ -242,7 +247,7 @@ void ParallelLoop<S, M>::undo() {
   }
 }
 
-// Reports the collisions of the phase in their order.
+// Reports the collisions of the phase in order of time.
 template <Search S, Model M>
 void ParallelLoop<S, M>::report() {
   if (!run_.callback) return;

@@ -1,4 +1,4 @@
-// How a thread waits for another.
+// How a thread waits for another one, and how the time of waiting is counted.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace needlework {
 
-/// Spins for a while, then lets others have the core: they may be those waited for.
+/// Spins for a while, then yields the core, which the awaited thread may need.
 class Patience {
  public:
   explicit Patience(int spins) : spins_(spins) {}
@@ -32,31 +32,32 @@ class Patience {
   int turns_ = 0;
 };
 
-/// Counts the times that a thread is blocked, and for how long.
+/// Counts how often a thread is blocked, and for how long.
 class Blockings {
  public:
   void begin() {
-    if (!blocked_) since_ = Clock::now();
+    if (!blocked_) since_ = SteadyClock::now();
     blocked_ = true;
   }
   void end(std::uint64_t& count, std::uint64_t& nanoseconds) {
     if (!blocked_) return;
     blocked_ = false;
     ++count;
-    const auto time = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - since_);
+    const auto time =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now() - since_);
     nanoseconds += static_cast<std::uint64_t>(time.count());
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using SteadyClock = std::chrono::steady_clock;
 
   bool blocked_ = false;
-  Clock::time_point since_;
+  SteadyClock::time_point since_;
 };
 
-/// Called where a thread looks at how far others are, or tells them how far it is. In a build with
-/// NEEDLEWORK_RANDOM_YIELDS it dawdles there at random, for some microseconds, or lets others have
-/// the core: to bring about orders of events in time that hardly ever happen otherwise.
+/// Called before a thread reads or publishes progress. Does nothing in a normal build. In a build
+/// with NEEDLEWORK_RANDOM_YIELDS it delays the thread at random by some microseconds, or yields
+/// the core, to produce orders of execution that are otherwise very rare.
 inline void look_away() {
 #ifdef NEEDLEWORK_RANDOM_YIELDS
   thread_local unsigned state =

@@ -1,4 +1,4 @@
-// What threads share in a phase, from one meeting to the next.
+// The data that threads share in a phase, from one meeting of all threads to the next.
 #pragma once
 
 #include <omp.h>
@@ -21,17 +21,19 @@
 
 namespace needlework {
 
-/// Who may be where, what has been done, and how far each thread is.
+/// The data of a phase: zones, claims, the log of processed events, and the progress of each
+/// thread.
 template <Search S>
 struct Phase {
   using Block = CellCalendar::Block;
 
-  /// `sight`: how far from its cell an event looks for earlier ones. [L]
+  /// `sight`: distance from its cell within which an event looks for earlier ones. [L]
   Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
 
-  /// Divides the box into zones, by where needles are now.
+  /// Divides the box into zones by the present positions of the needles.
   void divide();
-  /// `fastest`: a guess at the speed of the fastest needle; `most`: collisions of a thread.
+  /// Starts a new phase. `fastest` is an estimate of the largest speed of a needle, `most` the
+  /// largest number of collisions of one thread.
   void begin(double fastest, std::uint64_t most);
 
   CellBox cell_of(Block block) const { return {places[block], {}}; }
@@ -41,21 +43,24 @@ struct Phase {
   CellCalendar& calendar;
   const std::uint32_t threads;
   const CellCounts cells;
-  const double sight_of_done;   ///< others may be at work where what has been done is farther [L]
-  const CellCounts neighbours;  ///< what needles of a cell read is not farther than this
+  const double sight_of_done;   ///< no other thread writes to the log of processed events within
+                                ///< this distance [L]
+  const CellCounts neighbours;  ///< cells that cover this distance; an event reads nothing farther
+                                ///< away
   const CellBall reach;         ///< where an event looks for earlier ones
-  CellCounts apart;             ///< events farther than this never touch the same
-  std::vector<CellCounts> places;   ///< of the blocks
-  std::vector<std::uint8_t> inner;  ///< of a block: nobody else ever comes near
-  std::vector<std::uint8_t> ours;   ///< of a block: all within reach are of its zone
+  CellCounts apart;             ///< events farther apart never access the same data
+  std::vector<CellCounts> places;   ///< cell of each block
+  std::vector<std::uint8_t> inner;  ///< for each block: no other thread accesses data near it
+  std::vector<std::uint8_t> ours;   ///< for each block: all blocks within reach are in its zone
   Claims claims;
   DoneLog done;
   Fronts fronts;
   Mail mail;
-  alignas(128) std::atomic<bool> amiss = false;  ///< all that has been done is to be undone
-  std::atomic<bool> too_many = false;            ///< collisions of a thread
-  std::uint64_t most_collisions = 0;             ///< of a thread
-  const int spins;                               ///< before a waiting thread yields
+  alignas(128) std::atomic<bool> amiss = false;  ///< the phase must be undone
+  std::atomic<bool> too_many = false;            ///< a thread has had too many collisions
+  std::uint64_t most_collisions = 0;             ///< of one thread
+  const int spins;                               ///< turns that a waiting thread spins before it
+                                                 ///< yields
 };
 
 template <Search S>
@@ -66,7 +71,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       calendar(its_calendar),
       threads(static_cast<std::uint32_t>(its_threads)),
       cells(search.grid().counts()),
-      // Two needles that may meet before one of them is placed anew, with room for rounding.
+      // Needles closer than this may meet before one of them is placed again; includes rounding.
       sight_of_done(1.01 + 2 * search.drift()),
       neighbours(cells_within(search.grid(), sight_of_done)),
       reach(search.grid(), sight),
@@ -74,7 +79,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       done(search.grid(), run.gas.box),
       fronts(threads, sight_of_done),
       mail(threads),
-      // With a core for each, most waits are shorter than a visit to the system.
+      // If each thread has a core, most waits are shorter than a system call.
       spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
   const CellCounts moves = cells_within(search.grid(), search.drift() + search.radius());
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
-// Records that were replaced at one instant: what settles on which side of each other needles
-// stand that touched just then.
+// The previous state of records that were replaced at one instant. It determines on which side of
+// each other two needles stand that touched at that instant.
 #pragma once
 
 #include <algorithm>
@@ -10,23 +10,23 @@
 
 namespace needlework {
 
-/// One or two records after an event; all of them after velocities have been replaced by a caller.
+/// Holds one or two records after an event, or all of them after a caller has replaced velocities.
 class ReplacedRecords {
  public:
   struct Entry {
     Needle needle;
-    Record record;  ///< as it was before
-    Shift wraps{};  ///< boxes by which the new record's centre was wrapped
+    Record record;  ///< the record before it was replaced
+    Shift wraps{};  ///< number of boxes by which the new record's centre was wrapped
   };
 
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
-  /// More than two have to be added by ascending needle.
+  /// If more than two are added, needles must be in ascending order.
   Entry& add(Needle i, const Record& record) {
     entries_.push_back({i, record, {}});
     return entries_.back();
   }
-  /// The entry of needle i, or null.
+  /// The entry of needle i, or null if there is none.
   const Entry* find(Needle i) const {
     if (entries_.size() <= 2) {
       for (const Entry& entry : entries_) {

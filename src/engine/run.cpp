@@ -32,7 +32,7 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
                    ": expected " + std::to_string(expected));
 }
 
-// Sums over needles of terms, exactly: the sums of all terms(record), an array.
+// Exact sums over all needles of terms(record), an array of numbers.
 template <class Terms>
 auto sums_of(const Gas& gas, Terms&& terms) {
   decltype(terms(gas.records[0])) largest{}, out;
@@ -57,7 +57,7 @@ Species species_of(const Scene& scene) {
   return {.length = species.length, .mass = species.mass, .k = species.k};
 }
 
-// Of one species: the rate is that of needles of length and mass 1, times L^2 / sqrt(m).
+// For one species the collision rate is that of needles of length and mass 1, times L^2 / sqrt(m).
 double mean_free_time_of(const Gas& gas, const Totals& sums) {
   const Species& species = gas.species.front();
   return mean_free_time({.density = gas.density(),
@@ -141,7 +141,7 @@ Run::Run(const Scene& scene, Gas initial)
   }
   open_window();
   initial_energy = energy();
-  // Before search and calendar take their memory, which would add to what sorting needs.
+  // Done before search and calendar allocate their memory, which would add to that of sorting.
   if (sorted) reorder(gas, order_in_space(gas, now));
 }
 
@@ -151,7 +151,7 @@ void Run::open_window() {
   const double count = static_cast<double>(gas.size());
   energy_at_window_ = sums.energy * count;
   quanta_at_window_ = tally.energy;
-  // 2^58 quanta, so that sums of many changes fit.
+  // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
   quantum_ = energy_at_window_ > 0 ? times_power_of_two(1, exponent_of(energy_at_window_) - 58) : 1;
   per_quantum_ = 1 / quantum_;
   mean_free_time = mean_free_time_of(gas, sums);
@@ -200,7 +200,7 @@ bool Run::nothing_can_happen() const {
 void Run::sum_energies(Totals& out) const {
   if (gas.size() == 0) return;
   const double count = static_cast<double>(gas.size());
-  // Of one species: sums of v^2 and w^2, with the factors of energies afterwards.
+  // For one species: sums of v^2 and w^2, which are converted to energies afterwards.
   const Species& species = gas.species.front();
   const auto [v2, w2] = sums_of(gas, [](const Record& a) {
     return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
@@ -226,7 +226,7 @@ void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) c
   using C = kernels::FlightColumns;
   out.box = gas.box;
   out.resize(gas.size());
-  // Few enough for their columns to stay in the first-level cache.
+  // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
   double columns[C::columns][at_once] = {};

@@ -1,4 +1,4 @@
-// Everything of a running simulation that does not depend on how the next event is found.
+// The part of a running simulation that does not depend on how the next event is found.
 #pragma once
 
 #include <atomic>
@@ -17,42 +17,43 @@ namespace needlework {
 
 /// State, physics, windows and counters of a run.
 ///
-/// Simulated time is cut into windows, each about as long as the mean free time at its start;
-/// window ends depend on the simulated history only. There, and only there, the mean free time and
-/// the contact time in force are set anew.
+/// Simulated time is divided into windows, each about as long as the mean free time at its start.
+/// The ends of windows depend on the simulated history only. The mean free time and the contact
+/// time in force are updated at the ends of windows and nowhere else.
 class Run {
  public:
-  /// Takes over scene parameters and a gas fresh from make_gas().
+  /// Takes the parameters of the scene, and a gas that make_gas() has made.
   Run(const Scene& scene, Gas initial);
 
   Totals totals() const;
-  /// Copies all needles at the present time in this order. Free flight is computed with this
-  /// instruction set, on which no bit depends.
+  /// Copies all needles at the present time, in this order. The instruction set is used for free
+  /// flight and affects no bit of the result.
   void copy(kernels::Isa isa, const std::vector<Needle>& order, State& out) const;
   /// Throws InputError for an id that does not exist.
   FreeNeedle needle(Id id) const;
 
-  /// Of all needles, kept up by the collisions.
+  /// Energy of all needles, updated at each collision.
   double energy() const {
     return energy_at_window_ + quantum_ * static_cast<double>(tally.energy - quanta_at_window_);
   }
-  /// An energy in whole quanta, far below what a double resolves of the whole: sums of them do not
-  /// depend on the order.
+  /// An energy as a whole number of quanta, which are far smaller than the resolution of a double
+  /// at the total energy. Sums of whole numbers do not depend on their order.
   std::int64_t in_quanta(double energy) const {
     return static_cast<std::int64_t>(energy * per_quantum_);
   }
 
-  /// Sets mean free time, contact time and the next window's end from the present state.
+  /// Computes the mean free time, the contact time and the end of the next window from the present
+  /// state.
   void open_window();
   bool nothing_can_happen() const;
 
-  /// Passes a collision of these two to the callback, or appends it to `later`. Not part of the
-  /// loops, as it would enlarge their code.
+  /// Passes a collision of these two needles to the callback, or appends it to `later`. Kept out
+  /// of the event loops, whose code it would enlarge.
   void report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const;
 
-  /// Replaces the velocities of all needles at the present time and opens a new window; the event
-  /// loop has to be made again. `velocity(i)` and `angular_velocity(i)` are by place in storage.
-  /// Returns the records as they were.
+  /// Replaces the velocities of all needles at the present time and opens a new window. The event
+  /// loop must be made again afterwards. `velocity(i)` and `angular_velocity(i)` are indexed by
+  /// place in storage. Returns the previous records.
   ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                      const std::function<Vec3d(Needle)>& angular_velocity);
 
@@ -60,12 +61,12 @@ class Run {
   Time now;
   Restitution restitution;
   Accuracy accuracy;
-  Effects effects;  ///< that the scene calls for
-  bool sorted;      ///< whether needles are stored in the order of their places
+  Effects effects;  ///< effects that the scene requires
+  bool sorted;      ///< whether needles are stored in spatial order
   double mean_free_time = 0;
-  double contact_time = 0;           ///< in force in this window
-  double search_span = 0;            ///< how far ahead contacts are searched for [time]
-  std::vector<Time> last_collision;  ///< for the t_c rule; renewals do not count
+  double contact_time = 0;           ///< contact time of the t_c rule in this window
+  double search_span = 0;            ///< length of time ahead in which contacts are searched
+  std::vector<Time> last_collision;  ///< for the t_c rule; renewals of records do not count
   double initial_energy = 0;
   Tally tally;
   std::function<void(const Collision&)> callback;
@@ -73,7 +74,7 @@ class Run {
   Time window_end;
 
  private:
-  /// Fills in temperatures and energy.
+  /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
 
   std::optional<double> tc_, tc_relative_;
@@ -82,11 +83,11 @@ class Run {
   std::int64_t quanta_at_window_ = 0;
 };
 
-/// What the scene calls for of flight and pair rule.
+/// The effects on flight and pair rule that the scene requires.
 Effects effects_of(const Scene& scene);
 
-/// The needles of a state, whose arrays a run has no more use for. Throws InputError for a state
-/// that cannot be run.
+/// Makes the needles of a run from a state. Throws InputError for a state that cannot be
+/// simulated.
 Gas make_gas(const Scene& scene, const State& initial);
 
 }  // namespace needlework

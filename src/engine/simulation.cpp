@@ -30,7 +30,7 @@ kernels::Isa isa_of(const std::string& name) {
   throw InputError("engine.isa = \"" + name + "\": expected one that this processor has");
 }
 
-// The parts that the scene asks for, for a gas of this density.
+// The parts of the loop that the scene asks for, for a gas of this density.
 LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
   const int threads = std::max(1, scene.engine.threads.value_or(1));
   return {.search = chosen_search(scene.engine.search, density),
@@ -92,7 +92,7 @@ struct Simulation::Implementation {
     queue = loop->calendar_name();
   }
 
-  // Places in storage by ascending id.
+  // Places in storage, ordered by id.
   std::vector<Needle> by_id() const {
     std::vector<Needle> out;
     out.reserve(run.gas.size());
@@ -107,7 +107,7 @@ struct Simulation::Implementation {
     check_velocities(velocity, run.gas.size(), "velocity");
     check_velocities(angular_velocity, run.gas.size(), "angular velocity");
     const std::vector<Needle> ranks = ranks_of(by_id());
-    loop.reset();  // all of it depends on the velocities
+    loop.reset();  // all of its contents depend on the velocities
     begin_loop(
         run.replace_velocities([&](Needle i) { return vector(velocity[ranks[i]]); },
                                [&](Needle i) { return vector(angular_velocity[ranks[i]]); }));
@@ -122,14 +122,14 @@ struct Simulation::Implementation {
       if (sizing) limits.pause = sizing->next();
       if (const auto stop = loop->advance(limits)) return *stop;
       if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
-      loop.reset();  // before the next one takes its memory
+      loop.reset();  // frees its memory before the next loop allocates
       ++run.tally.counters.resized;
     }
   }
 
   const Scene scene;
   Run run;
-  std::optional<Sizing> sizing;  ///< unless the scene says how large cells or capsules are
+  std::optional<Sizing> sizing;  ///< empty if the scene sets the size of cells or capsules
   std::unique_ptr<Loop> loop;
   std::string search, queue;
   kernels::Isa isa;
@@ -141,7 +141,7 @@ Simulation::Simulation(const Scene& scene) {
                      ": expected the state that the file holds as a second argument; the engine "
                      "reads no files");
   }
-  // The state's arrays go before the rest of the run takes its memory.
+  // The state's arrays are freed before the rest of the run allocates its memory.
   Gas gas = make_gas(scene, draw_initial_state(scene));
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
 }

@@ -7,7 +7,7 @@
 namespace needlework {
 namespace {
 
-// Spreads the lowest 21 bits so that two empty ones follow each.
+// Spreads the lowest 21 bits so that two zero bits follow each.
 std::uint64_t spread(std::uint64_t a) {
   a &= 0x1fffff;
   a = (a | a << 32) & 0x001f00000000ffff;
@@ -20,7 +20,7 @@ std::uint64_t spread(std::uint64_t a) {
 }  // namespace
 
 std::vector<Needle> order_in_space(const Gas& gas, Time now) {
-  // One scale for all axes, in steps of half a length or so.
+  // One scale for all axes, in steps of about half a needle length.
   const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
   const double steps = std::min(2 * longest, 0x1p21 - 1);
   std::vector<std::uint64_t> keys;

@@ -9,8 +9,8 @@
 
 namespace needlework {
 
-/// The needles in the order of a Morton curve (bits of the coordinates interleaved) through their
-/// centres at `now`; equal ones keep their order.
+/// Sorts the needles along a Morton curve (interleaved bits of the coordinates) through their
+/// centres at `now`. Needles with equal keys keep their order.
 std::vector<Needle> order_in_space(const Gas& gas, Time now);
 
 /// Stores the needles of the gas in this order, touches included.

@@ -1,4 +1,4 @@
-// What a thread has replaced since the threads last met, so that it can be put back.
+// A log of what a thread has replaced since the threads last met, so that it can be restored.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ class UndoLog {
   }
   void scheduled(Needle i) { scheduled_.push_back(i); }
 
-  /// Needles whose event has been replaced, some of them more than once.
+  /// Needles whose event has been replaced; a needle may occur several times.
   const std::vector<Needle>& scheduled() const { return scheduled_; }
 
   void clear() {
@@ -29,8 +29,8 @@ class UndoLog {
     scheduled_.clear();
   }
 
-  /// Puts records back that are older than the present ones, so that with the logs of all threads
-  /// the oldest are left. `last_collision` may be empty.
+  /// Restores the records that are older than the present ones. After this has been done for the
+  /// logs of all threads, the oldest records are in place. `last_collision` may be empty.
   void put_back(Gas& gas, std::vector<Time>& last_collision) {
     for (std::size_t n = 0; n < used_; ++n) {
       Entry& entry = entries_[n];

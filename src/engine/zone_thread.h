@@ -1,4 +1,5 @@
-// A thread of a phase: makes the events of its zone happen, unless they have to wait for others'.
+// One thread of a phase: processes the events of its zone, except those that must wait for events
+// of other zones.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@
 
 namespace needlework {
 
-/// Puts events into the calendar, and notes the blocks that the event at hand has changed.
+/// Puts events into the calendar and lists the blocks that the present event has changed.
 struct ZoneChanges final : EventSink {
   explicit ZoneChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
   void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
@@ -40,16 +41,18 @@ class alignas(128) ZoneThread {
   ZoneThread(const ZoneThread&) = delete;
   ZoneThread& operator=(const ZoneThread&) = delete;
 
-  /// Of a new phase.
+  /// Starts a new phase.
   void begin();
-  /// Makes the events before `end` happen, all of them unless something is amiss.
+  /// Processes the events of the zone before `end`: all of them, unless the phase has to be
+  /// undone.
   void work(TimeKey end);
-  /// Undoes what it has done in the phase, and adds the needles whose events are to be told anew.
+  /// Restores the records that the thread has replaced in the phase, and appends the needles whose
+  /// events must be predicted again.
   void undo(std::vector<Needle>& needles);
-  /// The storage has another order.
+  /// To be called when the order of the storage has changed.
   void forget() { processor_.forget(); }
 
-  // What has come of the phase.
+  // Results of the phase.
   Time now() const { return processor_.now(); }
   Tally& tally() { return tally_; }
   const std::vector<Collision>& reports() const { return reports_; }
@@ -57,7 +60,7 @@ class alignas(128) ZoneThread {
  private:
   using Block = CellCalendar::Block;
 
-  // An event that has to wait until the clock of `for_block` is past it.
+  // An event that must wait until `for_block` has no earlier one.
   struct Held {
     Block block, for_block;
     TimeKey key;
@@ -69,13 +72,13 @@ class alignas(128) ZoneThread {
   Outcome hold(Block block, TimeKey key, Block for_block);
   void release_held();
   void read_mail();
-  void make_known();
+  void publish_changes();
   Block earlier_around(Block centre, Block block, TimeKey key) const;
   Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   bool may_have_met(const Done& mine, double speed, bool in_order, bool alone) const;
 
-  // Events that wait while a thread looks for one that need not.
+  // Largest number of waiting events while the thread looks for one that can proceed.
   static constexpr std::size_t most_held = 12;
   static constexpr Block nobody = ~Block{0};
 
@@ -124,8 +127,8 @@ void ZoneThread<S, M>::work(TimeKey end) {
     const TimeKey key = phase_.calendar.winning_key(zone_);
     TimeKey front = key;
     for (const Held& held : held_) front = std::min(front, held.key);
-    phase_.fronts.tell_next(zone_, front);
-    // Those held may wait for one that has come up since.
+    phase_.fronts.publish_next(zone_, front);
+    // Held events may be waiting for an earlier one that has appeared since.
     const bool may_start = held_.size() < most_held || key == front;
     if (key < end && may_start && !phase_.fronts.is_too_far_ahead(key)) {
       const Outcome outcome = attempt(phase_.calendar.winner(zone_), key);
@@ -144,7 +147,7 @@ void ZoneThread<S, M>::work(TimeKey end) {
   go_on();
 }
 
-// Does the next event of a block, unless it has to wait.
+// Processes the next event of a block, unless it must wait.
 template <Search S, Model M>
 auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   const bool alone = phase_.inner[block] && held_.empty();
@@ -160,7 +163,8 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     const Block earlier = earlier_around(block, block, key);
     if (earlier != nobody) return give_up(earlier);
     if (!claim(Claims::owner, phase_.cell_of(block))) return Outcome::again;
-    // Somebody may have written to the block, or to others of the zone near it, just before.
+    // Another thread may have changed this block, or others of the zone near it, just before the
+    // claim.
     if (phase_.calendar.clock_of(block) != key || phase_.mail.has_some(zone_)) {
       return give_up(nobody);
     }
@@ -174,7 +178,7 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   phase_.calendar.prefetch_keys(block);
   bool stale = false, near_partner = false;
   if (event.is_contact()) {
-    // A partner that is no longer near has had another collision.
+    // If the partner is no longer near, it has collided since the prediction.
     const Block other = phase_.calendar.block_of(event.partner);
     const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
     near_partner = near(here, there, phase_.cells, phase_.neighbours);
@@ -200,12 +204,12 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     phase_.done.prefetch(partner.r);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
   } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
-    // It may have happened, had it had its turn.
+    // The contact might have taken place, had it been processed in its turn.
     phase_.amiss = true;
     return give_up(nobody);
   }
   const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
-  const bool in_order = phase_.fronts.tell_taken(zone_, key, fastest);
+  const bool in_order = phase_.fronts.publish_event(zone_, key, fastest);
   changes_.changed.clear();
 #ifndef NDEBUG
   processor_.watch_reading_ahead();
@@ -219,9 +223,9 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   };
   record(event.owner, owner);
   if (collides) record(event.partner, partner);
-  // No record that an event reads is ahead of it, or the phase is undone.
+  // No event reads a record from later than its own time, unless the phase is undone.
   assert(!processor_.has_read_ahead() || phase_.amiss);
-  make_known();
+  publish_changes();
   if (!alone) phase_.claims.drop(zone_);
   return Outcome::done;
 }
@@ -234,7 +238,7 @@ auto ZoneThread<S, M>::hold(Block block, TimeKey key, Block for_block) -> Outcom
   return Outcome::held;
 }
 
-// Lets those go on whose turn may have come.
+// Releases held events that may be able to proceed.
 template <Search S, Model M>
 void ZoneThread<S, M>::release_held() {
   std::erase_if(held_, [&](const Held& held) {
@@ -254,10 +258,11 @@ void ZoneThread<S, M>::read_mail() {
   }
 }
 
-// Makes the clocks of the blocks that an event has changed known: first those that it has brought
-// forward, so that nobody sees this one done and not what follows from it.
+// Publishes the times of the blocks that an event has changed. Those that have become earlier are
+// published first, so that no thread sees this event completed without the events that follow from
+// it.
 template <Search S, Model M>
-void ZoneThread<S, M>::make_known() {
+void ZoneThread<S, M>::publish_changes() {
   std::vector<Block>& changed = changes_.changed;
   look_away();
   for (const Block b : changed) {
@@ -277,8 +282,8 @@ void ZoneThread<S, M>::make_known() {
   }
 }
 
-// A block within reach of `centre` whose clock is behind the event of `block`, if any. Of the
-// zone's own blocks these can only be held ones.
+// A block within reach of `centre` that has an event before that of `block`, or nobody. Among the
+// zone's own blocks only held ones can have one.
 template <Search S, Model M>
 auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) const -> Block {
   look_away();
@@ -291,7 +296,7 @@ auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) co
   Block found = nobody;
   if (phase_.ours[centre] && phase_.calendar.zone_of(centre) == zone_) return found;
   phase_.reach.any_row(phase_.places[centre], [&](Block first, Block last) {
-    // Zones are boxes.
+    // Zones are boxes, so that two cells suffice.
     if (phase_.calendar.zone_of(first) == zone_ && phase_.calendar.zone_of(last - 1) == zone_) {
       return false;
     }
@@ -319,16 +324,16 @@ auto ZoneThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> 
           event.time};
 }
 
-// The cell of a needle that is at r, and those in which it may be placed.
+// The box of cells around the cell of a needle at r and the cells in which it may be placed.
 template <Search S, Model M>
 CellBox ZoneThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
   return cells_around(phase_.search.grid(), r, phase_.search.radius() * (1 + 0x1p-10) + 0x1p-20,
                       phase_.search.cell_of(i));
 }
 
-// Whether a needle that has had an event, and is so fast since, may have met one whose later event
-// has been done, before that. `in_order`: this thread has done none that is later. `alone`: others
-// are far.
+// Whether a needle that has had event `mine`, and flies with `speed` since, may have met a needle
+// whose later event has already been processed, before that later event. `in_order`: this thread
+// has processed no later event. `alone`: no other thread works near.
 template <Search S, Model M>
 bool ZoneThread<S, M>::may_have_met(const Done& mine, double speed, bool in_order,
                                     bool alone) const {

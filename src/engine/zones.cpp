@@ -11,24 +11,25 @@ std::size_t index_of(const CellCounts& cells, const CellCounts& at) {
   return (static_cast<std::size_t>(at[2]) * cells[1] + at[1]) * cells[0] + at[0];
 }
 
-// A box from `low` to before `high`, for some zones from `first` on.
+// A box from `low` to just before `high`, to be divided into `zones` zones, the first of which is
+// number `first`.
 template <class Number>
 struct Part {
   std::array<Number, 3> low, high;
   std::uint32_t first, zones;
 };
 
-// Cuts a part in two along its longest axis, and the parts again, until each is for one zone or has
-// no axis left of any length. length(part, axis); cut(part, axis, share) gives where a share of the
-// part ends.
+// Cuts a part in two along its longest axis, and the parts again, until each belongs to one zone
+// or cannot be cut further. length(part, axis) is the length of an axis, and cut(part, axis,
+// share) the position where this share of the part ends.
 template <class Number, class Length, class Cut, class Leaf>
 void halve(const Part<Number>& whole, Length&& length, Cut&& cut, Leaf&& leaf) {
   std::vector<Part<Number>> parts = {whole};
   while (!parts.empty()) {
     const Part<Number> part = parts.back();
     parts.pop_back();
-    // Of axes equal but for rounding the last, so that cells next to each other in memory stay
-    // together.
+    // Among axes of equal length (to within rounding) the last is chosen, because cells that are
+    // adjacent in memory then stay together.
     int axis = 0;
     for (int a = 1; a < 3; ++a) {
       if (length(part, a) >= length(part, axis) * (1 - 1e-9)) axis = a;
@@ -68,7 +69,7 @@ std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<
     const std::int32_t count = part.high[axis] - part.low[axis];
     return count < 2 ? 0 : count * box[axis] / cells[axis];
   };
-  // The first slices whose weight is nearest to the share.
+  // Chooses the number of slices whose total weight is closest to the share.
   const auto cut = [&](const CellPart& part, int axis, double share) {
     std::vector<std::size_t> slices(part.high[axis] - part.low[axis]);
     std::size_t total = 0;
@@ -92,7 +93,7 @@ std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<
 }
 
 CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t zones) {
-  // In shares of the axes.
+  // Positions are fractions of the axes.
   using Share = Part<double>;
   std::array<std::vector<double>, 3> cuts;
   const auto length = [&](const Share& part, int axis) {
@@ -104,7 +105,7 @@ CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t z
   };
   halve(Share{{0, 0, 0}, {1, 1, 1}, 0, zones}, length, cut, [](const Share&) {});
   CellCounts out = {1, 1, 1};
-  // More than that no grid is near to.
+  // A larger multiple would be far from the cell count of any grid.
   const std::int32_t most = static_cast<std::int32_t>(std::min(2 * zones, 1000u));
   for (int axis = 0; axis < 3; ++axis) {
     const auto is_whole = [&](double cut) {
@@ -122,7 +123,7 @@ CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t z
 std::vector<std::uint8_t> inner_cells(const CellCounts& cells,
                                       const std::vector<std::uint32_t>& zone,
                                       const std::array<std::int32_t, 3>& distance) {
-  // The least and the greatest zone around, one axis after the other.
+  // The smallest and the largest zone number nearby, one axis after the other.
   std::vector<std::uint32_t> least = zone, greatest = zone;
   const CellPart all = {{0, 0, 0}, cells, 0, 1};
   for (int axis = 0; axis < 3; ++axis) {

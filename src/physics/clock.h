@@ -1,4 +1,5 @@
-// Time that does not lose precision with age: whole epochs and an offset into the last.
+// Time that keeps its precision in long runs: a number of whole epochs and an offset into the
+// present one.
 #pragma once
 
 #include <cmath>
@@ -9,30 +10,30 @@
 
 namespace needlework {
 
-/// epoch * (epoch length) + offset, 0 <= offset < epoch length. Normalised, so that comparing the
-/// members in order compares the times.
+/// The time epoch * (epoch length) + offset, with 0 <= offset < epoch length. Times are
+/// normalised, so that comparing the members in order compares the times.
 struct Time {
   std::int64_t epoch = 0;
   double offset = 0;
 
-  /// The end of all time that can be told; differences from it are finite.
+  /// Later than any event, but finite, so that differences from it are finite.
   static constexpr Time never() { return {std::int64_t{1} << 62, 0}; }
   friend constexpr auto operator<=>(const Time&, const Time&) = default;
 };
 
-/// Arithmetic on times. The epoch length is a power of two near the mean free time at the start, so
-/// that scaling all times by a power of two changes no bit.
+/// Arithmetic with times. The epoch length is a power of two near the mean free time at the start,
+/// so that scaling all times by a power of two changes no bit.
 class Clock {
  public:
   Clock() = default;
   explicit Clock(double near) : length_(power_of_two(near)) {}
 
   double epoch_length() const { return length_; }
-  /// Spacing of the times at hand. [time]
+  /// Spacing between representable times. [time]
   double resolution() const { return length_ * 0x1p-52; }
 
-  /// t + dt, dt >= 0, rounded to the nearest at the resolution or finer; `never` from 2^62
-  /// epochs on.
+  /// t + dt for dt >= 0, rounded to the nearest time at the resolution or finer. From 2^62 epochs
+  /// on the result is `never`.
   Time add(Time t, double dt) const {
     const double epochs = dt / length_;
     if (!(epochs < 0x1p62)) return Time::never();
@@ -57,7 +58,7 @@ class Clock {
     return DoubleDouble(static_cast<double>(a.epoch - b.epoch) * length_) + offsets;
   }
 
-  /// Since time 0, as a plain number.
+  /// Time since time 0, as a double.
   double since_start(Time t) const { return difference(t, {}); }
 
  private:

@@ -7,8 +7,9 @@
 namespace needlework {
 namespace {
 
-// The part of the impulse in the plane of the directors, M_tt dp_t = -(1 + beta) V_t, solved in an
-// orthonormal basis: in the directors' own coordinates it is singular when they are parallel.
+// The part of the impulse in the plane of the directors, from M_tt dp_t = -(1 + beta) V_t. The
+// basis is orthonormal, because the directors themselves are a singular basis when they are
+// parallel.
 struct Tangential {
   Vec3d impulse;
   double energy_change;
@@ -17,8 +18,8 @@ struct Tangential {
 // `inertia_first` is s12^2 / I of the first needle, `masses` the sum of the inverse masses.
 Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double masses,
                       double inertia_first, double inertia_second, double beta) {
-  // Along the longer bisector; under exchange of the needles both axes keep or flip their sign
-  // together with the components, so no bit changes.
+  // The first axis is along the longer bisector. When the needles are exchanged, each axis keeps
+  // its sign or flips it together with the component along it, so no bit changes.
   const bool acute = dot(c.u_first, c.u_second) >= 0;
   const Vec3d e1 = normalised(acute ? c.u_first + c.u_second : c.u_first - c.u_second);
   const Vec3d e2 = cross(c.normal, e1);

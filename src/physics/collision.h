@@ -6,7 +6,7 @@
 
 namespace needlework {
 
-/// Parameters of the rule.
+/// Parameters of the collision rule.
 struct Restitution {
   double epsilon = 1;  ///< normal, [0, 1]
   double beta = -1;    ///< tangential, [-1, 1]; -1 is smooth
@@ -14,10 +14,10 @@ struct Restitution {
 
 /// The outcome of one collision.
 struct Impact {
-  Vec3d impulse;               ///< on the first needle; the second gets its negative [m L / time]
-  double normal_velocity = 0;  ///< V_n before, along (u1 x u2) / |u1 x u2|
-  double energy_change = 0;    ///< of the pair, <= 0
-  Vec3d v_first, w_first, v_second, w_second;  ///< after
+  Vec3d impulse;               ///< on the first needle; the second gets the opposite [m L / time]
+  double normal_velocity = 0;  ///< V_n before the collision, along (u1 x u2) / |u1 x u2|
+  double energy_change = 0;    ///< of both needles, <= 0
+  Vec3d v_first, w_first, v_second, w_second;  ///< velocities after the collision
 };
 
 /// Two needles at their contact.
@@ -29,10 +29,11 @@ struct Meeting {
   int side;  ///< sign of r12 . (u1 x u2) before the contact
 };
 
-/// Collides two needles. They approach, V_n side < 0; what rounding says otherwise counts as
-/// V_n = 0. `smooth` promises beta = -1 and leaves the tangential part out at compile time.
-/// Source: Huthmann, Aspelmeier, Zippelius, Phys. Rev. E 60, 654 (1999), whose rule holds for
-/// unlike needles with 2 / m replaced by 1 / m1 + 1 / m2 and an inertia for each.
+/// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
+/// rounding gives another sign, V_n counts as 0. `smooth` means that beta = -1, and omits the
+/// tangential part at compile time. Source: Huthmann, Aspelmeier, Zippelius, Phys. Rev. E 60, 654
+/// (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle has its own
+/// inertia.
 template <bool smooth>
 Impact collide(const Meeting& meeting, const Restitution& restitution);
 

@@ -1,5 +1,5 @@
-// Directors are unit vectors and angular velocities are normal to them; both are restored wherever
-// a record is made.
+// Directors are unit vectors, and angular velocities are normal to them. Rounding violates both,
+// so they are restored in each new record.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace needlework {
 
-/// a / |a|; a is not 0. Neither overflows nor underflows.
+/// a / |a|, without overflow or underflow; a must not be 0.
 inline Vec3d normalised(const Vec3d& a) {
   const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
   const int exponent = -exponent_of(size);

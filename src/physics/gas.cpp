@@ -11,7 +11,7 @@
 namespace needlework {
 namespace {
 
-// Looks for the touch with the other's record among those beyond the first.
+// Looks for the touch with the other's record among those after the first.
 [[gnu::noinline]] bool find_further_touch(const Gas& gas, Needle i, const Record& record,
                                           Id partner, const Record& other, const Shift& shift,
                                           kernels::Touch& out) {
@@ -23,7 +23,7 @@ namespace {
   return false;
 }
 
-// Sets `out` to what the record of needle i says of touching the other with its record, if it does.
+// Sets `out` to the touch of needle i's record with the other's record, if there is one.
 [[gnu::always_inline]] inline bool find_touch(const Gas& gas, Needle i, const Record& record,
                                               Needle partner, const Record& other,
                                               const Shift& shift, kernels::Touch& out) {
@@ -53,7 +53,8 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
                   two_prod(shift[2], gas.box[2])};
   }
   pair.touch_within = gas.touch_tolerance();
-  // The later record knows the touch; of two records made at one time, either may.
+  // The touch is in the later record. If both records were made at the same time, it may be in
+  // either.
   const bool found =
       record_a.time == start && find_touch(gas, a, record_a, b, record_b, shift, pair.touch);
   if (!found && record_b.time == start) {
@@ -84,7 +85,8 @@ void Gas::add_touch(Needle i, const RecordedTouch& touch) {
 
 Time renewal_time(const Clock& clock, const Record& record, double length) {
   const Vec3d& v = record.flight.v;
-  // Lengths a time, in powers of two: scaling lengths or velocities by one scales it exactly.
+  // Lengths per time are scaled by powers of two, so that scaling lengths or velocities by one is
+  // exact.
   const double per_length = times_power_of_two(1.0, -exponent_of(length));
   const double speed = std::max(
       std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * per_length, record.flight.omega);
@@ -101,7 +103,7 @@ Wrapped wrap(double x, double box) {
     boxes -= 1;
     out = place();
   }
-  if (out >= box) {  // less below a border than numbers near it can tell
+  if (out >= box) {  // so little below the border that rounding reaches it
     boxes += 1;
     out = 0;
   }

@@ -1,4 +1,4 @@
-// The needles of a run: their records, and the pairs they form.
+// The needles of a run: their records, and the pairs that they form.
 #pragma once
 
 #include <array>
@@ -15,54 +15,56 @@
 
 namespace needlework {
 
-/// All needles. Contacts are pure functions of two records and a shift, made here.
+/// All needles. Contacts are pure functions of a pair, which is made here from two records and a
+/// shift.
 struct Gas {
   LargeArray<Record> records;
   std::vector<Id> ids;
-  LargeArray<Shift> images;  ///< boxes that the recorded centre has been wrapped by
+  LargeArray<Shift> images;  ///< total number of boxes by which each centre has been wrapped
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
   std::array<double, 3> box{};
-  std::vector<Species> species = {Species{}};     ///< by the index in the records
-  std::vector<Body> bodies = {Species{}.body()};  ///< of these species
+  std::vector<Species> species = {Species{}};     ///< indexed by Record::species
+  std::vector<Body> bodies = {Species{}.body()};  ///< of the same species
   double longest = 1;                             ///< length of the longest species [L]
 
   std::size_t size() const { return records.size(); }
-  /// Needles per L^3.
+  /// Number density [L^-3].
   double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
 
-  /// One species at least.
+  /// Needs at least one species.
   void set_species(std::vector<Species> all);
   const Species& species_of(const Record& record) const { return species[record.species]; }
 
-  /// |f| that rounding two records can explain, with room for what a train of bounces adds up. [L]
+  /// Largest |f| that can result from rounding two records, including what accumulates in a
+  /// sequence of bounces. [L]
   double touch_tolerance() const { return 0x1p-44 * (longest + ((box[0] + box[1]) + box[2])); }
 
-  /// Adds to what the record of needle i says of the needles it touches.
+  /// Adds a touch to those of needle i's record.
   void add_touch(Needle i, const RecordedTouch& touch);
 
-  /// The later of two records' times: where the pair's own time starts.
+  /// The later of the times of two records, from which the time of their pair is counted.
   static Time start_of(const Record& a, const Record& b) { return std::max(a.time, b.time); }
 };
 
 /// The pair of two records. Needle a has the lower id; `shift` is added to b's centre. The half
-/// lengths of the pair are left at those of needles of length 1.
+/// lengths of the pair are set to those of needles of length 1.
 kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
                         const Record& record_b, const Shift& shift);
 
-/// Time at which a record is renewed: after 2^10 needle lengths or radians of flight.
+/// Time at which a record is renewed: after about 2^10 needle lengths or radians of flight.
 Time renewal_time(const Clock& clock, const Record& record, double length);
 
-/// A coordinate in [0, box), and the boxes taken off for that, as far as they can be counted.
+/// A coordinate in [0, box), and the number of boxes subtracted, limited to what an int32 holds.
 struct Wrapped {
   double place;
   std::int32_t boxes;
 };
 Wrapped wrap(double x, double box);
-/// Their sum, or the last number there is.
+/// The sum, limited to the range of an int32.
 std::int32_t add_boxes(std::int32_t a, std::int32_t b);
 
-/// What a new record begins with, besides the place to which the needle has flown.
+/// The start of a new record. Its position follows from the free flight of the old one.
 struct NewFlight {
   Vec3d director;
   Vec3d velocity;
@@ -71,8 +73,8 @@ struct NewFlight {
 };
 
 /// Replaces the record of needle i at `now`: the centre moves to where its free flight has led and
-/// is wrapped into the box, the director is normalised, w made normal to it, and touches are
-/// forgotten. Returns the boxes by which the centre was wrapped.
+/// is wrapped into the box, the director is normalised, w is made normal to it, and touches are
+/// forgotten. Returns the number of boxes by which the centre was wrapped.
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight);
 
 }  // namespace needlework

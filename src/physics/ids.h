@@ -1,4 +1,4 @@
-// The two numbers by which a needle is known: its place in storage, and its id.
+// The two numbers of a needle: its place in storage, and its id.
 #pragma once
 
 #include <array>
@@ -8,8 +8,9 @@
 
 namespace needlework {
 
-/// Place of a needle in storage, an index into every array of all needles. It changes when the
-/// storage is sorted. Made from a number only explicitly, so that an id is never taken for a place.
+/// The place of a needle in storage, which is an index into every array of all needles. It changes
+/// when the storage is sorted. Conversion from a number is explicit, so that an id is never used
+/// as a place.
 struct Needle {
   std::uint32_t index = 0xffffffff;
 
@@ -25,11 +26,11 @@ struct Needle {
   friend constexpr auto operator<=>(Needle, Needle) = default;
 };
 
-/// The place of no needle.
+/// Stands for no needle.
 inline constexpr Needle no_needle{};
 
-/// What a needle is called, from its first state to every output. It never changes; neither the
-/// numbers nor their order have to do with the storage.
+/// The permanent number of a needle, from its first state to every output. Ids need not be
+/// consecutive, and their order is independent of the storage.
 struct Id {
   std::uint32_t value = 0;
 
@@ -37,9 +38,9 @@ struct Id {
   friend constexpr auto operator<=>(Id, Id) = default;
 };
 
-/// Boxes added to a needle's recorded centre, per axis.
+/// Number of boxes added to a needle's recorded centre along each axis.
 using Shift = std::array<std::int32_t, 3>;
-/// a == b, without a call to memcmp.
+/// a == b, without a call of memcmp.
 inline bool same(const Shift& a, const Shift& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }

@@ -9,7 +9,7 @@ namespace needlework {
 double mean_free_time(const ThermalGas& gas) {
   constexpr double half_root_pi = 0.886226925452758;
   using Rule = boost::math::quadrature::gauss<double, 10>;
-  // The product rule on a quarter of the square, [0, 1/2]^2.
+  // A product quadrature on a quarter of the square, [0, 1/2]^2.
   double nodes[10], weights[10];
   for (std::size_t i = 0; i < 5; ++i) {
     nodes[2 * i] = 0.25 * (1 - Rule::abscissa()[i]);

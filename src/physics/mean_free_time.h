@@ -1,4 +1,4 @@
-// The mean free time that windows and the contact time are measured in.
+// The mean free time, by which windows and the relative contact time are measured.
 #pragma once
 
 namespace needlework {
@@ -12,11 +12,10 @@ struct ThermalGas {
   double k = 6;       ///< m L^2 / (2 I)
 };
 
-/// Mean time between two collisions of a needle,
-/// 1 / (n L^2 (sqrt(pi) / 2) integral over the unit square of sqrt((T_tr + T_rot k r^2) / m)),
-/// within 1e-6; infinite when nothing moves.
-/// Trajectories depend on it by way of the t_c rule, so it uses nothing but + * / and square roots,
-/// which are the same bits everywhere; theory::collision_rate is the accurate one.
+/// Mean time between two collisions of a needle, 1 / (n L^2 (sqrt(pi) / 2) integral over the unit
+/// square of sqrt((T_tr + T_rot k r^2) / m)), within 1e-6 relative. It is infinite when nothing
+/// moves. Trajectories depend on it through the t_c rule, so it uses only + * / and square roots,
+/// whose results are the same on all machines. theory::collision_rate is more accurate.
 double mean_free_time(const ThermalGas& gas);
 
 }  // namespace needlework

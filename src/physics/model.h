@@ -1,4 +1,4 @@
-// The seam between the event processor and what flies and collides.
+// The interface between the event processor and the physics of what flies and collides.
 #pragma once
 
 #include <concepts>
@@ -12,22 +12,23 @@
 namespace needlework {
 
 /// A model of the physics: free flight, first contact, contact geometry, and the collision rule.
-/// The event processor calls no kernel and knows no formula; it keeps records, order and time.
+/// The event processor calls no kernel and contains no formula of physics; it manages records, the
+/// order of events and time.
 ///
 /// A model promises the following.
-///   Purity. `pair`, `first_contact`, `geometry`, `gap` and `side_after` are functions of the two
-///     records and the shift alone: not of the time of asking, of the search or of the thread.
-///     Exchanging the needles and negating the shift changes no bit.
-///   `first_contact(pair, from, to, spent)` gives the first contact in (0, to], in time since the
-///     later record; the caller knows the time before `from` to be free. When the pair touches to
-///     within rounding and its records do not tell the side, nothing is decided and `side_unknown`
-///     is set.
+///   `pair`, `first_contact`, `geometry`, `gap` and `side_after` are pure functions of the two
+///     records and the shift. They do not depend on when they are called, on the search or on the
+///     thread. Exchanging the needles and negating the shift changes no bit.
+///   `first_contact(pair, from, to, spent)` returns the first contact in (0, to], as a time since
+///     the later record. The caller knows that there is no contact before `from`. If the pair
+///     touches to within rounding and its records do not hold the side, the function decides
+///     nothing and sets `side_unknown`.
 ///   `gap(pair, elapsed)` is a signed distance that vanishes at a contact and is continued from the
-///     touch that the pair carries; `side_after(pair)` its sign just after the later record.
-///   `collide` gives the velocities after a contact of needles that approach from `side`; `elastic`
-///     asks for the rule of the contact time. It never adds energy.
-///   `renew` and `renew_in_flight` replace one record and nothing else, and return by how many
-///     boxes its centre was wrapped.
+///     touch stored in the pair. `side_after(pair)` is its sign just after the later record.
+///   `collide` returns the velocities after a contact of needles that approach from `side`;
+///     `elastic` selects the rule for collisions within the contact time. It never adds energy.
+///   `renew` and `renew_in_flight` replace one record and nothing else, and return the number of
+///     boxes by which its centre was wrapped.
 /// Members throw nothing. Several threads may use one model for different needles.
 template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,

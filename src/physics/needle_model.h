@@ -6,8 +6,8 @@
 
 namespace needlework {
 
-/// Infinitely thin rods with normal and tangential restitution. Without `its_effects.table` lengths
-/// and masses are constants, and nothing is looked up by species.
+/// Infinitely thin rods with normal and tangential restitution. Without `its_effects.table`
+/// lengths and masses are constants, and nothing is looked up by species.
 template <Effects its_effects>
 class NeedleModel {
  public:
@@ -24,7 +24,7 @@ class NeedleModel {
   Vec3d centre(const Record& record, double elapsed) const {
     return centre_after(record.flight, elapsed);
   }
-  /// Centres farther apart than this are not in contact. [L]
+  /// Centres farther apart than this cannot be in contact. [L]
   double reach(const Record& a, const Record& b) const {
     return body(a).half_length + body(b).half_length;
   }

@@ -1,4 +1,4 @@
-// Needles, and what belongs to them, in another order.
+// Permutations of needles and of the data stored with them.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ inline std::vector<Needle> ranks_of(const std::vector<Needle>& order) {
   return ranks;
 }
 
-/// Puts values into the new order, in place: a second copy of all records would be the most memory
-/// that a run ever needs.
+/// Permutes values in place, because a second copy of all records would be the largest use of
+/// memory in a run.
 template <class Values>
 void permute(Values& values, const std::vector<Needle>& order) {
   std::vector<bool> placed(values.size());

@@ -13,10 +13,11 @@
 namespace needlework {
 namespace {
 
-// Squares of places must not overflow, nor differences of velocities; these are scaled first.
+// Squares of positions must not overflow, and neither must differences of velocities, which are
+// scaled before they are squared.
 constexpr double farthest = 1e150, fastest = 1e300;
 
-// The search takes some microseconds for each radian by which the needles turn near each other.
+// The search needs some microseconds for each radian by which the needles turn near each other.
 constexpr double most_turned = 0x1p22;
 
 Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
@@ -42,11 +43,12 @@ kernels::Flight flight_of(const FreeNeedle& needle) {
   return out;
 }
 
-// When bounding spheres overlap, from 0 on, with room for rounding; at infinity if they never do.
-struct Window {
+// The times >= 0 between which the bounding spheres overlap, with a margin for rounding; infinite
+// if they never do.
+struct NearInterval {
   double enter, exit;
 };
-Window near_window(const kernels::Pair& pair) {
+NearInterval near_interval(const kernels::Pair& pair) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Vec3d r = pair.first->r - pair.second->r, v = pair.first->v - pair.second->v;
   const double reach = (pair.half_first + pair.half_second) * (1 + 0x1p-20) +
@@ -75,7 +77,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const Window near = near_window(pair);
+  const NearInterval near = near_interval(pair);
   const double end = near.enter + most_turned / (a.omega + b.omega);
   const kernels::Contact contact =
       kernels::first_contact(pair, 0, std::min(horizon, end), counters, accuracy);

@@ -6,7 +6,7 @@ void FurtherTouches::add(Id owner, std::uint32_t serial, std::size_t before,
                          const RecordedTouch& touch) {
   const std::lock_guard lock(mutex_);
   std::vector<RecordedTouch>& touches = touches_[key_of(owner, serial)];
-  // A record with this number may have been undone, and its touches with it.
+  // An undone record may have had the same number; its touches are removed.
   touches.resize(before);
   touches.push_back(touch);
 }

@@ -1,4 +1,4 @@
-// A needle's record: what it carries since its own last collision.
+// A needle's record: its state at its own last collision.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,20 @@
 
 namespace needlework {
 
-/// A needle that this one touches to within rounding, and the side on which it stands. Valid for
-/// one record of the partner only: once that has been replaced, this entry no longer applies.
+/// A needle that this one touches to within rounding, and the side on which it is. The entry is
+/// valid for one record of the partner only; it no longer applies once that record has been
+/// replaced.
 struct RecordedTouch {
   Id partner;
   std::uint32_t partner_serial = 0;
   std::array<std::int16_t, 3> shift{};  ///< boxes added to the partner's recorded centre
-  std::int8_t side = 0;                 ///< sign of the contact function just afterwards
+  std::int8_t side = 0;                 ///< sign of the contact function just after the touch
   bool collided = false;                ///< the touch was a collision
   double gap = 0;                       ///< value of the contact function [L]
 
   static RecordedTouch of(Id partner, std::uint32_t serial, const Shift& shift,
                           const kernels::Touch& touch) {
-    // A record is renewed after 2^11 lengths of flight at most, so a shift fits 16 bits.
+    // A record is renewed after at most 2^11 lengths of flight, so a shift fits 16 bits.
     return {partner,
             serial,
             {static_cast<std::int16_t>(shift[0]), static_cast<std::int16_t>(shift[1]),
@@ -45,33 +46,33 @@ struct RecordedTouch {
 
 static_assert(sizeof(RecordedTouch) == 24);
 
-/// State of a needle since its own last collision or renewal. Nothing else changes a record.
-/// The first cache line, time, centre and velocity, is all that the first filter of candidates
-/// reads.
+/// The state of a needle at its own last collision or renewal. Nothing else changes a record. The
+/// first filter of candidates reads only the first cache line, with time, centre and velocity.
 struct alignas(64) Record {
-  Time time;  ///< of the record
+  Time time;  ///< at which the record was made
   kernels::Flight flight;
-  Time renewal;                   ///< when the record is renewed to stay precise
-  std::uint32_t serial = 0;       ///< counts the records of this needle
-  std::uint16_t touch_count = 0;  ///< the first is below, others in Gas::further_touches
+  Time renewal;                   ///< time at which the record is renewed to keep its precision
+  std::uint32_t serial = 0;       ///< number of records of this needle so far
+  std::uint16_t touch_count = 0;  ///< the first touch is below, others are in Gas::further_touches
   SpeciesIndex species = 0;
-  RecordedTouch first_touch;  ///< that with the partner just hit, if there is one
+  RecordedTouch first_touch;  ///< the touch with the partner of the last collision, if there is one
 };
 
 static_assert(sizeof(Record) == 192);
 
-/// Touches of records that have more than one, which are rare: several needles through one point,
-/// or lying along each other. Kept by id and serial number of the record, so that copies of a
-/// record and records put back find theirs. Any number of threads may use it at once.
+/// The touches of records that have more than one. These are rare: several needles pass through
+/// one point, or lie along each other. They are stored by id and serial number of the record, so
+/// that they also apply to copies of a record and to records that are put back. Any number of
+/// threads may use it at once.
 class FurtherTouches {
  public:
-  /// Appends a touch to those of a record, `before` of which are here already.
+  /// Appends a touch to those of a record, `before` of which are already stored here.
   void add(Id owner, std::uint32_t serial, std::size_t before, const RecordedTouch& touch);
-  /// Those of a record.
+  /// The touches of a record that are stored here.
   std::vector<RecordedTouch> of(Id owner, std::uint32_t serial) const;
 
   std::size_t records() const;
-  /// Forgets all but those of these records. No other thread may use it meanwhile.
+  /// Removes all entries but those of these records. No other thread may use the object meanwhile.
   template <class Records, class Ids>
   void keep_only(const Records& records, const Ids& ids) {
     std::unordered_map<std::uint64_t, std::vector<RecordedTouch>> kept;

@@ -1,4 +1,4 @@
-// What the needles of one species have in common.
+// Properties that all needles of one species share.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace needlework {
 
-/// Half length, inverse mass and inverse moment of inertia: what flight and collisions need.
+/// Half length, inverse mass and inverse moment of inertia, as used for flight and collisions.
 struct Body {
   double half_length = 0.5;     ///< [L]
   double inverse_mass = 1;      ///< [1 / m]
@@ -15,17 +15,17 @@ struct Body {
   double length() const { return 2 * half_length; }
 };
 
-/// One species. Lengths and masses are in the units of the scene, in which those of a needle of
-/// the default species are 1.
+/// One species. Lengths and masses are in the units of the scene, in which a needle of the default
+/// species has length 1 and mass 1.
 struct Species {
   double length = 1;  ///< [L]
   double mass = 1;    ///< [m]
   double k = 6;       ///< m L^2 / (2 I) [1]
 
-  /// Needles of length 1 and mass 1 need no table; all factors of their species are 1.
+  /// Needles of length 1 and mass 1 need no table, because all factors of their species are 1.
   bool is_unit() const { return length == 1 && mass == 1; }
   double inertia() const { return mass * (length * length) / (2 * k); }
-  /// For unit length and mass the inverse inertia is 2 k to the last bit.
+  /// For length 1 and mass 1 the inverse inertia is exactly 2 k.
   Body body() const { return {0.5 * length, 1 / mass, 2 * k / (mass * (length * length))}; }
 };
 

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "src/calendar/all.h"
+#include "src/calendar/any_calendar.h"
 #include "tests/support/random.h"
 
 namespace needlework {
@@ -29,7 +32,7 @@ class SortedReference {
  public:
   explicit SortedReference(std::size_t n) : events_(n) {
     for (std::size_t i = 0; i < n; ++i) {
-      events_[i].owner = static_cast<Needle>(i);
+      events_[i].owner = Needle(i);
       sorted_.insert(events_[i]);
     }
   }
@@ -50,29 +53,44 @@ class SortedReference {
   std::multiset<Event> sorted_;
 };
 
+// Needles are grouped into blocks by index.
+constexpr std::size_t in_block = 16;
+BlockIndex block_of(Needle i) { return static_cast<BlockIndex>(i / in_block); }
+
+template <Calendar Queue>
+Queue make_calendar_of(int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return Queue(size, Clock(), (size + in_block - 1) / in_block);
+}
+
 bool equal_in_order(const Event& a, const Event& b) { return !(a < b) && !(b < a); }
 
 /// Gives an event ids that are not indices, as after sorting needles in space.
 Event named(Event event) {
-  const auto id_of = [](Needle i) { return i ^ 5u; };
-  const std::uint32_t mine = id_of(event.owner);
-  const std::uint32_t other = event.is_contact() ? id_of(event.partner) : mine;
+  const auto id_of = [](Needle i) { return Id{i.index ^ 5u}; };
+  const Id mine = id_of(event.owner);
+  const Id other = event.is_contact() ? id_of(event.partner) : mine;
   event.owner_is_lower = mine <= other;
   event.lower_id = std::min(mine, other);
   event.higher_id = std::max(mine, other);
   return event;
 }
 
+Needle draw_needle(Random& random, int n) {
+  return Needle(static_cast<std::size_t>(random.below(n)));
+}
+
 /// Times are drawn from few values when `ties`, so that equal ones are common.
-Event draw_event(Random& random, Needle n, std::int64_t epoch, bool ties) {
+Event draw_event(Random& random, int n, std::int64_t epoch, bool ties) {
   Event event;
-  event.owner = static_cast<Needle>(random.below(static_cast<int>(n)));
+  event.owner = draw_needle(random, n);
   if (random.below(20) == 0) return named(event);  // never
   event.time = ties ? Time{epoch + random.below(3), 0.25 * random.below(3)}
                     : Time{epoch + random.below(4), random.uniform()};
   if (n > 1 && random.below(3) > 0) {
+    event.kind = EventKind::contact;
     do {
-      event.partner = static_cast<Needle>(random.below(static_cast<int>(n)));
+      event.partner = draw_needle(random, n);
     } while (event.partner == event.owner);
     event.shift = {random.below(3) - 1, random.below(2), 0};
   }
@@ -95,16 +113,17 @@ struct Names {
 TYPED_TEST_SUITE(CalendarTest, Calendars, Names);
 
 template <Calendar Queue>
-void expect_reference(Needle n, bool ties) {
+void expect_reference(int n, bool ties) {
   SCOPED_TRACE(std::to_string(n) + " needles, seed " + std::to_string(seed));
-  Random random(seed + n + ties);
-  Queue calendar(n, Clock());
-  SortedReference reference(n);
-  std::vector<Event> last(n);
-  for (Needle i{0}; i < n; ++i) last[i].owner = i;
+  Random random(seed + static_cast<std::uint64_t>(n) + ties);
+  const auto size = static_cast<std::size_t>(n);
+  Queue calendar = make_calendar_of<Queue>(n);
+  SortedReference reference(size);
+  std::vector<Event> last(size);
+  for (Needle i{0}; i < size; ++i) last[i].owner = i;
   for (int step = 0; step < operations; ++step) {
     const Event event = draw_event(random, n, step / 50, ties);
-    calendar.set(event);
+    calendar.set(event, block_of(event.owner));
     reference.set(event);
     last[event.owner] = event;
     ASSERT_TRUE(equal_in_order(calendar.top(), reference.top()))
@@ -112,21 +131,21 @@ void expect_reference(Needle n, bool ties) {
         << reference.top().owner;
     const Event& kept = calendar.of(event.owner);
     ASSERT_TRUE(kept.owner == event.owner && kept.partner == event.partner &&
-                kept.time == event.time && kept.shift == event.shift);
+                kept.kind == event.kind && kept.time == event.time && kept.shift == event.shift);
   }
-  for (Needle i{0}; i < n; ++i) {
+  for (Needle i{0}; i < size; ++i) {
     ASSERT_EQ(calendar.of(i).time, last[i].time);
     ASSERT_EQ(calendar.of(i).partner, last[i].partner);
   }
 }
 
 TYPED_TEST(CalendarTest, HasTheEarliestEventOnTop) {
-  for (const Needle n : {1, 2, 3, 5, 6, 21, 22, 64, 65, 513, 1000})
+  for (const int n : {1, 2, 3, 5, 6, 21, 22, 64, 65, 513, 1000})
     expect_reference<TypeParam>(n, false);
 }
 
 TYPED_TEST(CalendarTest, SettlesEqualTimesByTheOrderOfEvents) {
-  for (const Needle n : {1, 2, 3, 17, 1000}) expect_reference<TypeParam>(n, true);
+  for (const int n : {1, 2, 3, 17, 1000}) expect_reference<TypeParam>(n, true);
 }
 
 // The use of the event loop: the top is taken, and it and one other get later events. Calendar and
@@ -134,14 +153,16 @@ TYPED_TEST(CalendarTest, SettlesEqualTimesByTheOrderOfEvents) {
 template <Calendar Queue>
 class Loop {
  public:
-  explicit Loop(Needle n, Clock clock = Clock())
-      : clock_(clock), n_(n), calendar_(n, clock), reference_(n) {}
+  explicit Loop(int n)
+      : n_(n), calendar_(make_calendar_of<Queue>(n)), reference_(static_cast<std::size_t>(n)) {}
+
+  Needle end() const { return Needle(static_cast<std::size_t>(n_)); }
 
   void schedule(Needle owner, double ahead) {
     Event event;
     event.owner = owner;
     event.time = clock_.add(now_, ahead);
-    calendar_.set(named(event));
+    calendar_.set(named(event), block_of(owner));
     reference_.set(named(event));
   }
 
@@ -155,7 +176,7 @@ class Loop {
     ASSERT_GE(event.time, now_);
     now_ = event.time;
     schedule(event.owner, ahead(event.owner));
-    const Needle other = static_cast<Needle>(random.below(static_cast<int>(n_)));
+    const Needle other = draw_needle(random, n_);
     schedule(other, ahead(other));
   }
 
@@ -165,18 +186,18 @@ class Loop {
   Random random{seed};
 
  private:
-  Clock clock_;
-  Needle n_;
+  const Clock clock_;
+  int n_;
   Queue calendar_;
   SortedReference reference_;
   Time now_;
 };
 
 TYPED_TEST(CalendarTest, PopsInTimeOrder) {
-  for (const Needle n : {1, 2, 1000, 100000}) {
+  for (const int n : {1, 2, 1000, 100000}) {
     Loop<TypeParam> loop(n);
     const auto ahead = [&](Needle) { return loop.random.exponential(); };
-    for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
+    for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, ahead(i));
     for (int step = 0; step < operations; ++step) {
       ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << n << " needles, step " << step;
     }
@@ -188,11 +209,11 @@ TYPED_TEST(CalendarTest, PopsInTimeOrder) {
 
 // A gas that cools: the time between its events grows by fifteen orders of magnitude.
 TYPED_TEST(CalendarTest, FollowsAGrowingTimeScale) {
-  constexpr Needle n = 500;
+  constexpr int n = 500;
   Loop<TypeParam> loop(n);
   double scale = 1e-3;
   const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
-  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, ahead(i));
   const double growth = std::pow(1e15, 1.0 / operations);
   for (int step = 0; step < operations; ++step, scale *= growth) {
     ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
@@ -202,7 +223,7 @@ TYPED_TEST(CalendarTest, FollowsAGrowingTimeScale) {
 
 // Both scales at once, and changes between them within one event.
 TYPED_TEST(CalendarTest, FollowsSuddenChangesOfTheTimeScale) {
-  constexpr Needle n = 500;
+  constexpr int n = 500;
   Loop<TypeParam> loop(n);
   const double scales[] = {1, 1e-12, 1e9, 1e-3, 1e12};
   int step = 0;
@@ -210,7 +231,7 @@ TYPED_TEST(CalendarTest, FollowsSuddenChangesOfTheTimeScale) {
     const double scale = scales[step / (operations / 10) % 5];
     return loop.random.uniform() * (owner % 10 == 0 ? 1e-6 * scale : scale);
   };
-  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, ahead(i));
   for (; step < operations; ++step) {
     ASSERT_NO_FATAL_FAILURE(loop.step(ahead)) << "step " << step;
   }
@@ -218,31 +239,32 @@ TYPED_TEST(CalendarTest, FollowsSuddenChangesOfTheTimeScale) {
 
 // As at the start of a gas on a lattice: all at one instant, and again and again.
 TYPED_TEST(CalendarTest, TakesAllEventsAtOneInstantByTheirIds) {
-  constexpr Needle n = 20000;
-  TypeParam calendar(n, Clock());
+  constexpr int n = 20000;
+  TypeParam calendar = make_calendar_of<TypeParam>(n);
   const auto put = [&](Needle owner, std::int64_t epoch) {
     Event event;
     event.owner = owner;
     event.time = {epoch, 0.5};
-    calendar.set(named(event));
+    calendar.set(named(event), block_of(owner));
   };
-  for (Needle i{0}; i < n; ++i) put(i, 0);
+  constexpr Needle end(n);
+  for (Needle i{0}; i < end; ++i) put(i, 0);
   for (std::int64_t epoch = 0; epoch < 3; ++epoch) {
-    for (Needle i{0}; i < n; ++i) {
+    for (Needle i{0}; i < end; ++i) {
       const Event event = calendar.top();
       ASSERT_EQ(event.time.epoch, epoch);
-      ASSERT_EQ(event.lower_id, i);
+      ASSERT_EQ(event.lower_id, Id{i.index});
       put(event.owner, epoch + 1);
     }
   }
 }
 
 TYPED_TEST(CalendarTest, LetsEventsThatNeverHappenComeAndGo) {
-  constexpr Needle n = 300;
+  constexpr int n = 300;
   Loop<TypeParam> loop(n);
   constexpr double never = std::numeric_limits<double>::infinity();
   for (const double share : {0.1, 0.9, 0.999, 1.0, 0.0, 0.999, 0.5}) {
-    for (Needle i{0}; i < n; ++i) loop.schedule(i, loop.random.uniform());
+    for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, loop.random.uniform());
     const auto ahead = [&](Needle) {
       return loop.random.uniform() < share ? never : loop.random.uniform();
     };
@@ -255,13 +277,13 @@ TYPED_TEST(CalendarTest, LetsEventsThatNeverHappenComeAndGo) {
 
 // A needle that is searched for again and again, as one in a crowd: nothing is popped meanwhile.
 TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
-  constexpr Needle n = 200;
+  constexpr int n = 200;
   Loop<TypeParam> loop(n);
-  for (Needle i{0}; i < n; ++i) loop.schedule(i, 10 + loop.random.uniform());
+  for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, 10 + loop.random.uniform());
   for (int step = 0; step < operations; ++step) {
     const double ahead = loop.random.uniform(5, 10);
-    loop.schedule(7, ahead);
-    loop.schedule(8, 100 * ahead);
+    loop.schedule(Needle(7), ahead);
+    loop.schedule(Needle(8), 100 * ahead);
     if constexpr (requires { loop.calendar().entries(); }) {
       ASSERT_LE(loop.calendar().entries(), 5 * n + 64);
     }
@@ -270,39 +292,74 @@ TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
 }
 
 TYPED_TEST(CalendarTest, StartsWithoutEvents) {
-  const TypeParam calendar(3, Clock());
+  const TypeParam calendar(3, Clock(), 1);
   EXPECT_FALSE(calendar.empty());
   EXPECT_EQ(calendar.top().time, Time::never());
-  EXPECT_EQ(calendar.of(2).owner, 2u);
-  EXPECT_TRUE(TypeParam(0, Clock()).empty());
+  EXPECT_EQ(calendar.of(Needle(2)).owner, Needle(2));
+  EXPECT_TRUE(TypeParam(0, Clock(), 1).empty());
+}
+
+// Behind the interface of all calendars it is the same one.
+TYPED_TEST(CalendarTest, IsMadeByItsName) {
+  const std::unique_ptr<AnyCalendar> calendar = make_calendar(TypeParam::name);
+  ASSERT_NE(dynamic_cast<CalendarOf<TypeParam>*>(calendar.get()), nullptr);
+  EXPECT_STREQ(calendar->name(), TypeParam::name);
+  Random random(seed);
+  for (const int n : {50, 20, 200}) {  // each time from the beginning
+    const auto size = static_cast<std::size_t>(n);
+    calendar->reset(size, Clock(), (size + in_block - 1) / in_block);
+    EXPECT_EQ(calendar->top().time, Time::never());
+    TypeParam direct = make_calendar_of<TypeParam>(n);
+    for (int step = 0; step < 1000; ++step) {
+      const Event event = draw_event(random, n, step / 50, true);
+      calendar->set(event, block_of(event.owner));
+      direct.set(event, block_of(event.owner));
+      ASSERT_TRUE(equal_in_order(calendar->top(), direct.top())) << n << ", step " << step;
+      ASSERT_EQ(calendar->of(event.owner).time, event.time);
+      ASSERT_EQ(calendar->likely_next(), direct.likely_next());
+    }
+  }
+}
+
+TEST(MakeCalendar, NamesThoseThereAreForOneThatIsNot) {
+  try {
+    make_calendar("guess");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "engine.queue = \"guess\": expected one of auto, lazy-heap, indexed-heap, "
+              "tournament, bucket, cell-calendar");
+  }
 }
 
 // Ids are as the indices here.
-Event contact(Needle owner, Needle partner, double time, Shift shift = {}) {
+Event contact(std::uint32_t owner, std::uint32_t partner, double time, Shift shift = {}) {
   Event event;
-  event.owner = owner;
-  event.partner = partner;
+  event.kind = EventKind::contact;
+  event.owner = Needle(owner);
+  event.partner = Needle(partner);
   event.owner_is_lower = owner < partner;
-  event.lower_id = std::min(owner, partner);
-  event.higher_id = std::max(owner, partner);
+  event.lower_id = Id{std::min(owner, partner)};
+  event.higher_id = Id{std::max(owner, partner)};
   event.time = {0, time};
   event.shift = shift;
   return event;
 }
 
-Event horizon(Needle owner, double time) {
+Event horizon(std::uint32_t owner, double time) {
   Event event;
-  event.owner = event.lower_id = event.higher_id = owner;
+  event.owner = Needle(owner);
+  event.lower_id = event.higher_id = Id{owner};
   event.time = {0, time};
   return event;
 }
 
 TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
-  constexpr Needle n = 2000;
+  constexpr int n = 2000;
   Loop<BucketCalendar> loop(n);
   double scale = 1;
   const auto ahead = [&](Needle) { return scale * loop.random.uniform(); };
-  for (Needle i{0}; i < n; ++i) loop.schedule(i, ahead(i));
+  for (Needle i{0}; i < loop.end(); ++i) loop.schedule(i, ahead(i));
   const double growth = std::pow(1e15, 1.0 / operations);
   for (int step = 0; step < operations; ++step, scale *= growth) loop.step(ahead);
   EXPECT_GT(loop.calendar().restarts(), 0u);
@@ -310,25 +367,26 @@ TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
 }
 
 TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
-  constexpr Needle n = 200;
+  constexpr int n = 200;
   constexpr std::uint32_t blocks = 7, zones = 3;
   CellCalendar calendar(n, Clock(), blocks);
   Random random(seed);
   std::vector<Time> time(n, Time::never());
   std::vector<std::uint32_t> place(n), zone(blocks);
-  for (Needle i{0}; i < n; ++i) place[i] = calendar.block_of(i);
+  constexpr Needle end(n);
+  for (Needle i{0}; i < end; ++i) place[i] = calendar.block_of(i);
   for (int step = 0; step < operations; ++step) {
     if (step % 1000 == 0) {
       for (auto& z : zone) z = static_cast<std::uint32_t>(random.below(zones));
       calendar.divide(zone, zones);
     }
     Event event;
-    event.owner = static_cast<Needle>(random.below(n));
+    event.owner = draw_needle(random, n);
     event.time = time[event.owner] = {random.below(9), random.uniform()};
     if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
     calendar.set(event, place[event.owner]);
     std::vector<Time> first(blocks, Time::never());
-    for (Needle i{0}; i < n; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
+    for (Needle i{0}; i < end; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
     for (std::uint32_t block = 0; block < blocks; ++block) {
       ASSERT_EQ(calendar.clock_of(block) == CellCalendar::no_event,
                 std::count(place.begin(), place.end(), block) == 0);
@@ -355,9 +413,9 @@ TEST(EventOrder, IsTimeThenHorizonsThenIdsThenShift) {
 
 TEST(EventOrder, TreatsTheCopiesOfOneContactAlike) {
   EXPECT_TRUE(equal_in_order(contact(2, 3, 0.5, {1, 0, 0}), contact(3, 2, 0.5, {1, 0, 0})));
-  EXPECT_EQ(contact(3, 2, 0).lower(), 2u);
-  EXPECT_EQ(contact(3, 2, 0).higher(), 3u);
-  EXPECT_EQ(horizon(3, 0).lower(), 3u);
+  EXPECT_EQ(contact(3, 2, 0).lower(), Needle(2));
+  EXPECT_EQ(contact(3, 2, 0).higher(), Needle(3));
+  EXPECT_EQ(horizon(3, 0).lower(), Needle(3));
   EXPECT_FALSE(horizon(3, 0).is_contact());
 }
 

@@ -64,8 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 1, 300}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// A needle that a hull hides from another is met once in a thousand collisions. Hulls reach
-// farthest beyond their cells where gases are dilute.
+// A needle that a bounding volume hides from another is met once in a thousand collisions. Bounding
+// volumes reach farthest beyond their cells where gases are dilute.
 TEST(SearchEquivalence, HoldsForManyNeedlesOverManyCollisions) {
   for (const double box : {100.0, 46.0, 14.0, 5.57}) {
     Scene scene = test::scene_of(2000, box, 1);

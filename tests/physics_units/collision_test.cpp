@@ -38,7 +38,8 @@ struct Encounter {
 
   template <bool smooth>
   Impact collide() const {
-    return needlework::collide<smooth>(first, second, contact, side, k, restitution);
+    const Body body = Species{.length = 1, .mass = 1, .k = k}.body();
+    return needlework::collide<smooth>({first, second, body, body, contact, side}, restitution);
   }
 };
 

@@ -23,14 +23,17 @@ using test::Wide;
 constexpr std::uint64_t seed = 1111;
 constexpr int count = 3000;
 
-Gas gas_of(Needle needles, std::array<double, 3> box) {
+// Their ids are their places.
+Gas gas_of(std::uint32_t needles, std::array<double, 3> box) {
   Gas gas;
   gas.records.resize(needles);
-  gas.ids.resize(needles);
+  for (std::uint32_t id = 0; id < needles; ++id) gas.ids.push_back({id});
   gas.images.resize(needles);
   gas.box = box;
   return gas;
 }
+
+constexpr Needle needle{0}, partner{1};
 
 std::array<double, 3> components(const Vec3d& a) { return {a.x, a.y, a.z}; }
 
@@ -46,7 +49,8 @@ TEST(RenewRecord, WrapsTheCentreAndCountsTheImages) {
     const Time now = gas.clock.add(gas.records[0].time, dt);
     const double elapsed = gas.clock.difference(now, gas.records[0].time);
     const Shift images = gas.images[0];
-    const Shift wraps = renew_record(gas, 0, now, {0, 1, 0}, vec3(random.normal_vector(20)), {});
+    const Shift wraps = 
+        renew_record(gas, needle, now, {{0, 1, 0}, vec3(random.normal_vector(20)), {}});
     ASSERT_EQ(gas.images[0], images + wraps);
     const auto r = components(gas.records[0].flight.r), speed = components(v);
     for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +72,7 @@ TEST(RenewRecord, WrapsCentresOnAndNextToTheWallsWithoutLosingTheirPlace) {
                          std::nextafter(box, 3), -1e-18, -1e-300, 1e-300, -1e9}) {
     Gas gas = gas_of(1, {box, box, box});
     gas.records[0].flight = test::flight({x, 1, 1}, {1, 0, 0}, {}, {});
-    const Shift wraps = renew_record(gas, 0, {}, {1, 0, 0}, {}, {});
+    const Shift wraps = renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
     const double r = gas.records[0].flight.r.x;
     EXPECT_GE(r, 0) << x;
     EXPECT_LE(r, box) << x;
@@ -85,8 +89,8 @@ TEST(RenewRecord, LeavesAUnitDirectorAndAnAngularVelocityNormalToIt) {
     const double size = random.log_uniform(1e-300, 1e300), spin = random.log_uniform(1e-100, 1e100);
     const Vec3d director = vec3(random.direction()) * size, w = vec3(random.direction()) * spin;
     const Vec3d v = vec3(random.direction());
-    gas.records[0].touches.push_back({});
-    renew_record(gas, 0, {}, director, v, w);
+    gas.add_touch(needle, {});
+    renew_record(gas, needle, {}, {director, v, w});
     const kernels::Flight& flight = gas.records[0].flight;
     ASSERT_NEAR(dot(flight.u, flight.u), 1, 1e-15) << "seed " << seed << ", " << n;
     ASSERT_NEAR(dot(flight.w * (1 / spin), flight.u), 0, 1e-15) << "seed " << seed << ", " << n;
@@ -94,7 +98,7 @@ TEST(RenewRecord, LeavesAUnitDirectorAndAnAngularVelocityNormalToIt) {
                 1e-15);
     ASSERT_NEAR(dot(flight.p, flight.p), 1, 1e-15);
     ASSERT_EQ(flight.v, v);
-    ASSERT_TRUE(gas.records[0].touches.empty());
+    ASSERT_EQ(gas.records[0].touch_count, 0);
     // Nothing is taken from w but its part along u.
     const Vec3d along = normalised(director) * dot(w, normalised(director));
     const Vec3d lost = (w - along - flight.w) * (1 / spin);
@@ -112,7 +116,7 @@ TEST(RenewRecord, FromItsOwnFreeFlightChangesNothingButRounding) {
     const kernels::Flight before = record.flight;
     const Time now = gas.clock.add(record.time, random.uniform(0, 2));
     const double elapsed = gas.clock.difference(now, record.time), later = random.uniform(0, 2);
-    renew_record(gas, 0, now, director_after(before, elapsed), before.v, before.w);
+    renew_record(gas, needle, now, {director_after(before, elapsed), before.v, before.w});
     const Vec3d u = director_after(record.flight, later) - director_after(before, elapsed + later);
     ASSERT_LT(std::sqrt(dot(u, u)), 1e-14) << "seed " << seed << ", " << n;
   }
@@ -125,7 +129,7 @@ TEST(RenewalTime, IsAboutAThousandLengthsOrRadiansAhead) {
     record.flight = test::flight({}, vec3(random.direction()), vec3(random.normal_vector(1)),
                                  vec3(random.normal_vector(random.uniform(0, 5))));
     const Clock clock(random.log_uniform(0.1, 10));
-    const double life = clock.difference(renewal_time(clock, record), record.time);
+    const double life = clock.difference(renewal_time(clock, record, 1), record.time);
     const auto [x, y, z] = components(record.flight.v);
     const double speed = std::max({std::abs(x), std::abs(y), std::abs(z), record.flight.omega});
     ASSERT_GE(life * speed, 0x1p10) << "seed " << seed << ", " << n;
@@ -139,13 +143,13 @@ TEST(RenewalTime, IsAboutAThousandLengthsOrRadiansAhead) {
       }
       set_rotation(slow.flight);
       const Clock slower(std::ldexp(clock.epoch_length(), power));
-      const Time a = renewal_time(clock, record), b = renewal_time(slower, slow);
+      const Time a = renewal_time(clock, record, 1), b = renewal_time(slower, slow, 1);
       ASSERT_EQ(a.epoch, b.epoch);
       ASSERT_EQ(std::ldexp(a.offset, power), b.offset);
     }
   }
   record.flight = test::flight({}, {1, 0, 0}, {}, {});
-  EXPECT_EQ(renewal_time(Clock(1), record), Time::never());
+  EXPECT_EQ(renewal_time(Clock(1), record, 1), Time::never());
 }
 
 TEST(MakePair, StartsAtTheLaterRecord) {
@@ -154,7 +158,8 @@ TEST(MakePair, StartsAtTheLaterRecord) {
   gas.records[0].time = {5, 0.25};
   gas.records[1].time = {7, 0.5};
   const Shift shift{1, 0, -2};
-  const kernels::Pair pair = make_pair(gas, 0, gas.records[0], 1, gas.records[1], shift);
+  const kernels::Pair pair = 
+      make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
   EXPECT_EQ(pair.first, &gas.records[0].flight);
   EXPECT_EQ(pair.second, &gas.records[1].flight);
   EXPECT_EQ(pair.elapsed_first, DoubleDouble(2.25));
@@ -168,7 +173,8 @@ TEST(MakePair, StartsAtTheLaterRecord) {
 TEST(MakePair, ShiftsByWholeBoxesExactly) {
   Gas gas = gas_of(2, {10.1, 0.3, 7.7});
   const Shift shift{-3, 1000000007, 5};
-  const kernels::Pair pair = make_pair(gas, 0, gas.records[0], 1, gas.records[1], shift);
+  const kernels::Pair pair = 
+      make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
   EXPECT_TRUE(Wide(pair.shift.x.hi) + pair.shift.x.lo == Wide(10.1) * -3);
   EXPECT_TRUE(Wide(pair.shift.y.hi) + pair.shift.y.lo == Wide(0.3) * 1000000007);
   EXPECT_TRUE(Wide(pair.shift.z.hi) + pair.shift.z.lo == Wide(7.7) * 5);
@@ -181,8 +187,15 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   const Shift shift{0, 1, -1};
   const kernels::Touch of_a{.touching = true, .collided = true, .side = 1, .gap = 0};
   const kernels::Touch of_b{.touching = true, .collided = false, .side = -1, .gap = -1e-15};
-  a.touches = {{2, 0, shift, of_b}, {1, b.serial, shift, of_a}};
-  const auto touch = [&](const Shift& at) { return make_pair(gas, 0, a, 1, b, at).touch; };
+  const auto only_of_b = [&](const Shift& at) {
+    b.touch_count = 0;
+    gas.add_touch(partner, RecordedTouch::of(Id{0}, a.serial, at, of_b));
+  };
+  gas.add_touch(needle, RecordedTouch::of(Id{2}, 0, shift, of_b));
+  gas.add_touch(needle, RecordedTouch::of(Id{1}, b.serial, shift, of_a));
+  const auto touch = [&](const Shift& at) {
+    return make_pair(gas, needle, a, partner, b, at).touch;
+  };
   a.time = {3, 0};
   b.time = {2, 0};
   EXPECT_TRUE(touch(shift).collided);
@@ -191,20 +204,107 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   EXPECT_FALSE(touch(-shift).touching) << "the opposite image";
   b.time = {3, 1e-9};
   EXPECT_FALSE(touch(shift).touching) << "the other record is later";
-  b.touches = {{0, a.serial, -shift, of_b}};
+  only_of_b(-shift);
   EXPECT_EQ(touch(shift).gap, -1e-15);
   EXPECT_EQ(touch(shift).side, -1);
-  b.touches = {{0, a.serial, shift, of_b}};
+  only_of_b(shift);
   EXPECT_FALSE(touch(shift).touching) << "the shift is of the partner";
   // Records of one time: either may know.
   b.time = a.time;
   EXPECT_EQ(touch(shift).side, 1);
-  a.touches.clear();
+  a.touch_count = 0;
   EXPECT_FALSE(touch(shift).touching);
-  b.touches = {{0, a.serial, -shift, of_b}};
+  only_of_b(-shift);
   EXPECT_EQ(touch(shift).side, -1);
   ++a.serial;
   EXPECT_FALSE(touch(shift).touching) << "made anew at the same time";
+}
+
+TEST(MakePair, FindsEachOfManyTouches) {
+  Gas gas = gas_of(6, {4, 4, 4});
+  const auto side_of = [](std::size_t other) { return other % 2 ? 1 : -1; };
+  for (std::size_t other = 1; other < 6; ++other) {
+    const kernels::Touch touch{.touching = true,
+                               .collided = other == 1,
+                               .side = side_of(other),
+                               .gap = 1e-16 * static_cast<double>(other)};
+    const auto id = static_cast<std::uint32_t>(other);
+    gas.add_touch(needle, RecordedTouch::of(Id{id}, 0, {static_cast<int>(other), 0, -1}, touch));
+  }
+  EXPECT_EQ(gas.records[0].touch_count, 5);
+  const Record copy = gas.records[0];
+  const auto touch = [&](const Record& mine, std::size_t other, const Shift& shift) {
+    return make_pair(gas, needle, mine, Needle(other), gas.records[other], shift).touch;
+  };
+  const auto expect_all = [&](const Record& mine) {
+    for (std::size_t other = 1; other < 6; ++other) {
+      const kernels::Touch found = touch(mine, other, {static_cast<int>(other), 0, -1});
+      EXPECT_TRUE(found.touching) << other;
+      EXPECT_EQ(found.side, side_of(other)) << other;
+      EXPECT_EQ(found.collided, other == 1) << other;
+      EXPECT_EQ(found.gap, 1e-16 * static_cast<double>(other)) << other;
+      EXPECT_FALSE(touch(mine, other, {0, 0, -1}).touching) << "another image of " << other;
+      // By the partner, whose record says nothing, too.
+      EXPECT_EQ(make_pair(gas, Needle(other), gas.records[other], needle, mine,
+                          {-static_cast<int>(other), 0, 1})
+                    .touch.side,
+                side_of(other));
+    }
+  };
+  expect_all(gas.records[0]);
+  // A new record touches nobody; a copy of the one before, as undoing keeps it, still does.
+  renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
+  for (std::size_t other = 1; other < 6; ++other) {
+    EXPECT_FALSE(touch(gas.records[0], other, {static_cast<int>(other), 0, -1}).touching);
+  }
+  expect_all(copy);
+  // Put back and made again, it has the touches of the second time.
+  const kernels::Touch again{.touching = true, .collided = false, .side = 1, .gap = 3e-16};
+  for (const std::uint32_t id : {1u, 2u, 3u}) {
+    gas.add_touch(needle, RecordedTouch::of(Id{id}, 0, {}, again));
+  }
+  gas.records[0] = copy;
+  expect_all(gas.records[0]);
+  renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
+  for (const std::uint32_t id : {4u, 5u}) {
+    gas.add_touch(needle, RecordedTouch::of(Id{id}, 0, {}, again));
+  }
+  for (std::size_t other = 1; other < 6; ++other) {
+    EXPECT_EQ(touch(gas.records[0], other, {}).touching, other > 3) << other;
+  }
+}
+
+TEST(Species, OfUnitLengthAndMassHasTheBodyOfNeedlesWithoutATable) {
+  for (const double k : {6.0, 2.0, 0.3, 1e-9, 1e9}) {
+    const Species species{.length = 1, .mass = 1, .k = k};
+    EXPECT_TRUE(species.is_unit());
+    const Body body = species.body();
+    EXPECT_EQ(body.half_length, 0.5);
+    EXPECT_EQ(body.inverse_mass, 1);
+    EXPECT_EQ(body.inverse_inertia, 2 * k);
+    EXPECT_EQ(body.length(), 1);
+  }
+  EXPECT_FALSE((Species{.length = 1, .mass = 2}).is_unit());
+  EXPECT_FALSE((Species{.length = std::nextafter(1, 0), .mass = 1}).is_unit());
+}
+
+TEST(Gas, KnowsTheBodiesOfItsSpecies) {
+  Gas gas = gas_of(2, {9, 9, 9});
+  EXPECT_EQ(gas.longest, 1);
+  gas.set_species({{.length = 0.5, .mass = 4, .k = 2}, {.length = 3, .mass = 0.25, .k = 6}});
+  EXPECT_EQ(gas.longest, 3);
+  ASSERT_EQ(gas.bodies.size(), 2u);
+  EXPECT_EQ(gas.bodies[0].half_length, 0.25);
+  EXPECT_EQ(gas.bodies[0].inverse_mass, 0.25);
+  // I = m L^2 / (2 k)
+  EXPECT_EQ(gas.bodies[0].inverse_inertia, 4);
+  EXPECT_EQ(gas.species[0].inertia(), 0.25);
+  EXPECT_EQ(gas.bodies[1].length(), 3);
+  EXPECT_EQ(gas.bodies[1].inverse_mass, 4);
+  EXPECT_EQ(gas.bodies[1].inverse_inertia, 12 / (0.25 * 9));
+  gas.records[1].species = 1;
+  EXPECT_EQ(gas.species_of(gas.records[0]).length, 0.5);
+  EXPECT_EQ(gas.species_of(gas.records[1]).length, 3);
 }
 
 TEST(Wrap, IsInTheBoxToTheLastBit) {
@@ -239,11 +339,13 @@ TEST(MeanFreeTime, AgreesWithTheTheory) {
     const double t_rot = n > 0 && random.coin() ? 0 : random.log_uniform(1e-10, 1),
                  k = random.uniform(2, 20);
     const double rate = theory::collision_rate(density, {.t_tr = t_tr, .t_rot = t_rot}, k);
-    EXPECT_NEAR(mean_free_time(density, t_tr, t_rot, k) * rate, 1, 1e-6)
+    EXPECT_NEAR(mean_free_time({.density = density, .t_tr = t_tr, .t_rot = t_rot, .k = k}) * rate,
+                1, 1e-6)
         << "T_tr " << t_tr << ", T_rot " << t_rot << ", k " << k << ", seed " << seed;
   }
-  EXPECT_EQ(mean_free_time(1, 0, 0, 6), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(mean_free_time(1, 0x1p-120, 0x1p-120, 6), 0x1p60 * mean_free_time(1, 1, 1, 6));
+  EXPECT_EQ(mean_free_time({.density = 1}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mean_free_time({.density = 1, .t_tr = 0x1p-120, .t_rot = 0x1p-120}),
+            0x1p60 * mean_free_time({.density = 1, .t_tr = 1, .t_rot = 1}));
 }
 
 }  // namespace

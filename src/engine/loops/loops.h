@@ -1,5 +1,5 @@
-// All loops that are compiled: those of one search in a file of its own, and those of several
-// threads.
+// All event loops that are compiled. Those of one search are in one file; those of several threads
+// have a file of their own.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@
 
 namespace needlework {
 
-/// The loop of one thread with this search, for the effects `run.effects`.
+/// The single-threaded loop with this search, for the effects `run.effects`.
 template <Search S>
 std::unique_ptr<Loop> make_event_loop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar,
                                       ReplacedRecords replaced);
 
-/// The loop of several threads.
+/// The multi-threaded loop.
 std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
                                          int threads);
 

@@ -1,11 +1,11 @@
-// From the effects of a scene to the model that has them compiled in.
+// Chooses the model that has the effects of a scene compiled in.
 #pragma once
 
 #include "src/physics/needle_model.h"
 
 namespace needlework {
 
-/// Calls make.operator()<NeedleModel<...>>() with the model of these effects.
+/// Calls make.operator()<NeedleModel<...>>() with the model for these effects.
 template <class Make>
 auto with_model(const Effects& effects, Make&& make) {
   const auto with_table = [&]<bool rough, bool contact_time>() {

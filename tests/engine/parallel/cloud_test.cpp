@@ -12,10 +12,9 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
-#include "src/calendar/tournament.h"
-#include "src/engine/event_loop.h"
+#include "src/engine/make_loop.h"
 #include "src/engine/parallel_loop.h"
-#include "src/search/linked_lists.h"
+#include "src/physics/needle_model.h"
 #include "src/search/near_search.h"
 #include "tests/support/same_run.h"
 
@@ -94,7 +93,7 @@ TEST(Loops, MayFollowEachOther) {
   Simulation truth(scene);
   truth.advance(until_collisions(end));
 
-  constexpr Effects effects{true, true};
+  using Parallel = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   Limits limits(run, until_collisions(end));
   std::optional<Stop> stop;
@@ -102,12 +101,17 @@ TEST(Loops, MayFollowEachOther) {
     std::unique_ptr<Loop> loop;
     SearchSetup setup;
     setup.density = std::array{0.3, 1.0, 3.0}[n % 3];
-    if (n % 4 == 0)
-      loop = std::make_unique<EventLoop<LinkedCells, Tournament, effects>>(run, setup);
-    if (n % 4 == 1) loop = std::make_unique<ParallelLoop<Capsules, effects>>(run, setup, 2, 1.5, 1);
-    if (n % 4 == 2)
-      loop = std::make_unique<EventLoop<LinkedLists, Tournament, effects>>(run, setup);
-    if (n % 4 == 3) loop = std::make_unique<EventLoop<Capsules, CellCalendar, effects>>(run, setup);
+    const auto one_thread = [&](const char* search, const char* calendar) {
+      loop = make_loop(run, {.search = search, .calendar = calendar, .setup = setup});
+    };
+    if (n % 4 == 0) one_thread("linked-cells", "tournament");
+    if (n % 4 == 1) {
+      NearSearch capsules(run.gas, run.tally.counters, setup, BoundingVolume::capsule);
+      loop = std::make_unique<Parallel>(run, std::move(capsules), ReplacedRecords(), 2,
+                                        ParallelTuning{.sight = 1.5, .least = 1});
+    }
+    if (n % 4 == 2) one_thread("linked-lists", "tournament");
+    if (n % 4 == 3) one_thread("capsules", "cell-calendar");
     limits.pause = run.tally.collisions + 200 + 100 * static_cast<std::uint64_t>(n % 5);
     stop = loop->advance(limits);
     ASSERT_LT(n, 1000);
@@ -146,15 +150,11 @@ TEST(Loops, MayFollowEachOtherAtOneInstant) {
 
   needlework::Run run(scene, make_gas(scene, state));
   for (std::uint64_t n = 0; n < end; ++n) {
-    std::unique_ptr<Loop> loop;
     SearchSetup setup;
     setup.density = n % 2 ? 0.1 : 1.0;
-    constexpr Effects effects{false, true};
-    if (n % 3 == 0)
-      loop = std::make_unique<EventLoop<LinkedCells, Tournament, effects>>(run, setup);
-    if (n % 3 == 1) loop = std::make_unique<EventLoop<Capsules, Tournament, effects>>(run, setup);
-    if (n % 3 == 2)
-      loop = std::make_unique<EventLoop<LinkedLists, Tournament, effects>>(run, setup);
+    const char* search = std::array{"linked-cells", "capsules", "linked-lists"}[n % 3];
+    const std::unique_ptr<Loop> loop =
+        make_loop(run, {.search = search, .calendar = "tournament", .setup = setup});
     Limits limits(run, until_collisions(1e6));
     limits.collisions = static_cast<double>(n + 1);
     ASSERT_EQ(loop->advance(limits), Stop::collisions);
@@ -185,9 +185,9 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
   Limits limits(run, until);
   const std::string told = failure([&] {
     for (;;) {
-      EventLoop<LinkedLists, Tournament, Effects{true, false}> loop(run, SearchSetup{});
+      const auto loop = make_loop(run, {.search = "linked-lists", .calendar = "tournament"});
       limits.pause = run.tally.collisions + 1000;
-      if (loop.advance(limits)) return;
+      if (loop->advance(limits)) return;
     }
   });
   EXPECT_EQ(told, expected);
@@ -200,13 +200,15 @@ TEST(Loops, GoOnWhereTheOthersLeft) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
     Limits limits(run, until_collisions(40));
     limits.pause = 10000;
-    std::unique_ptr<Loop> loop =
-        std::make_unique<EventLoop<LinkedCells, Tournament, Effects{}>>(run, SearchSetup{});
+    const auto make = [&] {
+      return make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
+    };
+    std::unique_ptr<Loop> loop = make();
     EXPECT_EQ(loop->advance(limits), std::nullopt);
     limits.pause = std::numeric_limits<std::uint64_t>::max();
     if (by_another) {
       loop.reset();
-      loop = std::make_unique<EventLoop<LinkedCells, Tournament, Effects{}>>(run, SearchSetup{});
+      loop = make();
     }
     const std::uint64_t before = run.tally.counters.searches;
     EXPECT_EQ(loop->advance(limits), Stop::collisions);

@@ -13,7 +13,7 @@ TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
 
 Done at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
         std::uint32_t higher = 1) {
-  return {key_at(time), r, speed, lower != higher, lower, higher, {0, time}};
+  return {key_at(time), r, speed, lower != higher, Id{lower}, Id{higher}, {0, time}};
 }
 
 const std::array<double, 3> box{8, 9, 10};

@@ -16,11 +16,11 @@ TimeKey key(double time) { return std::bit_cast<TimeKey>(time); }
 TEST(Fronts, AreTooFarAheadWhereOthersCouldComeNear) {
   Fronts fronts(2, 1.2);
   fronts.begin(0.5);
-  fronts.tell_next(0, key(7));
-  fronts.tell_next(1, key(9));
+  fronts.publish_next(0, key(7));
+  fronts.publish_next(1, key(9));
   EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
   EXPECT_TRUE(fronts.is_too_far_ahead(key(7.11)));
-  fronts.tell_next(0, key(9.5));
+  fronts.publish_next(0, key(9.5));
   EXPECT_FALSE(fronts.is_too_far_ahead(key(9.09)));
   EXPECT_TRUE(fronts.is_too_far_ahead(key(9.11)));
 }
@@ -29,10 +29,10 @@ TEST(Fronts, GoByTheFastestNeedleThereIs) {
   Fronts fronts(3, 1.2);
   fronts.begin(0.5);
   EXPECT_EQ(fronts.fastest(), 0);
-  for (std::size_t t = 0; t < 3; ++t) fronts.tell_next(t, key(7));
+  for (std::size_t t = 0; t < 3; ++t) fronts.publish_next(t, key(7));
   EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
-  fronts.tell_taken(2, key(7), 5);
-  fronts.tell_taken(2, key(7), 1);
+  fronts.publish_event(2, key(7), 5);
+  fronts.publish_event(2, key(7), 1);
   EXPECT_EQ(fronts.fastest(), 5);
   EXPECT_FALSE(fronts.is_too_far_ahead(key(7.009)));
   EXPECT_TRUE(fronts.is_too_far_ahead(key(7.011)));
@@ -48,9 +48,9 @@ TEST(Fronts, HindmostIsNeverAhead) {
                                std::numeric_limits<double>::quiet_NaN()}) {
       Fronts fronts(2, 1.2);
       fronts.begin(speed);
-      fronts.tell_next(0, key(time));
-      fronts.tell_next(1, key(2 * time));
-      fronts.tell_taken(0, key(time), speed);
+      fronts.publish_next(0, key(time));
+      fronts.publish_next(1, key(2 * time));
+      fronts.publish_event(0, key(time), speed);
       EXPECT_FALSE(fronts.is_too_far_ahead(key(time))) << time << ", " << speed;
     }
   }
@@ -59,14 +59,14 @@ TEST(Fronts, HindmostIsNeverAhead) {
 TEST(Fronts, TellHowFarLaterEventsMayMatter) {
   Fronts fronts(2, 1.2);
   fronts.begin(0);
-  EXPECT_TRUE(fronts.tell_taken(0, key(7), 0.5));
+  EXPECT_TRUE(fronts.publish_event(0, key(7), 0.5));
   EXPECT_EQ(fronts.reach_of_later(0, key(7), 1, true), 0);
-  EXPECT_TRUE(fronts.tell_taken(1, key(7.1), 3));
+  EXPECT_TRUE(fronts.publish_event(1, key(7.1), 3));
   EXPECT_NEAR(fronts.reach_of_later(0, key(7), 1, true), 1 + 0.1 * 4, 1e-5);
   EXPECT_NEAR(fronts.reach_of_later(0, key(7), 4, true), 1 + 0.1 * 8, 1e-5);
   EXPECT_EQ(fronts.reach_of_later(1, key(7.1), 3, true), 0);
   // One's own later ones matter to what is done out of order.
-  EXPECT_FALSE(fronts.tell_taken(1, key(6.9), 0.5));
+  EXPECT_FALSE(fronts.publish_event(1, key(6.9), 0.5));
   EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, false), 1 + 0.2 * 4, 1e-5);
   EXPECT_NEAR(fronts.reach_of_later(1, key(6.9), 1, true), 1 + 0.1 * 2, 1e-5);
 }

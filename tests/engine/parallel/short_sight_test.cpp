@@ -4,6 +4,7 @@
 
 #include "needlework/initial_state.h"
 #include "src/engine/parallel_loop.h"
+#include "src/physics/needle_model.h"
 #include "src/search/near_search.h"
 #include "tests/support/runs.h"
 
@@ -17,11 +18,12 @@ Scene::Until mean_collisions(double mean) {
 }
 
 // How many of the phases were undone. The trajectory is right in any case.
-template <class Search>
-double redone(const Scene& scene, int threads, double sight, const Scene::Until& until,
-              const std::string& truth) {
+double redone(const Scene& scene, BoundingVolume kind, int threads, double sight,
+              const Scene::Until& until, const std::string& truth) {
   Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  ParallelLoop<Search, Effects{}> loop(run, {}, threads, sight);
+  NearSearch search(run.gas, run.tally.counters, {}, kind);
+  ParallelLoop<NearSearch, NeedleModel<Effects{}>> loop(run, std::move(search), {}, threads,
+                                                        {.sight = sight});
   EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
   const Tally& tally = run.tally;
   EXPECT_EQ(tally.hash.hex(), truth) << threads << " threads";
@@ -40,8 +42,8 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   const std::string of_dilute = hash_of_one_thread(dilute, until);
   const std::string of_dense = hash_of_one_thread(dense, until);
   for (const int threads : {2, 3, 8}) {
-    EXPECT_GT(redone<LinkedCells>(dilute, threads, 0, until, of_dilute), 0.5);
-    EXPECT_GT(redone<Capsules>(dense, threads, 0, until, of_dense), 0.7);
+    EXPECT_GT(redone(dilute, BoundingVolume::cell, threads, 0, until, of_dilute), 0.5);
+    EXPECT_GT(redone(dense, BoundingVolume::capsule, threads, 0, until, of_dense), 0.7);
   }
 }
 
@@ -51,7 +53,9 @@ TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
   const Scene scene = test::scene_of(2000, 5, 3);
   const std::string truth = hash_of_one_thread(scene, until);
   double all = 0;
-  for (const int threads : {2, 3, 8}) all += redone<Capsules>(scene, threads, 0.2, until, truth);
+  for (const int threads : {2, 3, 8}) {
+    all += redone(scene, BoundingVolume::capsule, threads, 0.2, until, truth);
+  }
   EXPECT_GT(all, 0);
 }
 
