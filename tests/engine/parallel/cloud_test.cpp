@@ -106,7 +106,7 @@ TEST(Loops, MayFollowEachOther) {
     };
     if (n % 4 == 0) one_thread("linked-cells", "tournament");
     if (n % 4 == 1) {
-      NearSearch capsules(run.gas, run.tally.counters, setup, Hulls::Kind::capsule);
+      NearSearch capsules(run.gas, run.tally.counters, setup, BoundingVolume::capsule);
       loop = std::make_unique<Parallel>(run, std::move(capsules), ReplacedRecords(), 2,
                                         ParallelTuning{.sight = 1.5, .least = 1});
     }

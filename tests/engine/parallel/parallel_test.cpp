@@ -38,7 +38,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 // A loop in which even few collisions make a phase.
 using EveryEffect = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
-EveryEffect loop_of_short_phases(needlework::Run& run, Hulls::Kind kind, int threads) {
+EveryEffect loop_of_short_phases(needlework::Run& run, BoundingVolume kind, int threads) {
   return EveryEffect(run, NearSearch(run.gas, run.tally.counters, {}, kind), {}, threads,
                      {.sight = 1.5, .least = 1});
 }
@@ -223,7 +223,7 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   for (const int threads : {2, 3}) {
     Simulation truth(scene);
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-    EveryEffect loop = loop_of_short_phases(run, Hulls::Kind::cell, threads);
+    EveryEffect loop = loop_of_short_phases(run, BoundingVolume::cell, threads);
     const Tally& tally = run.tally;
     for (int n = 1; n <= ends; ++n) {
       const Scene::Until until{.energy_ratio = std::pow(0.85, n)};
@@ -259,7 +259,7 @@ TEST(Parallel, FewNeedlesToo) {
     truth.advance(until);
     for (const int threads : {2, 3, 8}) {
       needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-      EveryEffect loop = loop_of_short_phases(run, Hulls::Kind::capsule, threads);
+      EveryEffect loop = loop_of_short_phases(run, BoundingVolume::capsule, threads);
       EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
       const Tally& tally = run.tally;
       EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;

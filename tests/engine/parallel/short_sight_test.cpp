@@ -18,7 +18,7 @@ Scene::Until mean_collisions(double mean) {
 }
 
 // How many of the phases were undone. The trajectory is right in any case.
-double redone(const Scene& scene, Hulls::Kind kind, int threads, double sight,
+double redone(const Scene& scene, BoundingVolume kind, int threads, double sight,
               const Scene::Until& until, const std::string& truth) {
   Run run(scene, make_gas(scene, draw_initial_state(scene)));
   NearSearch search(run.gas, run.tally.counters, {}, kind);
@@ -42,8 +42,8 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   const std::string of_dilute = hash_of_one_thread(dilute, until);
   const std::string of_dense = hash_of_one_thread(dense, until);
   for (const int threads : {2, 3, 8}) {
-    EXPECT_GT(redone(dilute, Hulls::Kind::cell, threads, 0, until, of_dilute), 0.5);
-    EXPECT_GT(redone(dense, Hulls::Kind::capsule, threads, 0, until, of_dense), 0.7);
+    EXPECT_GT(redone(dilute, BoundingVolume::cell, threads, 0, until, of_dilute), 0.5);
+    EXPECT_GT(redone(dense, BoundingVolume::capsule, threads, 0, until, of_dense), 0.7);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
   const std::string truth = hash_of_one_thread(scene, until);
   double all = 0;
   for (const int threads : {2, 3, 8}) {
-    all += redone(scene, Hulls::Kind::capsule, threads, 0.2, until, truth);
+    all += redone(scene, BoundingVolume::capsule, threads, 0.2, until, truth);
   }
   EXPECT_GT(all, 0);
 }
