@@ -99,6 +99,9 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   if (run_.window_end > until || until == Time::never()) return false;
   run_.now = run_.window_end;
   run_.open_window();
+  FurtherTouches& touches = *run_.gas.further_touches;
+  // Nobody puts the records of a window before back.
+  if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);
   // Measured: after 2 to 8 of each needle the order is about as good, but sorting costs.
   constexpr std::uint64_t crossings = 6;
   const std::uint64_t crossed = run_.tally.counters.crossings - sorted_at_;

@@ -13,9 +13,7 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "src/engine/make_loop.h"
-#include "src/engine/parallel_loop.h"
-#include "src/physics/needle_model.h"
-#include "src/search/near_search.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -56,7 +54,9 @@ TEST(Cloud, IsFollowedAsItSpreads) {
       EXPECT_LE(counters.resized, 8u);
       EXPECT_EQ(simulation.search(), "linked-cells");
     }
-    if (threads > 1) EXPECT_GT(counters.phases, 0u);
+    if (threads > 1) {
+      EXPECT_GT(counters.phases, 0u);
+    }
   }
 }
 
@@ -93,7 +93,6 @@ TEST(Loops, MayFollowEachOther) {
   Simulation truth(scene);
   truth.advance(until_collisions(end));
 
-  using Parallel = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   Limits limits(run, until_collisions(end));
   std::optional<Stop> stop;
@@ -106,9 +105,8 @@ TEST(Loops, MayFollowEachOther) {
     };
     if (n % 4 == 0) one_thread("linked-cells", "tournament");
     if (n % 4 == 1) {
-      NearSearch capsules(run.gas, run.tally.counters, setup, Hulls::Kind::capsule);
-      loop = std::make_unique<Parallel>(run, std::move(capsules), ReplacedRecords(), 2,
-                                        ParallelTuning{.sight = 1.5, .least = 1});
+      loop = test::make_parallel_loop<Effects{true, true}>(run, "capsules", 2, test::short_phases,
+                                                           setup);
     }
     if (n % 4 == 2) one_thread("linked-lists", "tournament");
     if (n % 4 == 3) one_thread("capsules", "cell-calendar");

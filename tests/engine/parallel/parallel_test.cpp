@@ -7,9 +7,7 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
-#include "src/engine/parallel_loop.h"
-#include "src/physics/needle_model.h"
-#include "src/search/near_search.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -36,12 +34,8 @@ Scene scene_of(const Case& c) {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// A loop in which even few collisions make a phase.
-using EveryEffect = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
-EveryEffect loop_of_short_phases(needlework::Run& run, Hulls::Kind kind, int threads) {
-  return EveryEffect(run, NearSearch(run.gas, run.tally.counters, {}, kind), {}, threads,
-                     {.sight = 1.5, .least = 1});
-}
+// Also of scenes that call for neither.
+constexpr auto make_rough_tc_loop = test::make_parallel_loop<Effects{true, true}>;
 
 class ParallelRun : public testing::TestWithParam<Case> {};
 
@@ -223,11 +217,11 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   for (const int threads : {2, 3}) {
     Simulation truth(scene);
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-    EveryEffect loop = loop_of_short_phases(run, Hulls::Kind::cell, threads);
+    const auto loop = make_rough_tc_loop(run, "linked-cells", threads, test::short_phases, {});
     const Tally& tally = run.tally;
     for (int n = 1; n <= ends; ++n) {
       const Scene::Until until{.energy_ratio = std::pow(0.85, n)};
-      ASSERT_EQ(loop.advance(Limits(run, until)), truth.advance(until));
+      ASSERT_EQ(loop->advance(Limits(run, until)), truth.advance(until));
       ASSERT_EQ(tally.hash.hex(), truth.trajectory_hash()) << threads << " threads, end " << n;
     }
     EXPECT_GT(tally.counters.phases, 2 * tally.counters.redone);
@@ -259,8 +253,8 @@ TEST(Parallel, FewNeedlesToo) {
     truth.advance(until);
     for (const int threads : {2, 3, 8}) {
       needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-      EveryEffect loop = loop_of_short_phases(run, Hulls::Kind::capsule, threads);
-      EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
+      const auto loop = make_rough_tc_loop(run, "capsules", threads, test::short_phases, {});
+      EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
       const Tally& tally = run.tally;
       EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;
       EXPECT_GT(tally.counters.phases, tally.counters.redone) << c.count << ", " << threads;

@@ -1,0 +1,115 @@
+// One species of length 1 and mass 1 is the gas of needles.count, bit for bit, with or without the
+// table of species.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "needlework/error.h"
+#include "needlework/parse.h"
+#include "src/engine/make_loop.h"
+#include "tests/support/parallel_loops.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+const std::string rest = R"(
+[collisions]
+epsilon = 0.8
+beta = -0.5
+tc_relative = 1e-3
+[until]
+collisions_per_needle = 10
+)";
+
+std::string hash_of(const Scene& scene) {
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.advance(scene.until), Stop::collisions);
+  return simulation.trajectory_hash();
+}
+
+TEST(OneSpecies, OfLengthAndMassOneIsTheGasOfNeedlesCount) {
+  const std::string plain =
+      "[needles]\ncount = 200\nbox = 6\nk = 2\nseed = 5\n[initial]\nt_tr = 1.5\nt_rot = 0.5\n" +
+      rest;
+  const std::string species =
+      "[needles]\nbox = 6\nseed = 5\n[[species]]\nname = 'dumbbells'\n"
+      "count = 200\nk = 2\nt_tr = 1.5\nt_rot = 0.5\n" +
+      rest;
+  const std::string hash = hash_of(parse_scene(plain, "plain.toml"));
+  const Scene scene = parse_scene(species, "species.toml");
+  EXPECT_EQ(hash_of(scene), hash);
+  EXPECT_EQ(hash_of(parse_scene(species, "s.toml",
+                                std::vector<std::string>{"species.length=1", "species.mass=1"})),
+            hash);
+  EXPECT_NE(hash_of(parse_scene(species, "s.toml", std::vector<std::string>{"species.k=2.1"})),
+            hash);
+  EXPECT_FALSE(effects_of(scene).table);
+}
+
+// A scene made in code need not say twice what its species says.
+TEST(OneSpecies, IsDrawnFromASceneMadeInCode) {
+  Scene plain = test::scene_of(100, 5);
+  plain.needles.k = 3;
+  plain.initial.t_rot = 0.5;
+  Scene scene = test::scene_of(0, 5);
+  scene.species.emplace_back();
+  scene.species[0].count = 100;
+  scene.species[0].k = 3;
+  scene.species[0].t_rot = 0.5;
+  EXPECT_EQ(Simulation(scene).copy().velocity, Simulation(plain).copy().velocity);
+  EXPECT_EQ(Simulation(scene).copy().angular_velocity, Simulation(plain).copy().angular_velocity);
+  scene.species.emplace_back();
+  try {
+    Simulation simulation(scene);
+    ADD_FAILURE() << "two species";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "species: 2 entries: expected one: gases of several species are not simulated yet");
+  }
+}
+
+// With the table every length, mass and inertia is looked up, and found to be what it was.
+TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
+  for (const double beta : {-1.0, 0.3}) {
+    for (const bool contact_time : {false, true}) {
+      for (const double k : {6.0, 2.3}) {
+        Scene scene = test::scene_of(150, 5, 9);
+        scene.needles.k = k;
+        scene.collisions.beta = beta;
+        scene.collisions.epsilon = 0.95;
+        if (contact_time) scene.collisions.tc_relative = 1e-2;
+        const auto until = test::until_collisions(8);
+        Simulation simulation(scene);
+        simulation.advance(until);
+        for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+          SCOPED_TRACE(test::name_of(scene) + ", " + search);
+          needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+          EXPECT_FALSE(run.effects.table);
+          run.effects.table = true;
+          const auto loop = make_loop(run, {.search = search, .calendar = "tournament"});
+          EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+          EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash());
+        }
+      }
+    }
+  }
+}
+
+TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads) {
+  const Scene scene = test::scene_of(500, 6, 9);
+  const auto until = test::until_collisions(8);
+  Simulation simulation(scene);
+  simulation.advance(until);
+  for (const char* search : {"linked-cells", "capsules"}) {
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    const auto loop =
+        test::make_parallel_loop<Effects{.table = true}>(run, search, 3, test::short_phases);
+    EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+    EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash()) << search;
+    EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone) << search;
+  }
+}
+
+}  // namespace
+}  // namespace needlework
