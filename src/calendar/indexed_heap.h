@@ -20,9 +20,7 @@ class IndexedHeap {
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex) {
-    heap_.set(event.owner, events_.put(event), events_);
-  }
+  void set(const Event& event, BlockIndex) { heap_.set(event.owner, events_.put(event), events_); }
 
  private:
   EventTable events_;

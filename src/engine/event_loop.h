@@ -103,6 +103,9 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   if (run_.window_end > until || until == Time::never()) return false;
   run_.now = run_.window_end;
   run_.open_window();
+  FurtherTouches& touches = *run_.gas.further_touches;
+  // No record of an earlier window is ever put back.
+  if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);
   // Number of cell crossings per needle after which storage is sorted again. Measured: from 2 to 8
   // the run time hardly changes, and sorting itself costs time.
   constexpr std::uint64_t crossings = 6;

@@ -64,13 +64,25 @@ void set_mean_square(std::vector<Vector>& vectors, double mean_square) {
     for (double& component : v) component *= factor;
 }
 
+// The one species of the scene.
+Scene::Species species_of(const Scene& scene) {
+  if (!scene.species.empty()) return scene.species.front();
+  Scene::Species out;
+  out.count = scene.needles.count;
+  out.k = scene.needles.k;
+  out.t_tr = scene.initial.t_tr;
+  out.t_rot = scene.initial.t_rot;
+  return out;
+}
+
 }  // namespace
 
 State draw_initial_state(const Scene& scene) {
   const Scene::Needles& needles = scene.needles;
+  const Scene::Species species = species_of(scene);
   State state;
   state.box = needles.box;
-  const auto n = static_cast<std::size_t>(needles.count);
+  const auto n = static_cast<std::size_t>(species.count);
   state.position.resize(n);
   state.velocity.resize(n);
   state.orientation.resize(n);
@@ -84,12 +96,10 @@ State draw_initial_state(const Scene& scene) {
     state.angular_velocity[id] = normal_part(random.normal(), state.orientation[id]);
   }
   if (n >= 2) remove_mean(state.velocity);
-  const double mass = scene.species.empty() ? 1 : scene.species.front().mass;
-  const double length = scene.species.empty() ? 1 : scene.species.front().length;
-  set_mean_square(state.velocity, 3 * scene.initial.t_tr / mass);
+  set_mean_square(state.velocity, 3 * species.t_tr / species.mass);
   // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
-  set_mean_square(state.angular_velocity,
-                  4 * needles.k * scene.initial.t_rot / (mass * (length * length)));
+  set_mean_square(state.angular_velocity, 4 * species.k * species.t_rot /
+                                              (species.mass * (species.length * species.length)));
   return state;
 }
 

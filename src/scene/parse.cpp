@@ -31,7 +31,10 @@ bool replaces(const std::string& override_name, const Entry& entry) {
   if (entry.is_override) return false;
   if (override_name == "collisions.tc") return name == "collisions.tc_relative";
   if (override_name == "collisions.tc_relative") return name == "collisions.tc";
-  if (override_name == "initial.file") return name == "initial.t_tr" || name == "initial.t_rot";
+  if (override_name == "initial.file") {
+    return name == "initial.t_tr" || name == "initial.t_rot" || name == "species.t_tr" ||
+           name == "species.t_rot";
+  }
   return false;
 }
 

@@ -2,11 +2,15 @@
 #include "needlework/simulation.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "needlework/initial_state.h"
+#include "src/scene/check.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -150,15 +154,118 @@ TEST(Simulation, RefusesStatesThatAreNotGases) {
   EXPECT_THROW(Simulation(scene).advance({}), InputError);
 }
 
-TEST(Simulation, ReadsNoFiles) {
-  Scene scene;
-  scene.initial.file = "state.h5";
-  try {
-    Simulation simulation(scene);
-    ADD_FAILURE() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("initial.file = state.h5: expected none"))
-        << error.what();
+TEST(Simulation, StartsFromAFileWhoseCountAndBoxTheSceneMayGive) {
+  const std::string file =
+      testing::TempDir() + "needlework-start-" + std::to_string(getpid()) + ".h5";
+  const Scene drawn = test::scene_of(3, 3);
+  const State state = draw_initial_state(drawn);
+  io::Writer writer(file, true, drawn, {});
+  writer.write_frame({}, state);
+  writer.close();
+
+  const auto start = [&](std::uint64_t count, std::array<double, 3> box) {
+    Scene scene;
+    scene.initial.file = file;
+    scene.needles.count = count;
+    scene.needles.box = box;
+    const State initial = io::read_last_frame(file);
+    adopt_count_and_box(scene, initial);
+    return Simulation(scene, initial).copy();
+  };
+  EXPECT_EQ(start(0, {}).position, state.position);
+  EXPECT_EQ(start(3, {3, 3, 3}).velocity, state.velocity);
+  EXPECT_EQ(start(3, {3, 3, 3 - 1e-14}).box, state.box);
+  const auto refused = [&](std::uint64_t count, std::array<double, 3> box, const char* message) {
+    try {
+      start(count, box);
+      ADD_FAILURE() << "accepted: " << message;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), message + file);
+    }
+  };
+  refused(2, {}, "needles.count = 2: expected 3, as in ");
+  refused(0, {3, 3, 4}, "needles.box = [3, 3, 4]: expected [3, 3, 3], as in ");
+  refused(0, {0, 3, 3}, "needles.box = [0, 3, 3]: expected [3, 3, 3], as in ");
+  std::filesystem::remove(file);
+}
+
+// The engine reads no files, whether there is such a file or not.
+TEST(Simulation, RefusesASceneWhoseStateIsInAFile) {
+  Scene scene = test::scene_of(3, 3);
+  scene.initial.file = "absent.h5";
+  const auto message = [&] {
+    try {
+      Simulation simulation(scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string why =
+      ": expected none, as Simulation(scene) reads no files: read the state with "
+      "io::read_last_frame() and pass it to Simulation(scene, state)";
+  EXPECT_EQ(message(), "initial.file = absent.h5" + why);
+  const std::string place = "s.toml: line 7: initial.file = 'absent.h5'";
+  scene.places["initial.file"] = place;
+  EXPECT_EQ(message(), place + why);
+  EXPECT_EQ(Simulation(scene, draw_initial_state(test::scene_of(4, 3))).copy().size(), 4u);
+}
+
+bool are_same(const State& a, const State& b) {
+  return a.box == b.box && a.position == b.position && a.velocity == b.velocity &&
+         a.orientation == b.orientation && a.angular_velocity == b.angular_velocity &&
+         a.image == b.image && a.id == b.id;
+}
+
+TEST(Simulation, CopiesIntoMemoryThatThereIs) {
+  const Scene scene = test::scene_of(200, 5);
+  Simulation simulation(scene);
+  State state;
+  simulation.copy(state);
+  const auto* positions = state.position.data();
+  const auto* ids = state.id.data();
+  for (const double time : {0.0, 0.3, 2.0, 2.0}) {
+    simulation.advance(until_time(time));
+    simulation.copy(state);
+    EXPECT_EQ(state.position.data(), positions);
+    EXPECT_EQ(state.id.data(), ids);
+    EXPECT_TRUE(are_same(state, simulation.copy())) << "at " << time;
+    EXPECT_EQ(simulation.time(), time);
+  }
+  // A state of more needles is cut to size; what it held is gone.
+  State larger = draw_initial_state(test::scene_of(300, 9));
+  simulation.copy(larger);
+  EXPECT_TRUE(are_same(larger, state));
+}
+
+TEST(Simulation, GivesOneNeedleAsItsRowOfAll) {
+  const Scene scene = test::scene_of(120, 4);
+  State initial = draw_initial_state(scene);
+  initial.id.resize(initial.size());
+  // Neither in order nor without gaps.
+  for (std::size_t n = 0; n < initial.size(); ++n) {
+    initial.id[n] = static_cast<std::uint32_t>(7 + 3 * (n * 77 % initial.size()));
+  }
+  Simulation simulation(scene, initial);
+  for (const double time : {0.0, 0.01, 3.0, 3.5}) {
+    simulation.advance(until_time(time));
+    const State all = simulation.copy();
+    for (std::size_t row = 0; row < all.size(); ++row) {
+      const FreeNeedle one = simulation.needle(all.id[row]);
+      ASSERT_EQ(one.position, all.position[row]) << "at " << time << ", needle " << all.id[row];
+      ASSERT_EQ(one.velocity, all.velocity[row]);
+      ASSERT_EQ(one.orientation, all.orientation[row]);
+      ASSERT_EQ(one.angular_velocity, all.angular_velocity[row]);
+    }
+  }
+  for (const std::uint32_t id : {0u, 6u, 8u, 7u + 3 * 120, 0xffffffffu}) {
+    try {
+      simulation.needle(id);
+      ADD_FAILURE() << "there is no needle " << id;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "needle " + std::to_string(id) + ": expected the id of a needle");
+    }
   }
 }
 

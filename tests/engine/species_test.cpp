@@ -1,106 +1,113 @@
-// Lengths and masses of a species enter everywhere by the table, and nowhere as a unit of 1.
+// One species of length 1 and mass 1 is the gas of needles.count, bit for bit, with or without the
+// table of species.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <string>
-#include <tuple>
 
-#include "needlework/simulation.h"
+#include "needlework/error.h"
+#include "needlework/parse.h"
+#include "src/engine/make_loop.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
 namespace {
 
-// A length of 2^p and a mass of 4^q.
-struct Powers {
-  int p, q;
-};
+const std::string rest = R"(
+[collisions]
+epsilon = 0.8
+beta = -0.5
+tc_relative = 1e-3
+[until]
+collisions_per_needle = 10
+)";
 
-class SpeciesOfPowersOfTwo
-    : public testing::TestWithParam<std::tuple<Powers, const char*, const char*>> {};
-
-Scene rough_cooling_gas(double density) {
-  Scene scene = test::scene_of(120, std::cbrt(120 / density), 11);
-  scene.collisions.epsilon = 0.85;
-  scene.collisions.beta = 0.25;
-  scene.collisions.tc_relative = 1e-3;
-  return scene;
+std::string hash_of(const Scene& scene) {
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.advance(scene.until), Stop::collisions);
+  return simulation.trajectory_hash();
 }
 
-// Everything in an event scales by exact powers of two, so no rounding differs: every bit is the
-// same but for that factor. A margin or tolerance that took a length for 1 would change some.
-TEST_P(SpeciesOfPowersOfTwo, HaveTheSameEventsRescaled) {
-  const auto [powers, search, accuracy] = GetParam();
-  for (const double density : {0.5, 8.0}) {
-    Scene scene = rough_cooling_gas(density);
-    scene.engine.search = search;
-    scene.engine.accuracy = accuracy;
-    const double length = std::ldexp(1.0, powers.p), mass = std::ldexp(1.0, 2 * powers.q);
-    const test::Recorded unit = test::record(scene, 1500);
-    const test::Recorded scaled = test::record(test::with_species(scene, length, mass), 1500);
-    const double time = std::ldexp(1.0, powers.p + powers.q);
-    const double velocity = std::ldexp(1.0, -powers.q), momentum = std::ldexp(1.0, powers.q);
-    ASSERT_EQ(unit.collisions.size(), scaled.collisions.size());
-    EXPECT_GT(unit.totals.tc_collisions, 0u);
-    EXPECT_EQ(unit.totals.tc_collisions, scaled.totals.tc_collisions);
-    EXPECT_EQ(unit.totals.energy, scaled.totals.energy);
-    EXPECT_EQ(unit.totals.t_rot, scaled.totals.t_rot);
-    EXPECT_EQ(unit.epoch_length * time, scaled.epoch_length);
-    for (std::size_t n = 0; n < unit.collisions.size(); ++n) {
-      const Collision &a = unit.collisions[n], &b = scaled.collisions[n];
-      SCOPED_TRACE("collision " + std::to_string(n));
-      ASSERT_EQ(a.first, b.first);
-      ASSERT_EQ(a.second, b.second);
-      ASSERT_EQ(a.shift, b.shift);
-      ASSERT_EQ(a.epoch, b.epoch);
-      ASSERT_EQ(a.offset * time, b.offset);
-      ASSERT_EQ(a.arm_first * length, b.arm_first);
-      ASSERT_EQ(a.arm_second * length, b.arm_second);
-      ASSERT_EQ(a.sin_angle, b.sin_angle);
-      ASSERT_EQ(a.normal_velocity * velocity, b.normal_velocity);
-      ASSERT_EQ(a.energy_change, b.energy_change);
-      ASSERT_EQ(a.contact_time_rule, b.contact_time_rule);
-      for (int axis = 0; axis < 3; ++axis) {
-        ASSERT_EQ(a.impulse[axis] * momentum, b.impulse[axis]);
-        ASSERT_EQ(a.after[0].position[axis] * length, b.after[0].position[axis]);
+TEST(OneSpecies, OfLengthAndMassOneIsTheGasOfNeedlesCount) {
+  const std::string plain =
+      "[needles]\ncount = 200\nbox = 6\nk = 2\nseed = 5\n[initial]\nt_tr = 1.5\nt_rot = 0.5\n" +
+      rest;
+  const std::string species =
+      "[needles]\nbox = 6\nseed = 5\n[[species]]\nname = 'dumbbells'\n"
+      "count = 200\nk = 2\nt_tr = 1.5\nt_rot = 0.5\n" +
+      rest;
+  const std::string hash = hash_of(parse_scene(plain, "plain.toml"));
+  const Scene scene = parse_scene(species, "species.toml");
+  EXPECT_EQ(hash_of(scene), hash);
+  EXPECT_EQ(hash_of(parse_scene(species, "s.toml",
+                                std::vector<std::string>{"species.length=1", "species.mass=1"})),
+            hash);
+  EXPECT_NE(hash_of(parse_scene(species, "s.toml", std::vector<std::string>{"species.k=2.1"})),
+            hash);
+  EXPECT_FALSE(effects_of(scene).table);
+}
+
+// A scene made in code need not say twice what its species says.
+TEST(OneSpecies, IsDrawnFromASceneMadeInCode) {
+  Scene plain = test::scene_of(100, 5);
+  plain.needles.k = 3;
+  plain.initial.t_rot = 0.5;
+  Scene scene = test::scene_of(0, 5);
+  scene.species.emplace_back();
+  scene.species[0].count = 100;
+  scene.species[0].k = 3;
+  scene.species[0].t_rot = 0.5;
+  EXPECT_EQ(Simulation(scene).copy().velocity, Simulation(plain).copy().velocity);
+  EXPECT_EQ(Simulation(scene).copy().angular_velocity, Simulation(plain).copy().angular_velocity);
+  scene.species.emplace_back();
+  try {
+    Simulation simulation(scene);
+    ADD_FAILURE() << "two species";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "species: 2 entries: expected one: gases of several species are not simulated yet");
+  }
+}
+
+// With the table every length, mass and inertia is looked up, and found to be what it was.
+TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
+  for (const double beta : {-1.0, 0.3}) {
+    for (const bool contact_time : {false, true}) {
+      for (const double k : {6.0, 2.3}) {
+        Scene scene = test::scene_of(150, 5, 9);
+        scene.needles.k = k;
+        scene.collisions.beta = beta;
+        scene.collisions.epsilon = 0.95;
+        if (contact_time) scene.collisions.tc_relative = 1e-2;
+        const auto until = test::until_collisions(8);
+        Simulation simulation(scene);
+        simulation.advance(until);
+        for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+          SCOPED_TRACE(test::name_of(scene) + ", " + search);
+          needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+          EXPECT_FALSE(run.effects.table);
+          run.effects.table = true;
+          const auto loop = make_loop(run, {.search = search, .calendar = "tournament"});
+          EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+          EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash());
+        }
       }
     }
   }
 }
 
-std::string name_of(const testing::TestParamInfo<SpeciesOfPowersOfTwo::ParamType>& info) {
-  const auto [powers, search, accuracy] = info.param;
-  std::string out = std::string(search) + "_" + accuracy + "_" + std::to_string(info.index);
-  for (char& c : out) c = c == '-' ? '_' : c;
-  return out;
-}
-
-INSTANTIATE_TEST_SUITE_P(EverySearch, SpeciesOfPowersOfTwo,
-                         testing::Combine(testing::Values(Powers{1, 0}, Powers{-3, 2}),
-                                          testing::Values("all-pairs", "linked-lists",
-                                                          "linked-cells", "capsules"),
-                                          testing::Values("standard")),
-                         name_of);
-INSTANTIATE_TEST_SUITE_P(
-    EveryAccuracy, SpeciesOfPowersOfTwo,
-    testing::Combine(testing::Values(Powers{0, 5}, Powers{17, -40}, Powers{-18, 60}),
-                     testing::Values("auto"), testing::Values("fast", "standard", "rigorous")),
-    name_of);
-
-// The searches agree bit for bit where lengths are no powers of two, as they do for length 1.
-TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnEverySearch) {
-  for (const double density : {0.5, 8.0}) {
-    Scene scene = test::with_species(rough_cooling_gas(density), 0.37, 2.9);
-    std::string hash;
-    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-      scene.engine.search = search;
-      const test::Recorded run = test::record(scene, 3000);
-      if (hash.empty()) hash = run.hash;
-      EXPECT_EQ(run.hash, hash) << search << ", density " << density;
-    }
-    scene.engine.search = "auto";
-    scene.engine.threads = 2;
-    EXPECT_EQ(test::record(scene, 3000).hash, hash) << "two threads, density " << density;
+TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads) {
+  const Scene scene = test::scene_of(500, 6, 9);
+  const auto until = test::until_collisions(8);
+  Simulation simulation(scene);
+  simulation.advance(until);
+  for (const char* search : {"linked-cells", "capsules"}) {
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    const auto loop =
+        test::make_parallel_loop<Effects{.table = true}>(run, search, 3, test::short_phases);
+    EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
+    EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash()) << search;
+    EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone) << search;
   }
 }
 

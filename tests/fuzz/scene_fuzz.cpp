@@ -32,8 +32,16 @@ void check_scene(const needlework::Scene& scene, const std::string& text) {
   require(!scene.engine.threads || *scene.engine.threads >= 1);
   require(scene.output.series_per_decade > 0);
   require(needlework::is_printable(scene.title) && needlework::is_printable(scene.output.file));
+  double length = 1;
+  require(scene.species.size() <= 1);
+  for (const needlework::Scene::Species& species : scene.species) {
+    length = species.length;
+    require(length > 0 && species.mass > 0 && species.k == scene.needles.k);
+    require(species.count == scene.needles.count);
+    require(!species.name.empty() && needlework::is_printable(species.name));
+  }
   for (const double edge : scene.needles.box)
-    require(edge >= 2.01 || (edge == 0 && !scene.initial.file.empty()));
+    require(edge >= 2.01 * length || (edge == 0 && !scene.initial.file.empty()));
   for (const std::string& warning : needlework::warnings(scene))
     require(needlework::is_printable(warning));
   if (scene.initial.file.empty() && scene.needles.count <= 10)

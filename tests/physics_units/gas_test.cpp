@@ -49,7 +49,7 @@ TEST(RenewRecord, WrapsTheCentreAndCountsTheImages) {
     const Time now = gas.clock.add(gas.records[0].time, dt);
     const double elapsed = gas.clock.difference(now, gas.records[0].time);
     const Shift images = gas.images[0];
-    const Shift wraps = 
+    const Shift wraps =
         renew_record(gas, needle, now, {{0, 1, 0}, vec3(random.normal_vector(20)), {}});
     ASSERT_EQ(gas.images[0], images + wraps);
     const auto r = components(gas.records[0].flight.r), speed = components(v);
@@ -158,8 +158,7 @@ TEST(MakePair, StartsAtTheLaterRecord) {
   gas.records[0].time = {5, 0.25};
   gas.records[1].time = {7, 0.5};
   const Shift shift{1, 0, -2};
-  const kernels::Pair pair = 
-      make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
+  const kernels::Pair pair = make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
   EXPECT_EQ(pair.first, &gas.records[0].flight);
   EXPECT_EQ(pair.second, &gas.records[1].flight);
   EXPECT_EQ(pair.elapsed_first, DoubleDouble(2.25));
@@ -173,8 +172,7 @@ TEST(MakePair, StartsAtTheLaterRecord) {
 TEST(MakePair, ShiftsByWholeBoxesExactly) {
   Gas gas = gas_of(2, {10.1, 0.3, 7.7});
   const Shift shift{-3, 1000000007, 5};
-  const kernels::Pair pair = 
-      make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
+  const kernels::Pair pair = make_pair(gas, needle, gas.records[0], partner, gas.records[1], shift);
   EXPECT_TRUE(Wide(pair.shift.x.hi) + pair.shift.x.lo == Wide(10.1) * -3);
   EXPECT_TRUE(Wide(pair.shift.y.hi) + pair.shift.y.lo == Wide(0.3) * 1000000007);
   EXPECT_TRUE(Wide(pair.shift.z.hi) + pair.shift.z.lo == Wide(7.7) * 5);

@@ -161,8 +161,9 @@ class Gas {
     const int side = dot(v, contact.normal) > 0 ? -1 : 1;
     const Restitution restitution{factor * (1 + scene_.collisions.epsilon) - 1,
                                   scene_.collisions.beta};
-    const Impact impact = needlework::collide<false>(a.flight, b.flight, contact, side,
-                                                     scene_.needles.k, restitution);
+    const needlework::Body body = Species{.length = 1, .mass = 1, .k = scene_.needles.k}.body();
+    const Impact impact =
+        needlework::collide<false>({a.flight, b.flight, body, body, contact, side}, restitution);
     Collision report;
     report.epoch = static_cast<std::int64_t>(std::floor(now / reference_epoch));
     report.offset = now - static_cast<double>(report.epoch) * reference_epoch;

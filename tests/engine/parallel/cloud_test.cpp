@@ -1,5 +1,5 @@
-// A cloud of needles in a large box. The best search and sizes change as it spreads. Its
-// trajectory is that of any fixed search, on any number of threads.
+// A cloud of needles in a large box: what search and sizes suit it changes as it spreads. Its
+// trajectory is that of any search all along, on any number of threads.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,9 +13,7 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "src/engine/make_loop.h"
-#include "src/engine/parallel_loop.h"
-#include "src/physics/needle_model.h"
-#include "src/search/near_search.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -56,11 +54,13 @@ TEST(Cloud, IsFollowedAsItSpreads) {
       EXPECT_LE(counters.resized, 8u);
       EXPECT_EQ(simulation.search(), "linked-cells");
     }
-    if (threads > 1) EXPECT_GT(counters.phases, 0u);
+    if (threads > 1) {
+      EXPECT_GT(counters.phases, 0u);
+    }
   }
 }
 
-// Given settings are never changed.
+// What is set by hand stays so.
 TEST(Cloud, IsSearchedAsAskedFor) {
   Scene scene = test::scene_of(1000, 25);
   const State state = cloud(scene);
@@ -83,7 +83,7 @@ TEST(Cloud, IsSearchedAsAskedFor) {
   EXPECT_EQ(resized(scene), 0u);
 }
 
-// One loop may replace another at any time between two events.
+// The run goes on with another loop at any time between two events.
 TEST(Loops, MayFollowEachOther) {
   Scene scene = test::scene_of(600, 7, 8);
   scene.collisions.epsilon = 0.9;
@@ -93,7 +93,6 @@ TEST(Loops, MayFollowEachOther) {
   Simulation truth(scene);
   truth.advance(until_collisions(end));
 
-  using Parallel = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   Limits limits(run, until_collisions(end));
   std::optional<Stop> stop;
@@ -106,9 +105,8 @@ TEST(Loops, MayFollowEachOther) {
     };
     if (n % 4 == 0) one_thread("linked-cells", "tournament");
     if (n % 4 == 1) {
-      NearSearch capsules(run.gas, run.tally.counters, setup, BoundingVolume::capsule);
-      loop = std::make_unique<Parallel>(run, std::move(capsules), ReplacedRecords(), 2,
-                                        ParallelTuning{.sight = 1.5, .least = 1});
+      loop = test::make_parallel_loop<Effects{true, true}>(run, "capsules", 2, test::short_phases,
+                                                           setup);
     }
     if (n % 4 == 2) one_thread("linked-lists", "tournament");
     if (n % 4 == 3) one_thread("capsules", "cell-calendar");
@@ -193,7 +191,7 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
   EXPECT_EQ(told, expected);
 }
 
-// A loop that replaces another does no more work than one that continues.
+// A loop that follows another does no more work than one that goes on.
 TEST(Loops, GoOnWhereTheOthersLeft) {
   const Scene scene = test::scene_of(1000, 11);
   const auto searches_of_half = [&](bool by_another) {

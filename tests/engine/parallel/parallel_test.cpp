@@ -1,4 +1,4 @@
-// Runs on several threads equal those on one, bit for bit, up to the last collision.
+// Runs on several threads are those on one, bit for bit, to the last collision.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -7,9 +7,7 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
-#include "src/engine/parallel_loop.h"
-#include "src/physics/needle_model.h"
-#include "src/search/near_search.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -36,12 +34,8 @@ Scene scene_of(const Case& c) {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// A loop in which even few collisions make a phase.
-using EveryEffect = ParallelLoop<NearSearch, NeedleModel<Effects{true, true}>>;
-EveryEffect loop_of_short_phases(needlework::Run& run, BoundingVolume kind, int threads) {
-  return EveryEffect(run, NearSearch(run.gas, run.tally.counters, {}, kind), {}, threads,
-                     {.sight = 1.5, .least = 1});
-}
+// Also of scenes that call for neither.
+constexpr auto make_rough_tc_loop = test::make_parallel_loop<Effects{true, true}>;
 
 class ParallelRun : public testing::TestWithParam<Case> {};
 
@@ -77,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// The system decides which thread runs when, so a run is repeated, above all in builds in which
-// threads yield at random.
+// Who runs when is up to the system, so a run is repeated, above all where threads give way to each
+// other at random.
 TEST(Parallel, IsTheSameEveryTime) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
@@ -96,8 +90,8 @@ TEST(Parallel, IsTheSameEveryTime) {
   }
 }
 
-// Between phases of several threads one thread may work alone while the gas cools. The largest
-// speed of the last phase must then not be used unscaled.
+// Stretches of one thread may lie between phases of several, in which a gas cools: what was fast
+// then is not what is fast now.
 TEST(Parallel, GoesOnTogetherAfterALongTimeAlone) {
   Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
   const int steps = thin > 1 ? 20 : 100;
@@ -126,8 +120,8 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_EQ(simulation.queue(), "cell-calendar");
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
-  EXPECT_GT(counters.foreign, 10u);  // collisions across the border
-  EXPECT_GT(counters.sorts, 0u);     // after which the box is divided again
+  EXPECT_GT(counters.foreign, 10u);  // collisions over the border
+  EXPECT_GT(counters.sorts, 0u);     // which divides the box anew
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {
@@ -161,7 +155,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
   }
 }
 
-// A limit on energy cannot be foreseen, so the phase that passes it is undone.
+// An end by energy cannot be foreseen: the phase in which it lies is undone.
 TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   scene.engine.threads = 2;
@@ -170,8 +164,8 @@ TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   EXPECT_GE(simulation.counters().redone, 1u);
 }
 
-// The limit is slightly above a number of collisions: one more is needed, and no time is left for
-// a phase.
+// The limit is a number of collisions and a bit: one more is needed, and no time is left for a
+// phase.
 TEST(Parallel, EndsAtTheNextCollision) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   std::size_t with_a_bit = 0;
@@ -186,8 +180,8 @@ TEST(Parallel, EndsAtTheNextCollision) {
   EXPECT_GT(with_a_bit, 30u);
 }
 
-// A run that is advanced in many short calls does not repeat attempts that were undone. Needles
-// that slide, with many more collisions than in thermal flight, do not lead to an endless phase.
+// Called for short times on end, as the program does, a run does not try what was undone anew; and
+// needles that slide, with many more collisions than in thermal flight, make no endless phase.
 TEST(Parallel, UndoesAPhaseOnlyOnce) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
@@ -209,13 +203,13 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   const Counters& counters = seen->counters();
   EXPECT_GT(counters.phases, 2u);
   EXPECT_LE(counters.redone, 3u);
-  // Each phase has at most 2^15 collisions, or twice that if it is undone.
+  // Each of 2^15 collisions at most, or twice that in vain.
   EXPECT_LE(counters.events, 2 * truth->counters().events);
 }
 
-// In dilute gases a mean free time is longer than the times that the search can store in float, so
-// phases end before it has to rebase them. Each limit on energy undoes a phase. That is correct
-// only if the search's data of needles that were not restored hold at the earlier time as well.
+// In rare gases a mean free time is longer than the times that the search can tell in float: phases
+// end before it has to begin them anew. Each end by energy undoes one, which is only right if what
+// the search knows of needles that were not put back is right at the time before.
 TEST(Parallel, RareGasesAreUndoneRightly) {
   const Scene scene =
       scene_of({"", 130, {1763.7097770949067, 2.01, 2.01}, 0.95, 0.0945871625986503, 1e-3, 6, 0});
@@ -223,11 +217,11 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   for (const int threads : {2, 3}) {
     Simulation truth(scene);
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-    EveryEffect loop = loop_of_short_phases(run, BoundingVolume::cell, threads);
+    const auto loop = make_rough_tc_loop(run, "linked-cells", threads, test::short_phases, {});
     const Tally& tally = run.tally;
     for (int n = 1; n <= ends; ++n) {
       const Scene::Until until{.energy_ratio = std::pow(0.85, n)};
-      ASSERT_EQ(loop.advance(Limits(run, until)), truth.advance(until));
+      ASSERT_EQ(loop->advance(Limits(run, until)), truth.advance(until));
       ASSERT_EQ(tally.hash.hex(), truth.trajectory_hash()) << threads << " threads, end " << n;
     }
     EXPECT_GT(tally.counters.phases, 2 * tally.counters.redone);
@@ -235,8 +229,8 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   }
 }
 
-// If zones hardly touch, only the check of each other's times keeps threads so close in time that
-// it can be decided which needles may have met.
+// Where zones hardly touch, nothing but a look at each other's clocks keeps threads so near in time
+// that it can be told who may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;
@@ -247,7 +241,7 @@ TEST(Parallel, StaysTogetherInTimeInALongBox) {
   EXPECT_LE(counters.redone, counters.phases / 4);
 }
 
-// Scenes so small that usually one thread processes them alone.
+// Scenes so small that usually one thread does them alone.
 TEST(Parallel, FewNeedlesToo) {
   for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
                         Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},
@@ -259,8 +253,8 @@ TEST(Parallel, FewNeedlesToo) {
     truth.advance(until);
     for (const int threads : {2, 3, 8}) {
       needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-      EveryEffect loop = loop_of_short_phases(run, BoundingVolume::capsule, threads);
-      EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
+      const auto loop = make_rough_tc_loop(run, "capsules", threads, test::short_phases, {});
+      EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
       const Tally& tally = run.tally;
       EXPECT_EQ(tally.hash.hex(), truth.trajectory_hash()) << c.count << ", " << threads;
       EXPECT_GT(tally.counters.phases, tally.counters.redone) << c.count << ", " << threads;

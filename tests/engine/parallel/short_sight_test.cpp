@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "needlework/initial_state.h"
-#include "src/engine/parallel_loop.h"
-#include "src/physics/needle_model.h"
-#include "src/search/near_search.h"
+#include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -18,13 +16,11 @@ Scene::Until mean_collisions(double mean) {
 }
 
 // How many of the phases were undone. The trajectory is right in any case.
-double redone(const Scene& scene, BoundingVolume kind, int threads, double sight,
+double redone(const Scene& scene, const char* search, int threads, double sight,
               const Scene::Until& until, const std::string& truth) {
   Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  NearSearch search(run.gas, run.tally.counters, {}, kind);
-  ParallelLoop<NearSearch, NeedleModel<Effects{}>> loop(run, std::move(search), {}, threads,
-                                                        {.sight = sight});
-  EXPECT_EQ(loop.advance(Limits(run, until)), Stop::collisions);
+  const auto loop = test::make_parallel_loop<Effects{}>(run, search, threads, {.sight = sight});
+  EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
   const Tally& tally = run.tally;
   EXPECT_EQ(tally.hash.hex(), truth) << threads << " threads";
   return static_cast<double>(tally.counters.redone) / static_cast<double>(tally.counters.phases);
@@ -42,8 +38,8 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   const std::string of_dilute = hash_of_one_thread(dilute, until);
   const std::string of_dense = hash_of_one_thread(dense, until);
   for (const int threads : {2, 3, 8}) {
-    EXPECT_GT(redone(dilute, BoundingVolume::cell, threads, 0, until, of_dilute), 0.5);
-    EXPECT_GT(redone(dense, BoundingVolume::capsule, threads, 0, until, of_dense), 0.7);
+    EXPECT_GT(redone(dilute, "linked-cells", threads, 0, until, of_dilute), 0.5);
+    EXPECT_GT(redone(dense, "capsules", threads, 0, until, of_dense), 0.7);
   }
 }
 
@@ -54,7 +50,7 @@ TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
   const std::string truth = hash_of_one_thread(scene, until);
   double all = 0;
   for (const int threads : {2, 3, 8}) {
-    all += redone(scene, BoundingVolume::capsule, threads, 0.2, until, truth);
+    all += redone(scene, "capsules", threads, 0.2, until, truth);
   }
   EXPECT_GT(all, 0);
 }

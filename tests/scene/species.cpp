@@ -1,0 +1,194 @@
+// Scenes with [[species]].
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "needlework/error.h"
+#include "needlework/parse.h"
+
+namespace needlework {
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+// Lines 1 to 6, so that more begins at line 7.
+const std::string least = R"(needles.box = 12
+until.time = 5
+[[species]]
+name = "rods"
+count = 10
+
+)";
+const std::string not_both =
+    "expected either [[species]] or needles.count, needles.k and the temperatures of [initial], "
+    "not both";
+
+std::string message(const std::string& text, const Overrides& overrides = {}) {
+  try {
+    parse_scene(text, "s.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Species, HasDefaults) {
+  const Scene scene = parse_scene(least, "s.toml");
+  ASSERT_EQ(scene.species.size(), 1u);
+  const Scene::Species& species = scene.species.front();
+  EXPECT_EQ(species.name, "rods");
+  EXPECT_EQ(species.count, 10u);
+  EXPECT_EQ(species.length, 1);
+  EXPECT_EQ(species.mass, 1);
+  EXPECT_EQ(species.k, 6);
+  EXPECT_EQ(species.t_tr, 1);
+  EXPECT_EQ(species.t_rot, 1);
+}
+
+// Whoever knows nothing of species finds count, k and temperatures where they have always been.
+TEST(Species, StandsForNeedlesAndInitial) {
+  const Scene scene = parse_scene(
+      least + "length = 2.5\nmass = 0.5\nk = 2\nt_tr = 3\nt_rot = 0\n[initial]\n", "s.toml");
+  const Scene::Species& species = scene.species.at(0);
+  EXPECT_EQ(species.length, 2.5);
+  EXPECT_EQ(species.mass, 0.5);
+  EXPECT_EQ(scene.needles.count, 10u);
+  EXPECT_EQ(scene.needles.k, 2);
+  EXPECT_EQ(scene.initial.t_tr, 3);
+  EXPECT_EQ(scene.initial.t_rot, 0);
+  EXPECT_EQ(scene.needles.box, (std::array{12.0, 12.0, 12.0}));
+  EXPECT_EQ(scene.places.at("species.count"), "s.toml: line 5: species.count = 10");
+  EXPECT_EQ(scene.places.at("needles.count"), "s.toml: line 5: species.count = 10");
+  EXPECT_EQ(scene.places.at("needles.k"), "s.toml: line 9: species.k = 2");
+}
+
+TEST(Species, MayBeWrittenInline) {
+  const Scene scene = parse_scene(
+      "species = [{name = 'rods', count = 3, k = 2}]\nneedles.box = 4\nuntil.time = 1\n", "s.toml");
+  ASSERT_EQ(scene.species.size(), 1u);
+  EXPECT_EQ(scene.species[0].count, 3u);
+  EXPECT_EQ(scene.needles.k, 2);
+}
+
+TEST(Species, MayStartFromAFile) {
+  const Scene scene = parse_scene(
+      "initial.file = 'a.h5'\nuntil.time = 1\n[[species]]\nname = 'rods'\nlength = 2\n", "s.toml");
+  EXPECT_EQ(scene.initial.file, "a.h5");
+  EXPECT_EQ(scene.species.at(0).length, 2);
+  EXPECT_EQ(scene.needles.count, 0u);
+}
+
+TEST(Species, CanBeOverridden) {
+  const Scene scene = parse_scene(least, "s.toml", Overrides{"species.count=7", "species.mass=4"});
+  EXPECT_EQ(scene.species.at(0).count, 7u);
+  EXPECT_EQ(scene.needles.count, 7u);
+  EXPECT_EQ(scene.species.at(0).mass, 4);
+  EXPECT_EQ(scene.places.at("needles.count"), "--set species.count=7");
+  // A file in place of temperatures, as for [initial].
+  const Scene restart =
+      parse_scene(least + "t_tr = 2\nt_rot = 3", "s.toml", Overrides{"initial.file=a.h5"});
+  EXPECT_EQ(restart.initial.file, "a.h5");
+  EXPECT_EQ(restart.species.at(0).t_tr, 1);
+}
+
+TEST(BadSpecies, IsNamedWithItsLine) {
+  const std::string count = "expected a whole number in digits, from 0 to 4294967294";
+  const std::string length = "expected a number > 0 (from 1e-6 to 1e6)";
+  const std::string mass = "expected a number > 0 (from 1e-100 to 1e100)";
+  const std::string k = "expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)";
+  const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
+  const std::string name = "expected a name without control characters, not empty";
+  const std::string several =
+      "expected one [[species]] entry: gases of several species are not simulated yet";
+  const std::string keys = "expected one of name, count, length, mass, k, t_tr, t_rot";
+  const std::string either = "expected either file or temperatures to draw, not both";
+  const std::string head = "needles.box = 12\nuntil.time = 5\n[[species]]\n";
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {least + "[[species]]\nname = 'dumbbells'\ncount = 5",
+       "s.toml: line 7: [[species]]: " + several},
+      {"species = [{name = 'a', count = 1}, {name = 'b', count = 2}]\nneedles.box = 9\n"
+       "until.time = 1",
+       "s.toml: line 1: [[species]]: " + several},
+      {"needles.box = 12\nuntil.time = 5\n[species]\nname = 'rods'\ncount = 5",
+       "s.toml: line 3: [species]: expected [[species]], in double brackets"},
+      {"species.count = 5", "s.toml: line 1: [species]: expected [[species]], in double brackets"},
+      {"[[needles]]\ncount = 5", "s.toml: line 1: [[needles]]: expected [needles], once"},
+      {"[[specis]]\ncount = 5",
+       "s.toml: line 1: [[specis]]: expected one of the sections needles, species, initial, "
+       "collisions, engine, until, output, did you mean species?"},
+      {least + "[needles]\ncount = 5", "s.toml: line 8: needles.count = 5: " + not_both},
+      {least + "[needles]\nk = 6", "s.toml: line 8: needles.k = 6: " + not_both},
+      {least + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
+      {least + "[initial]\nt_rot = 1", "s.toml: line 8: initial.t_rot = 1: " + not_both},
+      {"[needles]\ncount = 5\nbox = 12\n[[species]]\nname = 'rods'\n",
+       "s.toml: line 5: species.name = 'rods': " + not_both},
+      {head + "name = 'rods'", "s.toml: species.count is missing: " + count},
+      {head + "count = 4", "s.toml: species.name is missing: " + name},
+      {head, "s.toml: species.count is missing: " + count},
+      {"until.time = 5\n[[species]]\nname = 'rods'\ncount = 4\n",
+       "s.toml: needles.box is missing: expected an edge from 2.01 to 1e9, or an array of three "
+       "edges"},
+      {head + "name = ''", "s.toml: line 4: species.name = '': " + name},
+      {head + "name = 5", "s.toml: line 4: species.name = 5: " + name},
+      {head + "count = -1", "s.toml: line 4: species.count = -1: " + count},
+      {head + "count = 1.5", "s.toml: line 4: species.count = 1.5: " + count},
+      {least + "length = 0", "s.toml: line 7: species.length = 0: " + length},
+      {least + "length = nan", "s.toml: line 7: species.length = nan: " + length},
+      {least + "length = 2e6", "s.toml: line 7: species.length = 2e6: " + length},
+      {least + "mass = -1", "s.toml: line 7: species.mass = -1: " + mass},
+      {least + "mass = inf", "s.toml: line 7: species.mass = inf: " + mass},
+      {least + "k = 0", "s.toml: line 7: species.k = 0: " + k},
+      {least + "t_tr = -1", "s.toml: line 7: species.t_tr = -1: " + temperature},
+      {least + "t_rot = 1e300", "s.toml: line 7: species.t_rot = 1e300: " + temperature},
+      {least + "lenght = 2",
+       "s.toml: line 7: species.lenght = 2: " + keys + ", did you mean length?"},
+      {least + "xyzzy = 2", "s.toml: line 7: species.xyzzy = 2: " + keys},
+      {least + "t_tr = 1\n[initial]\nfile = 'a.h5'",
+       "s.toml: line 9: initial.file = 'a.h5': " + either},
+      {"initial.file = 'a.h5'\nuntil.time = 1\n[[species]]\nname = 'rods'\nt_rot = 1",
+       "s.toml: line 5: species.t_rot = 1: " + either},
+  };
+  for (const auto& [text, expected] : table) EXPECT_EQ(message(text), expected) << text;
+}
+
+TEST(BadSpecies, NeedsABoxOfTwiceItsLength) {
+  const std::string line = "s.toml: line 1: needles.box = ";
+  EXPECT_EQ(message(least + "length = 6"),
+            line + "12: expected edges of at least 12.06 (2.01 needle lengths)");
+  EXPECT_EQ(message(least + "length = 5.9"), "no error");
+  const auto in_box = [](const std::string& box, const std::string& length) {
+    return message("needles.box = " + box + "\nuntil.time = 5\n[[species]]\nname = 'rods'\n" +
+                   "count = 10\nlength = " + length);
+  };
+  EXPECT_EQ(in_box("[12, 8, 12]", "4"),
+            line + "[12, 8, 12]: expected edges of at least 8.04 (2.01 needle lengths)");
+  // Short needles need less than those of length 1.
+  EXPECT_EQ(in_box("0.5", "0.2"), "no error");
+  EXPECT_EQ(in_box("0.5", "0.25"),
+            line + "0.5: expected edges of at least 0.5025 (2.01 needle lengths)");
+  EXPECT_EQ(in_box("2", "1"),
+            line + "2: expected an edge from 2.01 to 1e9, or an array of three edges");
+  EXPECT_EQ(message(least, {"species.length=100"}),
+            line + "12: expected edges of at least 201 (2.01 needle lengths)");
+  EXPECT_EQ(message(least + "length = 5", {"needles.box=10"}),
+            "--set needles.box=10: expected edges of at least 10.05 (2.01 needle lengths)");
+}
+
+TEST(BadSpecies, CannotBeMadeByOverrides) {
+  const std::string plain = "needles.count = 3\nneedles.box = 12\nuntil.time = 5\n";
+  EXPECT_EQ(message(plain, {"species.length=2"}),
+            "--set species.length=2: expected a scene with an entry [[species]]");
+  EXPECT_EQ(message(least, {"species.length=2"}), "no error");
+  EXPECT_EQ(message(least, {"species.length=-2"}),
+            "--set species.length=-2: expected a number > 0 (from 1e-6 to 1e6)");
+  EXPECT_EQ(message(least, {"needles.count=5"}), "--set needles.count=5: " + not_both);
+  EXPECT_EQ(message(least, {"initial.t_tr=5"}), "--set initial.t_tr=5: " + not_both);
+  EXPECT_EQ(message(least, {"species.lenght=5"}),
+            "--set species.lenght=5: expected one of name, count, length, mass, k, t_tr, t_rot, "
+            "did you mean length?");
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,26 @@
+// Loops of several threads with other settings than the engine's own.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "src/engine/parallel_loop.h"
+#include "src/physics/needle_model.h"
+#include "src/search/near_search.h"
+
+namespace needlework::test {
+
+/// "linked-cells" or "capsules" on so many threads; `run` must outlive the loop.
+template <Effects effects>
+std::unique_ptr<Loop> make_parallel_loop(Run& run, const char* search, int threads,
+                                         const ParallelTuning& tuning,
+                                         const SearchSetup& setup = {}) {
+  NearSearch near(run.gas, run.tally.counters, setup, NearSearch::kind_of(search).value());
+  return std::make_unique<ParallelLoop<NearSearch, NeedleModel<effects>>>(
+      run, std::move(near), ReplacedRecords(), threads, tuning);
+}
+
+/// In which even few collisions make a phase worth sharing.
+inline constexpr ParallelTuning short_phases = {.sight = 1.5, .least = 1};
+
+}  // namespace needlework::test
