@@ -84,6 +84,18 @@ struct Scene {
   Until until;
   Output output;
 
+  /// The species that all needles are of: the one entry of `species`, or, without an entry, one of
+  /// length 1 and mass 1 with count, k and temperatures of `needles` and `initial`.
+  Species one_species() const {
+    if (!species.empty()) return species.front();
+    Species out;
+    out.count = needles.count;
+    out.k = needles.k;
+    out.t_tr = initial.t_tr;
+    out.t_rot = initial.t_rot;
+    return out;
+  }
+
   std::string text;  ///< the scene file as read, with overrides appended; stored in the output
   /// Where each key "section.key" was given, and its value, as messages quote it: "FILE: line N:
   /// section.key = VALUE" or "--set section.key=VALUE". Keys that were not read from a text have

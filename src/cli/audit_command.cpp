@@ -139,6 +139,18 @@ std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
   return text;
 }
 
+// The audit has physics of its own, for needles of length and mass 1.
+void require_unit_needles(const Scene& scene) {
+  const Scene::Species species = scene.one_species();
+  const auto require = [&](const char* key, double value) {
+    if (value == 1) return;
+    throw InputError(place_of(scene, std::string("species.") + key, fmt::format("{}", value)) +
+                     ": expected 1, as the audit knows needles of length and mass 1 only");
+  };
+  require("length", species.length);
+  require("mass", species.mass);
+}
+
 int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
                  const std::optional<std::string>& state) {
   if (outcome.failure) {
@@ -160,6 +172,7 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
 int run(const AuditArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
+  require_unit_needles(scene);
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);

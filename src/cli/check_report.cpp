@@ -158,9 +158,16 @@ std::string text_of(const runs::Explanation& e) {
   const Scene& scene = e.scene;
   const auto& box = scene.needles.box;
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  text += line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
-  text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per unit of volume", box[0],
-                                  box[1], box[2], e.density));
+  std::string needles = fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k));
+  if (!scene.species.empty()) {
+    const Scene::Species& species = scene.species.front();
+    needles += fmt::format(", species \"{}\" of length {:g} and mass {:g}", species.name,
+                           species.length, species.mass);
+  }
+  text += line("needles", needles);
+  const char* volume = scene.one_species().length == 1 ? "unit of volume" : "cube of their length";
+  text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
+                                  box[2], e.density, volume));
   text += line("start", start_text(e));
   text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
   text += line("collisions", collision_text(scene.collisions));

@@ -57,8 +57,11 @@ double Report::collision_rate_exact() const {
   if (!runs::starts_in_equilibrium(scene)) return undefined;
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
-  return theory::equilibrium_rate(count, box[0] * box[1] * box[2], count * course.initial.energy,
-                                  scene.needles.k);
+  const Scene::Species species = scene.one_species();
+  const double cube = species.length * species.length * species.length;
+  return theory::equilibrium_rate(count, box[0] * box[1] * box[2] / cube,
+                                  count * course.initial.energy, species.k) /
+         (species.length * std::sqrt(species.mass));
 }
 
 double Report::collisions_per_needle() const {
@@ -73,7 +76,7 @@ double Report::us_per_collision() const {
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
   if (!scene.initial.file.empty() || !(course.initial.energy > 0)) return std::nullopt;
   const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
-  const double tau = theory_time_scale(runs::density_of(scene)) * sample.time;
+  const double tau = theory_time_scale(runs::theory_density_of(scene)) * sample.time;
   return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))
       .front();
 }
@@ -116,6 +119,14 @@ std::string json_of(const Report& report) {
   json["t_tr"] = number(last.t_tr);
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
+  if (!scene.species.empty()) {
+    const std::string& name = scene.species.front().name;
+    json["species"] = Json::array({{{"name", name},
+                                    {"count", scene.needles.count},
+                                    {"t_tr", number(last.t_tr)},
+                                    {"t_rot", number(last.t_rot)}}});
+    json["collisions_by_pair"] = {{name + "-" + name, last.collisions}};
+  }
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

@@ -105,7 +105,7 @@ std::string curve_lines(const Report& report) {
   constexpr int most_rows = 8;
   const Totals& first = report.course.initial;
   const double mean_free_time =
-      1 / theory::collision_rate(runs::density_of(report.scene), {first.t_tr, first.t_rot},
+      1 / theory::collision_rate(runs::theory_density_of(report.scene), {first.t_tr, first.t_rot},
                                  report.scene.needles.k);
   const double begin = std::ceil(std::log10(0.5 * mean_free_time));
   const double end = std::floor(std::log10(report.course.last.time));

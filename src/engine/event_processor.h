@@ -16,11 +16,11 @@
 #include "src/engine/collapse.h"
 #include "src/engine/pair_predictor.h"
 #include "src/engine/run.h"
+#include "src/engine/tally.h"
 #include "src/engine/undo_log.h"
 #include "src/memory/prefetch.h"
 #include "src/physics/model.h"
 #include "src/search/search.h"
-#include "src/trajectory/tally.h"
 
 namespace needlework {
 

@@ -52,13 +52,12 @@ auto sums_of(const Gas& gas, Terms&& terms) {
 }
 
 Species species_of(const Scene& scene) {
-  if (scene.species.empty()) return {.length = 1, .mass = 1, .k = scene.needles.k};
   if (scene.species.size() > 1) {
     throw InputError(fmt::format(
         "species: {} entries: expected one: gases of several species are not simulated yet",
         scene.species.size()));
   }
-  const Scene::Species& species = scene.species.front();
+  const Scene::Species species = scene.one_species();
   return {.length = species.length, .mass = species.mass, .k = species.k};
 }
 

@@ -8,10 +8,10 @@
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
 #include "src/engine/replaced_records.h"
+#include "src/engine/tally.h"
 #include "src/physics/collision.h"
 #include "src/physics/effects.h"
 #include "src/physics/gas.h"
-#include "src/trajectory/tally.h"
 
 namespace needlework {
 

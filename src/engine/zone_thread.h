@@ -13,8 +13,8 @@
 #include "src/engine/event_processor.h"
 #include "src/engine/patience.h"
 #include "src/engine/phase.h"
+#include "src/engine/tally.h"
 #include "src/engine/undo_log.h"
-#include "src/trajectory/tally.h"
 
 namespace needlework {
 

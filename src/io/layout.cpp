@@ -68,14 +68,6 @@ Handle make_box(hid_t needles, const std::string& place) {
   return box;
 }
 
-double mass_of(const Scene& scene) {
-  return scene.species.empty() ? 1.0 : scene.species.front().mass;
-}
-
-double length_of(const Scene& scene) {
-  return scene.species.empty() ? 1.0 : scene.species.front().length;
-}
-
 StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& place) {
   const std::uint64_t count = scene.needles.count;
   const hsize_t rows = frames_per_chunk(count);
@@ -95,8 +87,8 @@ StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& pla
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
-  hdf5::write_array<double>(group, "mass", {count}, std::vector<double>(count, mass_of(scene)),
-                            place);
+  hdf5::write_array<double>(group, "mass", {count},
+                            std::vector<double>(count, scene.one_species().mass), place);
   hdf5::write_array<std::uint8_t>(group, "species", {count}, std::vector<std::uint8_t>(count, 0),
                                   place);
   return shared;
@@ -143,7 +135,7 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("threads", static_cast<std::int32_t>(run.threads));
   write("epoch_length", run.epoch_length);
   write("k", scene.needles.k);
-  write("length", length_of(scene));
+  write("length", scene.one_species().length);
   write("epsilon", scene.collisions.epsilon);
   write("beta", scene.collisions.beta);
 }

@@ -17,7 +17,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
   if (!loaded.initial) return {loaded.scene.initial.t_tr, loaded.scene.initial.t_rot};
-  const Totals totals = totals_of(*loaded.initial, loaded.scene.needles.k);
+  const Totals totals = totals_of(*loaded.initial, loaded.scene);
   return {totals.t_tr, totals.t_rot};
 }
 
@@ -32,9 +32,10 @@ Explanation::Explanation(const LoadedScene& loaded)
     : scene(loaded.scene),
       density(density_of(scene)),
       initial(initial_temperatures(loaded)),
-      mean_free_time(1 / theory::collision_rate(density, initial, scene.needles.k)),
+      mean_free_time(1 /
+                     theory::collision_rate(theory_density_of(scene), initial, scene.needles.k)),
       expected(forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta}, initial,
-                        density, scene.until)),
+                        theory_density_of(scene), scene.until)),
       collisions(collisions_of(expected, scene)),
       seconds(expected && std::isfinite(expected->time)
                   ? collisions * estimated_seconds_per_collision(scene, density)

@@ -42,13 +42,16 @@ LoadedScene complete_scene(Scene given) {
   return loaded;
 }
 
-Totals totals_of(const State& state, double k) {
+Totals totals_of(const State& state, const Scene& scene) {
+  const Scene::Species species = scene.one_species();
+  const double inertia = species.mass * (species.length * species.length) / (2 * species.k);
   Totals totals;
   const double count = static_cast<double>(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
-    totals.t_tr += square(state.velocity[i]) / (3 * count);
-    totals.t_rot += square(state.angular_velocity[i]) / (4 * k * count);
-    for (int axis = 0; axis < 3; ++axis) totals.momentum[axis] += state.velocity[i][axis];
+    totals.t_tr += species.mass * square(state.velocity[i]) / (3 * count);
+    totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
+    for (int axis = 0; axis < 3; ++axis)
+      totals.momentum[axis] += species.mass * state.velocity[i][axis];
   }
   totals.energy = 1.5 * totals.t_tr + totals.t_rot;
   return totals;
@@ -63,7 +66,14 @@ bool starts_in_equilibrium(const Scene& scene) {
 
 double density_of(const Scene& scene) {
   const auto& box = scene.needles.box;
-  return static_cast<double>(scene.needles.count) / (box[0] * box[1] * box[2]);
+  const double length = scene.one_species().length;
+  return static_cast<double>(scene.needles.count) * (length * length * length) /
+         (box[0] * box[1] * box[2]);
+}
+
+double theory_density_of(const Scene& scene) {
+  const Scene::Species species = scene.one_species();
+  return density_of(scene) / (species.length * std::sqrt(species.mass));
 }
 
 }  // namespace needlework::runs

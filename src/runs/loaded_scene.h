@@ -22,12 +22,15 @@ struct LoadedScene {
 LoadedScene complete_scene(Scene given);
 
 /// The state's sums at time 0.
-Totals totals_of(const State& state, double k);
+Totals totals_of(const State& state, const Scene& scene);
 
 /// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
 bool starts_in_equilibrium(const Scene& scene);
 
-/// needles.count / volume [L^-3].
+/// Needles per volume of the box, in cubes of the needle length [1].
 double density_of(const Scene& scene);
+/// The density at which needles of length 1 and mass 1 collide as often at equal temperatures,
+/// n L^2 / sqrt(m): the one to use in the theory, which knows only those. [1 / time]
+double theory_density_of(const Scene& scene);
 
 }  // namespace needlework::runs

@@ -64,22 +64,11 @@ void set_mean_square(std::vector<Vector>& vectors, double mean_square) {
     for (double& component : v) component *= factor;
 }
 
-// The one species of the scene.
-Scene::Species species_of(const Scene& scene) {
-  if (!scene.species.empty()) return scene.species.front();
-  Scene::Species out;
-  out.count = scene.needles.count;
-  out.k = scene.needles.k;
-  out.t_tr = scene.initial.t_tr;
-  out.t_rot = scene.initial.t_rot;
-  return out;
-}
-
 }  // namespace
 
 State draw_initial_state(const Scene& scene) {
   const Scene::Needles& needles = scene.needles;
-  const Scene::Species species = species_of(scene);
+  const Scene::Species species = scene.one_species();
   State state;
   state.box = needles.box;
   const auto n = static_cast<std::size_t>(species.count);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "src/theory/theory.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
