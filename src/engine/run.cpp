@@ -90,7 +90,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   for (const double edge : initial.box) {
     const double least = 2.01 * species_of(scene).length;
     if (!(edge >= least) || !std::isfinite(edge)) {
-      throw InputError(fmt::format("state: box edge {}: expected at least {}", edge, least));
+      throw InputError(fmt::format("state: box edge {}: expected at least {:.10g}", edge, least));
     }
   }
   Gas gas;

@@ -124,8 +124,9 @@ void require_room(const Scene& scene, const Document& document, const Entry& box
   const auto& edges = scene.needles.box;
   if (std::all_of(edges.begin(), edges.end(), [&](double edge) { return edge >= least; })) return;
   throw document.error(
-      box, length == 1 ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
-                       : fmt::format("expected edges of at least {} (2.01 needle lengths)", least));
+      box, length == 1
+               ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
+               : fmt::format("expected edges of at least {:.10g} (2.01 needle lengths)", least));
 }
 
 // The text as read, with overrides appended as comments.
@@ -175,8 +176,8 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     given.insert(full_name(entry));
     scene.places[full_name(entry)] = document.place(entry);
   }
-  require_what_is_needed(scene, document, given);
   if (given.contains("needles.box")) require_room(scene, document, box);
+  require_what_is_needed(scene, document, given);
   adopt_species(scene);
   scene.text = annotated(text, overrides);
   return scene;

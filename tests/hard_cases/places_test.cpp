@@ -8,8 +8,8 @@
 
 #include "needlework/error.h"
 #include "tests/hard_cases/hard_scene.h"
-#include "tests/support/quad_gas.h"
 #include "tests/support/random.h"
+#include "tests/support/sides.h"
 
 namespace needlework::test {
 namespace {
@@ -134,33 +134,6 @@ TEST_P(Borders, AreDecidedToTheLastBit) {
       EXPECT_GT(run.collisions.size(), 10u / thin);
     }
   }
-}
-
-// Checks that no pair has passed through each other between two states that are close in time: if
-// the lines meet within both needles in both states, at an angle, the side must be the same.
-// Returns the number of pairs for which this could be checked.
-int expect_same_sides(const State& before, const State& after) {
-  int pairs = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    for (std::size_t j = i + 1; j < before.size(); ++j) {
-      const auto standing = [&](const State& s) {
-        const auto state = [&](std::size_t n) {
-          return read({s.position[n], s.orientation[n], s.velocity[n], s.angular_velocity[n]});
-        };
-        return PairState{state(i), state(j)};
-      };
-      const PairState was = standing(before), is = standing(after);
-      const auto clear = [](const PairState& p) {
-        const auto s = arms(p);
-        return norm(cross(p.first.orientation, p.second.orientation)) > 0.1 && abs(s[0]) < 0.49 &&
-               abs(s[1]) < 0.49 && abs(slopes(p).f) > 1e-12;
-      };
-      if (!clear(was) || !clear(is)) continue;
-      ++pairs;
-      EXPECT_EQ(slopes(was).f > 0, slopes(is).f > 0) << "needles " << i << " and " << j;
-    }
-  }
-  return pairs;
 }
 
 // Two needles rotate about one centre, at rest: they are always at contact without a side, until a

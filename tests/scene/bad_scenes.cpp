@@ -203,13 +203,14 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
       {"tilte = 'x'\n",
        "s.toml: line 1: tilte = 'x': expected a section or title, did you mean title?"},
       {"count = 5\n",
-       "s.toml: line 1: count = 5: expected a section or title, did you mean needles.count?"},
+       "s.toml: line 1: count = 5: expected a section or title, did you mean needles.count or "
+       "species.count?"},
   });
 }
 
 TEST(BadScene, UnknownSectionComesWithSuggestion) {
   const std::string sections =
-      "expected one of the sections needles, initial, collisions, engine, until, output";
+      "expected one of the sections needles, species, initial, collisions, engine, until, output";
   expect_messages({
       {"# a scene\n[neddles]\ncount = 5\n",
        "s.toml: line 2: [neddles]: " + sections + ", did you mean needles?"},
@@ -217,7 +218,7 @@ TEST(BadScene, UnknownSectionComesWithSuggestion) {
       {"enigne.threads = 1\n", "s.toml: line 1: [enigne]: " + sections + ", did you mean engine?"},
       {"[title]\n", "s.toml: line 1: [title]: " + sections},
       {"needles = 5\n", "s.toml: line 1: needles = 5: expected a section [needles]"},
-      {"[[needles]]\n", "s.toml: line 1: needles = [[needles]]: expected a section [needles]"},
+      {"[[needles]]\n", "s.toml: line 1: [[needles]]: expected [needles], once"},
   });
 }
 

@@ -112,7 +112,8 @@ TEST(HostileScene, MessageEscapesControlCharacters) {
   EXPECT_EQ(message(R"("\u001b[2J" = 1)"),
             "s.toml: line 1: \\x1b[2J = 1: expected a section or title");
   EXPECT_EQ(message(R"(["a\nb"])"),
-            "s.toml: line 1: [a\\nb]: expected one of the sections needles, initial, collisions, "
+            "s.toml: line 1: [a\\nb]: expected one of the sections needles, species, initial, "
+            "collisions, "
             "engine, until, output");
   EXPECT_EQ(message("until.time = '\xe2\x80\xae'"),
             "s.toml: line 1: until.time = '\\u202e': expected a time >= 0");

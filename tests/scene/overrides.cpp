@@ -86,9 +86,10 @@ TEST(Override, IsNamedInItsError) {
             "--set needles.count=99999999999999999999: " + count);
   EXPECT_EQ(message({"needles.cuont=5"}),
             "--set needles.cuont=5: expected one of count, box, k, seed, did you mean count?");
-  EXPECT_EQ(message({"neddles.count=5"}),
-            "--set neddles.count=5: expected one of the sections needles, initial, collisions, "
-            "engine, until, output, did you mean needles?");
+  EXPECT_EQ(
+      message({"neddles.count=5"}),
+      "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "
+      "engine, until, output, did you mean needles?");
 }
 
 TEST(Override, ErrorsOfTheFileComeFirst) {
@@ -113,8 +114,9 @@ TEST(Override, OfTheTitleNeedsNoSection) {
   const Scene replaced = parse_scene("title = 'a'\n" + least, "s.toml", Overrides{"title=b"});
   EXPECT_EQ(replaced.title, "b");
   EXPECT_EQ(message({"title=5"}), "--set title=5: expected a string without control characters");
-  EXPECT_EQ(message({"count=5"}),
-            "--set count=5: expected a section or title, did you mean needles.count?");
+  EXPECT_EQ(
+      message({"count=5"}),
+      "--set count=5: expected a section or title, did you mean needles.count or species.count?");
   EXPECT_EQ(message({"needles=5"}), "--set needles=5: expected a section [needles]");
 }
 

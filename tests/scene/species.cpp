@@ -104,6 +104,11 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       "expected one [[species]] entry: gases of several species are not simulated yet";
   const std::string keys = "expected one of name, count, length, mass, k, t_tr, t_rot";
   const std::string either = "expected either file or temperatures to draw, not both";
+  // The keys of [needles] in one section.
+  const auto least_of = [](const std::string& key) {
+    return "until.time = 5\n[[species]]\nname = 'rods'\ncount = 10\n[needles]\nbox = 12\n" +
+           key.substr(key.find('.') + 1);
+  };
   const std::string head = "needles.box = 12\nuntil.time = 5\n[[species]]\n";
   const std::vector<std::pair<std::string, std::string>> table = {
       {least + "[[species]]\nname = 'dumbbells'\ncount = 5",
@@ -118,8 +123,8 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {"[[specis]]\ncount = 5",
        "s.toml: line 1: [[specis]]: expected one of the sections needles, species, initial, "
        "collisions, engine, until, output, did you mean species?"},
-      {least + "[needles]\ncount = 5", "s.toml: line 8: needles.count = 5: " + not_both},
-      {least + "[needles]\nk = 6", "s.toml: line 8: needles.k = 6: " + not_both},
+      {least_of("needles.count = 5"), "s.toml: line 7: needles.count = 5: " + not_both},
+      {least_of("needles.k = 6"), "s.toml: line 7: needles.k = 6: " + not_both},
       {least + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
       {least + "[initial]\nt_rot = 1", "s.toml: line 8: initial.t_rot = 1: " + not_both},
       {"[needles]\ncount = 5\nbox = 12\n[[species]]\nname = 'rods'\n",
