@@ -136,7 +136,7 @@ void expect_clean(const Scene& scene, const State& state, std::int64_t start_epo
   audit::Audit audit(state, setup);
   for (Collision c : run.collisions) {
     c.epoch -= start_epoch;
-    c.time -= static_cast<double>(start_epoch) * setup.epoch_length;
+    c.time = static_cast<double>(c.epoch) * setup.epoch_length + c.offset;
     audit.add(c);
   }
   audit.finish(end - static_cast<double>(start_epoch) * setup.epoch_length);

@@ -77,7 +77,8 @@ TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBit) {
         Scene scene = test::scene_of(150, 5, 9);
         scene.needles.k = k;
         scene.collisions.beta = beta;
-        scene.collisions.epsilon = 0.95;
+        // Without a contact time an inelastic pair of this scene collapses.
+        scene.collisions.epsilon = contact_time ? 0.95 : 1;
         if (contact_time) scene.collisions.tc_relative = 1e-2;
         const auto until = test::until_collisions(8);
         Simulation simulation(scene);

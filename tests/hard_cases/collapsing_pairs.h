@@ -2,6 +2,7 @@
 #pragma once
 
 #include "needlework/scene.h"
+#include "needlework/state.h"
 #include "tests/support/contact_state.h"
 
 namespace needlework::test {

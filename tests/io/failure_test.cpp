@@ -144,7 +144,7 @@ TEST_F(Failing, AnyWriteMayFindTheDiskFull) {
     int first = 0;
     int last_frame = -1;
     // Not each one, for time; the writes of one flush are alike.
-    for (std::string message; message != "done"; first += for_good ? 3 : 11) {
+    for (std::string message; message != "done"; first += for_good ? 3 : 7) {
       ASSERT_LT(first, 2000);
       SCOPED_TRACE(testing::Message()
                    << "write " << first << (for_good ? " and all after it" : ""));
