@@ -375,6 +375,8 @@ Contact Search<isolation, escalation>::run(double from, double until) {
       return unknown;
     }
   }
+  // Needles at rest relative to each other touch for good or never.
+  if (!values_.scale().moves) return {};
   if (values_.just_collided() && frame.w_sum == 0) return {};  // f is linear and leaves 0 for good
   // A root at the end of an interval belongs to it, so the first ends at first_ or later.
   const double start = std::max(0.0, (std::ceil(first_ / grid) - 1) * grid);
@@ -398,7 +400,6 @@ Contact Search<isolation, escalation>::run(double from, double until) {
 Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
                       const Accuracy& accuracy) {
   const PairScale scale = scale_of(pair);
-  if (!scale.moves) return {};
   const auto by = [&]<Isolation isolation>() {
     const auto with = [&]<Escalation escalation>() {
       return Search<isolation, escalation>(pair, scale, accuracy, counters).run(from, until);

@@ -163,6 +163,8 @@ void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
     // Exactly at contact: either a collision at this instant or a touch without one.
     const bool just_had = before.touch.touching && elapsed == 0;
     if (touch.side == 0) touch.side = just_had ? before.touch.side : model_.side_after(before);
+    // Needles at rest relative to each other stay on the side that they had.
+    if (touch.side == 0) touch.side = before.touch.side;
     // Needles that rotate with coinciding centres had no side before.
     if (touch.side == 0) {
       touch.side = model_.side_after(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));

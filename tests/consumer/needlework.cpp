@@ -16,7 +16,7 @@ int main() {
   needlework::Simulation first(scene);
   first.advance(until);
   needlework::io::Writer writer("state.h5", true, scene, {});
-  writer.write_frame(first.totals(), first.state());
+  writer.write_frame(first.totals(), first.copy());
   writer.close();
 
   const needlework::State state = needlework::io::read_last_frame("state.h5");
