@@ -133,6 +133,8 @@ struct SimdPair {
   double unit;
   Seeker seeker;
   PairRow row;
+
+  Halves halves() const { return {pair.half_first, pair.half_second}; }
 };
 
 /// The pair as large as its longer needle, so that only the other one is shorter than drawn. Pairs
@@ -358,8 +360,8 @@ void expect_within_bounds(const test::PairFamily& family, bool any_lengths) {
   std::size_t near = 0;
   double worst[5] = {};
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 2)) {
-    const Halves halves = any_lengths ? any_halves(random) : Halves{};
-    const SimdPair pair = simd_pair(random, drawn, halves);
+    const SimdPair pair = simd_pair(random, drawn, any_lengths ? any_halves(random) : Halves{});
+    const Halves halves = pair.halves();
     const auto s = static_cast<float>(random.uniform()) * pair.row[PairColumns::until];
     const auto frame = make_frame<DoubleDouble>(pair.pair.view(), {true, 1 / pair.unit, pair.unit});
     const DoubleDouble at(static_cast<double>(s));
@@ -441,8 +443,8 @@ TEST_P(Bracket, OfAnyLengthsIsNeverTooLate) {
   std::size_t contacts = 0;
   const std::size_t count = (family.thermal ? 50000 : 10000) / thin;
   for (const test::NeedlePair& drawn : draw_pairs(family.name, count, seed + 3)) {
-    const Halves halves = any_halves(random);
-    const SimdPair pair = simd_pair(random, drawn, halves);
+    const SimdPair pair = simd_pair(random, drawn, any_halves(random));
+    const Halves halves = pair.halves();
     if (!pair.truth.found) continue;
     ++contacts;
     const double from = bracketed(kernels, pair.seeker, {pair.row})[0];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -47,6 +48,8 @@ struct Setting {
   long least_contacts;
   std::vector<double> lengths = {1};  ///< of needles, in turn
 };
+
+void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
 
 class Contacts : public testing::TestWithParam<Setting> {};
 
@@ -283,15 +286,15 @@ TEST(Searches, KnowNoUnitOfTimeOrLength) {
   for (const SearchChoice& choice : test::search_choices()) {
     const Said truth = said(choice, 0, 0);
     EXPECT_GT(truth.size(), 1200u) << choice.name();
-    for (const auto [power, size] : {std::pair{60, 0},
-                                     {-60, 0},
-                                     {300, 0},
-                                     {-300, 0},
-                                     {0, 1},
-                                     {0, -5},
-                                     {0, 60},
-                                     {7, -60},
-                                     {-300, 3}}) {
+    for (const auto& [power, size] : {std::pair{60, 0},
+                                      {-60, 0},
+                                      {300, 0},
+                                      {-300, 0},
+                                      {0, 1},
+                                      {0, -5},
+                                      {0, 60},
+                                      {7, -60},
+                                      {-300, 3}}) {
       EXPECT_EQ(said(choice, power, size), truth)
           << choice.name() << ", velocities times 2^" << power << ", lengths times 2^" << size;
     }
