@@ -20,10 +20,11 @@
 namespace needlework::kernels {
 
 inline constexpr std::size_t block_size = 16;  ///< needles in a block: one vector of AVX-512
-inline constexpr float longest_time = 8;       ///< of the times below, see their rounding
+inline constexpr float longest_time = 8;       ///< largest present time; the margins rely on it
 
-/// Up to 16 needles of one cell, in columns: where they have been placed, relative to the corner of
-/// the cell. Cells with more needles chain blocks.
+/// Up to 16 needles of one cell, in columns, with centres relative to the corner of the cell. For
+/// capsules x and a are centre and director of the capsule; for cells they are centre and velocity
+/// of the needle at `time`. Cells with more needles chain blocks.
 struct alignas(64) NeedleBlock {
   enum Column { x, y, z, a_x, a_y, a_z, time, columns };
 
@@ -149,8 +150,8 @@ struct NearKernels {
   /// The contact function of the first n pairs at time s from now, as bracket() computes it.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
                            const ContactColumns& out);
-  /// Brackets the first contact of the first n pairs from below: sets their columns `from`. Returns
-  /// how many vectors of contact functions it has evaluated.
+  /// Finds for each of the first n pairs a time before which it does not meet, and sets its column
+  /// `from` to that. Returns how many vectors of contact functions it has evaluated.
   std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
 };
 

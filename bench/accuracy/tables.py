@@ -251,7 +251,7 @@ TABLES = [
 
 def write(data, settings, folder):
     lines = ["# What accuracy costs in time", "",
-             "Made by `bench/accuracy/accuracy.py`; bench/accuracy/README.md says what is measured. "
+             "Made by `bench/accuracy/accuracy.py`; docs/accuracy.md says what is measured. "
              "A time is the median of interleaved repetitions, with their range in parentheses.", ""]
     if {"cost", "audit", "pairs"} <= data.keys():
         lines += ["![cost against error](accuracy.svg)", "", measured.origin(data["cost"]), "",

@@ -171,7 +171,8 @@ def draw(lines, file):
 def write_results(contents, folder):
     last = list(contents.values())[-1]
     (folder / "scaling.md").write_text(
-        "# Threads\n\nMade by `bench/scaling/scaling.py`; bench/README.md says what the columns are.\n"
+        "# Threads\n\n"
+        "Made by `bench/scaling/scaling.py`; docs/performance.md says what the columns are.\n"
         f"{measured.origin(last)}\n\n" + table(contents))
     draw({name: {int(threads.split(":")[1]): gain
                  for (kind, threads), gain in speed_ups(content).items()

@@ -18,8 +18,8 @@
 
 namespace needlework {
 
-/// A running simulation. Threads must not use one simulation at the same time; any number of
-/// simulations may exist side by side.
+/// A running simulation. Only one thread at a time may use a simulation, except for interrupt();
+/// any number of simulations may exist side by side.
 class Simulation {
  public:
   /// Draws the initial state. Throws InputError for an invalid scene, and for a scene whose
@@ -37,7 +37,9 @@ class Simulation {
   /// given, or if OpenMP provides fewer threads than at the start; the call may then be repeated.
   Stop advance(const Scene::Until& until);
 
-  /// Sets a function that is called after each collision, in order of time.
+  /// Sets a function that is called once for each collision, in order of time. It takes the time
+  /// and the new states from the Collision: time() and copy() are not yet, or with several threads
+  /// no longer, at that moment.
   void on_collision(std::function<void(const Collision&)> callback);
 
   /// Stops `advance` soon. May be called from a signal handler or another thread.
@@ -48,8 +50,8 @@ class Simulation {
 
   double time() const;                  ///< since the start of the run
   double epoch_length() const;          ///< power of two near the initial mean free time
-  double mean_free_time() const;        ///< 1 / (collision rate of one needle) at the end of the
-                                        ///< last window
+  double mean_free_time() const;        ///< by kinetic theory, from the temperatures at the start
+                                        ///< of the present window
   std::string trajectory_hash() const;  ///< 32 hexadecimal digits
 
   /// Copies all needles at the present time into `into`, whose memory is reused. They are in order

@@ -9,7 +9,8 @@
 
 namespace needlework {
 
-/// Index of the block of cells that a needle is in, for calendars that group needles by position.
+/// Index of a block: the group of the needles in one cell of the search. For calendars that group
+/// needles by position.
 using BlockIndex = std::uint32_t;
 
 /// Holds exactly one event for each of n needles, initially one that never happens.
@@ -19,14 +20,16 @@ using BlockIndex = std::uint32_t;
 /// blocks, and have `by_block` = false.
 /// `set(event, block)` replaces the event of event.owner, which is now in this block. The time of
 /// the event is >= 0 and may be earlier than top().
-/// `top()` is the first event of all in the order of events. If two are equal, which are the two
-/// copies of one contact, it is either of them. It exists unless empty(), which means n = 0.
+/// `of(i)` is the event of needle i. `top()` is the first of all events, in the order of
+/// src/calendar/event.h. If both needles of a contact hold it, their two events are equal in that
+/// order, and top() is either of them. It must not be called if empty(), which means n = 0.
 /// References from `top()` and `of(i)` are valid until the next `set`.
 /// `likely_next()` guesses the needle whose event follows top(), so that its data can be
 /// prefetched. No result may depend on the guess. The calendar must not be empty.
 ///
-/// For the same events every calendar has the same top(), whatever it has held before. Nothing
-/// throws except for lack of memory. Only one thread may use a calendar at a time.
+/// For the same events every calendar has an equal top(), whatever it has held before. Nothing
+/// throws except for lack of memory. Only one thread at a time may use a calendar by these
+/// functions.
 template <class C>
 concept Calendar = requires(C calendar, const C& view, const Event& event, Needle i, std::size_t n,
                             const Clock& clock, BlockIndex block) {

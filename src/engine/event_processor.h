@@ -3,8 +3,8 @@
 // Each needle has one event in the calendar: the earliest contact that its own last search found,
 // or the horizon at which that search ended. A contact is stored only with the needle that
 // predicted it. If the partner's record has been replaced since then, the contact is stale, and
-// its owner searches again at the time of the contact. So every search that ended early is taken
-// up again, whatever happens to the contact at which it ended.
+// its owner searches again at the time of the contact. So a search that stopped at a contact is
+// continued from there, whether or not the contact takes place.
 #pragma once
 
 #include <algorithm>
@@ -61,15 +61,16 @@ class EventProcessor {
   /// Discards cached predictions. To be called after needles have moved in storage, or after
   /// records have been put back.
   void forget() { predictor_.forget(); }
-  /// Sets the previous state of records that were replaced at the present time by a caller.
+  /// Hands over the old records when a caller has just replaced some. They tell on which side of
+  /// each other two needles are that touch.
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
   UndoLog* undo = nullptr;                    ///< if not null, receives what the processor replaces
   std::vector<Collision>* reports = nullptr;  ///< if not null, receives collisions in place of the
                                               ///< callback
 #ifndef NDEBUG
-  /// Whether a record from later than the event has been read, of a needle in reach of contact
-  /// then.
+  /// Whether a prediction has read a record that another thread has made at a later time than now,
+  /// of a needle that was then near enough to the other one to touch it.
   bool has_read_ahead() const { return predictor_.read_ahead; }
   void watch_reading_ahead() { predictor_.read_ahead = false; }
 #endif
@@ -111,8 +112,8 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
   }
 }
 
-// A horizon is where the needle's record loses precision, where its list of candidates expires, or
-// where the span of time that is searched ahead ends.
+// A horizon is the time at which the needle leaves its bounding volume, at which its record has to
+// be renewed, or up to which contacts have been searched.
 template <Search S, Model M>
 void EventProcessor<S, M>::horizon(Needle i) {
   if (gas_.records[i].renewal <= now()) {
@@ -241,8 +242,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
 }
 
 // Three needles or more can collapse by hitting each other in turn. The time then no longer
-// advances, and more collisions happen at one instant than is possible otherwise. Rough needles
-// have been observed to separate after more than four thousand.
+// advances, and more collisions happen at one instant than is possible otherwise. The limit is
+// high, because rough needles have been observed to separate after more than four thousand
+// collisions at one instant.
 template <Search S, Model M>
 void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
   if (now() != tally_.instant) tally_.at_instant = 0;

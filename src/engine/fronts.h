@@ -1,5 +1,6 @@
-// How far each thread is in simulated time. A thread can check which events of others it has
-// missed only while the threads are close in time, so each publishes its own progress.
+// How far each thread is in simulated time. An event is checked against later events that other
+// threads have already processed near it. This works only while the threads are close in time, so
+// each publishes its progress, and one that is too far ahead waits.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace needlework {
 
 class Fronts {
  public:
-  /// `sight`: distance from an event to which processed events of other threads can be checked.
-  /// [L]
+  /// `sight`: how far from an event a thread may look for later events that others have processed;
+  /// Phase::sight_of_done, not the `sight` of Phase. [L]
   Fronts(std::size_t threads, double sight) : fronts_(threads), sight_(sight) {}
 
   /// Starts a new phase. `expected` is an estimate of the largest speed of its needles. [L/time]
@@ -49,9 +50,10 @@ class Fronts {
     return in_order;
   }
 
-  /// Whether another thread is so far behind an event that needles could have met unseen in
-  /// between. Keeps a margin of a factor of 2, because threads go on meanwhile. Never true for the
-  /// thread that is farthest behind.
+  /// Whether another thread is so far behind an event that in the time between them needles could
+  /// come together from farther apart than `sight`, where the check does not look. Counts with
+  /// twice the way that they can fly, because threads go on meanwhile. Never true for the thread
+  /// that is farthest behind.
   bool is_too_far_ahead(TimeKey key) const {
     look_away();
     TimeKey hindmost = key;
@@ -64,9 +66,10 @@ class Fronts {
     return hindmost < key && is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest));
   }
 
-  /// Distance beyond which no needle of a later event can have met, before that event, a needle
-  /// with an event at `key` and this speed since. 0 if no later event has been processed.
-  /// `in_order` means that this thread itself has processed no later one. [L]
+  /// Take a needle that has an event at `key` and flies with `speed` afterwards, and all later
+  /// events that have been processed already. Returns a distance: needles of those events that were
+  /// farther away cannot have met this one in between. Returns 0 if there are no later events.
+  /// `in_order`: this thread itself has processed none. [L]
   double reach_of_later(std::size_t thread, TimeKey key, double speed, bool in_order) const {
     TimeKey latest = 0;
     double fastest = speed;

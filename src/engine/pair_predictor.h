@@ -1,4 +1,4 @@
-// Predicts when two needles touch, from their records alone.
+// Predicts the first contact of two needles, from their records alone.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ class PairPredictor {
     ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
     return entry.wraps = renew();
   }
-  /// Sets the previous state of records that were replaced at the present time by a caller.
+  /// Hands over the old records when a caller has just replaced some. They tell on which side of
+  /// each other two needles are that touch.
   void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }
   /// Discards what is cached. To be called after needles have moved in storage, or after records
   /// have been put back.

@@ -23,12 +23,16 @@ namespace needlework {
 ///     the later record. The caller knows that there is no contact before `from`. If the pair
 ///     touches to within rounding and its records do not hold the side, the function decides
 ///     nothing and sets `side_unknown`.
-///   `gap(pair, elapsed)` is a signed distance that vanishes at a contact and is continued from the
-///     touch stored in the pair. `side_after(pair)` is its sign just after the later record.
+///   `gap(pair, elapsed)` is the value of the contact function [L], which is 0 at a contact; where
+///     the pair holds a touch, it is continued from that touch. `side_after(pair)` is for a pair
+///     that touches at the time of the later record: the sign of `gap` just after it, or 0 if there
+///     is none.
 ///   `collide` returns the velocities after a contact of needles that approach from `side`;
 ///     `elastic` selects the rule for collisions within the contact time. It never adds energy.
-///   `renew` and `renew_in_flight` replace one record and nothing else, and return the number of
-///     boxes by which its centre was wrapped.
+///   `renew` replaces the record of one needle by its state at `now` with a new director, velocity
+///     and angular velocity; `renew_in_flight` by the state to which its present flight has led.
+///     Both add to the needle's entry in Gas::images the number of boxes by which its centre was
+///     wrapped, return that number, and change nothing else.
 /// Members throw nothing. Several threads may use one model for different needles.
 template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,

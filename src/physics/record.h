@@ -1,4 +1,4 @@
-// A needle's record: its state at its own last collision.
+// A needle's record: its state at its own last collision or renewal, and the needles it touches.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,9 @@ struct RecordedTouch {
 
 static_assert(sizeof(RecordedTouch) == 24);
 
-/// The state of a needle at its own last collision or renewal. Nothing else changes a record. The
-/// first filter of candidates reads only the first cache line, with time, centre and velocity.
+/// The state of a needle at its own last collision or renewal, or when a caller has set its
+/// velocities. Until the next of these only touches are added to it. The filter of the scalar
+/// searches reads only the first cache line, with time, centre and velocity.
 struct alignas(64) Record {
   Time time;  ///< at which the record was made
   kernels::Flight flight;
@@ -60,10 +61,10 @@ struct alignas(64) Record {
 
 static_assert(sizeof(Record) == 192);
 
-/// The touches of records that have more than one. These are rare: several needles pass through
-/// one point, or lie along each other. They are stored by id and serial number of the record, so
-/// that they also apply to copies of a record and to records that are put back. Any number of
-/// threads may use it at once.
+/// The touches of a record after its first, which is in the record itself. Records with more than
+/// one are rare: several needles pass through one point, or lie along each other. Touches are
+/// stored by id and serial number of the record, so that they also apply to copies of a record and
+/// to records that are put back. Any number of threads may use it at once.
 class FurtherTouches {
  public:
   /// Appends a touch to those of a record, `before` of which are already stored here.

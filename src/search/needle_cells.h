@@ -13,9 +13,8 @@
 
 namespace needlework {
 
-/// A block for each cell, the block of cell c the c-th; further blocks are chained to it where it
-/// is full. Only the last block of a chain has free slots. Several threads may use different cells
-/// at once.
+/// Cell c owns block c. When that is full, further blocks are chained to it, so that only the last
+/// block of a chain has free slots. Several threads may use different cells at once.
 class NeedleCells {
  public:
   /// Where a needle is stored.

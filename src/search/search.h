@@ -1,4 +1,4 @@
-// The seam between the event processor and the search for candidates.
+// The interface of every search for the needles that one needle might meet.
 #pragma once
 
 #include <concepts>
@@ -23,16 +23,17 @@ struct AnyVisit {
 /// It may propose too many, never too few.
 ///
 ///   place(i, now) -> Time
-///     Enters needle i where it is now. Called whenever its record has changed, before any search
-///     that could meet it, and at the time that this returned before. Until then i is found where
-///     it has been placed.
+///     Enters needle i where it is now, and returns until when others find it there. To be called
+///     again at that time, and whenever its record has changed, before the next find() of any
+///     needle that might meet it.
 ///   renumber(ranks)
 ///     Needle i has become needle ranks[i]; where the needles have been placed stays.
 ///   find(i, just_hit, now, ahead, visit)
-///     Calls visit(j, shift, from, to) -> ahead for each (j, shift) that i might meet within the
-///     time `ahead` and before j is placed again: in times after now from `from` to `to`, if at
-///     all. `shift` is added to the centre of j. The visit returns the time ahead that still
-///     matters. `just_hit` is the needle with which i has collided right now, or no_needle.
+///     Calls visit(j, shift, from, to) -> ahead for each image of a needle, j with `shift` boxes
+///     added to its centre, that i might meet within the time `ahead` and before j is placed again.
+///     They meet between now + from and now + to or not at all. The visit returns how far ahead it
+///     still makes sense to look, and find() continues with that. `just_hit` is the needle with
+///     which i has collided right now, or no_needle.
 ///   name() -> const char*          as scenes name it
 ///   cells() -> std::size_t         number of cells by which a calendar may group needles
 ///   cell_index(i) -> std::uint32_t cell in which i has been placed, less than cells()
