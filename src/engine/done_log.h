@@ -28,8 +28,9 @@ struct Done {
 /// at once, as long as none adds to cells that another reads or adds to.
 class DoneLog {
  public:
-  DoneLog(const CellGrid& grid, const std::array<double, 3>& box)
-      : grid_(grid), box_(box), done_(grid.size()), latest_(grid.size()) {}
+  /// `longest`: length of the longest needles. [L]
+  DoneLog(const CellGrid& grid, const std::array<double, 3>& box, double longest = 1)
+      : grid_(grid), box_(box), longest_(longest), done_(grid.size()), latest_(grid.size()) {}
 
   void clear() {
     std::fill(latest_.begin(), latest_.end(), TimeKey{0});
@@ -50,10 +51,11 @@ class DoneLog {
   /// Distance [L] beyond which two needles cannot have met between `from` and `until`. The
   /// position of one is known at time `from`, that of the other at `until`; `speeds` is the sum of
   /// their speeds in between.
-  static double reach(TimeKey from, TimeKey until, double speeds) {
+  /// `length` is that of the longest needles.
+  static double reach(TimeKey from, TimeKey until, double speeds, double length = 1) {
     const double then = EventTable::time_of(until);
     const double time = then - EventTable::time_of(from) + 0x1p-50 * then;
-    return 1 + 0x1p-20 + time * speeds * (1 + 0x1p-20);
+    return length * (1 + 0x1p-20) + time * speeds * (1 + 0x1p-20);
   }
 
   /// Whether the needle of event `mine`, with `speed` since, may have met a needle whose later
@@ -64,7 +66,8 @@ class DoneLog {
       if (latest_[cell] < mine.key) return false;
       return std::any_of(done_[cell].begin(), done_[cell].end(), [&](const Done& other) {
         return comes_after(other, mine) &&
-               are_nearer(other.r, mine.r, reach(mine.key, other.key, speed + other.speed));
+               are_nearer(other.r, mine.r,
+                          reach(mine.key, other.key, speed + other.speed, longest_));
       });
     });
   }
@@ -88,6 +91,7 @@ class DoneLog {
 
   CellGrid grid_;
   std::array<double, 3> box_;
+  double longest_;
   std::vector<std::vector<Done>> done_;  ///< by cell
   std::vector<TimeKey> latest_;          ///< latest key in each cell
 };

@@ -16,7 +16,8 @@ class Fronts {
  public:
   /// `sight`: how far from an event a thread may look for later events that others have processed;
   /// Phase::sight_of_done, not the `sight` of Phase. [L]
-  Fronts(std::size_t threads, double sight) : fronts_(threads), sight_(sight) {}
+  Fronts(std::size_t threads, double sight, double longest = 1)
+      : fronts_(threads), sight_(sight), longest_(longest) {}
 
   /// Starts a new phase. `expected` is an estimate of the largest speed of its needles. [L/time]
   void begin(double expected) {
@@ -63,7 +64,8 @@ class Fronts {
       fastest = std::max(fastest, front.fastest.load(std::memory_order_relaxed));
     }
     constexpr double room = 2;
-    return hindmost < key && is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest));
+    return hindmost < key &&
+           is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest, longest_));
   }
 
   /// Take a needle that has an event at `key` and flies with `speed` afterwards, and all later
@@ -78,7 +80,7 @@ class Fronts {
       latest = std::max(latest, fronts_[t].latest.load());
       fastest = std::max(fastest, fronts_[t].fastest.load());
     }
-    return latest < key ? 0 : DoneLog::reach(key, latest, speed + fastest);
+    return latest < key ? 0 : DoneLog::reach(key, latest, speed + fastest, longest_);
   }
   bool is_out_of_sight(double distance) const { return !(distance < sight_); }
 
@@ -91,6 +93,7 @@ class Fronts {
   };
   std::vector<Front> fronts_;
   double sight_;
+  double longest_;  ///< length of the longest needles [L]
   double expected_ = 0;
 };
 

@@ -27,7 +27,8 @@ template <Search S>
 struct Phase {
   using Block = CellCalendar::Block;
 
-  /// `sight`: distance from its cell within which an event looks for earlier ones. [L]
+  /// `sight`: distance from its cell within which an event looks for earlier ones, in lengths of
+  /// the longest needles.
   Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
 
   /// Divides the box into zones by the present positions of the needles.
@@ -72,12 +73,12 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       threads(static_cast<std::uint32_t>(its_threads)),
       cells(search.grid().counts()),
       // Needles closer than this may meet before one of them is placed again; includes rounding.
-      sight_of_done(1.01 + 2 * search.drift()),
+      sight_of_done(1.01 * run.gas.longest + 2 * search.drift()),
       neighbours(cells_within(search.grid(), sight_of_done)),
-      reach(search.grid(), sight),
+      reach(search.grid(), sight * run.gas.longest),
       claims(cells, neighbours, threads),
-      done(search.grid(), run.gas.box),
-      fronts(threads, sight_of_done),
+      done(search.grid(), run.gas.box, run.gas.longest),
+      fronts(threads, sight_of_done, run.gas.longest),
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
       spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {

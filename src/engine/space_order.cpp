@@ -22,7 +22,7 @@ std::uint64_t spread(std::uint64_t a) {
 std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   // One scale for all axes, in steps of about half a needle length.
   const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
-  const double steps = std::min(2 * longest, 0x1p21 - 1);
+  const double steps = std::min(2 * longest / gas.longest, 0x1p21 - 1);
   std::vector<std::uint64_t> keys;
   keys.reserve(gas.size());
   for (const Record& record : gas.records) {

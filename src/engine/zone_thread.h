@@ -327,7 +327,8 @@ auto ZoneThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.
 template <Search S, Model M>
 CellBox ZoneThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
-  return cells_around(phase_.search.grid(), r, phase_.search.radius() * (1 + 0x1p-10) + 0x1p-20,
+  return cells_around(phase_.search.grid(), r,
+                      phase_.search.radius() * (1 + 0x1p-10) + phase_.run.gas.longest * 0x1p-20,
                       phase_.search.cell_of(i));
 }
 

@@ -90,17 +90,35 @@ INSTANTIATE_TEST_SUITE_P(
 // The searches agree bit for bit where lengths are no powers of two, as they do for length 1.
 TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnEverySearch) {
   for (const double density : {0.5, 8.0}) {
-    Scene scene = test::with_species(rough_cooling_gas(density), 0.37, 2.9);
-    std::string hash;
-    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-      scene.engine.search = search;
-      const test::Recorded run = test::record(scene, 3000);
-      if (hash.empty()) hash = run.hash;
-      EXPECT_EQ(run.hash, hash) << search << ", density " << density;
+    for (const double length : {0.037, 21.3}) {
+      SCOPED_TRACE("density " + std::to_string(density) + ", length " + std::to_string(length));
+      Scene scene = test::with_species(rough_cooling_gas(density), length, 2.9);
+      std::string hash;
+      for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+        scene.engine.search = search;
+        const test::Recorded run = test::record(scene, 3000);
+        if (hash.empty()) hash = run.hash;
+        EXPECT_EQ(run.hash, hash) << search;
+      }
     }
-    scene.engine.search = "auto";
-    scene.engine.threads = 2;
-    EXPECT_EQ(test::record(scene, 3000).hash, hash) << "two threads, density " << density;
+  }
+}
+
+// Enough needles for several threads to share the work.
+TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnThreads) {
+  for (const double length : {0.037, 21.3}) {
+    Scene scene = test::scene_of(3000, 16, 5);
+    scene.collisions.epsilon = 0.9;
+    scene.collisions.tc_relative = 1e-3;
+    scene = test::with_species(scene, length, 0.4);
+    const Scene::Until until = test::until_collisions(6);
+    Simulation one(scene);
+    one.advance(until);
+    scene.engine.threads = 3;
+    Simulation several(scene);
+    several.advance(until);
+    EXPECT_EQ(several.trajectory_hash(), one.trajectory_hash()) << length;
+    EXPECT_GT(several.counters().phases, 4 * several.counters().redone) << length;
   }
 }
 
