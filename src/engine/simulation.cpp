@@ -83,11 +83,12 @@ struct Simulation::Implementation {
     begin_loop();
   }
 
-  void begin_loop(ReplacedRecords replaced = {}) {
+  void begin_loop() {
     LoopChoice choice =
         choice_of(scene, run, sizing ? sizing->density() : reduced_density(run.gas));
-    choice.replaced = std::move(replaced);
+    choice.replaced = replaced;  // kept until there is a loop, as making one may throw
     loop = make_loop(run, std::move(choice));
+    replaced = {};
     search = loop->search_name();
     queue = loop->calendar_name();
   }
@@ -108,9 +109,9 @@ struct Simulation::Implementation {
     check_velocities(angular_velocity, run.gas.size(), "angular velocity");
     const std::vector<Needle> ranks = ranks_of(by_id());
     loop.reset();  // all of its contents depend on the velocities
-    begin_loop(
-        run.replace_velocities([&](Needle i) { return vector(velocity[ranks[i]]); },
-                               [&](Needle i) { return vector(angular_velocity[ranks[i]]); }));
+    replaced = run.replace_velocities([&](Needle i) { return vector(velocity[ranks[i]]); },
+                                      [&](Needle i) { return vector(angular_velocity[ranks[i]]); });
+    begin_loop();
   }
 
   Stop advance(const Scene::Until& until) {
@@ -131,6 +132,7 @@ struct Simulation::Implementation {
   Run run;
   std::optional<Sizing> sizing;  ///< empty if the scene sets the size of cells or capsules
   std::unique_ptr<Loop> loop;
+  ReplacedRecords replaced;  ///< by a caller at the present time, not known to a loop yet
   std::string search, queue;
   kernels::Isa isa;
 };
