@@ -2,15 +2,11 @@
 #include "needlework/simulation.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "needlework/error.h"
-#include "needlework/h5md.h"
 #include "needlework/initial_state.h"
-#include "src/scene/check.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -152,41 +148,6 @@ TEST(Simulation, RefusesStatesThatAreNotGases) {
   unknown.engine.queue = "guess";
   EXPECT_THROW(Simulation(unknown, good), InputError);
   EXPECT_THROW(Simulation(scene).advance({}), InputError);
-}
-
-TEST(Simulation, StartsFromAFileWhoseCountAndBoxTheSceneMayGive) {
-  const std::string file =
-      testing::TempDir() + "needlework-start-" + std::to_string(getpid()) + ".h5";
-  const Scene drawn = test::scene_of(3, 3);
-  const State state = draw_initial_state(drawn);
-  io::Writer writer(file, true, drawn, {});
-  writer.write_frame({}, state);
-  writer.close();
-
-  const auto start = [&](std::uint64_t count, std::array<double, 3> box) {
-    Scene scene;
-    scene.initial.file = file;
-    scene.needles.count = count;
-    scene.needles.box = box;
-    const State initial = io::read_last_frame(file);
-    adopt_count_and_box(scene, initial);
-    return Simulation(scene, initial).copy();
-  };
-  EXPECT_EQ(start(0, {}).position, state.position);
-  EXPECT_EQ(start(3, {3, 3, 3}).velocity, state.velocity);
-  EXPECT_EQ(start(3, {3, 3, 3 - 1e-14}).box, state.box);
-  const auto refused = [&](std::uint64_t count, std::array<double, 3> box, const char* message) {
-    try {
-      start(count, box);
-      ADD_FAILURE() << "accepted: " << message;
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), message + file);
-    }
-  };
-  refused(2, {}, "needles.count = 2: expected 3, as in ");
-  refused(0, {3, 3, 4}, "needles.box = [3, 3, 4]: expected [3, 3, 3], as in ");
-  refused(0, {0, 3, 3}, "needles.box = [0, 3, 3]: expected [3, 3, 3], as in ");
-  std::filesystem::remove(file);
 }
 
 // The engine reads no files, whether there is such a file or not.
