@@ -18,8 +18,6 @@
 
 namespace needlework::test {
 
-static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
-
 namespace {
 
 #ifdef NDEBUG

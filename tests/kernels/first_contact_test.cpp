@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -12,12 +11,6 @@
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
-
-namespace needlework::test {
-
-static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
-
-}  // namespace needlework::test
 
 namespace needlework::kernels {
 namespace {

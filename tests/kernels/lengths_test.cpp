@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -14,12 +13,6 @@
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
-
-namespace needlework::test {
-
-static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
-
-}  // namespace needlework::test
 
 namespace needlework::kernels {
 namespace {

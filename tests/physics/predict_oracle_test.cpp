@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,8 +21,6 @@
 #include "tests/support/pairs_csv.h"
 
 namespace needlework::test {
-
-static void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <ostream>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct PairFamily {
   bool thermal;  ///< drawn from equilibrium
   bool made_of_limits;
   NeedlePair (*draw)(Random&);
+
+  /// So that a failing test names the family.
+  friend void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
 };
 
 /// - thermal-k6, thermal-k2: T = 1, bounding spheres meet, weighted by flux; horizon past the exit
