@@ -1,0 +1,162 @@
+// The filters of neighbours: no bounding volumes lost that overlap, no spheres that meet, and few
+// others found.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/kernels/drawn_simd_pairs.h"
+#include "tests/kernels/neighbourhoods.h"
+#include "tests/support/oracle.h"
+#include "tests/support/segments.h"
+
+namespace needlework::kernels {
+namespace {
+
+using test::vec3;
+
+constexpr std::uint64_t seed = 909;
+#ifdef NDEBUG
+constexpr std::size_t thin = 1;
+#else
+constexpr std::size_t thin = 20;
+#endif
+
+// Capsules that just overlap, just do not, and any.
+TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t overlaps = 0, apart = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double radius = random.log_uniform(1e-3, 10);
+    const Vec3d corner{4, 4, 4}, r = vec3(random.direction()) * random.uniform(0, 1.7);
+    const Vec3d u = vec3(random.direction());
+    const Halves halves = any_halves(random);
+    const double h1 = halves.first, h2 = halves.second;
+    Motion motion{};
+    motion.half = static_cast<float>(h1);
+    Seeker seeker = seeker_of(motion, 1, h2);
+    const auto store = [](auto* to, const Vec3d& a) {
+      to[0] = static_cast<float>(a.x);
+      to[1] = static_cast<float>(a.y);
+      to[2] = static_cast<float>(a.z);
+    };
+    store(seeker.r, corner + r);
+    store(seeker.u, u);
+    std::vector<BlockRow> rows(40);
+    std::vector<double> distance;
+    for (BlockRow& row : rows) {
+      Vec3d a = vec3(random.direction());
+      const int kind = random.below(4);
+      if (kind == 0) a = normalised(u + a * random.log_uniform(1e-9, 1e-2));
+      Vec3d other = r + vec3(random.direction()) * random.uniform(0, 2 * radius + 1);
+      if (kind < 3) {
+        // Moved along their closest approach to overlap by very little, or not quite.
+        const auto nearest = test::nearest_points(r, u, other, a, h1, h2);
+        const double length = std::sqrt(dot(nearest.gap, nearest.gap));
+        if (length > 1e-3) {
+          const double wanted =
+              2 * radius + (random.coin() ? 1 : -1) * random.log_uniform(1e-8, 1e-3);
+          other = other + nearest.gap * ((length - wanted) / length);
+        }
+      }
+      const Vec3d gap = test::nearest_points(r, u, other, a, h1, h2).gap;
+      distance.push_back(std::sqrt(dot(gap, gap)));
+      store(row.data() + NeedleBlock::x, corner + other);
+      store(row.data() + NeedleBlock::a_x, a);
+    }
+    const Neighbourhood near = fill(random, seeker, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] :
+         overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius))) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double off = distance[k] - 2 * radius;
+      if (off <= 0) {
+        ++overlaps;
+        ASSERT_TRUE(found[k]) << "overlap by " << -off << ", radius " << radius << ", seed "
+                              << seed;
+      } else if (off > 1e-4 * (1 + radius)) {
+        ++apart;
+        ASSERT_FALSE(found[k]) << "apart by " << off << ", radius " << radius << ", seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(overlaps, 20000 / thin);
+  EXPECT_GT(apart, 5000 / thin);
+}
+
+// Whether |r + v s| <= reach for some s in [0, until], in many digits.
+bool spheres_meet(const Vec3d& r, const Vec3d& v, double reach, double until) {
+  const auto product = [](const Vec3d& a, const Vec3d& b) {
+    return test::Quad(test::Quad(a.x) * b.x + test::Quad(a.y) * b.y + test::Quad(a.z) * b.z);
+  };
+  const test::Quad vv = product(v, v), rv = product(r, v);
+  test::Quad s = vv > 0 ? test::Quad(-rv / vv) : test::Quad(0);
+  s = std::min(std::max(s, test::Quad(0)), test::Quad(until));
+  return product(r, r) + 2 * rv * s + vv * s * s <= test::Quad(reach) * reach;
+}
+
+// Centres in a cell of side 8, at times up to the longest, speeds around the unit and far from it.
+TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t meetings = 0, found_apart = 0, apart = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double now = random.uniform(0, longest_time), ahead = random.log_uniform(1e-3, 4);
+    const auto speed = [&] {
+      const int kind = random.below(8);
+      return kind == 0 ? 0.0 : kind == 1 ? random.log_uniform(1e-6, 1e3) : 1.0;
+    };
+    const Halves halves = any_halves(random);
+    const double reach = halves.first + halves.second;
+    Flight mine;
+    mine.r = vec3(random.direction()) * random.uniform(0, 3);
+    mine.v = vec3(random.normal_vector(speed()));
+    Seeker seeker = seeker_of(motion_of(mine, 0, 1, halves.first),
+                              static_cast<float>(ahead) + test::simd_time_margin, halves.second);
+    seeker.motion.time = seeker.now = static_cast<float>(now);
+    std::vector<BlockRow> rows(40);
+    std::vector<Flight> others(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      Flight& other = others[k];
+      const double age = random.below(3) == 0 ? 0 : random.uniform(0, now);
+      other.v = vec3(random.normal_vector(speed()));
+      other.r = vec3(random.direction()) * random.uniform(0, 4);
+      if (random.coin()) {
+        // Passing at a distance next to the reach.
+        const Vec3d w = other.v - mine.v;
+        const Vec3d across = normalised(cross(vec3(random.direction()), w + Vec3d{1e-30, 0, 0}));
+        const double passing = reach + (random.coin() ? 1 : -1) * random.log_uniform(1e-9, 1e-2);
+        other.r = mine.r + across * passing - w * random.uniform(0, 1.2 * ahead);
+      }
+      const Vec3d then = other.r - other.v * age - Vec3d{-4, -4, -4};
+      const Vec3d v = other.v;
+      const double values[] = {then.x, then.y, then.z, v.x, v.y, v.z, now - age};
+      for (int c = 0; c < NeedleBlock::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
+    }
+    const Neighbourhood near = fill(random, seeker, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] : approaching(near_kernels(Isa::scalar), near)) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      // Within a cell while it flew there; beyond, its block would have been written again.
+      const Vec3d then{rows[k][0], rows[k][1], rows[k][2]};
+      if (dot(then, then) > 400) continue;
+      const Vec3d r = mine.r - others[k].r, v = mine.v - others[k].v;
+      if (spheres_meet(r, v, reach, ahead)) {
+        ++meetings;
+        ASSERT_TRUE(found[k]) << "seed " << seed << ", case " << n;
+      } else if (!spheres_meet(r, v, reach + 0.01, ahead)) {
+        ++apart;
+        found_apart += found[k];
+      }
+    }
+  }
+  EXPECT_GT(meetings, 10000 / thin);
+  EXPECT_GT(apart, 10000 / thin);
+  EXPECT_LT(found_apart, apart / 50);
+}
+
+}  // namespace
+}  // namespace needlework::kernels
