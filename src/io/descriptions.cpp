@@ -160,6 +160,20 @@ std::vector<Description> run_file_descriptions() {
   return list;
 }
 
+std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {
+  std::vector<Description> list;
+  for (const SeriesGroup& group : groups) {
+    const std::string path = "/series/" + group.name;
+    list.push_back({path, group.meaning, none, none});
+    for (const SeriesField& field : group.fields) {
+      std::string shape = field.kind == SeriesField::Kind::constant ? "" : "[samples]";
+      for (const auto& extent : field.shape) shape += "[" + extent.name + "]";
+      list.push_back({path + "/" + field.name, field.meaning, field.unit, shape});
+    }
+  }
+  return list;
+}
+
 std::vector<Description> sweep_summary_descriptions() {
   std::vector<Description> list{
       {"/", "Means over the seeds of a sweep of runs, with their standard errors", none, none},
