@@ -141,9 +141,7 @@ std::vector<std::string> listed_names(const std::string& document) {
   return names;
 }
 
-TEST(Registry, IsTheTableOfItsDocument) {
-  EXPECT_EQ(listed_names("observables.md"), all_names());
-}
+TEST(Registry, IsTheTableOfItsDocument) { EXPECT_EQ(listed_names("observables.md"), all_names()); }
 
 TEST(Registry, IsWhatTheSceneReferenceOffers) {
   std::ifstream file(NEEDLEWORK_SOURCE "/docs/scenes.md");
