@@ -339,25 +339,25 @@ void Audit::check_apart(const Flown& flown) {
   if (!(pair.rate() > 0)) return;
   Search search(pair);
   bool undecided = false;
-  for (auto finding = search.first(flown.encounter.begin, last); finding;
-       finding = search.next(finding->end, last)) {
+  for (auto contact = search.first(flown.encounter.begin, last); contact;
+       contact = search.next(contact->end, last)) {
     // An event at the same time may come first; the contact is then found in the next flight.
-    const double early = finding->certain ? tolerance(pair, finding->end) : 0;
-    if (to_the_end && finding->end >= duration - early) {
-      const auto kind = finding->side != 0 ? Start::touching : Start::apart;
+    const double early = contact->certain ? tolerance(pair, contact->end) : 0;
+    if (to_the_end && contact->end >= duration - early) {
+      const auto kind = contact->side != 0 ? Start::touching : Start::apart;
       // Counts as 0 if the contact is assumed to be due and was not.
       const double gap = pair.precise(duration).f;
-      keep_touch(flown, {kind, finding->side, gap, std::abs(gap)});
-      const bool brief = (finding->end - finding->begin) * pair.rate() < longest_touch;
-      return settle(pair, undecided || finding->side == 0 || !brief);
+      keep_touch(flown, {kind, contact->side, gap, std::abs(gap)});
+      const bool brief = (contact->end - contact->begin) * pair.rate() < longest_touch;
+      return settle(pair, undecided || contact->side == 0 || !brief);
     }
-    if (finding->certain) {
+    if (contact->certain) {
       report(Kind::missed, flown.first, flown.second, begin_of(flown.first, flown.second),
-             finding->begin);
+             contact->begin);
       return settle(pair, undecided);
     }
     undecided = true;
-    if (finding->end >= last) break;
+    if (contact->end >= last) break;
   }
   if (to_the_end && pair.is_near_contact(duration)) {
     const int side = search.on_needles(duration, duration) >= 0 ? search.sign(duration) : 0;
@@ -375,7 +375,7 @@ void Audit::check_touching(const Flown& flown) {
   bool undecided = !(off * pair.rate() < 0.25);
 
   // A contact before this one.
-  std::optional<Finding> before;
+  std::optional<ContactInterval> before;
   if (begin > flown.encounter.begin) {
     before = search.first(flown.encounter.begin, begin);
     while (before && !before->certain) {
