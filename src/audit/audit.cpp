@@ -54,7 +54,7 @@ const char* name(Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-double Tally::bound95(Kind kind) const {
+double Findings::bound95(Kind kind) const {
   const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
   const std::uint64_t n = of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0);
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -78,12 +78,12 @@ Audit::Audit(const State& initial, const Setup& setup)
 
 // An audit that was interrupted before the first collision starts from the beginning.
 void Audit::resume(Checkpoint checkpoint) {
-  if (checkpoint.tally.collisions > 0) resumed_ = std::move(checkpoint);
+  if (checkpoint.findings.collisions > 0) resumed_ = std::move(checkpoint);
 }
 
 Checkpoint Audit::checkpoint() const {
   if (resumed_) return *resumed_;
-  return {tally_, fingerprint_, touches_};
+  return {findings_, fingerprint_, touches_};
 }
 
 Audit::Index Audit::index_of(std::uint32_t id) const {
@@ -117,10 +117,10 @@ Approach Audit::approach_of(Index i, Index j) const {
 }
 
 void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) {
-  ++tally_.differences[static_cast<std::size_t>(kind)];
-  if (tally_.listed.size() >= most_listed) return;
+  ++findings_.differences[static_cast<std::size_t>(kind)];
+  if (findings_.listed.size() >= most_listed) return;
   const double time = (since_start(begin) + s) * setup_.epoch_length;
-  tally_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
+  findings_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
 }
 
 void Audit::add(const Collision& reported) {
@@ -132,7 +132,7 @@ void Audit::add(const Collision& reported) {
         std::uint64_t{collision.first} << 32 | collision.second}) {
     fingerprint_ = mixed(fingerprint_ ^ word);
   }
-  ++tally_.collisions;
+  ++findings_.collisions;
   if (!resumed_) {
     check_order(now, collision);
     const bool backwards = now < needles_[a].record.time || now < needles_[b].record.time;
@@ -149,13 +149,13 @@ void Audit::add(const Collision& reported) {
     }
   }
   follow(a, b, now, collision);
-  if (resumed_ && tally_.collisions == resumed_->tally.collisions) {
+  if (resumed_ && findings_.collisions == resumed_->findings.collisions) {
     if (fingerprint_ != resumed_->fingerprint) {
       throw InputError(
           "the collisions are not those of the interrupted audit: expected the same "
           "scene and engine");
     }
-    tally_ = std::move(resumed_->tally);
+    findings_ = std::move(resumed_->findings);
     touches_ = std::move(resumed_->touches);
     resumed_.reset();
   }
@@ -176,9 +176,9 @@ void Audit::follow(Index a, Index b, const Instant& now, const Collision& collis
 
 bool Audit::finish(double time, const std::function<bool()>& stop) {
   if (resumed_) {
-    throw InputError("the run ended after " + std::to_string(tally_.collisions) +
+    throw InputError("the run ended after " + std::to_string(findings_.collisions) +
                      " collisions: expected at least the " +
-                     std::to_string(resumed_->tally.collisions) + " of the interrupted audit");
+                     std::to_string(resumed_->findings.collisions) + " of the interrupted audit");
   }
   const double epochs = time / setup_.epoch_length;
   const Instant end{static_cast<std::int64_t>(std::floor(epochs)), epochs - std::floor(epochs)};
@@ -193,7 +193,7 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   }
   slack_ = 0;
   if (stopped) {
-    tally_ = std::move(before.tally);
+    findings_ = std::move(before.findings);
     touches_ = std::move(before.touches);
   }
   return !stopped;
@@ -267,7 +267,7 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (!is_chosen(i, j)) return;
   const double duration = elapsed<double>(begin_of(i, j), now).middle;
   if (!(duration > 0)) return;
-  ++tally_.checked;
+  ++findings_.checked;
   const Approach approach = approach_of(i, j);
   std::optional<Touch> touch;
   if (!touches_.empty()) touch = take_touch(i, j);
@@ -289,8 +289,8 @@ void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
 
 // Checks that the pair had no contact until now, and has one now.
 void Audit::check_contact(Index a, Index b, const Instant& now) {
-  ++tally_.checked;
-  ++tally_.contacts;
+  ++findings_.checked;
+  ++findings_.contacts;
   const double duration = elapsed<double>(begin_of(a, b), now).middle;
   const Approach approach = approach_of(a, b);
   const Vector<double> r = separation(approach, duration, {}, space_.box);
@@ -327,8 +327,8 @@ void Audit::keep_touch(const Flown& flown, const Start& start) {
 }
 
 void Audit::settle(const Pair& pair, bool undecided) {
-  tally_.escalated += pair.needed_quad();
-  tally_.undecided += undecided;
+  findings_.escalated += pair.needed_quad();
+  findings_.undecided += undecided;
 }
 
 void Audit::check_apart(const Flown& flown) {

@@ -35,7 +35,7 @@ struct Difference {
 };
 
 /// The results of an audit so far.
-struct Tally {
+struct Findings {
   std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
   std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
   std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
@@ -60,7 +60,7 @@ struct Touch {
 
 /// The data from which an interrupted audit continues.
 struct Checkpoint {
-  Tally tally;
+  Findings findings;
   std::uint64_t fingerprint = 0;  ///< hash of the collisions so far
   std::unordered_map<std::uint64_t, Touch> touches;
 };
@@ -91,7 +91,7 @@ class Audit {
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
 
-  const Tally& tally() const { return tally_; }
+  const Findings& findings() const { return findings_; }
 
  private:
   using Index = std::uint32_t;  // of needles, in order of id
@@ -132,7 +132,7 @@ class Audit {
   std::vector<bool> has_collided_;
   std::unordered_map<std::uint64_t, Touch> touches_;
   std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;
-  Tally tally_;
+  Findings findings_;
   std::uint64_t fingerprint_ = 0;
   std::optional<Checkpoint> resumed_;
   double slack_ = 0;  ///< uncertainty of the end time of the run [epochs]

@@ -47,12 +47,12 @@ void expect_clean(const Scene& scene, const State& state, std::int64_t start_epo
     audit.add(c);
   }
   audit.finish(end - static_cast<double>(start_epoch) * setup.epoch_length);
-  EXPECT_TRUE(audit.tally().clean());
-  for (const audit::Difference& d : audit.tally().listed) {
+  EXPECT_TRUE(audit.findings().clean());
+  for (const audit::Difference& d : audit.findings().listed) {
     ADD_FAILURE() << audit::name(d.kind) << " at " << d.time << ": " << d.first << ", " << d.second;
   }
-  EXPECT_EQ(audit.tally().undecided, 0u);
-  EXPECT_GT(audit.tally().contacts, 50u);
+  EXPECT_EQ(audit.findings().undecided, 0u);
+  EXPECT_GT(audit.findings().contacts, 50u);
 }
 
 TEST(SetVelocities, ToThoseThatTheNeedlesHaveGoesOn) {
