@@ -24,14 +24,14 @@ class ContactValues {
  public:
   static constexpr bool escalates = escalation != Escalation::never;
 
-  ContactValues(const Pair& pair, const PairScale& scale, SearchCounters& counters)
+  ContactValues(const Pair& pair, const PairScale& scale, EvaluationCounters& counters)
       : pair_(pair), scale_(scale), frame_(make_frame<double>(pair, scale)), counters_(counters) {
     if (pair.touch.touching) continue_from_touch();
   }
 
   const Pair& pair() const { return pair_; }
   const PairScale& scale() const { return scale_; }
-  SearchCounters& counters() { return counters_; }
+  EvaluationCounters& counters() { return counters_; }
   const Frame<double>& frame() const { return frame_; }
   const Frame<DoubleDouble>& precise_frame();
   bool just_collided() const { return pair_.touch.collided; }
@@ -82,7 +82,7 @@ class ContactValues {
   std::optional<Frame<DoubleDouble>> precise_;
   double kept_at_ = std::numeric_limits<double>::quiet_NaN();
   Sample<double> kept_;
-  SearchCounters& counters_;
+  EvaluationCounters& counters_;
 };
 
 // f is continued from the gap it had: in double, where that decides whether f leaves the touch on

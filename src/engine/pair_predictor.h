@@ -62,7 +62,7 @@ class PairPredictor {
   };
 
   kernels::Contact first_contact(const kernels::Pair& pair, double from, double to) {
-    kernels::SearchCounters spent;
+    kernels::EvaluationCounters spent;
     const kernels::Contact contact = model_.first_contact(pair, from, to, spent);
     counters_.evaluated += spent.evaluated;
     counters_.escalated += spent.escalated;

@@ -36,7 +36,7 @@ struct Cost {
 };
 
 Cost cost(const KernelPair& pair, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   Cost out;
   out.contact = first_contact(pair.view(), 0, until, counters);
   out.spent = static_cast<double>(counters.evaluated + counters.escalated);

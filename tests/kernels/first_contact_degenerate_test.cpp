@@ -31,7 +31,7 @@ struct Answer {
 };
 
 Answer find(const KernelPair& pair, double from, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), from, until, counters);
   return {contact, counters.evaluated + counters.escalated};
 }

@@ -30,7 +30,7 @@ constexpr int count = 60;
 #endif
 
 Contact find(const KernelPair& pair, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), 0, until, counters);
   EXPECT_LT(counters.evaluated + counters.escalated, 3000u);
   return contact;
@@ -251,7 +251,7 @@ TEST(FirstContactNearATouch, IsLeftOpenUnlessTheSideIsKnown) {
     EXPECT_TRUE(find(pair, 1).side_unknown) << "seed " << seed << ", pair " << n;
     EXPECT_FALSE(find(pair, 1).found);
     // Later searches of the same pair are past the touch.
-    SearchCounters counters;
+    EvaluationCounters counters;
     EXPECT_FALSE(first_contact(pair.view(), 1e-3, 1, counters).side_unknown);
     KernelPair known = pair;
     collided(known);

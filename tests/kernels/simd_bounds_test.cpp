@@ -141,7 +141,7 @@ TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
     test::NeedlePair pair = advanced(drawn, 0.3 * drawn.horizon);
     pair.horizon = 0.1;
     const KernelPair kernel = kernel_pair(pair);
-    SearchCounters work;
+    EvaluationCounters work;
     const Contact truth = first_contact(kernel.view(), 0, pair.horizon, work);
     const double unit = unit_of(kernel.first, kernel.second);
     const float until = static_cast<float>(pair.horizon * unit);
