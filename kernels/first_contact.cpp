@@ -332,11 +332,11 @@ std::optional<Root> RootFinder<isolation, escalation>::search_interval(const Int
 }
 
 // The times at which |r + v s| <= reach, with a margin; empty when begin > end.
-struct Window {
+struct TimeSpan {
   double begin, end;
 };
 
-Window sphere_window(const Vec3d& r, const Vec3d& v, double reach) {
+TimeSpan sphere_overlap(const Vec3d& r, const Vec3d& v, double reach) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double r2 = dot(r, r);
   // The second term covers the rounding of r x v and of r . r, for needles far apart.
@@ -359,11 +359,12 @@ Window sphere_window(const Vec3d& r, const Vec3d& v, double reach) {
 template <Isolation isolation, Escalation escalation>
 Contact RootFinder<isolation, escalation>::run(double from, double until) {
   const double end = until * values_.scale().per_time;
-  // A root outside the window of the spheres has an arm beyond a tip.
+  // A root at which the spheres do not overlap has an arm beyond a tip.
   const Frame<double>& frame = values_.frame();
-  const Window window = sphere_window(frame.r, frame.v, frame.half[0] + frame.half[1]);
-  last_ = std::min(end, window.end * roundup);
-  first_ = std::max({0.0, from * values_.scale().per_time, window.begin * (1 - 0x1p-20) - 0x1p-40});
+  const TimeSpan overlap = sphere_overlap(frame.r, frame.v, frame.half[0] + frame.half[1]);
+  last_ = std::min(end, overlap.end * roundup);
+  first_ =
+      std::max({0.0, from * values_.scale().per_time, overlap.begin * (1 - 0x1p-20) - 0x1p-40});
   if (values_.pair().touch.touching && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   if (values_.pair().touch_within > 0 && from == 0 && !values_.pair().touch.touching) {

@@ -253,12 +253,12 @@ void contact_function(const Seeker& seeker, const PairColumns& pairs, std::size_
 }
 
 /// The time from now on in which the bounding spheres of pairs overlap, widened by a margin.
-struct SimdWindow {
+struct SimdTimeSpan {
   Floats begin, end;
   Mask never;
 };
 
-NEEDLEWORK_INLINE SimdWindow overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
+NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
   const Floats zero(0.0f), margin(0x1p-18f);
   const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
   const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
@@ -332,9 +332,9 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
   const SimdPairs pair = load_pairs(seeker, pairs, k);
   const SimdBounds bounds = bounds_of(seeker, pair, column(C::until));
-  const SimdWindow window = overlap_of_spheres(pair, bounds);
-  Floats until = minimum(window.end, column(C::until));
-  Floats low = maximum(maximum(window.begin, column(C::from)) - margin, zero);
+  const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
+  Floats until = minimum(overlap.end, column(C::until));
+  Floats low = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
   if (parts > 1) {
     const Floats span = (until - low) * Floats(1.0f / static_cast<float>(parts)),
                  begin = load_floats(part);
@@ -350,7 +350,7 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
   const Floats step = square_root(Floats(8 * most_bend) / bounds.bend);
   // Still to be searched: from low to high, and from next on.
   Floats high = minimum(low + step, until), next = high;
-  Mask searching = first_lanes(end - k) & (!window.never) & (low <= until);
+  Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);
   Floats from(infinity);
   std::size_t evaluations = 0;
   for (int round = 0; round < 40 && any(searching); ++round) {

@@ -137,7 +137,7 @@ TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
   Random random(seed);
   std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
   for (const test::NeedlePair& drawn : draw_pairs("thermal-k6", 20000 / thin, seed + 1)) {
-    // From where the spheres meet, over a short window.
+    // From where the spheres meet, over a short time.
     test::NeedlePair pair = advanced(drawn, 0.3 * drawn.horizon);
     pair.horizon = 0.1;
     const KernelPair kernel = kernel_pair(pair);
