@@ -337,10 +337,10 @@ void Audit::check_apart(const Flown& flown) {
   Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
             flown.start);
   if (!(pair.rate() > 0)) return;
-  Search search(pair);
+  ContactFinder finder(pair);
   bool undecided = false;
-  for (auto contact = search.first(flown.encounter.begin, last); contact;
-       contact = search.next(contact->end, last)) {
+  for (auto contact = finder.first(flown.encounter.begin, last); contact;
+       contact = finder.next(contact->end, last)) {
     // An event at the same time may come first; the contact is then found in the next flight.
     const double early = contact->certain ? tolerance(pair, contact->end) : 0;
     if (to_the_end && contact->end >= duration - early) {
@@ -360,7 +360,7 @@ void Audit::check_apart(const Flown& flown) {
     if (contact->end >= last) break;
   }
   if (to_the_end && pair.is_near_contact(duration)) {
-    const int side = search.on_needles(duration, duration) >= 0 ? search.sign(duration) : 0;
+    const int side = finder.on_needles(duration, duration) >= 0 ? finder.sign(duration) : 0;
     keep_touch(flown, {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
   }
   settle(pair, undecided);
@@ -370,26 +370,26 @@ void Audit::check_touching(const Flown& flown) {
   const double duration = flown.duration;
   const Start& start = flown.start;
   Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_, start);
-  Search search(pair);
+  ContactFinder finder(pair);
   const double off = tolerance(pair, duration), begin = duration - off, end = duration + off;
   bool undecided = !(off * pair.rate() < 0.25);
 
   // A contact before this one.
   std::optional<ContactInterval> before;
   if (begin > flown.encounter.begin) {
-    before = search.first(flown.encounter.begin, begin);
+    before = finder.first(flown.encounter.begin, begin);
     while (before && !before->certain) {
       undecided = true;
-      before = before->end < begin ? search.next(before->end, begin) : std::nullopt;
+      before = before->end < begin ? finder.next(before->end, begin) : std::nullopt;
     }
   }
   // The contact of this collision. The touch at which the pair started does not count.
   const bool at_start = begin <= 0 && start.kind != Start::apart;
-  const int side = at_start ? start.side : search.sign(begin), after = search.sign(end);
-  const int inside = search.on_needles(begin, end);
+  const int side = at_start ? start.side : finder.sign(begin), after = finder.sign(end);
+  const int inside = finder.on_needles(begin, end);
   // If f is curved, it may vanish now without a change of sign within the range that its slope
   // gives.
-  const bool keeps_sign = side != 0 && side == after, off_contact = search.sign(duration) != 0;
+  const bool keeps_sign = side != 0 && side == after, off_contact = finder.sign(duration) != 0;
   const bool none = !undecided && (inside < 0 || (keeps_sign && off_contact));
   const auto differs = [&](Kind kind, double s) {
     report(kind, flown.first, flown.second, begin_of(flown.first, flown.second), s);
@@ -398,7 +398,7 @@ void Audit::check_touching(const Flown& flown) {
   if (none && before) {
     differs(Kind::late, duration);
   } else if (none) {
-    const auto later = search.next(end, end + early_reach / pair.rate());
+    const auto later = finder.next(end, end + early_reach / pair.rate());
     spurious = !(later && later->certain);
     differs(spurious ? Kind::spurious : Kind::early, duration);
   } else if (before) {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "needlework/simulation.h"
+#include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
 #include "src/audit/pair.h"
 #include "src/audit/rule.h"
-#include "src/audit/search.h"
 
 namespace needlework::audit {
 

@@ -22,9 +22,9 @@ struct ContactInterval {
   int side = 0;  ///< sign of f before; 0 if it is open
 };
 
-class Search {
+class ContactFinder {
  public:
-  explicit Search(Pair& pair) : pair_(pair) {}
+  explicit ContactFinder(Pair& pair) : pair_(pair) {}
 
   /// The first contact, certain or possible, in [from, to]. A pair that starts touching is examined
   /// from 0 on.
