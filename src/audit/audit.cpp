@@ -83,7 +83,7 @@ void Audit::resume(Checkpoint checkpoint) {
 
 Checkpoint Audit::checkpoint() const {
   if (resumed_) return *resumed_;
-  return {findings_, fingerprint_, touches_};
+  return {findings_, fingerprint_, continuations_};
 }
 
 Audit::Index Audit::index_of(std::uint32_t id) const {
@@ -156,7 +156,7 @@ void Audit::add(const Collision& reported) {
           "scene and engine");
     }
     findings_ = std::move(resumed_->findings);
-    touches_ = std::move(resumed_->touches);
+    continuations_ = std::move(resumed_->continuations);
     resumed_.reset();
   }
 }
@@ -194,7 +194,7 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   slack_ = 0;
   if (stopped) {
     findings_ = std::move(before.findings);
-    touches_ = std::move(before.touches);
+    continuations_ = std::move(before.continuations);
   }
   return !stopped;
 }
@@ -240,23 +240,23 @@ bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool repor
   return false;
 }
 
-std::optional<Touch> Audit::take_touch(Index i, Index j) {
-  const auto found = touches_.find(key_of(i, j));
-  if (found == touches_.end()) return std::nullopt;
-  const Touch touch = found->second;
-  touches_.erase(found);
-  return touch;
+std::optional<Continuation> Audit::take_continuation(Index i, Index j) {
+  const auto found = continuations_.find(key_of(i, j));
+  if (found == continuations_.end()) return std::nullopt;
+  const Continuation continuation = found->second;
+  continuations_.erase(found);
+  return continuation;
 }
 
 namespace {
 
-// How the pair's flight in this image starts, given its touch before.
-Start start_of(const Vector<double>& r, const std::optional<Touch>& touch) {
-  if (!touch) return {};
+// How the pair's flight in this image starts, given how its previous flight ended.
+Start start_of(const Vector<double>& r, const std::optional<Continuation>& continuation) {
+  if (!continuation) return {};
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(r[axis] - touch->r[axis]) > 0.25) return {};
+    if (std::abs(r[axis] - continuation->r[axis]) > 0.25) return {};
   }
-  return touch->start;
+  return continuation->start;
 }
 
 }  // namespace
@@ -269,11 +269,11 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (!(duration > 0)) return;
   ++findings_.checked;
   const Approach approach = approach_of(i, j);
-  std::optional<Touch> touch;
-  if (!touches_.empty()) touch = take_touch(i, j);
+  std::optional<Continuation> continuation;
+  if (!continuations_.empty()) continuation = take_continuation(i, j);
   for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
-                 start_of(separation(approach, 0, encounter.shift, space_.box), touch)});
+                 start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
   });
 }
 
@@ -281,8 +281,8 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
 // from 0 with another slope.
 void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
   if (!(begin_of(i, j) == now)) return;
-  const auto found = touches_.find(key_of(std::min(i, j), std::max(i, j)));
-  if (found == touches_.end() || found->second.start.kind != Start::collided) return;
+  const auto found = continuations_.find(key_of(std::min(i, j), std::max(i, j)));
+  if (found == continuations_.end() || found->second.start.kind != Start::collided) return;
   const int side = found->second.start.side;
   found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
 }
@@ -298,12 +298,13 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   for (int axis = 0; axis < 3; ++axis) {
     nearest[axis] = static_cast<std::int32_t>(std::round(r[axis] / space_.box[axis]));
   }
-  const std::optional<Touch> touch = take_touch(a, b);
+  const std::optional<Continuation> continuation = take_continuation(a, b);
   bool met = false;
   for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
     const Flown flown{
-        a,         b,        approach,
-        encounter, duration, start_of(separation(approach, 0, encounter.shift, space_.box), touch)};
+        a,        b,
+        approach, encounter,
+        duration, start_of(separation(approach, 0, encounter.shift, space_.box), continuation)};
     if (encounter.shift == nearest && encounter.end >= duration) {
       met = true;
       check_touching(flown);
@@ -321,8 +322,8 @@ double Audit::tolerance(Pair& pair, double s) const {
          2 * resolution + slack_;
 }
 
-void Audit::keep_touch(const Flown& flown, const Start& start) {
-  touches_[key_of(flown.first, flown.second)] = {
+void Audit::keep_continuation(const Flown& flown, const Start& start) {
+  continuations_[key_of(flown.first, flown.second)] = {
       separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), start};
 }
 
@@ -347,7 +348,7 @@ void Audit::check_apart(const Flown& flown) {
       const auto kind = contact->side != 0 ? Start::touching : Start::apart;
       // Counts as 0 if the contact is assumed to be due and was not.
       const double gap = pair.precise(duration).f;
-      keep_touch(flown, {kind, contact->side, gap, std::abs(gap)});
+      keep_continuation(flown, {kind, contact->side, gap, std::abs(gap)});
       const bool brief = (contact->end - contact->begin) * pair.rate() < longest_touch;
       return settle(pair, undecided || contact->side == 0 || !brief);
     }
@@ -361,7 +362,8 @@ void Audit::check_apart(const Flown& flown) {
   }
   if (to_the_end && pair.is_near_contact(duration)) {
     const int side = finder.on_needles(duration, duration) >= 0 ? finder.sign(duration) : 0;
-    keep_touch(flown, {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
+    keep_continuation(flown,
+                      {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
   }
   settle(pair, undecided);
 }
@@ -408,7 +410,8 @@ void Audit::check_touching(const Flown& flown) {
   }
   // The needles stay on the side from which they came.
   const double approaching = pair.precise(duration).df;
-  if (!spurious) keep_touch(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
+  if (!spurious)
+    keep_continuation(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
   settle(pair, undecided);
 }
 

@@ -52,8 +52,8 @@ struct Findings {
   double bound95(Kind kind) const;
 };
 
-/// The state of a pair that touches at the end of a flight.
-struct Touch {
+/// What the next flight of a pair continues from, if it touches at the end of a flight.
+struct Continuation {
   Vector<double> r;  ///< r12
   Start start;       ///< how its next flight starts
 };
@@ -62,7 +62,7 @@ struct Touch {
 struct Checkpoint {
   Findings findings;
   std::uint64_t fingerprint = 0;  ///< hash of the collisions so far
-  std::unordered_map<std::uint64_t, Touch> touches;
+  std::unordered_map<std::uint64_t, Continuation> continuations;
 };
 
 struct Setup {
@@ -118,8 +118,8 @@ class Audit {
   void go_on_from_contact(Index i, Index j, const Instant& now);
   void check_apart(const Flown& flown);
   void check_touching(const Flown& flown);
-  std::optional<Touch> take_touch(Index i, Index j);
-  void keep_touch(const Flown& flown, const Start& start);
+  std::optional<Continuation> take_continuation(Index i, Index j);
+  void keep_continuation(const Flown& flown, const Start& start);
   void settle(const Pair& pair, bool undecided);
   double tolerance(Pair& pair, double s) const;
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
@@ -130,7 +130,7 @@ class Audit {
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
   std::vector<bool> has_collided_;
-  std::unordered_map<std::uint64_t, Touch> touches_;
+  std::unordered_map<std::uint64_t, Continuation> continuations_;
   std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;
   Findings findings_;
   std::uint64_t fingerprint_ = 0;

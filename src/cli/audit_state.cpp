@@ -17,13 +17,14 @@ using Json = nlohmann::ordered_json;
 // 64-bit keys are text: readers of JSON may hold numbers as doubles.
 Json json_of(const audit::Checkpoint& checkpoint) {
   const audit::Findings& findings = checkpoint.findings;
-  Json touches = Json::array();
-  for (const auto& [pair, touch] : checkpoint.touches) {
-    touches.push_back({{"pair", std::to_string(pair)},
-                       {"r", touch.r.components},
-                       {"kind", static_cast<int>(touch.start.kind)},
-                       {"side", touch.start.side}});
-    if (touch.start.gap) touches.back()["gap"] = {*touch.start.gap, touch.start.gap_error};
+  Json continuations = Json::array();
+  for (const auto& [pair, continuation] : checkpoint.continuations) {
+    continuations.push_back({{"pair", std::to_string(pair)},
+                             {"r", continuation.r.components},
+                             {"kind", static_cast<int>(continuation.start.kind)},
+                             {"side", continuation.start.side}});
+    if (continuation.start.gap)
+      continuations.back()["gap"] = {*continuation.start.gap, continuation.start.gap_error};
   }
   Json listed = Json::array();
   for (const audit::Difference& difference : findings.listed) {
@@ -38,7 +39,7 @@ Json json_of(const audit::Checkpoint& checkpoint) {
           {"undecided", findings.undecided},
           {"differences", findings.differences},
           {"listed", listed},
-          {"touches", touches}};
+          {"touches", continuations}};
 }
 
 audit::Checkpoint checkpoint_of(const Json& from) {
@@ -60,15 +61,15 @@ audit::Checkpoint checkpoint_of(const Json& from) {
                                row.at(3).get<std::uint32_t>()});
   }
   for (const Json& row : from.at("touches")) {
-    audit::Touch touch;
-    row.at("r").get_to(touch.r.components);
-    touch.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
-    row.at("side").get_to(touch.start.side);
+    audit::Continuation continuation;
+    row.at("r").get_to(continuation.r.components);
+    continuation.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
+    row.at("side").get_to(continuation.start.side);
     if (row.contains("gap")) {
-      touch.start.gap = row.at("gap").at(0).get<double>();
-      row.at("gap").at(1).get_to(touch.start.gap_error);
+      continuation.start.gap = row.at("gap").at(0).get<double>();
+      row.at("gap").at(1).get_to(continuation.start.gap_error);
     }
-    out.touches[std::stoull(row.at("pair").get<std::string>())] = touch;
+    out.continuations[std::stoull(row.at("pair").get<std::string>())] = continuation;
   }
   return out;
 }

@@ -363,14 +363,14 @@ TEST(Audit, StoppedWhileItChecksTheLastFlightsIsAsBefore) {
   audit::Audit audit(run.initial, run.setup);
   for (const Collision& collision : run.collisions) audit.add(collision);
   const std::string before = text_of(audit.findings());
-  const std::size_t touches = audit.checkpoint().touches.size();
-  EXPECT_GT(touches, 0u);
+  const std::size_t continued = audit.checkpoint().continuations.size();
+  EXPECT_GT(continued, 0u);
   for (const int most : {1, 500}) {
     int asked = 0;
     EXPECT_FALSE(audit.finish(run.end, [&] { return ++asked == most; }));
     EXPECT_EQ(asked, most);
     EXPECT_EQ(text_of(audit.findings()), before);
-    EXPECT_EQ(audit.checkpoint().touches.size(), touches);
+    EXPECT_EQ(audit.checkpoint().continuations.size(), continued);
   }
   EXPECT_TRUE(audit.finish(run.end, [] { return false; }));
   EXPECT_EQ(text_of(audit.findings()), text_of(run.audited()));

@@ -23,9 +23,9 @@ audit::Checkpoint some_checkpoint() {
   out.findings.listed = {{audit::Kind::late, 0.1, 3, 4},
                          {audit::Kind::missed, 1e-300, 0, 4000000000}};
   using audit::Start;
-  out.touches[0xffffffff00000001] = {{{0.1, -1.0 / 3, 5e-324}}, {Start::collided, -1, {}, 0}};
-  out.touches[2] = {{{0, 1e-17, 1}}, {Start::touching, 1, -1e-31 / 3, 1e-31 / 3}};
-  out.touches[3] = {{{1, 2, 3}}, {Start::apart, 0, 0.0, 0}};
+  out.continuations[0xffffffff00000001] = {{{0.1, -1.0 / 3, 5e-324}}, {Start::collided, -1, {}, 0}};
+  out.continuations[2] = {{{0, 1e-17, 1}}, {Start::touching, 1, -1e-31 / 3, 1e-31 / 3}};
+  out.continuations[3] = {{{1, 2, 3}}, {Start::apart, 0, 0.0, 0}};
   return out;
 }
 
@@ -49,15 +49,15 @@ TEST(AuditState, IsReadAsItWasWritten) {
     EXPECT_EQ(std::tuple(a.kind, a.time, a.first, a.second),
               std::tuple(b.kind, b.time, b.first, b.second));
   }
-  ASSERT_EQ(read->touches.size(), saved.touches.size());
-  for (const auto& [pair, touch] : saved.touches) {
-    ASSERT_TRUE(read->touches.contains(pair)) << pair;
-    const audit::Touch& other = read->touches.at(pair);
-    EXPECT_EQ(other.r.components, touch.r.components);
-    EXPECT_EQ(other.start.kind, touch.start.kind);
-    EXPECT_EQ(other.start.side, touch.start.side);
-    EXPECT_EQ(other.start.gap, touch.start.gap);
-    EXPECT_EQ(other.start.gap_error, touch.start.gap_error);
+  ASSERT_EQ(read->continuations.size(), saved.continuations.size());
+  for (const auto& [pair, continuation] : saved.continuations) {
+    ASSERT_TRUE(read->continuations.contains(pair)) << pair;
+    const audit::Continuation& other = read->continuations.at(pair);
+    EXPECT_EQ(other.r.components, continuation.r.components);
+    EXPECT_EQ(other.start.kind, continuation.start.kind);
+    EXPECT_EQ(other.start.side, continuation.start.side);
+    EXPECT_EQ(other.start.gap, continuation.start.gap);
+    EXPECT_EQ(other.start.gap_error, continuation.start.gap_error);
   }
 }
 
