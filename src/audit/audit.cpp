@@ -316,7 +316,7 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
 }
 
 // Uncertainty of the time of a contact at s.
-double Audit::tolerance(Pair& pair, double s) const {
+double Audit::tolerance(PairFlight& pair, double s) const {
   const Sample sample = pair.precise(s);
   return 4 * pair.limit(sample, s) / std::abs(sample.df) + relative_tolerance * std::abs(s) +
          2 * resolution + slack_;
@@ -327,7 +327,7 @@ void Audit::keep_continuation(const Flown& flown, const Start& start) {
       separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), start};
 }
 
-void Audit::settle(const Pair& pair, bool undecided) {
+void Audit::settle(const PairFlight& pair, bool undecided) {
   findings_.escalated += pair.needed_quad();
   findings_.undecided += undecided;
 }
@@ -335,8 +335,8 @@ void Audit::settle(const Pair& pair, bool undecided) {
 void Audit::check_apart(const Flown& flown) {
   const double duration = flown.duration, last = flown.encounter.end;
   const bool to_the_end = last >= duration;
-  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-            flown.start);
+  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
+                  flown.start);
   if (!(pair.rate() > 0)) return;
   ContactFinder finder(pair);
   bool undecided = false;
@@ -371,7 +371,8 @@ void Audit::check_apart(const Flown& flown) {
 void Audit::check_touching(const Flown& flown) {
   const double duration = flown.duration;
   const Start& start = flown.start;
-  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_, start);
+  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
+                  start);
   ContactFinder finder(pair);
   const double off = tolerance(pair, duration), begin = duration - off, end = duration + off;
   bool undecided = !(off * pair.rate() < 0.25);

@@ -17,7 +17,7 @@
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 #include "src/audit/rule.h"
 
 namespace needlework::audit {
@@ -120,8 +120,8 @@ class Audit {
   void check_touching(const Flown& flown);
   std::optional<Continuation> take_continuation(Index i, Index j);
   void keep_continuation(const Flown& flown, const Start& start);
-  void settle(const Pair& pair, bool undecided);
-  double tolerance(Pair& pair, double s) const;
+  void settle(const PairFlight& pair, bool undecided);
+  double tolerance(PairFlight& pair, double s) const;
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
   void follow(Index a, Index b, const Instant& now, const Collision& collision);
 

@@ -60,10 +60,10 @@ TEST_P(ContactFinderOracle, FindsTheSameContacts) {
     const audit::Space space{{64, 64, 64}};
     audit::Start start;
     if (pair.just_collided) {
-      audit::Pair before(first, second, {}, space, {});
+      audit::PairFlight before(first, second, {}, space, {});
       start = {audit::Start::collided, before.precise(0).df > 0 ? 1 : -1};
     }
-    audit::Pair flown(first, second, {}, space, start);
+    audit::PairFlight flown(first, second, {}, space, start);
     audit::ContactFinder finder(flown);
     const auto found = finder.first(0, pair.horizon);
     contacts += truth.contact;
@@ -133,8 +133,8 @@ TEST(Bend, BoundsTheSecondDerivative) {
     const audit::Space space{{2.5, 2.5, 2.5}};
     const bool shifted = random.below(4) == 0;  // which takes them out of their plane
     const bool collided = random.coin();
-    audit::Pair pair(first, second, {shifted ? 1 : 0, 0, 0}, space,
-                     {collided ? audit::Start::collided : audit::Start::apart, 1});
+    audit::PairFlight pair(first, second, {shifted ? 1 : 0, 0, 0}, space,
+                           {collided ? audit::Start::collided : audit::Start::apart, 1});
     const double end = random.uniform(0, 4);
     const double begin = -random.uniform(0, 0.1);
     const double distance = pair.sample(0).distance + pair.speed() * std::max(end, -begin);
@@ -164,7 +164,7 @@ TEST(ContactFinder, EndsSoonForNeedlesInOnePlane) {
   for (int n = 0; n < pairs; ++n) {
     const auto [first, second] = nearly_in_one_plane(random, std::pow(10, random.uniform(-18, -8)));
     const audit::Space space{{64, 64, 64}};
-    audit::Pair pair(first, second, {}, space, {});
+    audit::PairFlight pair(first, second, {}, space, {});
     audit::ContactFinder finder(pair);
     for (auto found = finder.first(0, 2); found && found->end < 2;) {
       found = finder.next(found->end, 2);
