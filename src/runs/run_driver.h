@@ -9,7 +9,7 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
-#include "src/observe/blocks.h"
+#include "src/observe/batch_rate.h"
 #include "src/observe/schedule.h"
 #include "src/runs/resources.h"
 #include "src/runs/run_monitor.h"
@@ -23,7 +23,7 @@ struct Course {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
   Stopwatch loop;                      ///< time spent in the event loop
-  BlockRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
+  BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
 /// Runs a simulation until its scene says so, in steps from sample to sample, and in short steps of
@@ -52,7 +52,7 @@ class RunDriver {
   io::Writer* writer_;
   RunMonitor& monitor_;
   Schedule series_, frames_;
-  std::optional<BlockRate> rate_;
+  std::optional<BatchRate> rate_;
   Course course_;
   std::chrono::steady_clock::time_point start_;
   double last_flush_ = 0;
