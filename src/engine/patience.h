@@ -33,7 +33,7 @@ class Patience {
 };
 
 /// Counts how often a thread is blocked, and for how long.
-class Blockings {
+class BlockedTime {
  public:
   void begin() {
     if (!blocked_) since_ = SteadyClock::now();

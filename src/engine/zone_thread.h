@@ -112,13 +112,13 @@ void ZoneThread<S, M>::undo(std::vector<Needle>& needles) {
 template <Search S, Model M>
 void ZoneThread<S, M>::work(TimeKey end) {
   Patience patience(phase_.spins);
-  Blockings blockings;
+  BlockedTime blocked_time;
   const auto go_on = [&] {
     patience.reset();
-    blockings.end(tally_.counters.turns, tally_.counters.blocked);
+    blocked_time.end(tally_.counters.turns, tally_.counters.blocked);
   };
   const auto wait = [&] {
-    blockings.begin();
+    blocked_time.begin();
     patience.wait();
   };
   while (!phase_.amiss.load(std::memory_order_relaxed)) {
@@ -137,7 +137,7 @@ void ZoneThread<S, M>::work(TimeKey end) {
       continue;
     }
     if (key >= end && held_.empty()) {
-      blockings.begin();
+      blocked_time.begin();
       if (phase_.mail.rest(zone_, phase_.amiss, Patience(phase_.spins))) break;
       continue;
     }
@@ -165,7 +165,7 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     if (!claim(Claims::owner, phase_.cell_of(block))) return Outcome::again;
     // Another thread may have changed this block, or others of the zone near it, just before the
     // claim.
-    if (phase_.calendar.clock_of(block) != key || phase_.mail.has_some(zone_)) {
+    if (phase_.calendar.published_key(block) != key || phase_.mail.has_some(zone_)) {
       return give_up(nobody);
     }
   }
@@ -243,9 +243,11 @@ template <Search S, Model M>
 void ZoneThread<S, M>::release_held() {
   std::erase_if(held_, [&](const Held& held) {
     look_away();
-    const TimeKey clock = phase_.calendar.clock_of(held.for_block);
-    if (clock < held.key || (clock == held.key && held.for_block < held.block)) return false;
-    phase_.calendar.follow_by_key(held.block, phase_.calendar.clock_of(held.block));
+    const TimeKey published = phase_.calendar.published_key(held.for_block);
+    if (published < held.key || (published == held.key && held.for_block < held.block)) {
+      return false;
+    }
+    phase_.calendar.follow_by_key(held.block, phase_.calendar.published_key(held.block));
     return true;
   });
 }
@@ -254,7 +256,7 @@ template <Search S, Model M>
 void ZoneThread<S, M>::read_mail() {
   for (const Block block : phase_.mail.take(zone_)) {
     std::erase_if(held_, [&](const Held& held) { return held.block == block; });
-    phase_.calendar.follow_by_key(block, phase_.calendar.clock_of(block));
+    phase_.calendar.follow_by_key(block, phase_.calendar.published_key(block));
   }
 }
 
@@ -266,7 +268,7 @@ void ZoneThread<S, M>::publish_changes() {
   std::vector<Block>& changed = changes_.changed;
   look_away();
   for (const Block b : changed) {
-    if (phase_.calendar.key_of_next(b) < phase_.calendar.clock_of(b)) phase_.calendar.publish(b);
+    if (phase_.calendar.next_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
   }
   for (const Block b : changed) {
     look_away();
@@ -274,7 +276,7 @@ void ZoneThread<S, M>::publish_changes() {
     const std::uint32_t zone = phase_.calendar.zone_of(b);
     if (zone == zone_) {
       std::erase_if(held_, [&](const Held& held) { return held.block == b; });
-      phase_.calendar.follow_by_key(b, phase_.calendar.clock_of(b));
+      phase_.calendar.follow_by_key(b, phase_.calendar.published_key(b));
       continue;
     }
     ++tally_.counters.foreign;
@@ -301,8 +303,8 @@ auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) co
       return false;
     }
     for (Block b = first; b < last; ++b) {
-      const TimeKey clock = phase_.calendar.clock_of(b);
-      if (clock > key || (clock == key && b >= block)) continue;
+      const TimeKey published = phase_.calendar.published_key(b);
+      if (published > key || (published == key && b >= block)) continue;
       found = b;
       return true;
     }

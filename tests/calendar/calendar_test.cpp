@@ -380,13 +380,13 @@ TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
     std::vector<Time> first(blocks, Time::never());
     for (Needle i{0}; i < end; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
     for (std::uint32_t block = 0; block < blocks; ++block) {
-      ASSERT_EQ(calendar.clock_of(block) == CellCalendar::no_event,
+      ASSERT_EQ(calendar.published_key(block) == CellCalendar::no_event,
                 std::count(place.begin(), place.end(), block) == 0);
-      if (calendar.clock_of(block) == CellCalendar::no_event) continue;
+      if (calendar.published_key(block) == CellCalendar::no_event) continue;
       ASSERT_EQ(calendar.top_of(block).time, first[block]) << "step " << step;
-      ASSERT_EQ(calendar.clock_of(block), calendar.key_of(first[block]));
+      ASSERT_EQ(calendar.published_key(block), calendar.key_of(first[block]));
       ASSERT_GE(first[block], calendar.top().time);
-      ASSERT_GE(calendar.clock_of(block), calendar.winning_key(zone[block]));
+      ASSERT_GE(calendar.published_key(block), calendar.winning_key(zone[block]));
     }
     ASSERT_EQ(calendar.top().time, *std::min_element(first.begin(), first.end()));
   }
