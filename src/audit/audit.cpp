@@ -411,8 +411,9 @@ void Audit::check_touching(const Flown& flown) {
   }
   // The needles stay on the side from which they came.
   const double approaching = pair.precise(duration).df;
-  if (!spurious)
+  if (!spurious) {
     keep_continuation(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
+  }
   settle(pair, undecided);
 }
 

@@ -23,8 +23,9 @@ Json json_of(const audit::Checkpoint& checkpoint) {
                              {"r", continuation.r.components},
                              {"kind", static_cast<int>(continuation.start.kind)},
                              {"side", continuation.start.side}});
-    if (continuation.start.gap)
+    if (continuation.start.gap) {
       continuations.back()["gap"] = {*continuation.start.gap, continuation.start.gap_error};
+    }
   }
   Json listed = Json::array();
   for (const audit::Difference& difference : findings.listed) {
