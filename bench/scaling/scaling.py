@@ -9,7 +9,7 @@
 
 Repetitions of all settings are interleaved. Times are wall times of the event loop per collision.
 A speed-up is over the run by one thread in the same repetition; the table gives medians and ranges.
-"alone" is one thread with whatever search and queue is best for one; "apart" is as many runs of that
+"alone" is one thread with whatever search and calendar is best for one; "apart" is as many runs of that
 as there are threads, at once, and their collisions together: what the cores can give; "crowded" has
 four threads for each core. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of

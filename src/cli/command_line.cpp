@@ -302,7 +302,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
-      "bench", "measure searches, queues and instruction sets on the same scenes");
+      "bench", "measure searches, calendars and instruction sets on the same scenes");
   command
       ->add_option("SUBSET", arguments->subset,
                    "what to measure, by default quick; --list describes all")

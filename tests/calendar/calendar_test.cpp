@@ -57,10 +57,10 @@ class SortedReference {
 constexpr std::size_t in_block = 16;
 BlockIndex block_of(Needle i) { return static_cast<BlockIndex>(i / in_block); }
 
-template <Calendar Queue>
-Queue make_calendar_of(int n) {
+template <Calendar C>
+C make_calendar_of(int n) {
   const auto size = static_cast<std::size_t>(n);
-  return Queue(size, Clock(), (size + in_block - 1) / in_block);
+  return C(size, Clock(), (size + in_block - 1) / in_block);
 }
 
 bool equal_in_order(const Event& a, const Event& b) { return !(a < b) && !(b < a); }
@@ -97,19 +97,19 @@ Event draw_event(Random& random, int n, std::int64_t epoch, bool ties) {
   return named(event);
 }
 
-template <Calendar Queue>
+template <Calendar C>
 class CalendarTest : public testing::Test {};
 
 using Calendars = AllCalendars<testing::Types>;
 
 TYPED_TEST_SUITE(CalendarTest, Calendars);
 
-template <Calendar Queue>
+template <Calendar C>
 void expect_reference(int n, bool ties) {
   SCOPED_TRACE(std::to_string(n) + " needles, seed " + std::to_string(seed));
   Random random(seed + static_cast<std::uint64_t>(n) + ties);
   const auto size = static_cast<std::size_t>(n);
-  Queue calendar = make_calendar_of<Queue>(n);
+  C calendar = make_calendar_of<C>(n);
   SortedReference reference(size);
   std::vector<Event> last(size);
   for (Needle i{0}; i < size; ++i) last[i].owner = i;
@@ -142,11 +142,11 @@ TYPED_TEST(CalendarTest, SettlesEqualTimesByOrder) {
 
 // The use of the event loop: the top is taken, and it and one other get later events. Calendar and
 // reference are held against each other at each step.
-template <Calendar Queue>
+template <Calendar C>
 class Loop {
  public:
   explicit Loop(int n)
-      : n_(n), calendar_(make_calendar_of<Queue>(n)), reference_(static_cast<std::size_t>(n)) {}
+      : n_(n), calendar_(make_calendar_of<C>(n)), reference_(static_cast<std::size_t>(n)) {}
 
   Needle end() const { return Needle(static_cast<std::size_t>(n_)); }
 
@@ -173,14 +173,14 @@ class Loop {
   }
 
   Time now() const { return now_; }
-  const Queue& calendar() const { return calendar_; }
+  const C& calendar() const { return calendar_; }
 
   Random random{seed};
 
  private:
   const Clock clock_;
   int n_;
-  Queue calendar_;
+  C calendar_;
   SortedReference reference_;
   Time now_;
 };

@@ -299,7 +299,7 @@ TEST_F(RunCommand, RunsWhereverItsThreadsAreBound) {
   }
 }
 
-TEST_F(RunCommand, RefusesThreadsThatSearchOrQueueCannotUse) {
+TEST_F(RunCommand, RefusesThreadsThatSearchOrCalendarCannotUse) {
   for (const char* choice : {"queue=tournament", "search=all-pairs", "search=linked-lists"}) {
     const Outcome outcome = run(std::string("run small.toml --threads 2 --set engine.") + choice);
     EXPECT_EQ(outcome.exit_code, 3);

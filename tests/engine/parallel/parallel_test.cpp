@@ -305,7 +305,7 @@ TEST(Parallel, CanBeInterrupted) {
   EXPECT_EQ(simulation.advance({.wall_s = 0.05}), Stop::interrupted);
 }
 
-TEST(Parallel, RefusesSearchesAndQueuesOfOneThread) {
+TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {
   Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
   scene.engine.search = "all-pairs";
