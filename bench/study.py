@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Measures everything on this machine, one thread, and makes the tables and the picture.
 
-    bench/study.py                     all; goes on where it was stopped
+    bench/study.py                     all; continues where it was stopped
     bench/study.py density size        some parts only
-    bench/study.py --time-budget 60    for an hour; the same command goes on later
+    bench/study.py --time-budget 60    for an hour; the same command continues later
     bench/study.py tables              no measuring: tables and picture of what there is
 
 Build first, with NEEDLEWORK_BENCH=ON. Repetitions are interleaved: all cases of all parts are

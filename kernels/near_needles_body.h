@@ -359,8 +359,8 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
     const SimdShares free = free_around(sample(pair, middle), bounds, h);
     const Mask left = free.before >= one, right = free.after >= one, both = left & right;
 
-    // Where nothing of the first half is left, the search goes on in the second half, or after it;
-    // else in what is left of the first half, and then in what is left of the second.
+    // Where nothing of the first half is left, the search continues in the second half, or after
+    // it; else in what is left of the first half, and then in what is left of the second.
     const Floats freed = middle + h * free.after;
     low = select(left, select(right, next, freed), low);
     high = select(both, minimum(next + step, until), select(left, high, middle - h * free.before));

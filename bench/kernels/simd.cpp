@@ -111,7 +111,7 @@ void free_flight(benchmark::State& state, Isa isa, double density) {
   }
   double done = 0;
   for (auto _ : state) {
-    // In place: centres and directors go on from where they are.
+    // In place: each flight starts from the centres and directors of the one before.
     kernels::fly(isa, columns, count);
     benchmark::ClobberMemory();
     done += count;

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Measures how a run gains from threads, and what limits it.
 
-    bench/scaling/scaling.py                     all scenes on 1 to all cores; goes on where it was
+    bench/scaling/scaling.py                     all scenes on 1 to all cores; continues where it was
                                                  stopped
     bench/scaling/scaling.py dilute weak         some of them
-    bench/scaling/scaling.py --time-budget 20    for 20 minutes; the same command goes on later
+    bench/scaling/scaling.py --time-budget 20    for 20 minutes; the same command continues later
     bench/scaling/scaling.py tables              no measuring: table and picture of what there is
 
 Repetitions of all settings are interleaved. Times are wall times of the event loop per collision.

@@ -81,8 +81,8 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
       outcome.stop = simulation.advance(until);
       if (outcome.is_complete()) break;
     }
-    // until.wall_s is not looked at here, or an audit that goes on with these flights alone might
-    // never come to their end.
+    // until.wall_s does not apply here: an audit that is continued with only these flights left
+    // could be stopped by it every time.
     if (outcome.is_complete() && !audit.finish(simulation.time(), SignalGuard::received)) {
       outcome.stop = Stop::interrupted;
     }
@@ -146,7 +146,7 @@ void require_unit_needles(const Scene& scene) {
   const auto require = [&](const char* key, double value) {
     if (value == 1) return;
     throw InputError(place_of(scene, std::string("species.") + key, fmt::format("{}", value)) +
-                     ": expected 1, as the audit knows needles of length and mass 1 only");
+                     ": expected 1, as the audit checks needles of length and mass 1 only");
   };
   require("length", species.length);
   require("mass", species.mass);

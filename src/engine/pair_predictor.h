@@ -31,8 +31,8 @@ class PairPredictor {
     ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
     return entry.wraps = renew();
   }
-  /// Hands over the old records when a caller has just replaced some. They tell on which side of
-  /// each other two needles are that touch.
+  /// Hands over the old records when a caller has just replaced some. They determine on which side
+  /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }
   /// Discards what is cached. To be called after needles have moved in storage, or after records
   /// have been put back.

@@ -128,7 +128,7 @@ TEST(Audit, LooksAtEveryPairAndCollision) {
   const std::size_t n = run.initial.size(), m = run.collisions.size();
   EXPECT_EQ(findings.collisions, m);
   EXPECT_EQ(findings.contacts, m);
-  // Two flights to each of the others, one between the partners; all once more at the end, but
+  // Two flights to each of the others, one between the partners; all again at the end, but
   // perhaps those that begin there.
   const std::size_t at_collision = 2 * (n - 2) + 1, most = m * at_collision + n * (n - 1) / 2;
   EXPECT_LE(findings.checked, most);
@@ -251,7 +251,7 @@ TEST_F(FalseReport, OfTheOrderIsSeen) {
   EXPECT_EQ(count(Kind::wrong_order), 1u);
 }
 
-// At one instant ids decide, but a collision may bring about another one of its own needles.
+// At one instant ids decide, but a collision may cause another one of its own needles.
 TEST_F(FalseReport, OfTheOrderAtOneInstantIsSeen) {
   run.setup.share = 0;  // no flights: with such reports they would take long
   victim().first = 30;

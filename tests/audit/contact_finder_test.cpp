@@ -155,8 +155,8 @@ TEST(Bend, BoundsTheSecondDerivative) {
   EXPECT_GT(tightest, 0.3);  // or the bound is worth nothing
 }
 
-// Whatever the plane, f is told from noise, or said to be noise, in few stretches: halving by the
-// general bound on f'' would take 1e7.
+// In any plane, f is distinguished from noise, or classified as noise, within a few intervals;
+// halving by the general bound on f'' would take 1e7.
 TEST(ContactFinder, EndsSoonForNeedlesInOnePlane) {
   Random random(seed);
   constexpr int pairs = 1000;

@@ -1,4 +1,4 @@
-// What `needlework audit` prints, how it ends, and how it goes on.
+// What `needlework audit` prints, how it ends, and how it is continued.
 #include <string>
 
 #include "tests/cli/program.h"

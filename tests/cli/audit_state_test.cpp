@@ -1,4 +1,4 @@
-// What an interrupted audit saves is what it goes on from.
+// An interrupted audit continues from what it has saved.
 #include "src/cli/audit_state.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What `needlework check` and `needlework info` tell.
+// What `needlework check` and `needlework info` print.
 #include <string>
 
 #include "needlework/theory.h"

@@ -1,4 +1,4 @@
-// `needlework sweep`: what it computes, and how it goes on after whatever stopped it.
+// `needlework sweep`: what it computes, and how it continues after it was stopped.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -161,7 +161,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
         run_and_signal("sweep --json --threads 2 " + out, "ls " + signal + "/*.h5.part", signal);
     if (signal != "KILL") {
       EXPECT_EQ(stopped.exit_code, 75) << signal;
-      EXPECT_TRUE(stopped.complains("the same command goes on with them"));
+      EXPECT_TRUE(stopped.complains("the same command continues with them"));
       EXPECT_EQ(count_of_files(signal, ".part") + count_of_files(signal, ".lock"), 0u);
     }
     EXPECT_FALSE(exists(signal + "/summary.h5"));

@@ -140,7 +140,7 @@ TEST_P(Borders, AreDecidedToTheLastBit) {
 // third needle strikes one of them.
 TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
   constexpr int steps = 512, scenes = 10;
-  int told = 0;
+  int compared = 0;
   std::size_t met = 0;
   for (std::uint64_t n = 0; n < scenes; ++n) {
     SCOPED_TRACE(n);
@@ -161,12 +161,12 @@ TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
     for (int step = 1; step <= steps; ++step) {
       simulation.advance(until_time(step / double(steps)));
       State is = simulation.copy();
-      told += expect_same_sides(was, is);
+      compared += expect_same_sides(was, is);
       was = std::move(is);
     }
   }
   EXPECT_GT(met, 7u);
-  EXPECT_GT(told, scenes * steps / 10);
+  EXPECT_GT(compared, scenes * steps / 10);
 }
 
 // Needles without rotation whose contact points all meet in one point at one time.

@@ -1,4 +1,4 @@
-// The search for the first contact ends soon, whatever the pair.
+// The search for the first contact ends soon for every pair.
 #include <gtest/gtest.h>
 
 #include <cmath>

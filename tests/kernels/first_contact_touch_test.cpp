@@ -181,8 +181,9 @@ TEST(FirstContactAfterCollision, AReturnBelowRoundingIsUnresolvable) {
   EXPECT_GT(unresolvable, count / 2);
 }
 
-// Contact points at rest to each other, as rough needles come to be: f, f' and f'' are 0, and the
-// third derivative decides. Whatever the search cannot resolve near 0, the side must not be lost.
+// Contact points at rest relative to each other, as of rough needles after many bounces: f, f' and
+// f'' are 0, and the third derivative decides. Whatever the search cannot resolve near 0, the side
+// must not be lost.
 TEST(FirstContactAfterCollision, ACubicReturnIsUnresolvableAndNotMissed) {
   for (const double turn : {0.5, -0.5}) {
     KernelPair pair;

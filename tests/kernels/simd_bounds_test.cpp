@@ -97,7 +97,7 @@ TEST_P(Bracket, IsNeverTooLate) {
     ASSERT_LE(from / pair.unit, pair.truth.elapsed.hi)
         << "of " << drawn.horizon << ", seed " << seed << "\n"
         << test::csv_line(id - 1, drawn);
-    // The oracle knows nothing of the engine, and takes its time.
+    // The oracle is independent of the engine, and slow.
     if (id % 50 != 0) continue;
     const auto oracle =
         test::first_contact(drawn.first, drawn.second, drawn.horizon, drawn.just_collided);

@@ -83,7 +83,7 @@ TEST(Cloud, IsSearchedAsAskedFor) {
   EXPECT_EQ(resized(scene), 0u);
 }
 
-// The run goes on with another loop at any time between two events.
+// A run can be continued by another loop at any time between two events.
 TEST(Loops, MayFollowEachOther) {
   Scene scene = test::scene_of(600, 7, 8);
   scene.collisions.epsilon = 0.9;
@@ -181,17 +181,17 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
 
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   Limits limits(run, until);
-  const std::string told = failure([&] {
+  const std::string message = failure([&] {
     for (;;) {
       const auto loop = make_loop(run, {.search = "linked-lists", .calendar = "tournament"});
       limits.pause = run.tally.collisions + 1000;
       if (loop->advance(limits)) return;
     }
   });
-  EXPECT_EQ(told, expected);
+  EXPECT_EQ(message, expected);
 }
 
-// A loop that follows another does no more work than one that goes on.
+// A loop that follows another does no more work than one that continues.
 TEST(Loops, GoOnWhereTheOthersLeft) {
   const Scene scene = test::scene_of(1000, 11);
   const auto searches_of_half = [&](bool by_another) {

@@ -43,7 +43,7 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   }
 }
 
-// Here hardly any other sign tells of it.
+// Hardly anything else would show it here.
 TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
   const Scene::Until until = mean_collisions(12);
   const Scene scene = test::scene_of(2000, 5, 3);
