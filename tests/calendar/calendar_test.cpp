@@ -267,7 +267,17 @@ TYPED_TEST(CalendarTest, LetsNeverComeAndGo) {
   }
 }
 
-// A needle that is searched for again and again, as one in a crowd: nothing is popped meanwhile.
+// Entries of a calendar for n needles, replaced events included: calendars other than these two
+// replace the event of a needle in place.
+std::size_t entries_of(const LazyHeap& calendar, std::size_t) { return calendar.entries(); }
+std::size_t entries_of(const BucketCalendar& calendar, std::size_t) { return calendar.entries(); }
+template <Calendar C>
+std::size_t entries_of(const C&, std::size_t n) {
+  return n;
+}
+
+// A needle whose event is replaced again and again, as of one among many others, while no event is
+// processed.
 TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
   constexpr int n = 200;
   Loop<TypeParam> loop(n);
@@ -276,9 +286,7 @@ TYPED_TEST(CalendarTest, ForgetsReplacedEvents) {
     const double ahead = loop.random.uniform(5, 10);
     loop.schedule(Needle(7), ahead);
     loop.schedule(Needle(8), 100 * ahead);
-    if constexpr (requires { loop.calendar().entries(); }) {
-      ASSERT_LE(loop.calendar().entries(), 5 * n + 64);
-    }
+    ASSERT_LE(entries_of(loop.calendar(), n), 5 * n + 64);
   }
   ASSERT_NO_FATAL_FAILURE(loop.step([](Needle) { return 1.0; }));
 }
