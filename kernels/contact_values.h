@@ -114,8 +114,8 @@ const Frame<DoubleDouble>& ContactValues<escalation>::precise_frame() {
   const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
   frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
   frame.offset = DoubleDouble(gap()) - start.f;
-  // A just-collided pair does not approach; what rounding of the velocities says otherwise is
-  // taken off.
+  // A just-collided pair does not approach; a slope to the contrary is due to rounding of the
+  // velocities and is subtracted.
   if (pair_.touch.collided && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
   return frame;
 }
@@ -143,7 +143,7 @@ Sample<DoubleDouble> ContactValues<escalation>::sample_at(const DoubleDouble& s)
   return evaluate(precise_frame(), s);
 }
 
-// f and its derivatives, without a look at their errors where double decides everything.
+// f and its derivatives, without their errors if double decides everything.
 template <Escalation escalation>
 template <class T>
 Estimate ContactValues<escalation>::estimate_of(const T& s, const Sample<T>& sample) {

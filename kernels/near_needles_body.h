@@ -61,14 +61,14 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
       const std::size_t size = links[b].size;
       seen += size;
       for (std::size_t lane = 0; lane < size; lane += floats_at_once) {
-        // Places beyond the last needle hold anything.
+        // The contents of places beyond the last needle are arbitrary.
         const Mask taken = first_lanes(size - lane);
         const Floats needle = load_numbers(block.needle + lane);
         const Packing found_here =
             packing_of(taken & test(block, lane, cell.offset) & !same_numbers(needle, self));
         store_numbers(packed(needle, found_here), needles + count);
         store_numbers(number(n), cells + count);
-        // The first of several; where there is none, whatever stands there.
+        // Of several, the first. If there is none, the index is arbitrary and the prefetch useless.
         __builtin_prefetch(
             reinterpret_cast<const void*>(motions + sizeof(Motion) * needles[count]));
         count += found_here.count;
@@ -359,8 +359,8 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
     const SimdShares free = free_around(sample(pair, middle), bounds, h);
     const Mask left = free.before >= one, right = free.after >= one, both = left & right;
 
-    // Where nothing of the first half is left, the search continues in the second half, or after
-    // it; else in what is left of the first half, and then in what is left of the second.
+    // If the whole first half is free, the search continues in the second half, or after it.
+    // Otherwise it continues in the rest of the first half, and then in the rest of the second.
     const Floats freed = middle + h * free.after;
     low = select(left, select(right, next, freed), low);
     high = select(both, minimum(next + step, until), select(left, high, middle - h * free.before));
@@ -394,7 +394,7 @@ std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t 
   using C = PairColumns;
   if (n == 0) return 0;
   // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
-  // many parts depends on nothing but n, so that no result depends on where its pair stands.
+  // many parts depends on nothing but n, so that no result depends on the position of its pair.
   const std::size_t parts = std::clamp<std::size_t>(block_size / n, 1, 4);
   std::size_t evaluations = 0;
   for (std::size_t k = 0; k < n; k += block_size) {

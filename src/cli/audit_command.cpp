@@ -30,7 +30,7 @@ namespace needlework::cli {
 using enum runs::ExitCode;
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock [s].
+/// Longest time in the event loop between two checks of wall time and signals [s].
 constexpr double longest_step = 0.25;
 
 struct Outcome {

@@ -123,8 +123,8 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   return contact;
 }
 
-// Decides on which side a needle stands of another that it touches to within rounding. Rounding
-// the new record may have moved it to the other side, so the gap is continued from the records
+// Decides on which side of each other two needles are that touch to within rounding. Rounding the
+// new record may have moved one to the other side, so the gap is continued from the records
 // before.
 template <Model M>
 void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {

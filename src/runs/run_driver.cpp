@@ -10,7 +10,7 @@
 namespace needlework::runs {
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock [s].
+/// Longest time in the event loop between two checks of wall time and signals [s].
 constexpr double longest_step = 0.25;
 /// Longest time for which results are not yet safe in the file [s].
 constexpr double flush_interval = 10;
@@ -85,7 +85,7 @@ void RunDriver::step_until_end() {
   }
 }
 
-// One stay in the event loop; a value when one of the scene's own conditions is met.
+// One call of the event loop; returns a value when one of the scene's own conditions is met.
 std::optional<Stop> RunDriver::step() {
   Scene::Until until = scene_.until;
   const double next = std::min(series_.next(), frames_.next());
