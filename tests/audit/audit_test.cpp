@@ -314,9 +314,9 @@ TEST(ContactTime, OfAnAbsoluteKindIsChecked) {
   EXPECT_GT(run.audited().count(Kind::wrong_rule), 0u);
 }
 
-// One needle spins above another, so fast that the search gives up: of what then came nothing is
-// known, also when the flight ends with it.
-TEST(Audit, SaysWhenItGaveUp) {
+// One needle spins above another, so fast that the contact finder gives up: the rest of the flight
+// is undecided, also if the flight ends there.
+TEST(Audit, ReportsThatItGaveUp) {
   State state;
   state.box = {8, 8, 8};
   state.id = {0, 1};

@@ -141,7 +141,7 @@ TYPED_TEST(CalendarTest, SettlesEqualTimesByOrder) {
 }
 
 // The use of the event loop: the top is taken, and it and one other get later events. Calendar and
-// reference are held against each other at each step.
+// reference are compared at each step.
 template <Calendar C>
 class Loop {
  public:
@@ -299,7 +299,7 @@ TYPED_TEST(CalendarTest, StartsWithoutEvents) {
   EXPECT_TRUE(TypeParam(0, Clock(), 1).empty());
 }
 
-// Behind the interface of all calendars it is the same one.
+// A calendar behaves the same behind the interface of all calendars.
 TYPED_TEST(CalendarTest, IsMadeByItsName) {
   const std::unique_ptr<AnyCalendar> calendar = make_calendar(TypeParam::name);
   ASSERT_NE(dynamic_cast<CalendarOf<TypeParam>*>(calendar.get()), nullptr);
@@ -321,7 +321,7 @@ TYPED_TEST(CalendarTest, IsMadeByItsName) {
   }
 }
 
-TEST(MakeCalendar, NamesThoseThereAreForOneThatIsNot) {
+TEST(MakeCalendar, NamesTheKnownOnesForAnUnknownName) {
   try {
     make_calendar("guess");
     ADD_FAILURE() << "accepted";
@@ -332,7 +332,7 @@ TEST(MakeCalendar, NamesThoseThereAreForOneThatIsNot) {
   }
 }
 
-// Ids are as the indices here.
+// Ids equal indices here.
 Event contact(std::uint32_t owner, std::uint32_t partner, double time, Shift shift = {}) {
   Event event;
   event.kind = EventKind::contact;
@@ -354,7 +354,7 @@ Event horizon(std::uint32_t owner, double time) {
   return event;
 }
 
-TEST(BucketCalendar, ChoosesItsWidthAnewOnlyAfterManyEvents) {
+TEST(BucketCalendar, ChangesItsWidthOnlyAfterManyEvents) {
   constexpr int n = 2000;
   Loop<BucketCalendar> loop(n);
   double scale = 1;

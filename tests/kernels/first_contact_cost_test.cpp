@@ -25,7 +25,7 @@ constexpr int thin = 10;
 #endif
 
 /// Evaluations that a search may take on top of `per_interval` for each half unit of scaled time
-/// that it has to look at, be the pair ever so degenerate.
+/// that it covers, for any degenerate pair.
 constexpr double most = 3000;
 constexpr double per_interval = 8;
 

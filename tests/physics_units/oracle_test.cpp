@@ -362,7 +362,7 @@ TEST(Oracle, UlpsFlipOnlyDecisionsNearTheLimit) {
   EXPECT_GT(flipped, near / 10);
 }
 
-TEST(Oracle, DoublesTellTheSignOfFBeyondTheLimit) {
+TEST(Oracle, DoublesGiveTheSignOfFBeyondTheLimit) {
   for (const PairFamily& family : pair_families()) {
     if (family.name == "slow") continue;  // sample() underflows
     for (const NeedlePair& pair : draw_pairs(family.name, 400, 18)) {
