@@ -354,7 +354,7 @@ TEST(OnePlane, TiltedRattles) {
     const HardRun run =
         run_hard(elastic(), state, until_time(1.0 / thin), {.undecided = 800, .by_rounding = true});
     std::printf("%zu collisions, %g of %g flights undecided\n", run.collisions.size(),
-                double(run.findings.undecided), double(run.tally.checked));
+                double(run.findings.undecided), double(run.findings.checked));
     met += run.collisions.size();
   }
   EXPECT_TRUE(thin > 1 || met > 150) << met;  // the shorter runs may be over before
@@ -372,7 +372,7 @@ TEST(OnePlane, TiltedGoesOnOrSaysWhyNot) {
     const HardRun run =
         run_hard(scene, state, until_time(1.0 / thin), {.undecided = 200, .by_rounding = true});
     std::printf("%zu collisions, %g of %g flights undecided; %s\n", run.collisions.size(),
-                double(run.findings.undecided), double(run.tally.checked), run.failure.c_str());
+                double(run.findings.undecided), double(run.findings.checked), run.failure.c_str());
     EXPECT_TRUE(run.stop == Stop::time || run.failure.starts_with("collapse of needles"));
     scene.needles.count = state.size();
     scene.collisions.tc_relative = 1e-3;
