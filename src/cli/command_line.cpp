@@ -17,6 +17,7 @@
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/export_command.h"
+#include "src/cli/import_command.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
@@ -289,6 +290,27 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
+void add_import_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "import", "make a scene and a state of a configuration of another program");
+  const auto arguments = std::make_shared<ImportArguments>();
+  command->add_option("CONFIG", arguments->from, "configuration of DynamO, .xml or .xml.bz2")
+      ->option_text("FILE")
+      ->required();
+  command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
+      ->option_text("DIR")
+      ->required();
+  command->add_flag("--force", arguments->force, "replace existing files");
+  command->footer(R"(Nothing is rescaled. What needles do not have, such as other interactions,
+several species, gravity or walls, is an error that names its element. The end
+of the run is not in a configuration: choose one in [until] of scene.toml.
+
+Examples:
+  needlework import config.xml.bz2 --out lines
+  needlework run lines/scene.toml --out lines/run.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
 void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("export", "write the last frame of an H5MD file for ParaView and VTK");
@@ -450,6 +472,7 @@ Environment:
   add_predict_command(app, exit_code);
   add_audit_command(app, exit_code);
   add_info_command(app, exit_code);
+  add_import_command(app, exit_code);
   add_export_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_help_command(app, exit_code);
