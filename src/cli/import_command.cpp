@@ -120,7 +120,7 @@ void make_folder(const std::string& folder) {
 
 int run(const ImportArguments& arguments) {
   const io::Configuration read = read_file(arguments.from, FileKind::foreign,
-                                           [&] { return io::read_configuration(arguments.from); });
+                                           [&] { return read_configuration(arguments.from); });
   const fs::path folder(arguments.folder);
   const std::string scene_file = (folder / "scene.toml").string();
   const std::string state_file = (folder / "state.h5").string();

@@ -56,7 +56,7 @@ TEST_F(ImportCommand, WritesNothingAfterAnError) {
                    "small-box.xml: cannot be run: scene.toml: line 4: "),
         std::tuple("small.toml --out a", 3, "which needlework run small.toml runs"),
         std::tuple(". --out a", 5, ".: cannot be read: Is a directory"),
-        std::tuple("gravity.xml", 2, "--out is required")}) {
+        std::tuple("gravity.xml", 2, "--out is missing: expected needlework import")}) {
     const Outcome outcome = run(std::string("import ") + arguments);
     EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
     EXPECT_TRUE(outcome.complains(message));
