@@ -125,7 +125,8 @@ void DataReader::read_section() {
   const std::string_view name = lines_.fields()[0];
   const std::string_view line = lines_.line();
   if (name == "Atoms") {
-    if (line.find(style) == line.npos) {
+    // LAMMPS itself writes no more than the first word of the style.
+    if (line.find(style) == line.npos && !line.ends_with("# hybrid")) {
       lines_.reject(fmt::format("{}: expected Atoms # {}", line.substr(0, 60), style));
     }
     atoms_ = read_rows(name);
@@ -146,7 +147,7 @@ void DataReader::read_section() {
         row.reject(fmt::format("a second velocity of atom {}: expected one", id));
       }
     }
-  } else {
+  } else if (name != "Masses" && name != "Pair") {  // whose rows are passed over
     lines_.reject(fmt::format("{}: expected Atoms and Velocities only", name));
   }
 }
