@@ -333,6 +333,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
   command->add_option("OUT", arguments->to, "file to write; its ending is that of its format")
+      ->option_text("FILE")
       ->required();
   add_choice(command->add_option("--to", arguments->format, "format, whatever the ending of OUT"),
              names_of_export_formats());

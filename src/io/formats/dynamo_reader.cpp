@@ -18,6 +18,9 @@ using Vector = std::array<double, 3>;
 
 constexpr const char* version = "1.5.0";
 
+// About two million needles. The document takes about five times as much memory as its text.
+constexpr std::size_t max_xml_bytes = std::size_t{1} << 30;
+
 // A director that was written beside a quaternion differs from the quaternion's by roundings alone.
 constexpr double largest_rounding = 1e-14;
 
@@ -209,7 +212,7 @@ bool is_dynamo(std::string_view beginning) {
 }
 
 Configuration read_dynamo(const std::string& path) {
-  const XmlDocument document(read_text_file(path), path);
+  const XmlDocument document(read_text_file(path, max_xml_bytes), path);
   const XmlElement root = document.root("DynamOconfig");
   root.require_word("version", {version}, version);
   root.require_only({"version"}, {"Simulation", "Properties", "ParticleData"});

@@ -6,7 +6,7 @@
 
 namespace needlework::io {
 
-/// Largest text that is read [bytes]: about eight million needles in XML.
+/// Largest text that is read as a rule [bytes].
 inline constexpr std::size_t max_text_bytes = std::size_t{1} << 32;
 
 /// Reads a file, and decompresses it if its content, not its name, says that it is compressed with

@@ -95,7 +95,8 @@ Configuration DataReader::read() {
 void DataReader::read_title() {
   lines_.advance("a title");
   for (const std::string_view word : lines_.fields()) {
-    const std::size_t equals = std::min(word.find('='), word.size() - 1);
+    const std::size_t equals = word.find('=');
+    if (equals == word.npos) continue;
     set_material(configuration_.material, word.substr(0, equals), word.substr(equals + 1),
                  lines_.row());
   }
