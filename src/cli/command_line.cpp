@@ -312,10 +312,9 @@ void add_import_command(CLI::App& app, int& exit_code) {
       "import", "make a scene and a state of a configuration of another program");
   const auto arguments = std::make_shared<ImportArguments>();
   command
-      ->add_option("CONFIG", arguments->from,
-                   "configuration of DynamO (.xml or .xml.bz2), extended XYZ, or dump or data "
-                   "file of LAMMPS")
-      ->option_text("FILE")
+      ->add_option("FILE", arguments->from,
+                   "configuration of DynamO (.xml or .xml.bz2), extended XYZ, or dump or data file "
+                   "of LAMMPS")
       ->required();
   command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
       ->option_text("DIR")

@@ -193,6 +193,8 @@ TEST_F(Dynamo, BadNumbersAndCountsAreNamed) {
            Case{"\"0.9\"", "\"1.1\"",
                 "line 16: Interaction Elasticity = 1.1: expected a number from"},
            Case{"<Pt ID=\"1\"", "<Pt ID=\"0\"", "line 38: Pt ID = 0: expected 1: particles are "},
+           Case{"OrientationData", "N=\"3\" OrientationData",
+                "line 31: ParticleData N = 3: expected 2, the number of particles"},
            Case{"<Pt ID=\"1\"", "<Pt ID=\"2\"", "line 38: Pt ID = 2: expected 1: particles are "},
            Case{"<V x=\"0.3\" y=\"0.2\" z=\"-0.1\"/>", "",
                 "line 38: Pt: V is missing: expected one"},

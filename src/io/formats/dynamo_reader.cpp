@@ -194,12 +194,15 @@ void read_particle(const XmlElement& particle, State& state) {
 
 void read_particles(const XmlElement& root, State& state) {
   const XmlElement data = root.child("ParticleData");
-  data.require_only({"OrientationData"}, {"Pt"});
+  data.require_only({"OrientationData", "N"}, {"Pt"});
   if (!data.has("OrientationData")) {
     data.reject("OrientationData is missing: expected particles with orientations");
   }
   for (auto particle = data.first("Pt"); particle; particle = particle->next()) {
     read_particle(*particle, state);
+  }
+  if (data.has("N") && data.number("N") != static_cast<double>(state.size())) {
+    data.reject("N", fmt::format("{}, the number of particles", state.size()));
   }
 }
 
