@@ -104,7 +104,7 @@ int run(const ExportArguments& arguments) {
     return bad_usage;
   }
   if (!fits(*format, to)) {
-    print_warning(fmt::format("OUT {}: will be {} all the same: expected a name that ends in {}",
+    print_warning(fmt::format("OUT {}: will be {} nevertheless: expected a name that ends in {}",
                               to, format->what, format->endings.front()));
   }
   export_frames(arguments, *format);

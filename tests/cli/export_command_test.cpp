@@ -101,7 +101,7 @@ TEST_F(ExportCommand, WritesAllFramesWhereTheFormatHoldsThem) {
   EXPECT_EQ(count("a.xyz", "Lattice"), 3);
   EXPECT_EQ(
       run("export a.h5 a.txt --to lammps --frame all").err,
-      "needlework: warning: OUT a.txt: will be a dump of LAMMPS all the same: expected a name "
+      "needlework: warning: OUT a.txt: will be a dump of LAMMPS nevertheless: expected a name "
       "that ends in .dump\n");
   EXPECT_EQ(count("a.txt", "ITEM: TIMESTEP"), 3);
   EXPECT_EQ(run("export a.h5 a.pvd").exit_code, 0);
