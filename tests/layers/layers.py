@@ -53,6 +53,7 @@ FREE = ["bench", "tests"]  # may use anything; nothing else may use them
 LIBRARIES = [
     (r"hdf5\.h|H5.*", ["io", "runs"]),
     (r"toml\+\+/.*", ["scene"]),
+    (r"bzlib\.h|pugixml\.hpp", ["io"]),
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
