@@ -3,11 +3,9 @@
 #include <cstring>
 #include <string_view>
 
-#include "needlework/h5md.h"
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
-#include "src/runs/output_path.h"
-#include "src/scene/accuracy.h"
+#include "src/runs/state_file.h"
 
 using namespace needlework;
 
@@ -50,18 +48,7 @@ int needlework_get_state(needlework_simulation* simulation, const needlework_sta
 int needlework_write_state(needlework_simulation* simulation, const char* path, unsigned flags) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(path, "path");
-    const Simulation& source = self.run.simulation();
-    Scene scene = self.run.scene();
-    scene.output.events = false;
-    runs::require_writable(path, flags & NEEDLEWORK_REPLACE, path);
-    io::Writer writer(path, flags & NEEDLEWORK_REPLACE, scene,
-                      {.isa = source.isa(),
-                       .threads = scene.engine.threads.value_or(1),
-                       .epoch_length = source.epoch_length(),
-                       .accuracy = accuracy_name(scene.engine)});
-    writer.write_series(source.totals());
-    writer.write_frame(source.totals(), source.copy());
-    writer.close();
+    runs::write_state(self.run.simulation(), self.run.scene(), path, flags & NEEDLEWORK_REPLACE);
   });
 }
 
