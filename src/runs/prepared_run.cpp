@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <utility>
 
 #include "needlework/error.h"
@@ -74,7 +75,9 @@ Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
     const Stop stop = driver_->advance(until, monitor);
     batches_->flush();
     return stop;
-  } catch (const InvalidStateError&) {
+  } catch (const std::bad_alloc&) {
+    throw;  // in the middle of an event, so that it must not be replaced by an error of the caller
+  } catch (...) {
     batches_->flush();
     throw;
   }
