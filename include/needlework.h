@@ -86,7 +86,8 @@ typedef struct needlework_const_vectors {
   ptrdiff_t row, column;
 } needlework_const_vectors;
 
-/* The state to start from. The scene's count and box, where given, must agree with it. */
+/* The state to start from. The scene's count and box, where given, must agree with it. Positions
+ * beyond the box are moved into it, and images count from 0. */
 typedef struct needlework_initial {
   size_t count;
   double box[3];                             /* edges; all 0: those of the scene */

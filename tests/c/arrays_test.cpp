@@ -11,20 +11,20 @@ namespace {
 using test::Arrays;
 using test::cooling;
 using test::CSimulation;
+using test::expect_same_start;
 
 const std::string rule = "collisions = { epsilon = 0.9, tc_relative = 1e-3 }\n";
 
-TEST(CArrays, StartTheRunThatTheyWereCopiedFrom) {
+TEST(CArrays, StartASimulationAndComeBack) {
   const CSimulation drawn(cooling);
+  drawn.run_to(100);
   const Arrays arrays(drawn);
   const CSimulation given(rule, arrays.initial(5));
   ASSERT_NE(given, nullptr) << given.error.message;
-  EXPECT_EQ(Arrays(given), arrays);
   EXPECT_EQ(needlework_count(given), 60u);
-  given.run_to(200);
-  drawn.run_to(200);
-  EXPECT_EQ(given.hash(), drawn.hash());
-  EXPECT_EQ(Arrays(given), Arrays(drawn));
+  expect_same_start(Arrays(given), arrays);
+  EXPECT_NEAR(given.totals().energy, drawn.totals().energy, 1e-14);
+  EXPECT_EQ(given.totals().time, 0);
 }
 
 TEST(CArrays, MayBeColumnMajorAsInFortran) {
@@ -56,7 +56,11 @@ TEST(CArrays, MayBeColumnMajorAsInFortran) {
   initial.id = nullptr;  // those of a drawn state are 0 to N - 1 as well
   const CSimulation given(rule, initial);
   ASSERT_NE(given, nullptr) << given.error.message;
-  EXPECT_EQ(Arrays(given), rows);
+  expect_same_start(Arrays(given), rows);
+  const CSimulation of_rows(rule, rows.initial(5));
+  of_rows.run_to(200);
+  given.run_to(200);
+  EXPECT_EQ(given.hash(), of_rows.hash());
 }
 
 TEST(CArrays, MayLieInStructuresAndBackwards) {
@@ -80,7 +84,11 @@ TEST(CArrays, MayLieInStructuresAndBackwards) {
       nullptr};
   const CSimulation given(rule, initial);
   ASSERT_NE(given, nullptr) << given.error.message;
-  EXPECT_EQ(Arrays(given), rows);
+  expect_same_start(Arrays(given), rows);
+  const CSimulation of_rows(rule, rows.initial(5));
+  of_rows.run_to(200);
+  given.run_to(200);
+  EXPECT_EQ(given.hash(), of_rows.hash());
 }
 
 TEST(CArrays, MayLeaveOutVelocitiesIdsAndTheBoxOfTheScene) {
@@ -95,7 +103,7 @@ TEST(CArrays, MayLeaveOutVelocitiesIdsAndTheBoxOfTheScene) {
   expected.position = {1, 1, 1, 3, 3, 3};
   expected.orientation = {1, 0, 0, 0, 0, -1};
   expected.id = {0, 1};
-  EXPECT_EQ(Arrays(given), expected);
+  expect_same_start(Arrays(given), expected);
 }
 
 TEST(CArrays, ComeBackByIncreasingId) {

@@ -46,9 +46,10 @@ TEST(CCallback, IsGivenEveryCollisionOnceInOrder) {
     times.push_back(seen.times());
     EXPECT_TRUE(std::is_sorted(times.back().begin(), times.back().end()));
     EXPECT_LE(*std::max_element(seen.sizes.begin(), seen.sizes.end()), batch);
-    if (batch == 7)
+    if (batch == 7) {
       EXPECT_EQ(seen.sizes,
                 (std::vector<std::size_t>{7, 7, 7, 7, 2, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7}));
+    }
   }
   EXPECT_EQ(times[0], times[1]);
   EXPECT_EQ(times[0], times[2]);

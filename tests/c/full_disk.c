@@ -1,4 +1,4 @@
-/* Runs where files cannot grow beyond some 40 KiB: full_disk FOLDER. Exits with 0 if all failures
+/* Runs where files cannot grow beyond 300 KiB: full_disk FOLDER. Exits with 0 if all failures
  * are reported as they should be. */
 #include <stdio.h>
 #include <string.h>
