@@ -81,7 +81,9 @@ void with_each_failure(const std::function<bool(long)>& attempt) {
   std::printf("failed %ld times, succeeds with %ld allocations\n", failed, n);
 }
 
+/// A failure while HDF5 calls back is one of the file to it.
 void expect_memory_error(int code, const std::string& message) {
+  if (code == NEEDLEWORK_IO && message.find("HDF5: ") != message.npos) return;
   EXPECT_EQ(code, NEEDLEWORK_INPUT);
   EXPECT_TRUE(message.starts_with("not enough memory")) << message;
 }
@@ -146,23 +148,23 @@ TEST(CWithoutMemory, RunsNoFurther) {
 }
 
 TEST(CWithoutMemory, HandsOverSmallerBatches) {
-  const CSimulation simulation(cooling + "engine.threads = 1\n");
-  simulation.run_to(10);  // has its memory
-  std::size_t seen = 0;
-  const auto count = [](const needlework_collision*, std::size_t number, void* user) {
-    *static_cast<std::size_t*>(user) += number;
-    return 0;
-  };
-  EXPECT_EQ(needlework_set_callback(simulation, 1000000, count, &seen), NEEDLEWORK_OK);
-  const needlework_limits limits{0, 20, 0, 0, 0};
-  int code = NEEDLEWORK_OK;
+  const CSimulation simulation(cooling);
+  struct Seen {
+    std::size_t collisions = 0, calls = 0;
+    static int add(const needlework_collision*, std::size_t count, void* user) {
+      Seen& seen = *static_cast<Seen*>(user);
+      seen.collisions += count;
+      ++seen.calls;
+      return 0;
+    }
+  } seen;
+  EXPECT_EQ(needlework_set_callback(simulation, 1000000, Seen::add, &seen), NEEDLEWORK_OK);
   {
-    const FailFrom failing(0);
-    code = needlework_run_until(simulation, &limits, nullptr);
+    const FailFrom failing(0, 32 * sizeof(needlework_collision));
+    simulation.run_to(200);
   }
-  // Where the engine needs none itself, the run succeeds.
-  EXPECT_TRUE(code != NEEDLEWORK_OK || seen == 10) << seen;
-  EXPECT_EQ(seen, simulation.totals().collisions - 10);
+  EXPECT_EQ(seen.collisions, 200u);
+  EXPECT_GT(seen.calls, 5u);
 }
 
 TEST(CWithoutMemory, LooksAtNothingAndStaysWhole) {
@@ -182,7 +184,7 @@ TEST(CWithoutMemory, LooksAtNothingAndStaysWhole) {
       [&] { return needlework_setting(simulation, "search") ? NEEDLEWORK_OK : NEEDLEWORK_INPUT; },
   };
   for (const auto& call : calls) {
-    for (long n = 0;; ++n) {
+    for (long n = 0;; n += 1 + n / 16) {
       const FailFrom failing(n);
       const int code = call();
       left = -1;

@@ -88,8 +88,8 @@ def in_fortran(installed, root):
 def main(language, build, root, flags=""):
     skip_without("pkg-config", "gfortran" if language == "fortran" else "cc")
     with tempfile.TemporaryDirectory() as folder:
-        installed = Installed(Path(build), Path(folder), flags)
-        (in_fortran if language == "fortran" else in_c)(installed, Path(root))
+        installed = Installed(Path(build).resolve(), Path(folder), flags)
+        (in_fortran if language == "fortran" else in_c)(installed, Path(root).resolve())
 
 
 if __name__ == "__main__":
