@@ -28,6 +28,7 @@ install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
 
 install(DIRECTORY include/needlework TYPE INCLUDE)
 install(FILES include/needlework.h TYPE INCLUDE)
+install(DIRECTORY examples TYPE DOC)
 install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
 install(TARGETS needlework_c EXPORT NeedleworkCTargets)
