@@ -252,6 +252,7 @@ void set_pages(hid_t creation, const std::string& place) {
 
 OutputFile::OutputFile(std::string name, std::string place, Use use)
     : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
+  driver_ = register_driver(place_);
   const Handle creation = hdf5::without_times(H5P_FILE_CREATE, place_);
   if (use == Use::growing) set_pages(creation.get(), place_);
   const Handle access = make_access();
@@ -272,9 +273,8 @@ Handle OutputFile::make_access() const {
   // SWMR mode needs the file format of HDF5 1.10. Newer formats are excluded, so that HDF5 1.10 can
   // read the file.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
-  const Handle driver = register_driver(place_);
   const DriverSettings settings{error_.get()};
-  check(H5Pset_driver(access.get(), driver.get(), &settings), place_);
+  check(H5Pset_driver(access.get(), driver_.get(), &settings), place_);
   return access;
 }
 
