@@ -46,7 +46,7 @@ extern "C" {
 enum needlework_code {
   NEEDLEWORK_OK = 0,
   NEEDLEWORK_USAGE = 2,         /* an argument that is NULL or impossible, or a call not allowed */
-  NEEDLEWORK_INPUT = 3,         /* a scene, a state or a file that cannot be used */
+  NEEDLEWORK_INPUT = 3,         /* a scene, state or file that cannot be used; too little memory */
   NEEDLEWORK_INVALID_STATE = 4, /* the simulation cannot go on correctly */
   NEEDLEWORK_IO = 5             /* a file that cannot be read or written */
 };
