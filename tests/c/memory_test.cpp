@@ -81,9 +81,7 @@ void with_each_failure(const std::function<bool(long)>& attempt) {
   std::printf("failed %ld times, succeeds with %ld allocations\n", failed, n);
 }
 
-/// A failure while HDF5 calls back is one of the file to it.
 void expect_memory_error(int code, const std::string& message) {
-  if (code == NEEDLEWORK_IO && message.find("HDF5: ") != message.npos) return;
   EXPECT_EQ(code, NEEDLEWORK_INPUT);
   EXPECT_TRUE(message.starts_with("not enough memory")) << message;
 }
