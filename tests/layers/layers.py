@@ -41,7 +41,7 @@ LAYERS = [
           ["theory", "engine"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
-          ["base", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
+          ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "scene", "search", "observe", "io", "audit", "runs", "bindings"],
