@@ -43,7 +43,7 @@ LAYERS = [
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "scene", "search", "observe", "io", "audit", "runs"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
-    Layer("bindings", ["src/bindings"], [],
+    Layer("bindings", ["src/bindings", "src/python"], [],
           ["base", "runs"], ["theory", "trajectory", "scene", "physics", "engine", "io"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -55,6 +55,7 @@ LIBRARIES = [
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program"]),
     (r"mpi\.h", ["program"]),
+    (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),
 ]
 

@@ -1,0 +1,58 @@
+// NumPy arrays as the library's arrays, and the other way round.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace needlework::python {
+
+/// One number for each row. What is passed is converted, and copied if need be.
+using Column = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+/// One vector for each needle, [N][3]. The Python side has checked the shape.
+using Rows = Column;
+
+inline std::array<double, 3> row(const Rows& rows, std::size_t i) {
+  const double* begin = rows.data() + 3 * i;
+  return {begin[0], begin[1], begin[2]};
+}
+
+inline std::vector<std::array<double, 3>> vectors(const Rows& rows) {
+  std::vector<std::array<double, 3>> out(static_cast<std::size_t>(rows.size()) / 3);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = row(rows, i);
+  return out;
+}
+
+/// An array over `values` that keeps their owner alive. It cannot be written to, nor be made
+/// writable, because its base offers no writable buffer.
+template <class Number, class Owner>
+pybind11::array read_only(const std::vector<Number>& values, const std::shared_ptr<Owner>& owner) {
+  const pybind11::capsule base(new std::shared_ptr<Owner>(owner), [](void* pointer) {
+    delete static_cast<std::shared_ptr<Owner>*>(pointer);
+  });
+  pybind11::array_t<Number> array(static_cast<pybind11::ssize_t>(values.size()), values.data(),
+                                  base);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return std::move(array);
+}
+
+/// The same for vectors, with the shape [N][3].
+template <class Number, class Owner>
+pybind11::array read_only(const std::vector<std::array<Number, 3>>& values,
+                          const std::shared_ptr<Owner>& owner) {
+  const pybind11::capsule base(new std::shared_ptr<Owner>(owner), [](void* pointer) {
+    delete static_cast<std::shared_ptr<Owner>*>(pointer);
+  });
+  const auto count = static_cast<pybind11::ssize_t>(values.size());
+  const Number* begin = values.empty() ? nullptr : values.front().data();
+  pybind11::array_t<Number> array({count, pybind11::ssize_t{3}}, begin, base);
+  array.attr("setflags")(pybind11::arg("write") = false);
+  return std::move(array);
+}
+
+}  // namespace needlework::python
