@@ -15,6 +15,13 @@ struct Override;  // document.h
 /// Largest size of a scene that is read [bytes].
 inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 
+/// What a caller provides in code, so that the text of a scene may leave it out.
+struct Provided {
+  bool state = false;  ///< the initial state: count and box may be missing, and are then 0; keys
+                       ///< that describe another state are errors
+  bool end = false;    ///< the conditions that end the run: [until] may be missing
+};
+
 /// Parses the text of a scene. `name` is used in messages.
 ///
 /// Each override reads "section.key=value" or "title=value" with a value in TOML. A value that is
@@ -27,24 +34,25 @@ inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 ///
 /// Without overrides the scene's text is the text as read. Each override is appended to it as a
 /// comment "# --set section.key=value". needles.count and needles.box may be missing only if
-/// initial.file is given; they are then 0.
+/// initial.file is given or the caller provides the state; they are then 0.
 ///
 /// Throws InputError with one message about the first error (syntax, then the file by line, then
 /// the overrides in order, then missing keys): "NAME: line N: section.key = VALUE: expected ...",
 /// "NAME: section.key is missing: expected ...", "NAME: line N: REASON" for text that is not TOML,
 /// or "--set section.key=VALUE: expected ...". Messages contain no control characters.
 Scene parse_scene(std::string_view text, std::string_view name,
-                  std::span<const std::string> overrides = {});
+                  std::span<const std::string> overrides = {}, Provided provided = {});
 
 /// The same for overrides that messages may attribute to another source than --set.
 Scene parse_overridden_scene(std::string_view text, std::string_view name,
-                             std::span<const Override> overrides);
+                             std::span<const Override> overrides, Provided provided = {});
 
 /// The text of a scene file, or its first part if it is longer than max_scene_bytes, which
 /// parse_scene then rejects. Throws IoError if it cannot be read.
 std::string read_scene_text(const std::string& path);
 
 /// Reads and parses a scene file. Throws IoError if it cannot be read.
-Scene read_scene(const std::string& path, std::span<const std::string> overrides = {});
+Scene read_scene(const std::string& path, std::span<const std::string> overrides = {},
+                 Provided provided = {});
 
 }  // namespace needlework

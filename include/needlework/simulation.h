@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -42,13 +43,17 @@ class Simulation {
   /// no longer, at that moment.
   void on_collision(std::function<void(const Collision&)> callback);
 
-  /// Stops `advance` soon. May be called from a signal handler or another thread.
+  /// Stops `advance` soon: the call in progress, or else the next one, which then returns before
+  /// any further event. May be called from a signal handler or another thread.
   void interrupt() noexcept;
 
   Totals totals() const;
   const Counters& counters() const;
 
+  std::size_t needles() const;          ///< number of needles
+  std::uint64_t collisions() const;     ///< of all needles since the start of the run
   double time() const;                  ///< since the start of the run
+  double initial_energy() const;        ///< per needle at the start, to which energy_ratio refers
   double epoch_length() const;          ///< power of two near the initial mean free time
   double mean_free_time() const;        ///< by kinetic theory, from the temperatures at the start
                                         ///< of the present window

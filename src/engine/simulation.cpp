@@ -115,8 +115,12 @@ struct Simulation::Implementation {
   }
 
   Stop advance(const Scene::Until& until) {
-    run.interrupted = false;
-    Limits limits(run, until);
+    const Stop stop = advance(Limits(run, until));
+    // An interruption must not be lost when it comes just as a condition is met.
+    return run.interrupted.exchange(false) ? Stop::interrupted : stop;
+  }
+
+  Stop advance(Limits limits) {
     if (const auto stop = limits.reached_without_events(run)) return *stop;
     for (;;) {
       if (!loop) begin_loop();
@@ -166,6 +170,11 @@ Totals Simulation::totals() const { return implementation_->run.totals(); }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
   return implementation_->run.gas.clock.since_start(implementation_->run.now);
+}
+std::size_t Simulation::needles() const { return implementation_->run.gas.size(); }
+std::uint64_t Simulation::collisions() const { return implementation_->run.tally.collisions; }
+double Simulation::initial_energy() const {
+  return implementation_->run.initial_energy / static_cast<double>(implementation_->run.gas.size());
 }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }

@@ -30,15 +30,18 @@ State read_initial_state(const Scene& scene) {
 }  // namespace
 
 LoadedScene complete_scene(Scene given) {
-  LoadedScene loaded{.scene = std::move(given), .initial = {}};
-  Scene& scene = loaded.scene;
-  choose_engine(scene);
-  require_memory(scene);
-  if (!scene.initial.file.empty()) {
-    loaded.initial = read_initial_state(scene);
-    adopt_count_and_box(scene, *loaded.initial);
-    require_memory(scene);
-  }
+  choose_engine(given);
+  require_memory(given);
+  if (given.initial.file.empty()) return {.scene = std::move(given), .initial = {}};
+  State initial = read_initial_state(given);
+  return complete_scene(std::move(given), std::move(initial));
+}
+
+LoadedScene complete_scene(Scene given, State initial) {
+  LoadedScene loaded{.scene = std::move(given), .initial = std::move(initial)};
+  choose_engine(loaded.scene);
+  adopt_count_and_box(loaded.scene, *loaded.initial);
+  require_memory(loaded.scene);
   return loaded;
 }
 

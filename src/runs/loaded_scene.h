@@ -20,6 +20,8 @@ struct LoadedScene {
 /// Throws InputError for an engine that is not on offer, for a state that does not fit, and for
 /// more needles than the memory of this machine can hold; IoError for a file that cannot be read.
 LoadedScene complete_scene(Scene given);
+/// The same for a scene that starts from this state, of which count and box are filled in.
+LoadedScene complete_scene(Scene given, State initial);
 
 /// The state's sums at time 0.
 Totals totals_of(const State& state, const Scene& scene);

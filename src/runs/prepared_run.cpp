@@ -38,10 +38,17 @@ io::Writer open_output(const Simulation& simulation, const Scene& scene, bool fo
 }  // namespace
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path)
+    : PreparedRun(std::move(loaded), force, &path) {}
+
+PreparedRun::PreparedRun(LoadedScene loaded, bool force)
+    : PreparedRun(std::move(loaded), force, nullptr) {}
+
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path)
     : scene_(std::move(loaded.scene)), simulation_(make_simulation(loaded)) {
   loaded.initial.reset();
-  require_events(simulation_, scene_, path);
+  if (path) require_events(simulation_, scene_, *path);
   if (!scene_.output.file.empty()) writer_.emplace(open_output(simulation_, scene_, force));
+  driver_.emplace(simulation_, scene_, writer_ ? &*writer_ : nullptr, path != nullptr);
 }
 
 Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
@@ -52,9 +59,44 @@ Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
 }
 
 Course PreparedRun::drive(RunMonitor& monitor) {
-  Course course = RunDriver(simulation_, scene_, writer_ ? &*writer_ : nullptr, monitor).run();
+  std::optional<std::string> failure;
+  try {
+    driver_->advance(scene_.until, monitor);
+  } catch (const InvalidStateError& error) {
+    failure = error.what();
+  }
+  monitor.clear();
+  Course course = driver_->finish();
+  course.failure = std::move(failure);
   if (writer_) writer_->close();
   return course;
+}
+
+Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
+  if (!batches_) return driver_->advance(until, monitor);
+  try {
+    const Stop stop = driver_->advance(until, monitor);
+    batches_->flush();
+    return stop;
+  } catch (const InvalidStateError&) {
+    batches_->flush();
+    throw;
+  }
+}
+
+void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback callback) {
+  driver_->on_collision({});
+  batches_.reset();
+  if (!callback) return;
+  batches_.emplace(simulation_, batch, std::move(callback));
+  driver_->on_collision([this](const Collision& collision) { batches_->add(collision); });
+}
+
+void PreparedRun::close() {
+  if (!writer_) return;
+  driver_->finish();
+  writer_->close();
+  writer_.reset();
 }
 
 }  // namespace needlework::runs

@@ -1,12 +1,16 @@
-// A run made ready to go: its simulation and its file.
+// A run made ready to go: its simulation and the output that its scene asks for.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
+#include "src/runs/collision_batches.h"
+#include "src/runs/limits.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/run_driver.h"
 
@@ -16,29 +20,49 @@ namespace needlework::runs {
 /// time is set.
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
 
-/// Made of a scene; writes to its output.file if that is not empty.
+/// Made of a scene; writes to its output.file if that is not empty. A front end either drives it to
+/// the end that the scene sets, or advances it piece by piece.
 class PreparedRun {
  public:
-  /// `path` names the scene in messages; `force` replaces an existing file. Throws InputError if
-  /// nothing can ever happen, and IoError if the file cannot be written.
+  /// For drive(): `path` names the scene in messages; `force` replaces an existing file. Throws
+  /// InputError if nothing can ever happen, and IoError if the file cannot be written.
   PreparedRun(LoadedScene loaded, bool force, const std::string& path);
+  /// For advance(): takes samples for the output file only.
+  PreparedRun(LoadedScene loaded, bool force);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
-  /// Runs to the end, to be called once; see RunDriver. Closes the file.
+  /// Runs to the end, to be called once; see RunDriver. Closes the file. Catches InvalidStateError:
+  /// its message is in the Course.
   Course drive(RunMonitor& monitor);
+
+  /// Advances until the first of the conditions is met, which count from the start of the run. The
+  /// function of on_collisions() has seen all collisions when this returns. Throws what
+  /// RunDriver::advance() throws, and what that function has thrown.
+  Stop advance(const Scene::Until& until, RunMonitor& monitor);
+  /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
+  /// of each advance those that are left; see CollisionBatches.
+  void on_collisions(std::size_t batch, CollisionBatches::Callback callback);
+  /// Writes the sample and the frame of the end, and closes the file. Then only the simulation may
+  /// be used. Does nothing when called again. Throws IoError. Without it, the file ends with the
+  /// last sample that was due.
+  void close();
 
   const Scene& scene() const { return scene_; }
   Simulation& simulation() { return simulation_; }
+  const Simulation& simulation() const { return simulation_; }
   double setup_s() const { return setup_.wall(); }
 
  private:
+  PreparedRun(LoadedScene loaded, bool force, const std::string* path);
   Simulation make_simulation(const LoadedScene& loaded);
 
   Scene scene_;
   Stopwatch setup_;
   Simulation simulation_;
   std::optional<io::Writer> writer_;
+  std::optional<RunDriver> driver_;
+  std::optional<CollisionBatches> batches_;
 };
 
 }  // namespace needlework::runs

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "needlework/error.h"
 #include "src/observe/completion.h"
 #include "src/runs/loaded_scene.h"
 
 namespace needlework::runs {
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock [s].
-constexpr double longest_step = 0.25;
+/// Longest stay in the event loop between two looks at the clock and at the monitor [s].
+constexpr double longest_step = 0.1;
 /// Longest time for which results are not yet safe in the file [s].
 constexpr double flush_interval = 10;
 /// Series begin at this share of the mean free time.
@@ -23,84 +23,107 @@ Schedule frame_schedule(const Scene::Output& output, double start) {
   return Schedule::at(output.frame_times);
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Counts time from the beginning to the end of its life, also where an exception ends it.
+class Timed {
+ public:
+  explicit Timed(Stopwatch& stopwatch) : stopwatch_(stopwatch) { stopwatch.start(); }
+  ~Timed() { stopwatch_.stop(); }
+
+ private:
+  Stopwatch& stopwatch_;
+};
+
 }  // namespace
 
 RunDriver::RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer,
-                     RunMonitor& monitor)
-    : simulation_(simulation), scene_(scene), writer_(writer), monitor_(monitor) {
+                     bool keeps_course)
+    : simulation_(simulation), scene_(scene), writer_(writer), keeps_course_(keeps_course) {
+  if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
   series_ = Schedule::logarithmic(scene.output.series_per_decade, start);
   frames_ = frame_schedule(scene.output, start);
 }
 
-Course RunDriver::run() {
-  start_ = std::chrono::steady_clock::now();
-  listen_to_collisions();
-  course_.initial = simulation_.totals();
-  sample(true, true);
-  series_.pass(0);
-  frames_.pass(0);
-  try {
-    step_until_end();
-  } catch (const InvalidStateError& error) {
-    course_.failure = error.what();
-    course_.loop.stop();
+Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
+  const auto start = SteadyClock::now();
+  if (!begun_) begin();
+  for (;;) {
+    if (monitor.stop_requested()) return course_.stop = Stop::interrupted;
+    if (until.wall_s && seconds_since(start) >= *until.wall_s) {
+      return course_.stop = Stop::wall_time;
+    }
+    if (const auto stop = step(until, start)) return course_.stop = *stop;
+    flush_if_due();
+    if (const double elapsed = seconds_since(start); monitor.is_due(elapsed)) {
+      show_progress(until, elapsed, monitor);
+    }
   }
-  monitor_.clear();
-  sample_end();
+}
+
+Course RunDriver::finish() {
+  if (!begun_) begin();
+  course_.last = simulation_.totals();
+  if (samples()) {
+    // The end belongs to the series and to the frames, unless it has just been sampled.
+    const bool series = last_sample_->time != course_.last.time ||
+                        last_sample_->collisions != course_.last.collisions;
+    sample(series, last_frame_ != course_.last.time);
+  }
+  if (writer_) flush();
   if (rate_) course_.system_rate = rate_->estimate(course_.last.time);
   return std::move(course_);
 }
 
-double RunDriver::elapsed() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
+  callback_ = std::move(callback);
+  listen_to_collisions();
+}
+
+void RunDriver::begin() {
+  begun_ = true;
+  last_flush_ = SteadyClock::now();
+  if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
+  listen_to_collisions();
+  course_.initial = simulation_.totals();
+  if (!samples()) return;
+  sample(true, true);
+  series_.pass(0);
+  frames_.pass(0);
 }
 
 void RunDriver::listen_to_collisions() {
   const bool events = writer_ && scene_.output.events;
-  if (starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
-  if (!rate_ && !events) return;
+  if (!rate_ && !events) {
+    simulation_.on_collision(callback_);
+    return;
+  }
   simulation_.on_collision([this, events](const Collision& collision) {
     if (rate_) rate_->add(collision.time);
     if (events) writer_->write_event(collision);
+    if (callback_) callback_(collision);
   });
 }
 
-void RunDriver::step_until_end() {
-  for (;;) {
-    if (monitor_.stop_requested()) {
-      course_.stop = Stop::interrupted;
-      return;
-    }
-    if (scene_.until.wall_s && elapsed() >= *scene_.until.wall_s) {
-      course_.stop = Stop::wall_time;
-      return;
-    }
-    if (const auto stop = step()) {
-      course_.stop = *stop;
-      return;
-    }
-    keep_safe();
-    if (monitor_.is_due(elapsed())) show_progress();
-  }
-}
-
-// One stay in the event loop; a value when one of the scene's own conditions is met.
-std::optional<Stop> RunDriver::step() {
-  Scene::Until until = scene_.until;
+// One stay in the event loop; a value when one of the conditions is met.
+std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time_point start) {
+  Scene::Until limits = until;
   const double next = std::min(series_.next(), frames_.next());
   const bool to_sample = std::isfinite(next) && !(until.time && *until.time <= next);
-  if (to_sample) until.time = next;
-  until.wall_s = longest_step;
-  if (scene_.until.wall_s) {
-    until.wall_s = std::clamp(*scene_.until.wall_s - elapsed(), 0.0, longest_step);
+  if (to_sample) limits.time = next;
+  limits.wall_s = longest_step;
+  if (until.wall_s) {
+    limits.wall_s = std::clamp(*until.wall_s - seconds_since(start), 0.0, longest_step);
   }
 
-  course_.loop.start();
-  const Stop stop = simulation_.advance(until);
-  course_.loop.stop();
-
-  if (stop == Stop::wall_time || stop == Stop::interrupted) return std::nullopt;
+  const Stop stop = [&] {
+    const Timed timed(course_.loop);
+    return simulation_.advance(limits);
+  }();
+  if (stop == Stop::wall_time) return std::nullopt;
   if (stop != Stop::time || !to_sample) return stop;
   sample(series_.next() <= next, frames_.next() <= next);
   series_.pass(next);
@@ -111,39 +134,32 @@ std::optional<Stop> RunDriver::step() {
 void RunDriver::sample(bool series, bool frame) {
   const Totals totals = simulation_.totals();
   if (series) {
-    course_.samples.push_back(totals);
+    last_sample_ = totals;
+    if (keeps_course_) course_.samples.push_back(totals);
     if (writer_) writer_->write_series(totals);
   }
   if (frame && writer_) {
     writer_->write_frame(totals, simulation_.copy());
     last_frame_ = totals.time;
-    writer_->flush();
-    last_flush_ = elapsed();
+    flush();
   }
 }
 
-// The end belongs to the series and to the frames, unless it has just been sampled.
-void RunDriver::sample_end() {
-  course_.last = simulation_.totals();
-  const Totals& sampled = course_.samples.back();
-  const bool series =
-      sampled.time != course_.last.time || sampled.collisions != course_.last.collisions;
-  const bool frame = last_frame_ != course_.last.time;
-  sample(series, frame);
-  if (writer_) writer_->flush();
-}
-
-void RunDriver::keep_safe() {
-  if (!writer_ || elapsed() - last_flush_ < flush_interval) return;
+void RunDriver::flush() {
   writer_->flush();
-  last_flush_ = elapsed();
+  last_flush_ = SteadyClock::now();
 }
 
-void RunDriver::show_progress() {
+void RunDriver::flush_if_due() {
+  if (writer_ && seconds_since(last_flush_) >= flush_interval) flush();
+}
+
+void RunDriver::show_progress(const Scene::Until& until, double elapsed,
+                              RunMonitor& monitor) const {
   const Totals now = simulation_.totals();
-  const double fraction = completed_fraction(scene_.until, course_.initial, now,
-                                             static_cast<double>(scene_.needles.count), elapsed());
-  monitor_.show(elapsed(), fraction, now, course_.initial.energy);
+  const double fraction = completed_fraction(until, course_.initial, now,
+                                             static_cast<double>(scene_.needles.count), elapsed);
+  monitor.show(elapsed, fraction, now, course_.initial.energy);
 }
 
 }  // namespace needlework::runs

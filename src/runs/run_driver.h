@@ -1,7 +1,8 @@
-// Drives a simulation to its end: samples, output, progress.
+// Advances a simulation with the output that its scene asks for: samples, frames, events.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,37 +27,51 @@ struct Course {
   BlockRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
-/// Runs a simulation until its scene says so, in steps from sample to sample, and in short steps of
-/// wall time between them. Neither changes the trajectory.
+/// Advances a simulation in steps from sample to sample, and in short steps of wall time between
+/// them. Neither changes the trajectory.
 class RunDriver {
  public:
-  /// `writer` may be null. All must live as long as the driver.
-  RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer, RunMonitor& monitor);
+  /// `writer` may be null. All must live as long as the driver. `keeps_course` says whether someone
+  /// wants the samples and the rate of the Course; without that and without a writer, the driver
+  /// takes no samples.
+  RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer, bool keeps_course);
 
-  /// Returns with everything written and flushed, also when the monitor asks to
-  /// stop, at the limit of wall time and when the state has become invalid.
-  Course run();
+  /// Advances until the first of the conditions is met or the monitor asks to stop. The conditions
+  /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
+  /// throws, and IoError if the output cannot be written.
+  Stop advance(const Scene::Until& until, RunMonitor& monitor);
+
+  /// Writes and flushes the sample and the frame of the end. To be called once, at the end.
+  Course finish();
+
+  /// Sets a function that is called for each collision, beside what the output needs; see
+  /// Simulation::on_collision().
+  void on_collision(std::function<void(const Collision&)> callback);
 
  private:
-  double elapsed() const;
+  using SteadyClock = std::chrono::steady_clock;
+
+  bool samples() const { return writer_ || keeps_course_; }
+  void begin();
   void listen_to_collisions();
-  void step_until_end();
-  std::optional<Stop> step();
+  std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
-  void sample_end();
-  void keep_safe();
-  void show_progress();
+  void flush();
+  void flush_if_due();
+  void show_progress(const Scene::Until& until, double elapsed, RunMonitor& monitor) const;
 
   Simulation& simulation_;
   const Scene& scene_;
   io::Writer* writer_;
-  RunMonitor& monitor_;
+  const bool keeps_course_;
+  bool begun_ = false;
   Schedule series_, frames_;
   std::optional<BlockRate> rate_;
+  std::function<void(const Collision&)> callback_;
   Course course_;
-  std::chrono::steady_clock::time_point start_;
-  double last_flush_ = 0;
+  std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
+  SteadyClock::time_point last_flush_;
 };
 
 }  // namespace needlework::runs

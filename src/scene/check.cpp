@@ -127,11 +127,11 @@ std::string place_of(const Scene& scene, std::string_view key, std::string_view 
 
 void adopt_count_and_box(Scene& scene, const State& state) {
   Scene::Needles& needles = scene.needles;
-  const std::string& file = scene.initial.file;
+  const std::string source = scene.initial.file.empty() ? "the state" : scene.initial.file;
   if (needles.count != 0 && needles.count != state.size()) {
     throw InputError(fmt::format("{}: expected {}, as in {}",
                                  place_of(scene, "needles.count", fmt::to_string(needles.count)),
-                                 state.size(), file));
+                                 state.size(), source));
   }
   const bool given = needles.box != std::array<double, 3>{};
   const auto agrees = [](double edge, double expected) {
@@ -143,11 +143,11 @@ void adopt_count_and_box(Scene& scene, const State& state) {
   if (given && !std::equal(needles.box.begin(), needles.box.end(), state.box.begin(), agrees)) {
     throw InputError(fmt::format("{}: expected {}, as in {}",
                                  place_of(scene, "needles.box", text(needles.box)), text(state.box),
-                                 file));
+                                 source));
   }
   needles.count = state.size();
   needles.box = state.box;
-  scene.places.emplace("needles.count", fmt::format("{}: {} needles", file, needles.count));
+  scene.places.emplace("needles.count", fmt::format("{}: {} needles", source, needles.count));
 }
 
 }  // namespace needlework

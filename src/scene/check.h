@@ -22,10 +22,10 @@ std::vector<std::string> accuracy_warnings(const Scene::Engine& engine);
 /// place is unknown.
 std::string place_of(const Scene& scene, std::string_view key, std::string_view value);
 
-/// Completes a scene that starts from scene.initial.file with the count and the box of the state
-/// read from that file. If the scene gives them itself (not 0), they must agree, edges to a
-/// relative 1e-12; otherwise throws InputError: "PLACE: expected ..., as in FILE". A count that
-/// the scene does not give is attributed to the file in later messages.
+/// Completes a scene that starts from a given state, read from scene.initial.file if that is not
+/// empty, with its count and box. If the scene gives them itself (not 0), they must agree, edges
+/// to a relative 1e-12; otherwise throws InputError: "PLACE: expected ..., as in FILE". A count
+/// that the scene does not give is attributed to the file in later messages.
 void adopt_count_and_box(Scene& scene, const State& state);
 
 }  // namespace needlework

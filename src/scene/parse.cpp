@@ -74,8 +74,17 @@ void adopt_species(Scene& scene) {
   }
 }
 
-// The requirement that a key violates because an earlier key excludes it; empty if there is none.
-std::string_view conflict(const std::string& name, const std::set<std::string>& given) {
+// Whether a key describes the initial state, apart from count and box.
+bool describes_state(const std::string& name) {
+  return name == "initial.file" || name == "initial.t_tr" || name == "initial.t_rot" ||
+         name == "species.t_tr" || name == "species.t_rot";
+}
+
+// The requirement that a key violates because of what the caller provides or because an earlier
+// key excludes it; empty if there is none.
+std::string_view conflict(const std::string& name, const std::set<std::string>& given,
+                          Provided provided) {
+  if (provided.state && describes_state(name)) return "expected none, as the state is given apart";
   const auto has = [&](const char* other) { return given.contains(other); };
   if ((name == "collisions.tc" && has("collisions.tc_relative")) ||
       (name == "collisions.tc_relative" && has("collisions.tc")))
@@ -99,11 +108,12 @@ std::string_view conflict(const std::string& name, const std::set<std::string>& 
 }
 
 void require_what_is_needed(const Scene& scene, const Document& document,
-                            const std::set<std::string>& given) {
+                            const std::set<std::string>& given, Provided provided) {
+  const bool has_state = provided.state || !scene.initial.file.empty();
   const char* section = scene.species.empty() ? "needles" : "species";
   for (const auto& [where, key] : {std::pair(section, "count"), std::pair("needles", "box")}) {
     const std::string name = fmt::format("{}.{}", where, key);
-    if (!given.contains(name) && scene.initial.file.empty())
+    if (!given.contains(name) && !has_state)
       throw document.missing(name,
                              fmt::format("expected {}", find_scene_key(where, key)->expected));
   }
@@ -111,6 +121,7 @@ void require_what_is_needed(const Scene& scene, const Document& document,
     throw document.missing("species.name",
                            fmt::format("expected {}", find_scene_key("species", "name")->expected));
   const Scene::Until& until = scene.until;
+  if (provided.end) return;
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s)
     throw document.missing("an end condition in [until]",
                            "expected one or more of time, collisions_per_needle, energy_ratio, "
@@ -140,14 +151,14 @@ std::string annotated(std::string_view text, std::span<const Override> overrides
 }  // namespace
 
 Scene parse_scene(std::string_view text, std::string_view name,
-                  std::span<const std::string> overrides) {
+                  std::span<const std::string> overrides, Provided provided) {
   std::vector<Override> set;
   for (const std::string& assignment : overrides) set.push_back({assignment, {}});
-  return parse_overridden_scene(text, name, set);
+  return parse_overridden_scene(text, name, set, provided);
 }
 
 Scene parse_overridden_scene(std::string_view text, std::string_view name,
-                             std::span<const Override> overrides) {
+                             std::span<const Override> overrides, Provided provided) {
   if (text.size() > max_scene_bytes)
     throw InputError(fmt::format("{}: too large: expected a scene of at most {} bytes",
                                  printable(name), max_scene_bytes));
@@ -171,13 +182,14 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     if (full_name(entry) == "needles.box") box = entry;
     if (!key->read(scene, entry.value))
       throw document.error(entry, fmt::format("expected {}", key->expected));
-    if (const std::string_view reason = conflict(full_name(entry), given); !reason.empty())
+    if (const std::string_view reason = conflict(full_name(entry), given, provided);
+        !reason.empty())
       throw document.error(entry, reason);
     given.insert(full_name(entry));
     scene.places[full_name(entry)] = document.place(entry);
   }
   if (given.contains("needles.box")) require_room(scene, document, box);
-  require_what_is_needed(scene, document, given);
+  require_what_is_needed(scene, document, given, provided);
   adopt_species(scene);
   scene.text = annotated(text, overrides);
   return scene;
@@ -197,8 +209,9 @@ std::string read_scene_text(const std::string& path) {
   return text;
 }
 
-Scene read_scene(const std::string& path, std::span<const std::string> overrides) {
-  return parse_scene(read_scene_text(path), path, overrides);
+Scene read_scene(const std::string& path, std::span<const std::string> overrides,
+                 Provided provided) {
+  return parse_scene(read_scene_text(path), path, overrides, provided);
 }
 
 }  // namespace needlework

@@ -1,0 +1,74 @@
+#include "src/runs/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "needlework/error.h"
+
+namespace needlework::runs {
+namespace {
+
+void require_valid(const Limits& limits) {
+  for (const auto& [name, value] :
+       {std::pair("time", limits.time),
+        std::pair("collisions_per_needle", limits.collisions_per_needle),
+        std::pair("energy_ratio", limits.energy_ratio), std::pair("wall_s", limits.wall_s)}) {
+    if (value && !(*value >= 0)) {
+      throw InputError(fmt::format("{} = {}: expected a number >= 0", name, *value));
+    }
+  }
+  if (limits.empty()) {
+    throw InputError(
+        "no end condition: expected one or more of time, collisions, collisions_per_needle, "
+        "energy_ratio, wall_s");
+  }
+}
+
+/// Adds the limit on the number of collisions of all needles since the start, where the gas has
+/// `needles`. It is set half a collision lower, so that rounding cannot ask for one more.
+void add_collisions(Scene::Until& until, double collisions, double needles) {
+  const double per_needle = 2 * std::max(0.0, collisions - 0.5) / needles;
+  until.collisions_per_needle =
+      std::min(per_needle, until.collisions_per_needle.value_or(per_needle));
+}
+
+}  // namespace
+
+Scene::Until from_start(const Limits& limits, const Simulation& simulation) {
+  require_valid(limits);
+  Scene::Until until{.time = limits.time,
+                     .collisions_per_needle = limits.collisions_per_needle,
+                     .energy_ratio = limits.energy_ratio,
+                     .wall_s = limits.wall_s};
+  if (limits.collisions) {
+    add_collisions(until, static_cast<double>(*limits.collisions),
+                   static_cast<double>(simulation.needles()));
+  }
+  return until;
+}
+
+Scene::Until from_now(const Limits& limits, const Simulation& simulation) {
+  require_valid(limits);
+  Scene::Until until{
+      .time = {}, .collisions_per_needle = {}, .energy_ratio = {}, .wall_s = limits.wall_s};
+  const auto needles = static_cast<double>(simulation.needles());
+  const auto done = static_cast<double>(simulation.collisions());
+  if (limits.time) until.time = simulation.time() + *limits.time;
+  if (limits.collisions_per_needle) {
+    add_collisions(until, done + std::ceil(*limits.collisions_per_needle * needles / 2), needles);
+  }
+  if (limits.collisions) {
+    add_collisions(until, done + static_cast<double>(*limits.collisions), needles);
+  }
+  if (limits.energy_ratio) {
+    const double initial = simulation.initial_energy();
+    const double share = initial > 0 ? simulation.totals().energy / initial : 1;
+    until.energy_ratio = *limits.energy_ratio * share;
+  }
+  return until;
+}
+
+}  // namespace needlework::runs

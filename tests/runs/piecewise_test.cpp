@@ -1,0 +1,100 @@
+// A front end that advances a run piece by piece gets the same run, output included.
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "needlework/h5md.h"
+#include "src/runs/prepared_run.h"
+#include "tests/support/runs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+struct Silent : RunMonitor {
+  bool is_due(double) const override { return false; }
+  void show(double, double, const Totals&, double) override {}
+};
+
+Scene cooling_scene(const std::string& file) {
+  Scene scene = test::scene_of(60, 5);
+  scene.collisions.epsilon = 0.9;
+  scene.output.file = file;
+  scene.until.collisions_per_needle = 8;
+  return scene;
+}
+
+TEST(PreparedRun, WritesTheSameSeriesInOnePieceAndInMany) {
+  const test::TemporaryFolder folder;
+  const std::string whole = folder.path() / "whole.h5", pieces = folder.path() / "pieces.h5";
+  Silent monitor;
+  PreparedRun(complete_scene(cooling_scene(whole)), false, "scene").drive(monitor);
+
+  PreparedRun run(complete_scene(cooling_scene(pieces)), false);
+  while (run.simulation().collisions() < 240) {
+    run.advance(from_now({.collisions = 7}, run.simulation()), monitor);
+    if (run.simulation().collisions() > 233) break;
+  }
+  run.advance(run.scene().until, monitor);
+  run.close();
+
+  const auto expected = io::read_run(whole).series, actual = io::read_run(pieces).series;
+  ASSERT_GT(expected.size(), 10u);
+  ASSERT_EQ(actual.size(), expected.size());
+  for (std::size_t n = 0; n < expected.size(); ++n) {
+    EXPECT_EQ(actual[n].time, expected[n].time);
+    EXPECT_EQ(actual[n].energy, expected[n].energy);
+    EXPECT_EQ(actual[n].collisions, expected[n].collisions);
+  }
+}
+
+TEST(PreparedRun, PassesOnEveryCollisionOnceInBatches) {
+  PreparedRun run(complete_scene(cooling_scene("")), false);
+  std::vector<double> times;
+  std::vector<std::size_t> sizes;
+  run.on_collisions(16, [&](std::span<const Collision> batch) {
+    sizes.push_back(batch.size());
+    for (const Collision& collision : batch) times.push_back(collision.time);
+  });
+  Silent monitor;
+  run.advance(from_now({.collisions = 40}, run.simulation()), monitor);
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{16, 16, 8}));
+  run.advance(from_now({.collisions = 40}, run.simulation()), monitor);
+  EXPECT_EQ(times.size(), 80u);
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+}
+
+TEST(PreparedRun, StopsWhenTheCallerThrowsAndGoesOnWithoutALoss) {
+  PreparedRun run(complete_scene(cooling_scene("")), false);
+  std::size_t seen = 0;
+  bool fails = true;
+  run.on_collisions(10, [&](std::span<const Collision> batch) {
+    if (fails) throw std::runtime_error("of the caller");
+    seen += batch.size();
+  });
+  Silent monitor;
+  EXPECT_THROW(run.advance(from_now({.collisions = 200}, run.simulation()), monitor),
+               std::runtime_error);
+  const std::uint64_t stopped_at = run.simulation().collisions();
+  EXPECT_GE(stopped_at, 10u);
+  EXPECT_LT(stopped_at, 200u);
+  fails = false;
+  run.advance(from_start({.collisions = 200}, run.simulation()), monitor);
+  EXPECT_EQ(seen, 190u);  // all but the batch that was refused
+
+  PreparedRun undisturbed(complete_scene(cooling_scene("")), false);
+  undisturbed.advance(from_start({.collisions = 200}, undisturbed.simulation()), monitor);
+  EXPECT_EQ(run.simulation().trajectory_hash(), undisturbed.simulation().trajectory_hash());
+}
+
+TEST(Simulation, IsInterruptedInTheNextCallIfNoneIsRunning) {
+  Simulation simulation(test::scene_of(50, 5));
+  simulation.interrupt();
+  EXPECT_EQ(simulation.advance(from_now({.collisions = 5}, simulation)), Stop::interrupted);
+  EXPECT_EQ(simulation.advance(from_start({.collisions = 5}, simulation)), Stop::collisions);
+  EXPECT_EQ(simulation.collisions(), 5u);
+}
+
+}  // namespace
+}  // namespace needlework::runs
