@@ -11,7 +11,7 @@ Simulation runs a gas, predict() finds first contacts of pairs, theory has rates
 read() opens files of runs, and plot draws them. docs/python.md is the guide.
 """
 
-from . import theory
+from . import plot, theory
 from ._core import version as __version__
 from .collisions import COLLISION, COLLISION_WITH_STATES
 from .contacts import FirstContacts, predict
@@ -25,10 +25,3 @@ __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Error", "Events", 
            "SceneWarning", "Series", "Simulation", "Table", "Totals", "Values", "plot", "predict",
            "read", "theory", "__version__"]
 
-
-def __getattr__(name: str) -> object:
-    # Matplotlib is not imported before it is used.
-    if name == "plot":
-        from . import plot
-        return plot
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,6 +1,6 @@
 """Pictures of runs, drawn with Matplotlib (python3-matplotlib).
 
-``source`` is a Simulation or what needlework.read() gives; both have a series and a gas. Each
+``source`` is what needlework.read() gives, or a Series beside the ``gas`` of its simulation. Each
 function draws into ``axes``, or into new ones, and returns them.
 """
 
@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import theory
+from .errors import InputError
+from .reading import Recording, Series
+from .values import Values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,39 +21,32 @@ if TYPE_CHECKING:
 __all__ = ["cooling", "needles", "temperature_ratio"]
 
 _MEASURED = {"color": "#d1495b", "marker": "o", "markersize": 4, "linestyle": "none"}
-_THEORY = {"color": "#1d3557", "linewidth": 1.6}
+_THEORY = {"color": "#1d3557", "linewidth": 1.6, "label": "kinetic theory"}
 
 
-def cooling(source: Any, axes: Axes | None = None) -> Axes:
+def cooling(source: Recording | Series, gas: Values | None = None,
+            axes: Axes | None = None) -> Axes:
     """The energy over its first value against time, beside kinetic theory."""
+    series, gas = _series_and_gas(source, gas)
     axes = axes or _new_axes()
-    series = source.series
-    later = series.time > 0
-    time, start = series.time[later], series.energy[0]
-    axes.loglog(time, _theory_of(source).energy / start, **_THEORY, label="kinetic theory")
-    axes.loglog(time, series.energy[later] / start, **_MEASURED,
-                label=f"{source.gas.count} needles")
-    axes.set_xlabel(r"time  [$L\sqrt{m/T}$]")
-    axes.set_ylabel("E / E(0)")
-    axes.legend(frameon=False)
-    return axes
+    later, start = series.time > 0, series.energy[0]
+    axes.loglog(series.time[later], _theory(series, gas).energy / start, **_THEORY)
+    axes.loglog(series.time[later], series.energy[later] / start, **_MEASURED,
+                label=f"{gas.count} needles")
+    return _finished(axes, "E / E(0)")
 
 
-def temperature_ratio(source: Any, axes: Axes | None = None) -> Axes:
+def temperature_ratio(source: Recording | Series, gas: Values | None = None,
+                      axes: Axes | None = None) -> Axes:
     """The ratio of translational and rotational temperature against time, beside theory."""
+    series, gas = _series_and_gas(source, gas)
     axes = axes or _new_axes()
-    series = source.series
     later = (series.time > 0) & (series.t_rot > 0)
-    curve = _theory_of(source)
-    with np.errstate(divide="ignore"):
-        axes.loglog(series.time[series.time > 0], curve.t_tr / curve.t_rot, **_THEORY,
-                    label="kinetic theory")
+    curve = _theory(series, gas)
+    axes.loglog(series.time[series.time > 0], curve.t_tr / curve.t_rot, **_THEORY)
     axes.loglog(series.time[later], series.t_tr[later] / series.t_rot[later], **_MEASURED,
-                label=f"{source.gas.count} needles")
-    axes.set_xlabel(r"time  [$L\sqrt{m/T}$]")
-    axes.set_ylabel(r"$T_{\rm tr} / T_{\rm rot}$")
-    axes.legend(frameon=False)
-    return axes
+                label=f"{gas.count} needles")
+    return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
 
 
 def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
@@ -76,15 +72,29 @@ def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
     return axes
 
 
-def _theory_of(source: Any) -> theory.CoolingCurve:
-    """Of a source, at the times of its series but the first."""
-    gas, series = source.gas, source.series
+def _series_and_gas(source: Recording | Series, gas: Values | None) -> tuple[Series, Values]:
+    if isinstance(source, Series):
+        if gas is None:
+            raise InputError("gas is missing: expected that of the simulation, as in "
+                             "plot.cooling(series, gas=sim.gas)")
+        return source, gas
+    return source.series, source.gas
+
+
+def _theory(series: Series, gas: Values) -> theory.CoolingCurve:
+    """At the times of the series but the first."""
     # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
     # density n L^2 / sqrt(m).
     density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)
     return theory.cooling(gas.epsilon, gas.k, gas.beta, series.t_rot[0],
-                          tau=theory.tau(series.time[series.time > 0], density),
-                          t_tr0=series.t_tr[0])
+                          theory.tau(series.time[series.time > 0], density), series.t_tr[0])
+
+
+def _finished(axes: Axes, label: str) -> Axes:
+    axes.set_xlabel(r"time  [$L\sqrt{m/T}$]")
+    axes.set_ylabel(label)
+    axes.legend(frameon=False)
+    return axes
 
 
 def _new_axes() -> Axes:

@@ -8,7 +8,7 @@ the file. docs/file-format.md describes what is in a file.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -52,6 +52,13 @@ class Series(Table):
     """Number of collisions since the start."""
     tc_collisions: np.ndarray
     """How many of them were elastic by the t_c rule."""
+
+    @classmethod
+    def of(cls, samples: Iterable[Mapping[str, Any]]) -> Series:
+        """The series of the totals of a simulation at some times, in order of time."""
+        samples = list(samples)
+        return cls({name: np.array([sample[name] for sample in samples])
+                    for name in ("time", *TOTALS)})
 
 
 class Frame:

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
+#include <utility>
 #include <vector>
 
 namespace needlework::python {
@@ -28,31 +28,31 @@ inline std::vector<std::array<double, 3>> vectors(const Rows& rows) {
   return out;
 }
 
-/// An array over `values` that keeps their owner alive. It cannot be written to, nor be made
-/// writable, because its base offers no writable buffer.
+/// An array of this shape over memory of `owner`, which it keeps alive. It cannot be written to,
+/// nor be made writable, because its base offers no writable buffer.
 template <class Number, class Owner>
-pybind11::array read_only(const std::vector<Number>& values, const std::shared_ptr<Owner>& owner) {
-  const pybind11::capsule base(new std::shared_ptr<Owner>(owner), [](void* pointer) {
-    delete static_cast<std::shared_ptr<Owner>*>(pointer);
-  });
-  pybind11::array_t<Number> array(static_cast<pybind11::ssize_t>(values.size()), values.data(),
-                                  base);
-  array.attr("setflags")(pybind11::arg("write") = false);
-  return std::move(array);
-}
-
-/// The same for vectors, with the shape [N][3].
-template <class Number, class Owner>
-pybind11::array read_only(const std::vector<std::array<Number, 3>>& values,
+pybind11::array read_only(const Number* begin, std::vector<pybind11::ssize_t> shape,
                           const std::shared_ptr<Owner>& owner) {
   const pybind11::capsule base(new std::shared_ptr<Owner>(owner), [](void* pointer) {
     delete static_cast<std::shared_ptr<Owner>*>(pointer);
   });
-  const auto count = static_cast<pybind11::ssize_t>(values.size());
-  const Number* begin = values.empty() ? nullptr : values.front().data();
-  pybind11::array_t<Number> array({count, pybind11::ssize_t{3}}, begin, base);
+  pybind11::array_t<Number> array(std::move(shape), begin, base);
   array.attr("setflags")(pybind11::arg("write") = false);
-  return std::move(array);
+  return array;
+}
+
+/// The same for one number a row.
+template <class Number, class Owner>
+pybind11::array read_only(const std::vector<Number>& values, const std::shared_ptr<Owner>& owner) {
+  return read_only(values.data(), {static_cast<pybind11::ssize_t>(values.size())}, owner);
+}
+
+/// The same for vectors, [N][3].
+template <class Number, class Owner>
+pybind11::array read_only(const std::vector<std::array<Number, 3>>& values,
+                          const std::shared_ptr<Owner>& owner) {
+  const Number* begin = values.empty() ? nullptr : values.front().data();
+  return read_only(begin, {static_cast<pybind11::ssize_t>(values.size()), 3}, owner);
 }
 
 }  // namespace needlework::python
