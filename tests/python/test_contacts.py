@@ -49,7 +49,8 @@ class Contacts(unittest.TestCase):
     def test_answers_are_those_of_the_program(self):
         rng = np.random.default_rng(5)
         columns = [rng.normal(size=(300, 3)) for _ in range(8)]
-        columns[4] *= 0.3  # near the first needle, often
+        for place in (0, 4):  # near each other, often
+            columns[place] *= 0.2
         for accuracy in ("fast", "standard", "rigorous"):
             ours = predict(*columns, 5.0, accuracy=accuracy)
             with tempfile.TemporaryDirectory() as folder:
