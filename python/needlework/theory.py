@@ -14,7 +14,8 @@ from . import _core
 from .arrays import numbers
 from .values import Table
 
-__all__ = ["CoolingCurve", "collision_rate", "cooling", "equipartition_k", "ratio", "tau"]
+__all__ = ["CoolingCurve", "collision_rate", "cooling", "equilibrium_rate", "equipartition_k",
+           "ratio", "tau"]
 
 
 class CoolingCurve(Table):
@@ -50,6 +51,16 @@ def collision_rate(k: ArrayLike, n: ArrayLike, t_tr: ArrayLike = 1.0,
     t_tr, t_rot : translational and rotational temperature.
     """
     return _core.collision_rate(k, n, t_tr, t_rot)
+
+
+def equilibrium_rate(k: ArrayLike, count: ArrayLike, volume: ArrayLike,
+                     energy: ArrayLike) -> np.ndarray:
+    """Collision rate of one needle in elastic equilibrium, exact for a finite gas [1 / time].
+
+    For ``count`` needles (at least 2) without total momentum, of the total energy ``energy``, in a
+    box of the volume ``volume`` [L^3]. Arguments are broadcast.
+    """
+    return _core.equilibrium_rate(k, count, volume, energy)
 
 
 def ratio(epsilon: ArrayLike, k: ArrayLike, beta: ArrayLike = -1.0) -> np.ndarray:

@@ -18,6 +18,10 @@ double collision_rate(double k, double density, double t_tr, double t_rot) {
   return theory::collision_rate(density, {t_tr, t_rot}, k);
 }
 
+double equilibrium_rate(double k, double count, double volume, double energy) {
+  return theory::equilibrium_rate(count, volume, energy, k);
+}
+
 double ratio(double epsilon, double k, double beta) {
   return theory::asymptotic_ratio({.k = k, .epsilon = epsilon, .beta = beta});
 }
@@ -47,6 +51,7 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
 
 void add_theory(py::module_& module) {
   module.def("collision_rate", py::vectorize(collision_rate));
+  module.def("equilibrium_rate", py::vectorize(equilibrium_rate));
   module.def("ratio", py::vectorize(ratio));
   module.def("cooling", cooling);
   module.def("equipartition_k", theory::equipartition_k);

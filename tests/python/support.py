@@ -1,6 +1,8 @@
 """Scenes that the tests of the Python package share."""
 
 import copy
+import importlib.util
+import sys
 
 GAS = {
     "title": "Cooling needles",
@@ -17,3 +19,11 @@ def gas(**sections):
     for section, keys in sections.items():
         scene[section] = {**scene.get(section, {}), **keys}
     return scene
+
+
+def require(*modules):
+    """Ends the test as skipped (77) where one of these modules is missing."""
+    for module in modules:
+        if importlib.util.find_spec(module) is None:
+            print(f"skipped: {module} is missing: expected the packages of packages.txt")
+            sys.exit(77)
