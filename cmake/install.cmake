@@ -2,7 +2,8 @@
 # headers and a CMake package, so that
 #   find_package(Needlework)                        find_package(Needlework COMPONENTS core)
 #   target_link_libraries(mine needlework::needlework)            ... needlework::core
-# and #include <needlework/simulation.h> work elsewhere.
+# and #include <needlework/simulation.h> work elsewhere; with COMPONENTS c, needlework::c and
+# #include <needlework.h> do, in C too, as they do by pkg-config.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -26,11 +27,15 @@ install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
         FILES_MATCHING PATTERN *.toml)
 
 install(DIRECTORY include/needlework TYPE INCLUDE)
+install(FILES include/needlework.h TYPE INCLUDE)
 install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
+install(TARGETS needlework_c EXPORT NeedleworkCTargets)
+configure_file(cmake/needlework.pc.in needlework.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/needlework.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Needlework)
-foreach(targets NeedleworkCoreTargets NeedleworkTargets)
+foreach(targets NeedleworkCoreTargets NeedleworkTargets NeedleworkCTargets)
   install(EXPORT ${targets} NAMESPACE needlework:: DESTINATION ${package_folder})
 endforeach()
 configure_package_config_file(cmake/NeedleworkConfig.cmake.in NeedleworkConfig.cmake

@@ -1,6 +1,7 @@
 // Counters of the work done. No trajectory depends on them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace needlework {
@@ -31,18 +32,43 @@ struct Counters {
   std::uint64_t turns = 0;    ///< sequences of events that a thread processed until it was blocked
   std::uint64_t blocked = 0;  ///< total time that threads were blocked [ns]
 
+  /// A counter and its name.
+  struct Named {
+    const char* name;
+    std::uint64_t Counters::*value;
+  };
+  static const std::array<Named, 23> all;
+
   Counters& operator+=(const Counters& other) {
-    for (const auto member : members) this->*member += other.*member;
+    for (const Named& counter : all) this->*counter.value += other.*counter.value;
     return *this;
   }
-
-  static constexpr std::uint64_t Counters::*members[] = {
-      &Counters::events,     &Counters::stale,     &Counters::crossings, &Counters::rebuilds,
-      &Counters::sorts,      &Counters::resized,   &Counters::renewals,  &Counters::searches,
-      &Counters::candidates, &Counters::filtered,  &Counters::isolated,  &Counters::predicted,
-      &Counters::evaluated,  &Counters::escalated, &Counters::touches,   &Counters::phases,
-      &Counters::redone,     &Counters::border,    &Counters::held,      &Counters::waited,
-      &Counters::foreign,    &Counters::turns,     &Counters::blocked};
 };
+
+inline constexpr std::array<Counters::Named, 23> Counters::all{{
+    {"events", &Counters::events},
+    {"stale", &Counters::stale},
+    {"crossings", &Counters::crossings},
+    {"rebuilds", &Counters::rebuilds},
+    {"sorts", &Counters::sorts},
+    {"resized", &Counters::resized},
+    {"renewals", &Counters::renewals},
+    {"searches", &Counters::searches},
+    {"candidates", &Counters::candidates},
+    {"filtered", &Counters::filtered},
+    {"isolated", &Counters::isolated},
+    {"predicted", &Counters::predicted},
+    {"evaluated", &Counters::evaluated},
+    {"escalated", &Counters::escalated},
+    {"touches", &Counters::touches},
+    {"phases", &Counters::phases},
+    {"redone", &Counters::redone},
+    {"border", &Counters::border},
+    {"held", &Counters::held},
+    {"waited", &Counters::waited},
+    {"foreign", &Counters::foreign},
+    {"turns", &Counters::turns},
+    {"blocked", &Counters::blocked},
+}};
 
 }  // namespace needlework

@@ -20,7 +20,8 @@ Json optional_number(const std::optional<T>& x) {
   return x ? number(*x) : Json(nullptr);
 }
 
-const char* name_of(Stop stop) {
+// The key of [until] that ends a run.
+const char* condition_of(Stop stop) {
   switch (stop) {
     case Stop::collisions:
       return "collisions_per_needle";
@@ -83,12 +84,12 @@ std::string expected_text(const runs::Explanation& e) {
   }
   if (!std::isfinite(e.expected->time)) {
     return fmt::format("{} is not met before time 1e308: a gas that cools collides ever less often",
-                       name_of(e.expected->stop));
+                       condition_of(e.expected->stop));
   }
   return fmt::format(
       "{} is met first, at time {:.3g} with E/E(0) = {:.3g}, after about {:.3g} "
       "collisions ({:.3g} per needle)",
-      name_of(e.expected->stop), e.expected->time, e.expected->energy_ratio, e.collisions,
+      condition_of(e.expected->stop), e.expected->time, e.expected->energy_ratio, e.collisions,
       e.expected->collisions_per_needle);
 }
 
@@ -136,7 +137,7 @@ std::string json_of(const runs::Explanation& e) {
                    {"wall_s", optional_number(scene.until.wall_s)}};
   json["expected"] = nullptr;
   if (e.expected) {
-    json["expected"] = {{"stop", name_of(e.expected->stop)},
+    json["expected"] = {{"stop", condition_of(e.expected->stop)},
                         {"time", number(e.expected->time)},
                         {"collisions", number(e.collisions)},
                         {"collisions_per_needle", number(e.expected->collisions_per_needle)},

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -28,6 +29,7 @@
 #include "src/cli/usage.h"
 #include "src/cli/version.h"
 #include "src/runs/exit_codes.h"
+#include "src/serve/server.h"
 
 namespace needlework::cli {
 
@@ -282,6 +284,21 @@ Examples:
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
+void add_serve_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("serve", "simulate for a front end over a pipe");
+  command->footer(R"(Reads requests from standard input and answers on standard output, both as one
+JSON object a line: create, advance, run_until, totals, state, velocities,
+close, interrupt, quit. Ends after quit, or at the end of its input when all
+requests are answered. docs/serve.md describes the requests.
+
+Example:
+  echo '{"do": "create", "path": "profiles/quickstart.toml"}' | needlework serve)");
+  command->callback([&exit_code] {
+    serve::serve(std::cin, std::cout);
+    exit_code = ok;
+  });
+}
+
 void add_info_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("info", "list what an H5MD file holds");
   const auto arguments = std::make_shared<InfoArguments>();
@@ -451,6 +468,7 @@ Environment:
   add_audit_command(app, exit_code);
   add_info_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_help_command(app, exit_code);
 }

@@ -21,28 +21,14 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 double ratio(double a, double b) { return b > 0 ? a / b : undefined; }
 
 Json stats_of(const Counters& counters) {
-  return {{"candidates", counters.candidates},
-          {"filtered", counters.filtered},
-          {"isolated", counters.isolated},
-          {"predicted", counters.predicted},
-          {"evaluated", counters.evaluated},
-          {"escalated", counters.escalated},
-          {"rebuilds", counters.rebuilds},
-          {"crossings", counters.crossings},
-          {"sorts", counters.sorts},
-          {"resized", counters.resized},
-          {"stale", counters.stale},
-          {"renewals", counters.renewals},
-          {"searches", counters.searches},
-          {"touches", counters.touches},
-          {"phases", counters.phases},
-          {"redone", counters.redone},
-          {"border", counters.border},
-          {"held", counters.held},
-          {"waited", counters.waited},
-          {"turns", counters.turns},
-          {"blocked_s", 1e-9 * static_cast<double>(counters.blocked)},
-          {"foreign", counters.foreign}};
+  Json stats;
+  for (const Counters::Named& counter : Counters::all) {
+    stats[counter.name] = counters.*counter.value;
+  }
+  stats.erase("events");  // a key of the report itself
+  stats.erase("blocked");
+  stats["blocked_s"] = 1e-9 * static_cast<double>(counters.blocked);
+  return stats;
 }
 
 }  // namespace
@@ -83,21 +69,7 @@ std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) cons
 
 std::string stop_name(const runs::Course& course) {
   if (course.failure) return "invalid_state";
-  switch (course.stop) {
-    case Stop::time:
-      return "time";
-    case Stop::collisions:
-      return "collisions";
-    case Stop::energy:
-      return "energy";
-    case Stop::wall_time:
-      return "wall_time";
-    case Stop::interrupted:
-      return "interrupted";
-    case Stop::nothing_can_happen:
-      break;
-  }
-  return "nothing_can_happen";
+  return name_of(course.stop);
 }
 
 std::string json_of(const Report& report) {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "needlework/error.h"
-#include "src/scene/accuracy.h"
+#include "src/runs/state_file.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -24,11 +24,7 @@ namespace {
 io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
   const std::string& file = scene.output.file;
   try {
-    return io::Writer(file, force, scene,
-                      io::RunInfo{.isa = simulation.isa(),
-                                  .threads = scene.engine.threads.value_or(1),
-                                  .epoch_length = simulation.epoch_length(),
-                                  .accuracy = accuracy_name(scene.engine)});
+    return io::Writer(file, force, scene, run_info(simulation, scene));
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
                               error.what()));

@@ -39,12 +39,13 @@ LAYERS = [
     Layer("runs", ["src/runs"], [],
           ["base", "kernels", "trajectory", "scene", "search", "calendar", "observe", "io"],
           ["theory", "engine"]),
+    # Front ends for other programs: C, Python, a pipe.
+    Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
+          ["base", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "scene", "search", "observe", "io", "audit", "runs"],
+          ["base", "scene", "search", "observe", "io", "audit", "runs", "bindings"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
-    Layer("bindings", ["src/bindings", "src/python"], [],
-          ["base", "runs"], ["theory", "trajectory", "scene", "physics", "engine", "io"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
 
@@ -53,7 +54,7 @@ LIBRARIES = [
     (r"hdf5\.h|H5.*", ["io", "runs"]),
     (r"toml\+\+/.*", ["scene"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["program"]),
+    (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),
@@ -61,7 +62,7 @@ LIBRARIES = [
 
 SOURCES = (".h", ".hpp", ".cpp", ".c")
 INCLUDE = re.compile(r'^\s*#\s*(?:include|define\s+HWY_TARGET_INCLUDE)\s+([<"])([^>"]+)[>"]')
-STANDARD = re.compile(r"[a-z0-9_]+")  # <vector>: no folder, no ending
+STANDARD = re.compile(r"[a-z0-9_]+|std(def|int)\.h")  # <vector>: no folder, no ending; or of C
 
 
 def in_folder(path, folder):
@@ -148,7 +149,7 @@ class Tree:
                     yield f"{path}:{number}: {shown}: {rule}"
 
         for header, layer in self.header_layer.items():
-            if not self.exists("include/needlework/" + header):
+            if not any(self.exists(folder + header) for folder in ("include/", "include/needlework/")):
                 yield f"layers.py: {header} of {layer} is not in include/needlework"
 
     def graph(self):

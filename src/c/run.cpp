@@ -1,0 +1,142 @@
+// Simulations run by C callers.
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include "src/c/handle.h"
+#include "src/c/vectors.h"
+#include "src/runs/limits.h"
+
+namespace needlework::c {
+namespace {
+
+/// Neither shows progress nor stops a run: callers interrupt it.
+struct NoMonitor : runs::RunMonitor {
+  bool is_due(double) const override { return false; }
+  void show(double, double, const Totals&, double) override {}
+};
+
+static_assert(static_cast<int>(Stop::time) == NEEDLEWORK_STOP_TIME);
+static_assert(static_cast<int>(Stop::collisions) == NEEDLEWORK_STOP_COLLISIONS);
+static_assert(static_cast<int>(Stop::energy) == NEEDLEWORK_STOP_ENERGY);
+static_assert(static_cast<int>(Stop::wall_time) == NEEDLEWORK_STOP_WALL_TIME);
+static_assert(static_cast<int>(Stop::interrupted) == NEEDLEWORK_STOP_INTERRUPTED);
+static_assert(static_cast<int>(Stop::nothing_can_happen) == NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN);
+
+runs::Limits limits_of(const needlework_limits& limits) {
+  runs::Limits out;
+  // A limit that is not a number is passed on, so that it is refused there.
+  const auto set = [](std::optional<double>& to, double value) {
+    if (value != 0) to = value;
+  };
+  set(out.time, limits.time);
+  set(out.collisions_per_needle, limits.collisions_per_needle);
+  set(out.energy_ratio, limits.energy_ratio);
+  set(out.wall_s, limits.wall_s);
+  if (limits.collisions != 0) out.collisions = limits.collisions;
+  return out;
+}
+
+/// Ends a run because the callback asks for it. The engine is interrupted as for any exception of a
+/// callback, so that a request after the last event does not stop the next call.
+struct StopRequested : std::exception {};
+
+template <class Until>
+int run(needlework_simulation* simulation, int* stop, Until&& until) noexcept {
+  return guarded(simulation, [&](needlework_simulation& self) {
+    if (self.closed) throw UsageError("the simulation is closed: expected one that can be run");
+    NoMonitor monitor;
+    Stop reason = Stop::interrupted;
+    try {
+      reason = self.run.advance(until(self), monitor);
+    } catch (const StopRequested&) {
+    }
+    if (stop) *stop = static_cast<int>(reason);
+  });
+}
+
+// The same memory serves both interfaces, so that batches need not be copied.
+static_assert(std::is_standard_layout_v<Collision> && std::is_trivially_copyable_v<Collision>);
+static_assert(sizeof(Collision) == sizeof(needlework_collision));
+static_assert(offsetof(Collision, epoch) == offsetof(needlework_collision, epoch));
+static_assert(offsetof(Collision, offset) == offsetof(needlework_collision, offset));
+static_assert(offsetof(Collision, time) == offsetof(needlework_collision, time));
+static_assert(offsetof(Collision, first) == offsetof(needlework_collision, first));
+static_assert(offsetof(Collision, second) == offsetof(needlework_collision, second));
+static_assert(offsetof(Collision, shift) == offsetof(needlework_collision, shift));
+static_assert(offsetof(Collision, arm_first) == offsetof(needlework_collision, arm_first));
+static_assert(offsetof(Collision, arm_second) == offsetof(needlework_collision, arm_second));
+static_assert(offsetof(Collision, sin_angle) == offsetof(needlework_collision, sin_angle));
+static_assert(offsetof(Collision, normal_velocity) ==
+              offsetof(needlework_collision, normal_velocity));
+static_assert(offsetof(Collision, impulse) == offsetof(needlework_collision, impulse));
+static_assert(offsetof(Collision, energy_change) == offsetof(needlework_collision, energy_change));
+static_assert(offsetof(Collision, contact_time_rule) ==
+              offsetof(needlework_collision, contact_time_rule));
+static_assert(offsetof(Collision, after) == offsetof(needlework_collision, after));
+
+}  // namespace
+}  // namespace needlework::c
+
+using namespace needlework;
+
+int needlework_run_until(needlework_simulation* simulation, const needlework_limits* limits,
+                         int* stop) {
+  return c::run(simulation, stop, [&](const needlework_simulation& self) {
+    const Scene::Until& until = self.run.scene().until;
+    if (limits) return runs::from_start(c::limits_of(*limits), self.run.simulation());
+    if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
+      throw c::UsageError("limits is NULL: expected limits, as the scene has no [until]");
+    }
+    return until;
+  });
+}
+
+int needlework_advance(needlework_simulation* simulation, const needlework_limits* limits,
+                       int* stop) {
+  return c::run(simulation, stop, [&](const needlework_simulation& self) {
+    c::require(limits, "limits");
+    return runs::from_now(c::limits_of(*limits), self.run.simulation());
+  });
+}
+
+void needlework_interrupt(needlework_simulation* simulation) {
+  if (simulation) simulation->run.simulation().interrupt();
+}
+
+int needlework_close(needlework_simulation* simulation) {
+  return c::guarded(simulation, [](needlework_simulation& self) {
+    if (self.run.scene().output.file.empty()) return;
+    self.closed = true;
+    self.run.close();
+  });
+}
+
+int needlework_set_callback(needlework_simulation* simulation, size_t batch,
+                            needlework_on_collisions callback, void* user) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    if (!callback) {
+      self.run.on_collisions(1, {});
+      return;
+    }
+    if (batch == 0) throw c::UsageError("batch = 0: expected at least 1");
+    self.run.on_collisions(batch, [callback, user](std::span<const Collision> collisions) {
+      const auto* first = reinterpret_cast<const needlework_collision*>(collisions.data());
+      if (callback(first, collisions.size(), user) != 0) throw c::StopRequested();
+    });
+  });
+}
+
+int needlework_set_velocities(needlework_simulation* simulation,
+                              const needlework_const_vectors* velocity,
+                              const needlework_const_vectors* angular_velocity) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(velocity, "velocity");
+    c::require(angular_velocity, "angular_velocity");
+    c::require(velocity->data, "velocity->data");
+    c::require(angular_velocity->data, "angular_velocity->data");
+    const std::size_t count = self.run.simulation().needles();
+    self.run.simulation().set_velocities(c::rows_of(*velocity, count),
+                                         c::rows_of(*angular_velocity, count));
+  });
+}

@@ -1,0 +1,81 @@
+#include "src/serve/fields.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "src/serve/arrays.h"
+
+namespace needlework::serve {
+namespace {
+
+/// The value as messages quote it: a long one is cut off.
+std::string shown(const Json& value) {
+  constexpr std::size_t most = 60;
+  const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
+RequestError wrong(const char* field, const Json& value, std::string_view expected) {
+  return RequestError(fmt::format("{} = {}: expected {}", field, shown(value), expected));
+}
+
+/// Null if the field is absent.
+const Json* find(const Json& request, const char* field) {
+  const auto found = request.find(field);
+  return found == request.end() || found->is_null() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::optional<double> number_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  if (!value->is_number()) throw wrong(field, *value, "a number");
+  return value->get<double>();
+}
+
+std::optional<std::uint64_t> count_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  if (!value->is_number_unsigned()) throw wrong(field, *value, "a whole number >= 0");
+  return value->get<std::uint64_t>();
+}
+
+std::optional<std::string> text_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  if (!value->is_string()) throw wrong(field, *value, "a string");
+  return value->get<std::string>();
+}
+
+bool flag_in(const Json& request, const char* field) {
+  const Json* value = find(request, field);
+  if (!value) return false;
+  if (!value->is_boolean()) throw wrong(field, *value, "true or false");
+  return value->get<bool>();
+}
+
+std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
+                                                             const char* field) {
+  const std::optional<std::string> text = text_in(request, field);
+  if (!text) return std::nullopt;
+  try {
+    return rows_of(*text);
+  } catch (const std::invalid_argument& error) {
+    throw RequestError(fmt::format("{} = {}: {}", field, shown(*text), error.what()));
+  }
+}
+
+void require_only(const Json& request, std::initializer_list<const char*> fields) {
+  for (const auto& [name, value] : request.items()) {
+    if (name == "do" || name == "id") continue;
+    if (std::find(fields.begin(), fields.end(), name) != fields.end()) continue;
+    throw RequestError(fmt::format("{} = {}: expected one of the fields do, id, {}", name,
+                                   shown(value), fmt::join(fields, ", ")));
+  }
+}
+
+}  // namespace needlework::serve

@@ -1,0 +1,27 @@
+// The fields of a request, each with a check of its type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/serve/requests.h"
+
+namespace needlework::serve {
+
+/// All throw RequestError, "FIELD = VALUE: expected ...", for a field of another type.
+std::optional<double> number_in(const Json& request, const char* field);
+std::optional<std::uint64_t> count_in(const Json& request, const char* field);
+std::optional<std::string> text_in(const Json& request, const char* field);
+bool flag_in(const Json& request, const char* field);
+/// Vectors in base64, one row for each needle.
+std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
+                                                             const char* field);
+
+/// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
+void require_only(const Json& request, std::initializer_list<const char*> fields);
+
+}  // namespace needlework::serve

@@ -1,0 +1,218 @@
+#include "src/serve/requests.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "needlework/parse.h"
+#include "src/runs/limits.h"
+#include "src/runs/state_file.h"
+#include "src/serve/arrays.h"
+#include "src/serve/fields.h"
+
+namespace needlework::serve {
+namespace {
+
+/// Infinity and NaN, which JSON does not have, become null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json numbers(const std::array<double, 3>& values) {
+  return {number(values[0]), number(values[1]), number(values[2])};
+}
+
+Json summary_of(const runs::PreparedRun& run) {
+  const Simulation& simulation = run.simulation();
+  const Totals totals = simulation.totals();
+  return {{"time", totals.time},
+          {"collisions", totals.collisions},
+          {"energy", number(totals.energy)},
+          {"t_tr", number(totals.t_tr)},
+          {"t_rot", number(totals.t_rot)},
+          {"momentum", numbers(totals.momentum)},
+          {"trajectory_hash", simulation.trajectory_hash()}};
+}
+
+/// The state that the request carries; none if it carries no array.
+std::optional<State> state_in(const Json& request) {
+  State state;
+  const auto read = [&](const char* field, auto& rows) {
+    auto given = vectors_in(request, field);
+    if (given) rows = std::move(*given);
+    return given.has_value();
+  };
+  const bool position = read("position", state.position);
+  const bool orientation = read("orientation", state.orientation);
+  const bool velocity = read("velocity", state.velocity);
+  const bool angular_velocity = read("angular_velocity", state.angular_velocity);
+  if (!position && !orientation && !velocity && !angular_velocity) return std::nullopt;
+  if (!position || !orientation) {
+    throw RequestError("position, orientation: expected both, where a state is given");
+  }
+  if (!velocity) state.velocity.resize(state.size());
+  if (!angular_velocity) state.angular_velocity.resize(state.size());
+  return state;
+}
+
+runs::LoadedScene scene_in(const Json& request) {
+  const auto text = text_in(request, "scene"), path = text_in(request, "path");
+  if (text.has_value() == path.has_value()) {
+    throw RequestError("scene, path: expected one of them: the text of a scene, or a file's name");
+  }
+  std::optional<State> state = state_in(request);
+  const Provided provided{.state = state.has_value(), .end = true};
+  Scene scene = text ? parse_scene(*text, "scene", {}, provided) : read_scene(*path, {}, provided);
+  if (!state) return runs::complete_scene(std::move(scene));
+  state->box = scene.needles.box;
+  return runs::complete_scene(std::move(scene), std::move(*state));
+}
+
+runs::Limits limits_in(const Json& request) {
+  return {.time = number_in(request, "time"),
+          .collisions = count_in(request, "collisions"),
+          .collisions_per_needle = number_in(request, "collisions_per_needle"),
+          .energy_ratio = number_in(request, "energy_ratio"),
+          .wall_s = number_in(request, "wall_s")};
+}
+
+/// Passes on interruptions, and progress where the front end wants it.
+class Monitor : public runs::RunMonitor {
+ public:
+  Monitor(const Json& request, const Connection& connection)
+      : connection_(connection), every_(number_in(request, "progress_s")), next_(every_) {
+    if (request.contains("id")) id_ = request["id"];
+  }
+
+  bool is_due(double elapsed) const override { return next_ && elapsed >= *next_; }
+  void show(double elapsed, double fraction, const Totals& now, double) override {
+    next_ = elapsed + *every_;
+    connection_.notify({{"id", id_},
+                        {"progress", number(fraction)},
+                        {"time", now.time},
+                        {"collisions", now.collisions}});
+  }
+  bool stop_requested() const override { return connection_.interrupted(); }
+
+ private:
+  const Connection& connection_;
+  std::optional<double> every_, next_;
+  Json id_;
+};
+
+Json drive(runs::PreparedRun& run, const Scene::Until& until, const Json& request,
+           const Connection& connection) {
+  Monitor monitor(request, connection);
+  Json answer{{"stop", name_of(run.advance(until, monitor))}};
+  answer.update(summary_of(run));
+  return answer;
+}
+
+}  // namespace
+
+const std::map<std::string, Requests::Handler> Requests::handlers = {
+    {"create", &Requests::create},       {"advance", &Requests::advance},
+    {"run_until", &Requests::run_until}, {"totals", &Requests::totals},
+    {"state", &Requests::state},         {"velocities", &Requests::velocities},
+    {"close", &Requests::close}};
+
+Json Requests::answer(const Json& request, const Connection& connection) {
+  const std::string name = text_in(request, "do").value_or("");
+  const auto handler = handlers.find(name);
+  if (handler == handlers.end()) {
+    std::string known;
+    for (const auto& entry : handlers) known += entry.first + ", ";
+    throw RequestError(
+        fmt::format("do = \"{}\": expected one of {}interrupt, quit", name.substr(0, 60), known));
+  }
+  return (this->*handler->second)(request, connection);
+}
+
+runs::PreparedRun& Requests::run_of(const Json& request) {
+  const auto number = count_in(request, "simulation");
+  if (!number) throw RequestError("simulation: expected the number that create has returned");
+  const auto found = runs_.find(static_cast<std::int64_t>(*number));
+  if (found == runs_.end()) {
+    throw RequestError(fmt::format(
+        "simulation = {}: expected the number of a simulation that is not closed", *number));
+  }
+  return *found->second;
+}
+
+Json Requests::create(const Json& request, const Connection&) {
+  require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
+                         "angular_velocity"});
+  auto run = std::make_unique<runs::PreparedRun>(scene_in(request), flag_in(request, "force"));
+  const Simulation& simulation = run->simulation();
+  Json answer{{"simulation", next_},
+              {"needles", simulation.needles()},
+              {"box", numbers(run->scene().needles.box)},
+              {"search", simulation.search()},
+              {"isa", simulation.isa()},
+              {"effects", simulation.effects()}};
+  runs_.emplace(next_++, std::move(run));
+  return answer;
+}
+
+Json Requests::advance(const Json& request, const Connection& connection) {
+  require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
+                         "energy_ratio", "wall_s", "progress_s"});
+  runs::PreparedRun& run = run_of(request);
+  return drive(run, runs::from_now(limits_in(request), run.simulation()), request, connection);
+}
+
+Json Requests::run_until(const Json& request, const Connection& connection) {
+  require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
+                         "energy_ratio", "wall_s", "progress_s"});
+  runs::PreparedRun& run = run_of(request);
+  const runs::Limits limits = limits_in(request);
+  const Scene::Until& of_scene = run.scene().until;
+  const bool scene_ends =
+      of_scene.time || of_scene.collisions_per_needle || of_scene.energy_ratio || of_scene.wall_s;
+  const bool as_scene_says = limits.empty() && scene_ends;
+  return drive(run, as_scene_says ? of_scene : runs::from_start(limits, run.simulation()), request,
+               connection);
+}
+
+Json Requests::totals(const Json& request, const Connection&) {
+  require_only(request, {"simulation"});
+  return summary_of(run_of(request));
+}
+
+Json Requests::state(const Json& request, const Connection&) {
+  require_only(request, {"simulation", "file", "force"});
+  const runs::PreparedRun& run = run_of(request);
+  if (const auto file = text_in(request, "file")) {
+    runs::write_state(run.simulation(), run.scene(), *file, flag_in(request, "force"));
+    return {{"file", *file}};
+  }
+  const State state = run.simulation().copy();
+  return {{"time", run.simulation().time()},
+          {"needles", state.size()},
+          {"position", text_of(state.position)},
+          {"velocity", text_of(state.velocity)},
+          {"orientation", text_of(state.orientation)},
+          {"angular_velocity", text_of(state.angular_velocity)},
+          {"image", text_of(state.image)},
+          {"id", text_of(state.id)}};
+}
+
+Json Requests::velocities(const Json& request, const Connection&) {
+  require_only(request, {"simulation", "velocity", "angular_velocity"});
+  runs::PreparedRun& run = run_of(request);
+  const auto velocity = vectors_in(request, "velocity");
+  const auto angular_velocity = vectors_in(request, "angular_velocity");
+  if (!velocity || !angular_velocity) {
+    throw RequestError("velocity, angular_velocity: expected both");
+  }
+  run.simulation().set_velocities(*velocity, *angular_velocity);
+  return summary_of(run);
+}
+
+Json Requests::close(const Json& request, const Connection&) {
+  require_only(request, {"simulation"});
+  run_of(request).close();
+  runs_.erase(static_cast<std::int64_t>(*count_in(request, "simulation")));
+  return Json::object();
+}
+
+}  // namespace needlework::serve
