@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import os
 import warnings
 from collections.abc import Callable
 from typing import NamedTuple, Optional
@@ -70,9 +71,10 @@ class Simulation:
         TOML text, or the path of a scene file. docs/scenes.md lists all keys. A scene without
         [until] needs limits in each call of run().
     position, velocity, orientation, angular_velocity : arrays [N, 3], optional
-        The state to start from, all four or none: centres in the box or not [L], velocities
-        [L / time], unit directors, angular velocities normal to them [1 / time]. The scene then
-        needs no needles.count, and temperatures in it are an error.
+        The state to start from: centres in the box or not [L], velocities [L / time], unit
+        directors, angular velocities normal to them [1 / time]. Positions and directors need each
+        other; velocities are 0 if they are not given. The scene then needs no needles.count, and
+        temperatures in it are an error.
     force : bool
         Whether output.file may replace an existing file.
 
@@ -194,6 +196,13 @@ class Simulation:
         self._forget()
         self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
                                  rows_of_vectors("angular_velocity", angular_velocity, count))
+
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> None:
+        """Writes the present state to a file, from which ``initial.file`` of a scene starts.
+
+        ``force`` replaces an existing file. Raises IoError.
+        """
+        self._run.save(os.fspath(path), force)
 
     def close(self) -> None:
         """Completes output.file, if there is one. The state can be read, but not advanced."""
@@ -345,11 +354,13 @@ def _state(arrays: dict[str, ArrayLike | None]) -> tuple[np.ndarray, ...] | None
     given = {name: values for name, values in arrays.items() if values is not None}
     if not given:
         return None
-    for name in arrays:
+    for name in ("position", "orientation"):
         if name not in given:
-            raise InputError(f"{name} is missing: expected all of {', '.join(arrays)}, or none")
+            raise InputError(f"{name} is missing: expected position and orientation, where a "
+                             "state is given")
     first = rows_of_vectors("position", given["position"])
-    return tuple(rows_of_vectors(name, values, len(first)) for name, values in given.items())
+    return tuple(rows_of_vectors(name, given.get(name, np.zeros_like(first)), len(first))
+                 for name in arrays)
 
 
 def _whole(name: str, value: float | None) -> int | None:

@@ -46,7 +46,6 @@ void add_run(py::module_& module) {
           [](Run& run, OptionalNumber time, OptionalNumber collisions_per_needle,
              OptionalNumber energy_ratio, OptionalNumber wall_s, const py::object& show) {
             return run.run({.time = time,
-                            .collisions = {},
                             .collisions_per_needle = collisions_per_needle,
                             .energy_ratio = energy_ratio,
                             .wall_s = wall_s},
@@ -73,6 +72,7 @@ void add_run(py::module_& module) {
            [](Run& run, const Rows& velocity, const Rows& angular_velocity) {
              run.set_velocities(vectors(velocity), vectors(angular_velocity));
            })
+      .def("save", &Run::save)
       .def("close", &Run::close)
       .def("state", &Run::state)
       .def("totals", &Run::totals)

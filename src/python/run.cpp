@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "needlework/counters.h"
 #include "needlework/error.h"
 #include "src/python/arrays.h"
 #include "src/python/collision_rows.h"
@@ -14,30 +15,13 @@
 #include "src/python/scene_source.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/output_path.h"
+#include "src/runs/state_file.h"
 
 namespace needlework::python {
 
 namespace py = pybind11;
 
 namespace {
-
-const char* name_of(Stop stop) {
-  switch (stop) {
-    case Stop::time:
-      return "time";
-    case Stop::collisions:
-      return "collisions";
-    case Stop::energy:
-      return "energy";
-    case Stop::wall_time:
-      return "wall_time";
-    case Stop::interrupted:
-      return "interrupted";
-    case Stop::nothing_can_happen:
-      break;
-  }
-  return "nothing_can_happen";
-}
 
 /// A Python object that may be forgotten by a thread without the GIL.
 std::shared_ptr<py::object> shared(const py::object& object) {
@@ -49,7 +33,6 @@ std::shared_ptr<py::object> shared(const py::object& object) {
 
 runs::Limits of_scene(const Scene::Until& until) {
   return {.time = until.time,
-          .collisions = {},
           .collisions_per_needle = until.collisions_per_needle,
           .energy_ratio = until.energy_ratio,
           .wall_s = until.wall_s};
@@ -143,6 +126,13 @@ void Run::set_velocities(std::vector<std::array<double, 3>> velocity,
   work([&] { run_->simulation().set_velocities(velocity, angular_velocity); });
 }
 
+void Run::save(const std::string& path, bool force) {
+  work([&] {
+    runs::require_writable(path, force, path, "force=True");
+    runs::write_state(run_->simulation(), run_->scene(), path, force);
+  });
+}
+
 void Run::close() {
   if (closed_) return;
   work([&] { run_->close(); });
@@ -169,6 +159,14 @@ py::dict Run::totals() {
   out["momentum"] = Column(3, totals.momentum.data());
   out["collisions"] = totals.collisions;
   out["tc_collisions"] = totals.tc_collisions;
+  return out;
+}
+
+py::dict Run::counters() {
+  require_idle();
+  const Counters& counters = run_->simulation().counters();
+  py::dict out;
+  for (const Counters::Named& counter : Counters::all) out[counter.name] = counters.*counter.value;
   return out;
 }
 

@@ -39,6 +39,8 @@ class Run {
                      const pybind11::dtype& type);
   void set_velocities(std::vector<std::array<double, 3>> velocity,
                       std::vector<std::array<double, 3>> angular_velocity);
+  /// Writes the present state to a file of its own; see write_state().
+  void save(const std::string& path, bool force);
   void close();
 
   /// A copy of the present state: read-only arrays position, velocity, orientation,

@@ -49,7 +49,7 @@ class Scenes(unittest.TestCase):
 
     def test_states_are_checked(self):
         rows = np.zeros((3, 3))
-        self.rejects(GAS, "^velocity is missing: expected all of position, velocity",
+        self.rejects(GAS, "^orientation is missing: expected position and orientation",
                      position=rows)
         arrays = {"velocity": rows, "orientation": rows + [1, 0, 0], "angular_velocity": rows}
         positions = np.arange(9.0).reshape(3, 3)

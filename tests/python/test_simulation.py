@@ -175,10 +175,24 @@ class State(unittest.TestCase):
             with self.assertRaises(ValueError):
                 array.flags.writeable = True
 
+    def test_a_saved_state_is_an_initial_file(self):
+        first = Simulation(GAS)
+        first.run()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "state.h5")
+            first.save(path)
+            with self.assertRaisesRegex(needlework.IoError, "exists already: .* force=True"):
+                first.save(path)
+            first.save(path, force=True)
+            again = Simulation({"initial": {"file": path},
+                                "collisions": {"epsilon": 0.8, "tc_relative": 1e-3}})
+        np.testing.assert_array_equal(again.position, first.position)
+        np.testing.assert_array_equal(again.image, first.image)
+
     def test_paths_cross_the_boundaries(self):
+        # What is not given is at rest.
         sim = Simulation({"needles": {"count": 1, "box": 3.0}}, position=[[1, 1, 1]],
-                         velocity=[[2, 0, 0]], orientation=[[0, 0, 1]],
-                         angular_velocity=[[0, 0, 0]])
+                         velocity=[[2, 0, 0]], orientation=[[0, 0, 1]])
         sim.run(time=10)
         np.testing.assert_allclose(sim.position + sim.image * sim.box, [[21, 1, 1]])
 
