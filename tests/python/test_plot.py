@@ -4,15 +4,16 @@ import tempfile
 import unittest
 from pathlib import Path
 
-import matplotlib
+from support import gas, require
+
+require("matplotlib", "h5py")
+import matplotlib  # noqa: E402
 
 matplotlib.use("Agg")
 import needlework  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 from needlework import Simulation, plot, read  # noqa: E402
-
-from support import gas  # noqa: E402
 
 
 class Pictures(unittest.TestCase):

@@ -9,7 +9,9 @@ import needlework
 import numpy as np
 from needlework import InputError, IoError, Simulation, read
 
-from support import GAS, gas
+from support import GAS, gas, require
+
+require("h5py", "pandas")
 
 
 class Reading(unittest.TestCase):

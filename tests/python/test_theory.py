@@ -42,8 +42,6 @@ class Theory(unittest.TestCase):
         self.assertIs(curve.energy, curve["energy"])
         np.testing.assert_allclose(curve.energy, 1.5 * curve.t_tr + curve.t_rot)
         self.assertTrue(np.all(np.diff(curve.collisions_per_needle) > 0))
-        frame = curve.to_pandas()
-        self.assertEqual(list(frame), list(curve))
         self.assertIn("<table>", curve._repr_html_())
 
     def test_ranges_are_checked(self):
