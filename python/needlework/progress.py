@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from typing import Any
 
@@ -29,6 +30,7 @@ class TerminalLine:
         self._width = 0
 
     def show(self, text: str) -> None:
+        text = text[:shutil.get_terminal_size().columns - 1]
         self._width = max(self._width, len(text))
         sys.stderr.write(f"\r{text:<{self._width}}")
         sys.stderr.flush()

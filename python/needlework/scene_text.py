@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, Union
 
 import numpy as np
@@ -78,8 +77,8 @@ def _value(place: str, value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)  # nan and inf read the same in TOML
-    if isinstance(value, (str, Path)):
-        return _string(str(value))
+    if isinstance(value, (str, os.PathLike)):
+        return _string(os.fspath(value))
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(place, entry) for entry in value) + "]"
     if isinstance(value, Mapping):
