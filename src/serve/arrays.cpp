@@ -36,6 +36,8 @@ std::vector<std::byte> bytes_of(std::string_view base64) {
   if (base64.size() % 4 != 0) throw std::invalid_argument("expected base64 with padding");
   std::string text(base64);
   text.replace(text.size() - padding, padding, padding, 'A');
+  // Boost would take it for zero everywhere.
+  if (text.find('=') != std::string::npos) throw std::invalid_argument("expected base64");
   try {
     const std::string bytes(ToBytes(text.data()), ToBytes(text.data() + text.size()));
     std::vector<std::byte> out(bytes.size() - padding);

@@ -41,7 +41,10 @@ struct Setting {
 void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
 
 SearchSetup sized(std::optional<double> cell_side, std::optional<double> capsule_radius) {
-  return {.cell_side = cell_side, .capsule_radius = capsule_radius, .float_filter = false};
+  return {.density = {},
+          .cell_side = cell_side,
+          .capsule_radius = capsule_radius,
+          .float_filter = false};
 }
 
 const Setting settings[] = {

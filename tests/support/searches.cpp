@@ -65,7 +65,8 @@ std::vector<SearchChoice> search_choices() {
   std::vector<SearchChoice> out;
   const auto add = [&](const char* search, kernels::Isa isa, std::optional<double> side,
                        std::optional<double> radius) {
-    out.push_back({search, {isa, side, radius}});
+    out.push_back(
+        {search, {.isa = isa, .density = {}, .cell_side = side, .capsule_radius = radius}});
   };
   const std::optional<double> chosen;
   add(AllPairs::search_name, sets.front(), chosen, chosen);

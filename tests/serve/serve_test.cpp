@@ -1,0 +1,204 @@
+// What a front end over a pipe gets: the runs of the program, and an answer to every line.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "needlework/simulation.h"
+#include "src/serve/arrays.h"
+#include "src/serve/server.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::serve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string scene_text =
+    "[needles]\ncount = 60\nbox = 5\n[collisions]\nepsilon = 0.9\n[until]\ncollisions_per_needle = "
+    "4\n";
+
+std::vector<Json> answers_to(const std::vector<Json>& requests) {
+  std::stringstream in, out;
+  for (const Json& request : requests) in << request.dump() << "\n";
+  serve(in, out);
+  std::vector<Json> answers;
+  for (std::string line; std::getline(out, line);) answers.push_back(Json::parse(line));
+  return answers;
+}
+
+std::vector<Json> answers_to_text(const std::string& text) {
+  std::stringstream in(text), out;
+  serve(in, out);
+  std::vector<Json> answers;
+  for (std::string line; std::getline(out, line);) answers.push_back(Json::parse(line));
+  return answers;
+}
+
+Json create() { return {{"do", "create"}, {"scene", scene_text}}; }
+
+std::string hash_of_whole_run() {
+  const Scene scene = parse_scene(scene_text, "scene");
+  Simulation simulation(scene);
+  simulation.advance(scene.until);
+  return simulation.trajectory_hash();
+}
+
+TEST(Serve, GivesTheTrajectoryOfTheLibraryInPieces) {
+  const auto answers =
+      answers_to({create(),
+                  {{"do", "advance"}, {"simulation", 1}, {"collisions", 50}, {"id", "a"}},
+                  {{"do", "run_until"}, {"simulation", 1}, {"collisions", 70}, {"id", 7}},
+                  {{"do", "run_until"}, {"simulation", 1}}});
+  ASSERT_EQ(answers.size(), 4u);
+  EXPECT_EQ(answers[0]["needles"], 60);
+  EXPECT_EQ(answers[1]["id"], "a");
+  EXPECT_EQ(answers[1]["collisions"], 50);
+  EXPECT_EQ(answers[2]["id"], 7);
+  EXPECT_EQ(answers[2]["collisions"], 70);
+  EXPECT_EQ(answers[3]["stop"], "collisions");
+  EXPECT_EQ(answers[3]["trajectory_hash"], hash_of_whole_run());
+}
+
+TEST(Serve, GoesOnFromAStateThatItHasGiven) {
+  const auto first = answers_to({create(),
+                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 30}},
+                                 {{"do", "state"}, {"simulation", 1}}});
+  const Json& state = first[2];
+  EXPECT_EQ(rows_of(state["position"].get<std::string>()).size(), 60u);
+  EXPECT_EQ(bytes_of(state["id"].get<std::string>()).size(), 60u * 4);
+  EXPECT_EQ(bytes_of(state["image"].get<std::string>()).size(), 60u * 12);
+
+  Json again{{"do", "create"}, {"scene", "[needles]\nbox = 5\n"}};
+  for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+    again[name] = state[name];
+  }
+  const auto second = answers_to({again, {{"do", "totals"}, {"simulation", 1}}});
+  EXPECT_EQ(second[0]["needles"], 60) << second[0];
+  EXPECT_EQ(second[1]["energy"], first[1]["energy"]);
+}
+
+TEST(Serve, ReplacesVelocities) {
+  const std::vector<std::array<double, 3>> ones(60, {1, 0, 0}), zeros(60);
+  const auto answers = answers_to({create(),
+                                   {{"do", "velocities"},
+                                    {"simulation", 1},
+                                    {"velocity", text_of(ones)},
+                                    {"angular_velocity", text_of(zeros)}},
+                                   {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}}});
+  EXPECT_EQ(answers[1]["energy"], 0.5) << answers[1];
+  EXPECT_EQ(answers[2]["stop"], "nothing_can_happen");
+}
+
+TEST(Serve, WritesStatesAndOutput) {
+  const test::TemporaryFolder folder;
+  const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  const auto answers =
+      answers_to({run,
+                  {{"do", "run_until"}, {"simulation", 1}},
+                  {{"do", "state"}, {"simulation", 1}, {"file", state}},
+                  {{"do", "state"}, {"simulation", 1}, {"file", state}},
+                  {{"do", "state"}, {"simulation", 1}, {"file", state}, {"force", true}},
+                  {{"do", "close"}, {"simulation", 1}},
+                  {{"do", "totals"}, {"simulation", 1}}});
+  EXPECT_EQ(answers[3]["code"], 5);
+  EXPECT_EQ(answers[4]["ok"], true);
+  EXPECT_EQ(answers[5]["ok"], true);
+  EXPECT_EQ(answers[6]["code"], 2);
+  EXPECT_EQ(io::read_last_frame(state).size(), 60u);
+  EXPECT_EQ(io::read_run(output).series.back().collisions, 120u);
+}
+
+// The reader sees the interruption at once, so the advance that waits before it does not last.
+TEST(Serve, InterruptsWhatWasSentBefore) {
+  const auto answers = answers_to({create(),
+                                   {{"do", "advance"}, {"simulation", 1}, {"time", 1e12}},
+                                   {{"do", "interrupt"}},
+                                   {{"do", "advance"}, {"simulation", 1}, {"collisions", 10}}});
+  EXPECT_EQ(answers[1]["stop"], "interrupted");
+  EXPECT_EQ(answers[2]["ok"], true);
+  EXPECT_EQ(answers[3]["stop"], "collisions");
+}
+
+TEST(Serve, ShowsProgressBeforeTheAnswer) {
+  const auto answers = answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = 60\nbox = 5"}},
+                                   {{"do", "advance"},
+                                    {"simulation", 1},
+                                    {"time", 1e12},
+                                    {"wall_s", 0.5},
+                                    {"progress_s", 0},
+                                    {"id", 5}}});
+  ASSERT_GT(answers.size(), 2u);
+  EXPECT_EQ(answers[1]["id"], 5);
+  EXPECT_GE(answers[1]["progress"], 0.0);
+  EXPECT_EQ(answers.back()["stop"], "wall_time") << answers.back();
+}
+
+TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
+  const std::string deep(100000, '[');
+  const auto answers = answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep +
+                                       "\n\"\xff\"\n" + create().dump() + "\n");
+  ASSERT_EQ(answers.size(), 8u);
+  for (int n = 0; n < 7; ++n) {
+    EXPECT_EQ(answers[n]["ok"], false);
+    EXPECT_EQ(answers[n]["code"], 2) << answers[n];
+  }
+  EXPECT_EQ(answers[0]["message"], "line 1: no JSON at byte 1: expected a JSON object");
+  EXPECT_EQ(answers[1]["message"], "line 3: expected a JSON object");
+  EXPECT_EQ(answers[7]["ok"], true);
+}
+
+TEST(Serve, NamesTheFieldThatIsWrong) {
+  const auto message = [](Json request) {
+    if (!request.contains("simulation")) request["simulation"] = 1;
+    const auto answers = answers_to({create(), request});
+    EXPECT_EQ(answers[1]["ok"], false) << request;
+    return answers[1].value("message", "");
+  };
+  EXPECT_EQ(message({{"do", "advance"}, {"time", "soon"}}), "time = \"soon\": expected a number");
+  EXPECT_EQ(message({{"do", "advance"}, {"collisions", -1}}),
+            "collisions = -1: expected a whole number >= 0");
+  EXPECT_EQ(message({{"do", "advance"}, {"collisons", 1}}).substr(0, 46),
+            "collisons = 1: expected one of the fields do, ");
+  EXPECT_NE(message({{"do", "advance"}}).find("no end condition"), std::string::npos);
+  EXPECT_EQ(message({{"do", "totals"}, {"simulation", 2}}),
+            "simulation = 2: expected the number of a simulation that is not closed");
+  EXPECT_EQ(message({{"do", "velocities"}, {"velocity", "AAA"}}),
+            "velocity = \"AAA\": expected base64 with padding");
+  EXPECT_EQ(message({{"do", "velocities"}, {"velocity", "AAA!"}}),
+            "velocity = \"AAA!\": expected base64");
+  EXPECT_EQ(message({{"do", "velocities"}, {"velocity", "AAAA"}}),
+            "velocity = \"AAAA\": expected three numbers of 8 bytes for each needle, in base64");
+  const auto answers =
+      answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = -5\nbox = 5"}}});
+  EXPECT_EQ(answers[0]["code"], 3);
+  EXPECT_EQ(answers[0]["message"].get<std::string>().substr(0, 34),
+            "scene: line 2: needles.count = -5:");
+}
+
+TEST(Base64, IsThatOfRfc4648) {
+  const auto text = [](std::string_view bytes) {
+    return base64_of(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  };
+  EXPECT_EQ(text(""), "");
+  EXPECT_EQ(text("f"), "Zg==");
+  EXPECT_EQ(text("fo"), "Zm8=");
+  EXPECT_EQ(text("foo"), "Zm9v");
+  EXPECT_EQ(text("foob"), "Zm9vYg==");
+  EXPECT_EQ(text("foobar"), "Zm9vYmFy");
+  for (const std::string word : {"", "f", "fo", "foo", "foob", "fooba", "foobar"}) {
+    const std::vector<std::byte> bytes = bytes_of(text(word));
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), word);
+  }
+  EXPECT_THROW(bytes_of("===="), std::invalid_argument);
+  EXPECT_THROW(bytes_of("A==="), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace needlework::serve
