@@ -11,7 +11,7 @@ using namespace needlework;
 
 namespace {
 
-/// Calls that do not change the simulation claim it all the same: another thread may be running it.
+/// Calls that do not change the simulation still claim it: another thread may be running it.
 needlework_simulation* mutable_of(const needlework_simulation* simulation) {
   return const_cast<needlework_simulation*>(simulation);
 }

@@ -319,7 +319,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
-      "bench", "measure searches, queues and instruction sets on the same scenes");
+      "bench", "measure searches, calendars and instruction sets on the same scenes");
   command
       ->add_option("SUBSET", arguments->subset,
                    "what to measure, by default quick; --list describes all")
@@ -444,6 +444,18 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.set_help_flag("-h,--help", "show this help");
   app.require_subcommand(1);
   app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
+  add_run_command(app, exit_code);
+  add_sweep_command(app, exit_code);
+  add_check_command(app, exit_code);
+  add_theory_command(app, exit_code);
+  add_predict_command(app, exit_code);
+  add_audit_command(app, exit_code);
+  add_info_command(app, exit_code);
+  add_export_command(app, exit_code);
+  add_serve_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  add_help_command(app, exit_code);
+  // Set last, because commands added later would inherit it.
   app.footer(R"(needlework COMMAND --help shows the arguments and options of a command.
 Results are printed on standard output; progress, warnings and errors on
 standard error.
@@ -460,17 +472,6 @@ Exit codes:
 Environment:
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
-  add_run_command(app, exit_code);
-  add_sweep_command(app, exit_code);
-  add_check_command(app, exit_code);
-  add_theory_command(app, exit_code);
-  add_predict_command(app, exit_code);
-  add_audit_command(app, exit_code);
-  add_info_command(app, exit_code);
-  add_export_command(app, exit_code);
-  add_serve_command(app, exit_code);
-  add_bench_command(app, exit_code);
-  add_help_command(app, exit_code);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ struct Simulation::Implementation {
     loop = make_loop(run, std::move(choice));
     replaced = {};
     search = loop->search_name();
-    queue = loop->calendar_name();
+    calendar = loop->calendar_name();
   }
 
   // Places in storage, ordered by id.
@@ -142,7 +142,7 @@ struct Simulation::Implementation {
   std::optional<Sizing> sizing;  ///< empty if the scene sets the size of cells or capsules
   std::unique_ptr<Loop> loop;
   ReplacedRecords replaced;  ///< by a caller at the present time, not known to a loop yet
-  std::string search, queue;
+  std::string search, calendar;
   kernels::Isa isa;
 };
 
@@ -198,7 +198,7 @@ void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
   implementation_->set_velocities(velocity, angular_velocity);
 }
 std::string Simulation::search() const { return implementation_->search; }
-std::string Simulation::queue() const { return implementation_->queue; }
+std::string Simulation::queue() const { return implementation_->calendar; }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
 std::string Simulation::effects() const { return name_effects(implementation_->scene.collisions); }
 

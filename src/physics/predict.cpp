@@ -72,7 +72,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
   kernels::Pair pair;
   pair.first = &a;
   pair.second = &b;
-  kernels::SearchCounters counters;
+  kernels::EvaluationCounters counters;
   if (just_collided) {
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};

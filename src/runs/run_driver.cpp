@@ -10,7 +10,7 @@
 namespace needlework::runs {
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock and at the monitor [s].
+/// Longest time in the event loop between two checks of wall time and of the monitor [s].
 constexpr double longest_step = 0.1;
 /// Longest time for which results are not yet safe in the file [s].
 constexpr double flush_interval = 10;
@@ -108,7 +108,7 @@ void RunDriver::listen_to_collisions() {
   });
 }
 
-// One stay in the event loop; a value when one of the conditions is met.
+// One call of the event loop; returns a value when one of the conditions is met.
 std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time_point start) {
   Scene::Until limits = until;
   const double next = std::min(series_.next(), frames_.next());

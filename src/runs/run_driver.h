@@ -10,7 +10,7 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
-#include "src/observe/blocks.h"
+#include "src/observe/batch_rate.h"
 #include "src/observe/schedule.h"
 #include "src/runs/resources.h"
 #include "src/runs/run_monitor.h"
@@ -24,7 +24,7 @@ struct Course {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
   Stopwatch loop;                      ///< time spent in the event loop
-  BlockRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
+  BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
 /// Advances a simulation in steps from sample to sample, and in short steps of wall time between
@@ -66,7 +66,7 @@ class RunDriver {
   const bool keeps_course_;
   bool begun_ = false;
   Schedule series_, frames_;
-  std::optional<BlockRate> rate_;
+  std::optional<BatchRate> rate_;
   std::function<void(const Collision&)> callback_;
   Course course_;
   std::optional<Totals> last_sample_;

@@ -121,7 +121,7 @@ TEST_F(Messages, NamesThatHideWhatAFileIsDeserveAWarning) {
   const Outcome outcome = run("run small.toml --quiet --out x.txt");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.complains(
-      "warning: --out x.txt: will be an HDF5 file all the same: expected a name that ends in .h5"));
+      "warning: --out x.txt: will be an HDF5 file nevertheless: expected a name that ends in .h5"));
   for (const std::string name : {"a.h5", "a.hdf5", "a.h5md"}) {
     EXPECT_EQ(run("run small.toml --quiet --out " + name).err, "") << name;
   }

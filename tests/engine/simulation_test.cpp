@@ -268,7 +268,7 @@ TEST(Simulation, GivesAWrappedStateWithImages) {
   EXPECT_GT(crossed, 100);
 }
 
-// Unwrapped centres move by v dt between looks, whatever is wrapped when.
+// Unwrapped centres move by v dt between two copies, independent of when they are wrapped.
 TEST(Simulation, MovesCentresWithTheirVelocities) {
   const Scene scene = test::scene_of(30, 3);
   Simulation simulation(scene);

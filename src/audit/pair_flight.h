@@ -70,10 +70,10 @@ struct Sample {
 };
 
 /// Times s are counted from the later of both records.
-class Pair {
+class PairFlight {
  public:
-  Pair(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
-       const Start& start);
+  PairFlight(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
+             const Start& start);
 
   /// Values in double; use `precise` if their errors are too large.
   Sample sample(double s) const;

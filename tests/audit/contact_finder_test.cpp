@@ -1,10 +1,12 @@
-// The audit's search against the other oracle, over thermal pairs and all hard families.
+// The audit's contact finder against the other oracle, over thermal pairs and all hard families.
 //
-// Law: where the decision is `clear` units of the inputs' noise from the other one, a contact is
-// found for certain, its time in the stretch told, unless a time wrong by the condition limit could
-// move a tip there or a neighbouring root; and where there is none, none is found. Nearer, the
-// search may say doubtful, but beyond one unit never the opposite for certain.
-#include "src/audit/search.h"
+// Law: if the inputs would have to change by more than `clear` units of their noise to reverse the
+// decision, the audit finds a contact with certainty and reports an interval that contains its
+// time, and it finds none where there is none. Exempt are contacts where an error of time within
+// the condition limit could move a tip or a neighbouring root there. If a smaller change reverses
+// the decision, the result may be doubtful; beyond one unit it is never the opposite with
+// certainty.
+#include "src/audit/contact_finder.h"
 
 #include <gtest/gtest.h>
 
@@ -45,9 +47,9 @@ NeedlePair in_own_time(const NeedlePair& pair) {
   return slowed(pair, std::ilogb(fastest));
 }
 
-class SearchOracle : public testing::TestWithParam<PairFamily> {};
+class ContactFinderOracle : public testing::TestWithParam<PairFamily> {};
 
-TEST_P(SearchOracle, FindsTheSameContacts) {
+TEST_P(ContactFinderOracle, FindsTheSameContacts) {
   std::size_t contacts = 0, doubtful = 0, near = 0, escalated = 0;
   int longest = 0;
   for (const NeedlePair& drawn : draw_pairs(GetParam().name, count, seed)) {
@@ -58,14 +60,14 @@ TEST_P(SearchOracle, FindsTheSameContacts) {
     const audit::Space space{{64, 64, 64}};
     audit::Start start;
     if (pair.just_collided) {
-      audit::Pair before(first, second, {}, space, {});
+      audit::PairFlight before(first, second, {}, space, {});
       start = {audit::Start::collided, before.precise(0).df > 0 ? 1 : -1};
     }
-    audit::Pair flown(first, second, {}, space, start);
-    audit::Search search(flown);
-    const auto found = search.first(0, pair.horizon);
+    audit::PairFlight flown(first, second, {}, space, start);
+    audit::ContactFinder finder(flown);
+    const auto found = finder.first(0, pair.horizon);
     contacts += truth.contact;
-    longest = std::max(longest, search.looked_at());
+    longest = std::max(longest, finder.looked_at());
     doubtful += found && !found->certain;
     escalated += flown.needed_quad();
     if (truth.decision_margin < 1) continue;
@@ -131,8 +133,8 @@ TEST(Bend, BoundsTheSecondDerivative) {
     const audit::Space space{{2.5, 2.5, 2.5}};
     const bool shifted = random.below(4) == 0;  // which takes them out of their plane
     const bool collided = random.coin();
-    audit::Pair pair(first, second, {shifted ? 1 : 0, 0, 0}, space,
-                     {collided ? audit::Start::collided : audit::Start::apart, 1});
+    audit::PairFlight pair(first, second, {shifted ? 1 : 0, 0, 0}, space,
+                           {collided ? audit::Start::collided : audit::Start::apart, 1});
     const double end = random.uniform(0, 4);
     const double begin = -random.uniform(0, 0.1);
     const double distance = pair.sample(0).distance + pair.speed() * std::max(end, -begin);
@@ -153,22 +155,22 @@ TEST(Bend, BoundsTheSecondDerivative) {
   EXPECT_GT(tightest, 0.3);  // or the bound is worth nothing
 }
 
-// Whatever the plane, f is told from noise, or said to be noise, in few stretches: halving by the
-// general bound on f'' would take 1e7.
-TEST(Search, OfNeedlesInOnePlaneEndsSoon) {
+// In any plane, f is distinguished from noise, or classified as noise, within a few intervals;
+// halving by the general bound on f'' would take 1e7.
+TEST(ContactFinder, EndsSoonForNeedlesInOnePlane) {
   Random random(seed);
   constexpr int pairs = 1000;
   int all = 0, given_up = 0;
   for (int n = 0; n < pairs; ++n) {
     const auto [first, second] = nearly_in_one_plane(random, std::pow(10, random.uniform(-18, -8)));
     const audit::Space space{{64, 64, 64}};
-    audit::Pair pair(first, second, {}, space, {});
-    audit::Search search(pair);
-    for (auto found = search.first(0, 2); found && found->end < 2;) {
-      found = search.next(found->end, 2);
+    audit::PairFlight pair(first, second, {}, space, {});
+    audit::ContactFinder finder(pair);
+    for (auto found = finder.first(0, 2); found && found->end < 2;) {
+      found = finder.next(found->end, 2);
     }
-    all += search.looked_at();
-    given_up += search.looked_at() >= 10000;
+    all += finder.looked_at();
+    given_up += finder.looked_at() >= 10000;
   }
   std::printf("stretches %g a pair, given up %d\n", double(all) / pairs, given_up);
   EXPECT_LT(all, 150 * pairs);
@@ -181,7 +183,8 @@ std::string test_name(const testing::TestParamInfo<PairFamily>& info) {
   return text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, SearchOracle, testing::ValuesIn(pair_families()), test_name);
+INSTANTIATE_TEST_SUITE_P(Families, ContactFinderOracle, testing::ValuesIn(pair_families()),
+                         test_name);
 
 }  // namespace
 }  // namespace needlework::test

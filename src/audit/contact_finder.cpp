@@ -1,4 +1,4 @@
-#include "src/audit/search.h"
+#include "src/audit/contact_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@ int sign_of(double a) { return (a > 0) - (a < 0); }
 }  // namespace
 
 // Bound on |f''| over the interval.
-double Search::bend(const Sample& sample, double s, double half) const {
+double ContactFinder::bend(const Sample& sample, double s, double half) const {
   return pair_.bend(s - half, s + half, sample.distance + pair_.speed() * half) * enlarged;
 }
 
 // Whether the interval has no contact: f keeps its sign, or a contact point stays off its needle.
-bool Search::is_free(const Sample& e, double s, double half) const {
+bool ContactFinder::is_free(const Sample& e, double s, double half) const {
   const double change =
       ((std::abs(e.df) + e.df_error) + 0.5 * bend(e, s, half) * half) * half * enlarged;
   if (std::abs(e.f) > e.f_error + change + 2 * pair_.limit(e, s, half)) return true;
@@ -39,30 +39,30 @@ bool Search::is_free(const Sample& e, double s, double half) const {
 }
 
 // Whether all of the interval is within the condition limit.
-bool Search::is_noise(const Sample& e, double s, double half) const {
+bool ContactFinder::is_noise(const Sample& e, double s, double half) const {
   const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
   return std::abs(e.f) + change <= 2 * pair_.limit(e, s);
 }
 
-bool Search::is_monotone(const Sample& e, double s, double half) const {
+bool ContactFinder::is_monotone(const Sample& e, double s, double half) const {
   return std::abs(e.df) > e.df_error + bend(e, s, half) * half * enlarged;
 }
 
 // A sample in the arithmetic that the required precision needs.
-Sample Search::sample_of(double s, double half) {
+Sample ContactFinder::sample_of(double s, double half) {
   const Sample e = pair_.sample(s);
   const double change = (std::abs(e.df) + 0.5 * bend(e, s, half) * half) * half;
   const double enough = 0.125 * std::max(std::abs(e.f), change);
   return e.f_error > enough + pair_.limit(e, s) ? pair_.precise(s) : e;
 }
 
-int Search::sign(double s) {
+int ContactFinder::sign(double s) {
   Sample e = pair_.sample(s);
   if (std::abs(e.f) <= e.f_error + 2 * pair_.limit(e, s)) e = pair_.precise(s);
   return std::abs(e.f) > e.f_error + 2 * pair_.limit(e, s) ? sign_of(e.f) : 0;
 }
 
-int Search::on_needles(double begin, double end) {
+int ContactFinder::on_needles(double begin, double end) {
   const double half = 0.5 * (end - begin), middle = begin + half;
   const double w = pair_.spin(), v = pair_.speed();
   // Both margins are at least those at the ends, less the bound on their change in between.
@@ -89,7 +89,7 @@ int Search::on_needles(double begin, double end) {
 
 // A pair that starts with f = 0 leaves it with slope f'(0). Sets `left` to where the search
 // continues.
-std::optional<Finding> Search::leave_start(double to, double& left) {
+std::optional<ContactInterval> ContactFinder::leave_start(double to, double& left) {
   const int side = pair_.start().side;
   const Sample e = pair_.precise(0);
   const double slope = std::max(0.0, std::abs(e.df) - e.df_error);
@@ -100,7 +100,7 @@ std::optional<Finding> Search::leave_start(double to, double& left) {
   if (!monotone) {
     left = std::min(to, std::max(left, 0x1p-60 / pair_.rate()));
     while (left < to && sign(left) == 0) left = std::min(to, 2 * left);
-    return Finding{false, 0, left, side};
+    return ContactInterval{false, 0, left, side};
   }
   if (side == 0 || sign(left) == side) return std::nullopt;
   // The pair crosses to the other side at once.
@@ -108,18 +108,18 @@ std::optional<Finding> Search::leave_start(double to, double& left) {
   const double end = across < left && sign(across) == -side ? across : left;
   const int inside = on_needles(0, end);
   if (inside < 0) return std::nullopt;
-  return Finding{inside > 0, 0, end, side};
+  return ContactInterval{inside > 0, 0, end, side};
 }
 
-std::optional<Finding> Search::first(double from, double to) {
+std::optional<ContactInterval> ContactFinder::first(double from, double to) {
   if (pair_.start().kind == Start::apart) return next(from, to);
   double left = 0;
-  if (const auto finding = leave_start(to, left)) return finding;
+  if (const auto contact = leave_start(to, left)) return contact;
   return left < to ? next(left, to) : std::nullopt;
 }
 
 // The root in an interval in which f is monotone with certain signs at its ends.
-std::optional<Finding> Search::cross(const Stretch& stretch, int side) {
+std::optional<ContactInterval> ContactFinder::cross(const Stretch& stretch, int side) {
   double low = stretch.begin, high = stretch.end;
   double s = low + 0.5 * (high - low), width = 0;
   for (int i = 0; i < 60; ++i) {
@@ -143,11 +143,11 @@ std::optional<Finding> Search::cross(const Stretch& stretch, int side) {
   }
   const int inside = on_needles(low, high);
   if (inside < 0) return std::nullopt;
-  return Finding{inside > 0, low, high, side};
+  return ContactInterval{inside > 0, low, high, side};
 }
 
 // Where to halve the interval: if possible, not where the sign of f is open.
-double Search::cut(const Stretch& stretch) {
+double ContactFinder::cut(const Stretch& stretch) {
   const double length = stretch.end - stretch.begin;
   for (const double share : {0.5, 0.4375, 0.546875}) {
     const double at = stretch.begin + share * length;
@@ -156,7 +156,7 @@ double Search::cut(const Stretch& stretch) {
   return stretch.begin + 0.5 * length;
 }
 
-std::optional<Finding> Search::next(double from, double to) {
+std::optional<ContactInterval> ContactFinder::next(double from, double to) {
   stretches_.assign(1, {from, to});
   for (; !stretches_.empty(); ++looked_at_) {
     if (looked_at_ == patience) pair_.find_coefficients();
@@ -167,14 +167,14 @@ std::optional<Finding> Search::next(double from, double to) {
     if (is_free(e, middle, half)) continue;
     const bool finest = half <= 0x1p-51 * std::max(std::abs(stretch.begin), std::abs(stretch.end));
     if (is_noise(e, middle, half) || finest) {
-      return Finding{false, stretch.begin, stretch.end, sign(stretch.begin)};
+      return ContactInterval{false, stretch.begin, stretch.end, sign(stretch.begin)};
     }
-    if (looked_at_ >= most_stretches) return Finding{false, stretch.begin, to, 0};
+    if (looked_at_ >= most_stretches) return ContactInterval{false, stretch.begin, to, 0};
     if (is_monotone(e, middle, half)) {
       const int before = sign(stretch.begin), after = sign(stretch.end);
       if (before != 0 && before == after) continue;
       if (before != 0 && after == -before) {
-        if (const auto finding = cross(stretch, before)) return finding;
+        if (const auto contact = cross(stretch, before)) return contact;
         continue;
       }
     }

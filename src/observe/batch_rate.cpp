@@ -1,28 +1,28 @@
-#include "src/observe/blocks.h"
+#include "src/observe/batch_rate.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace needlework {
 
-BlockRate::BlockRate(double block_length) : length_(block_length) { counts_.reserve(most_blocks); }
+BatchRate::BatchRate(double batch_length) : length_(batch_length) { counts_.reserve(most_batches); }
 
-void BlockRate::add(double time) {
-  while (time >= length_ * most_blocks) {
+void BatchRate::add(double time) {
+  while (time >= length_ * most_batches) {
     const std::size_t joined = (counts_.size() + 1) / 2;
     counts_.resize(2 * joined, 0);
     for (std::size_t b = 0; b < joined; ++b) counts_[b] = counts_[2 * b] + counts_[2 * b + 1];
     counts_.resize(joined);
     length_ *= 2;
   }
-  const auto block = static_cast<std::size_t>(time / length_);
-  if (counts_.size() <= block) counts_.resize(block + 1, 0);
-  ++counts_[block];
+  const auto batch = static_cast<std::size_t>(time / length_);
+  if (counts_.size() <= batch) counts_.resize(batch + 1, 0);
+  ++counts_[batch];
 }
 
-BlockRate::Estimate BlockRate::estimate(double now) const {
+BatchRate::Estimate BatchRate::estimate(double now) const {
   Estimate estimate;
-  // After a long time without events there are more blocks than have counts.
+  // After a long time without events there are more batches than have counts.
   const double complete = std::floor(now / length_);
   if (!(complete >= 1)) return estimate;
   const auto counted = std::min(static_cast<std::size_t>(std::min(complete, 1e9)), counts_.size());
@@ -34,9 +34,9 @@ BlockRate::Estimate BlockRate::estimate(double now) const {
     const double difference = static_cast<double>(counts_[b]) - mean;
     squares += difference * difference;
   }
-  estimate.blocks = static_cast<int>(std::min(complete, 1e9));
+  estimate.batches = static_cast<int>(std::min(complete, 1e9));
   estimate.rate = mean / length_;
-  if (complete >= fewest_blocks) {
+  if (complete >= fewest_batches) {
     estimate.standard_error = std::sqrt(squares / (complete - 1) / complete) / length_;
   }
   return estimate;

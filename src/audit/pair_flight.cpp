@@ -1,4 +1,4 @@
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +57,8 @@ Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& secon
 
 }  // namespace
 
-Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
-           const Start& start)
+PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& shift,
+                       const Space& space, const Start& start)
     : first_(first),
       second_(second),
       shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
@@ -84,11 +84,11 @@ Pair::Pair(const Needle& first, const Needle& second, const Shift& shift, const 
   }
 }
 
-Sample Pair::sample(double s) const {
+Sample PairFlight::sample(double s) const {
   return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, offset_, slope_, s);
 }
 
-const Pair::Precise& Pair::in_quad() {
+const PairFlight::Precise& PairFlight::in_quad() {
   if (!precise_) {
     const Instant begin = std::max(first_.record.time, second_.record.time);
     precise_.emplace(Precise{
@@ -99,7 +99,7 @@ const Pair::Precise& Pair::in_quad() {
   return *precise_;
 }
 
-Sample Pair::precise(double s) {
+Sample PairFlight::precise(double s) {
   const auto& [first, second, delay] = in_quad();
   return evaluate(first, second, delay, shift_, space_.box, offset_, slope_, s);
 }
@@ -107,7 +107,7 @@ Sample Pair::precise(double s) {
 // f is the sum of (r12(0) + v12 s) . (a x b) c1(s) c2(s). If c1 is the cosine of the first
 // needle's angle since its record, a is its director in the record; if c1 is the sine, a is the
 // direction to which it turns. The same holds for b, c2 and the second needle.
-void Pair::find_coefficients() {
+void PairFlight::find_coefficients() {
   if (coefficients_) return;
   const auto& [first, second, delay] = in_quad();
   const auto r = separation(first, second, delay[0], delay[1], shift_, space_.box);
@@ -122,7 +122,7 @@ void Pair::find_coefficients() {
   }
 }
 
-double Pair::bend(double begin, double end, double distance) const {
+double PairFlight::bend(double begin, double end, double distance) const {
   const double general = (2 * speed_ + distance * spin_) * spin_;
   if (!coefficients_) return general * upward;
   const double latest = std::max(std::abs(begin), std::abs(end));
@@ -144,7 +144,7 @@ double Pair::bend(double begin, double end, double distance) const {
   return std::min(general * upward, special * (1 + 0x1p-40));
 }
 
-Pair::Uncertainty Pair::uncertainty(double s) const {
+PairFlight::Uncertainty PairFlight::uncertainty(double s) const {
   // Lengths whose rounding matters: the separation at s = 0, including the flight of the older
   // record until then, and the flight since.
   Uncertainty out{0, {}, distance_ + speed_ * std::abs(s)};
@@ -160,7 +160,7 @@ Pair::Uncertainty Pair::uncertainty(double s) const {
   return out;
 }
 
-double Pair::limit(const Sample& sample, double s, double half) const {
+double PairFlight::limit(const Sample& sample, double s, double half) const {
   const Uncertainty by = uncertainty(std::abs(s) + half);
   double sum = by.distance * std::min(1.0, sample.sine + spin_ * half);
   for (int i = 0; i < 2; ++i) {
@@ -176,13 +176,13 @@ double Pair::limit(const Sample& sample, double s, double half) const {
   return sum;
 }
 
-bool Pair::is_near_contact(double s) const {
+bool PairFlight::is_near_contact(double s) const {
   const Sample e = sample(s);
   const double least = -beside * e.sine;
   return std::abs(e.f) <= space_.continued() && e.margin[0] >= least && e.margin[1] >= least;
 }
 
-double Pair::margin_limit(const Sample& sample, double s) const {
+double PairFlight::margin_limit(const Sample& sample, double s) const {
   const Uncertainty by = uncertainty(s);
   const double directors = by.directors[0] + by.directors[1];
   const double moment = std::max(sample.moment_most[0], sample.moment_most[1]);

@@ -10,26 +10,27 @@
 #include <optional>
 #include <vector>
 
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 
 namespace needlework::audit {
 
 /// An interval of time in which the needles touch or may touch.
-struct Finding {
+struct ContactInterval {
   bool certain = false;  ///< true: f changes sign with both contact points on the needles; false:
                          ///< it may
   double begin = 0, end = 0;
   int side = 0;  ///< sign of f before; 0 if it is open
 };
 
-class Search {
+class ContactFinder {
  public:
-  explicit Search(Pair& pair) : pair_(pair) {}
+  explicit ContactFinder(PairFlight& pair) : pair_(pair) {}
 
-  /// The first finding in [from, to]. A pair that starts touching is examined from 0 on.
-  std::optional<Finding> first(double from, double to);
-  /// The first finding in [from, to].
-  std::optional<Finding> next(double from, double to);
+  /// The first contact, certain or possible, in [from, to]. A pair that starts touching is examined
+  /// from 0 on.
+  std::optional<ContactInterval> first(double from, double to);
+  /// The same for a pair that does not start touching.
+  std::optional<ContactInterval> next(double from, double to);
 
   /// Sign of f, or 0 within twice the condition limit.
   int sign(double s);
@@ -48,11 +49,11 @@ class Search {
   bool is_noise(const Sample& sample, double s, double half) const;
   bool is_monotone(const Sample& sample, double s, double half) const;
   Sample sample_of(double s, double half);
-  std::optional<Finding> leave_start(double to, double& left);
-  std::optional<Finding> cross(const Stretch& stretch, int side);
+  std::optional<ContactInterval> leave_start(double to, double& left);
+  std::optional<ContactInterval> cross(const Stretch& stretch, int side);
   double cut(const Stretch& stretch);
 
-  Pair& pair_;
+  PairFlight& pair_;
   std::vector<Stretch> stretches_;
   int looked_at_ = 0;
 };
