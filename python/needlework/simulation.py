@@ -138,7 +138,7 @@ class Simulation:
         KeyboardInterrupt
             By Ctrl-C. The trajectory is not changed: the run may be continued by another call.
         """
-        return self._drive(self._run.run, progress, time=time,
+        return self._drive(self._run.run, progress, {}, time=time,
                            collisions_per_needle=collisions_per_needle,
                            energy_ratio=energy_ratio, wall_s=wall_s)
 
@@ -150,8 +150,8 @@ class Simulation:
         ``collisions`` is the number of collisions of all needles together; the others are those
         of run(), whose return value and errors are the same. At least one limit is required.
         """
-        return self._drive(self._run.advance, progress, time=time,
-                           collisions=_whole("collisions", collisions),
+        return self._drive(self._run.advance, progress,
+                           {"collisions": _whole("collisions", collisions)}, time=time,
                            collisions_per_needle=collisions_per_needle,
                            energy_ratio=energy_ratio, wall_s=wall_s)
 
@@ -339,11 +339,12 @@ class Simulation:
         self._totals: Optional[Totals] = None
 
     def _drive(self, call: Callable[..., str], progress: bool | None,
-               **limits: float | None) -> str:
+               counts: dict[str, int | None], **limits: float | None) -> str:
+        numbers = {name: _number(name, limit) for name, limit in limits.items()}
         line = progress_line(progress)
         self._forget()
         try:
-            return call(**limits, show=line.show if line else None)
+            return call(**counts, **numbers, show=line.show if line else None)
         finally:
             if line:
                 line.clear()
@@ -361,6 +362,13 @@ def _state(arrays: dict[str, ArrayLike | None]) -> tuple[np.ndarray, ...] | None
     first = rows_of_vectors("position", given["position"])
     return tuple(rows_of_vectors(name, given.get(name, np.zeros_like(first)), len(first))
                  for name in arrays)
+
+
+def _number(name: str, value: float | None) -> float | None:
+    try:
+        return None if value is None else float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} = {value!r}: expected a number >= 0") from None
 
 
 def _whole(name: str, value: float | None) -> int | None:

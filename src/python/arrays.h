@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -28,31 +27,25 @@ inline std::vector<std::array<double, 3>> vectors(const Rows& rows) {
   return out;
 }
 
-/// An array of this shape over memory of `owner`, which it keeps alive. It cannot be written to,
-/// nor be made writable, because its base offers no writable buffer.
-template <class Number, class Owner>
-pybind11::array read_only(const Number* begin, std::vector<pybind11::ssize_t> shape,
-                          const std::shared_ptr<Owner>& owner) {
-  const pybind11::capsule base(new std::shared_ptr<Owner>(owner), [](void* pointer) {
-    delete static_cast<std::shared_ptr<Owner>*>(pointer);
-  });
-  pybind11::array_t<Number> array(std::move(shape), begin, base);
+/// An array of this shape with a copy of the numbers, which cannot be written to.
+template <class Number>
+pybind11::array read_only(const Number* numbers, std::vector<pybind11::ssize_t> shape) {
+  pybind11::array_t<Number> array(std::move(shape), numbers);
   array.attr("setflags")(pybind11::arg("write") = false);
   return array;
 }
 
 /// The same for one number a row.
-template <class Number, class Owner>
-pybind11::array read_only(const std::vector<Number>& values, const std::shared_ptr<Owner>& owner) {
-  return read_only(values.data(), {static_cast<pybind11::ssize_t>(values.size())}, owner);
+template <class Number>
+pybind11::array read_only(const std::vector<Number>& values) {
+  return read_only(values.data(), {static_cast<pybind11::ssize_t>(values.size())});
 }
 
 /// The same for vectors, [N][3].
-template <class Number, class Owner>
-pybind11::array read_only(const std::vector<std::array<Number, 3>>& values,
-                          const std::shared_ptr<Owner>& owner) {
+template <class Number>
+pybind11::array read_only(const std::vector<std::array<Number, 3>>& values) {
   const Number* begin = values.empty() ? nullptr : values.front().data();
-  return read_only(begin, {static_cast<pybind11::ssize_t>(values.size()), 3}, owner);
+  return read_only(begin, {static_cast<pybind11::ssize_t>(values.size()), 3});
 }
 
 }  // namespace needlework::python

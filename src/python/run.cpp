@@ -140,12 +140,11 @@ void Run::close() {
 }
 
 py::tuple Run::state() {
-  std::shared_ptr<State> state;
-  work([&] { state = std::make_shared<State>(run_->simulation().copy()); });
-  return py::make_tuple(read_only(state->position, state), read_only(state->velocity, state),
-                        read_only(state->orientation, state),
-                        read_only(state->angular_velocity, state), read_only(state->image, state),
-                        read_only(state->id, state));
+  State state;
+  work([&] { run_->simulation().copy(state); });
+  return py::make_tuple(read_only(state.position), read_only(state.velocity),
+                        read_only(state.orientation), read_only(state.angular_velocity),
+                        read_only(state.image), read_only(state.id));
 }
 
 py::dict Run::totals() {

@@ -44,7 +44,7 @@ class Run {
   void close();
 
   /// A copy of the present state: read-only arrays position, velocity, orientation,
-  /// angular_velocity, image and id, which share its memory.
+  /// angular_velocity, image and id.
   pybind11::tuple state();
   pybind11::dict totals();
   pybind11::dict counters();

@@ -80,6 +80,7 @@ class Runs(unittest.TestCase):
         sim = Simulation({"needles": {"count": 3, "box": 3}})
         for call, message in ((lambda: sim.run(time=-1), "time = -1: expected a number >= 0"),
                               (lambda: sim.run(time=float("nan")), "time = nan: expected"),
+                              (lambda: sim.run(time="soon"), "time = 'soon': expected a number"),
                               (lambda: sim.advance(collisions=-1), "collisions = -1: expected"),
                               (lambda: sim.advance(collisions=2.5), "collisions = 2.5: expected"),
                               (lambda: sim.advance(), "no end condition: expected"),
