@@ -67,6 +67,7 @@ class Reading(unittest.TestCase):
             np.testing.assert_array_equal(events[name], self.rows[name])
             np.testing.assert_array_equal(whole[name], self.rows[name])
         np.testing.assert_array_equal(events[10:20], whole[10:20])
+        np.testing.assert_array_equal(events[10:30:7], whole[10:30:7])
         np.testing.assert_array_equal(events[20:10:-3], whole[20:10:-3])
         np.testing.assert_array_equal(events[5:1], whole[5:1])
         self.assertEqual(events[-1], whole[-1])
