@@ -293,9 +293,11 @@ class Simulation:
 
     @property
     def engine(self) -> Values:
-        """The parts of the engine in use: search, queue, isa, threads and effects."""
+        """The parts of the engine in use: search, queue, isa, threads and effects. Search and
+        queue may change with the density, where the scene leaves them to be chosen."""
         names = ("search", "queue", "isa", "threads", "effects")
-        return Values({name: self._facts[name] for name in names})
+        facts = self._run.facts()
+        return Values({name: facts[name] for name in names})
 
     @property
     def file(self) -> str:

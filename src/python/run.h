@@ -48,7 +48,7 @@ class Run {
   pybind11::tuple state();
   pybind11::dict totals();
   pybind11::dict counters();
-  /// What does not change: the scene, and the parts of the engine in use.
+  /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();
   double time();
   double mean_free_time();
