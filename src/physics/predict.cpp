@@ -68,6 +68,9 @@ NearInterval near_interval(const kernels::Pair& pair) {
 
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy) {
+  if (!(horizon >= 0)) {
+    throw InputError(fmt::format("horizon = {:g}: expected a time, 0 or later", horizon));
+  }
   const kernels::Flight a = flight_of(first), b = flight_of(second);
   kernels::Pair pair;
   pair.first = &a;

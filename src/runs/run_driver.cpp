@@ -65,6 +65,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
 }
 
 Course RunDriver::finish() {
+  if (failure_) std::rethrow_exception(failure_);
   if (!begun_) begin();
   course_.last = simulation_.totals();
   if (samples()) {
@@ -84,15 +85,16 @@ void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
 }
 
 void RunDriver::begin() {
-  begun_ = true;
   last_flush_ = SteadyClock::now();
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
   course_.initial = simulation_.totals();
-  if (!samples()) return;
-  sample(true, true);
-  series_.pass(0);
-  frames_.pass(0);
+  if (samples()) {
+    sample(!last_sample_, !last_frame_);
+    series_.pass(0);
+    frames_.pass(0);
+  }
+  begun_ = true;
 }
 
 void RunDriver::listen_to_collisions() {
@@ -103,9 +105,20 @@ void RunDriver::listen_to_collisions() {
   }
   simulation_.on_collision([this, events](const Collision& collision) {
     if (rate_) rate_->add(collision.time);
-    if (events) writer_->write_event(collision);
+    if (events) record(collision);
     if (callback_) callback_(collision);
   });
+}
+
+// The engine cannot continue from an exception in the middle of a collision, so it is stopped after
+// it.
+void RunDriver::record(const Collision& collision) {
+  try {
+    if (!failure_) writer_->write_event(collision);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  if (failure_) simulation_.interrupt();
 }
 
 // One call of the event loop; returns a value when one of the conditions is met.
@@ -123,6 +136,7 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
     const Timed timed(course_.loop);
     return simulation_.advance(limits);
   }();
+  if (failure_) std::rethrow_exception(failure_);  // here and in every later call
   if (stop == Stop::wall_time) return std::nullopt;
   if (stop != Stop::time || !to_sample) return stop;
   sample(series_.next() <= next, frames_.next() <= next);
@@ -134,9 +148,9 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
 void RunDriver::sample(bool series, bool frame) {
   const Totals totals = simulation_.totals();
   if (series) {
-    last_sample_ = totals;
     if (keeps_course_) course_.samples.push_back(totals);
     if (writer_) writer_->write_series(totals);
+    last_sample_ = totals;
   }
   if (frame && writer_) {
     writer_->write_frame(totals, simulation_.copy());

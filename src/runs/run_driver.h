@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -53,6 +54,7 @@ class RunDriver {
 
   bool samples() const { return writer_ || keeps_course_; }
   void begin();
+  void record(const Collision& collision);
   void listen_to_collisions();
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
@@ -68,6 +70,7 @@ class RunDriver {
   Schedule series_, frames_;
   std::optional<BatchRate> rate_;
   std::function<void(const Collision&)> callback_;
+  std::exception_ptr failure_;  ///< of writing a collision
   Course course_;
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
