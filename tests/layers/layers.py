@@ -57,6 +57,7 @@ LIBRARIES = [
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
+    (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),
 ]
 
