@@ -2,10 +2,10 @@
 """Instructions per collision, counted by callgrind: repeatable where times are not.
 
 guard    compares the engine with the committed figures of instructions.json and fails when one has
-         grown by more than 3 %; --update writes them anew.
+         grown by more than 3 %; --update replaces them.
 effects  counts what each effect costs when it is on; the table goes to results/effects.md and to
          docs/performance.md.
-shares   tells where a collision's instructions go; the table goes to docs/performance.md.
+shares   lists which part of the program a collision's instructions are spent in; the table goes to docs/performance.md.
 baseline counts the classical method with several sides of its cells, to see that its own is good.
 
 A figure is the difference between a long and a short run of one trajectory, over the collisions
@@ -39,7 +39,7 @@ SKIPPED = 77  # exit code that ctest takes for a skipped test
 # Where instructions go, by the first of these patterns that a function's name has.
 SHARES = {
     "finding neighbours, SIMD": r"::(approaching|overlapping)$",
-    "following the pairs that are left, SIMD": r"::bracket",
+    "bracketing first roots, SIMD": r"::bracket",
     "choosing the cells to look into": r"::look_around|view_cells_near|append_near",
     "transposing motions, sorting candidates":
         r"candidates|Candidate|PairTable|seeker_for|NearSearch::follow|propose",
@@ -165,7 +165,7 @@ def measure_all(jobs):
 
 
 def build_of(program):
-    """What the compiler was told, as far as instructions depend on it."""
+    """Compiler and flags, on which the number of instructions depends."""
     version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
     lines = dict(line.split(None, 1) for line in version.stdout.splitlines())
     return {"compiler": lines["compiler"].strip(), "flags": lines["flags"].strip()}, lines["ISA"]

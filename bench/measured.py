@@ -125,7 +125,7 @@ def report_missing(store, missing, place):
     """Says what is left to do, and where the tables are."""
     if missing:
         print(f"not complete at {store.about['commit']}: {', '.join(missing)}; the same command "
-              "goes on")
+              "continues")
     elif not store.quick and "changes" in store.about["commit"]:
         print("not put into bench/results: the working tree differs from the commit")
     print(f"tables and pictures: {place}")
@@ -227,7 +227,7 @@ def add_options(parser):
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
     parser.add_argument("--machine", help="name of the folder in bench/results")
     parser.add_argument("--time-budget", type=float, default=math.inf, metavar="MINUTES",
-                        help="begin nothing new after this; the same command goes on later")
+                        help="start no measurement after this time; the same command continues later")
     parser.add_argument("--quick", action="store_true",
                         help="short runs, to try the script; results stay in the build folder")
 
@@ -243,6 +243,6 @@ def run(main):
     try:
         main()
     except KeyboardInterrupt:
-        sys.exit("stopped; the same command goes on")
+        sys.exit("stopped; the same command continues")
     except (subprocess.CalledProcessError, ValueError, OSError) as error:
         sys.exit(str(error))

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Measures everything on this machine, one thread, and makes the tables and the picture.
 
-    bench/study.py                     all; goes on where it was stopped
+    bench/study.py                     all; continues where it was stopped
     bench/study.py density size        some parts only
-    bench/study.py --time-budget 60    for an hour; the same command goes on later
+    bench/study.py --time-budget 60    for an hour; the same command continues later
     bench/study.py tables              no measuring: tables and picture of what there is
 
 Build first, with NEEDLEWORK_BENCH=ON. Repetitions are interleaved: all cases of all parts are
@@ -86,7 +86,7 @@ def case_table(content):
             engine = engine_of(case) + (" (baseline)" if case["baseline"] else "")
             rows.append([case["scene"], engine, case["search"], us(case), times(case, cases[0]), bytes_of(case),
                          spread(case["setup_s"])])
-    return table(["scene", "search/queue/ISA", "search in use", "us per collision",
+    return table(["scene", "search/calendar/ISA", "search in use", "us per collision",
                   "times baseline", "bytes per needle", "set-up s"], rows)
 
 
@@ -130,7 +130,7 @@ def size_table(content):
     return text + f"\nCost at 1e6 needles over that at 1e4, n L^3 = 0.72: {ratio}.\n"
 
 
-def hull_table(content):
+def volume_size_table(content):
     """Sizes of cells and capsules by hand, beside those that the search chooses."""
     rows = []
     for scene, (baseline, *cases) in baselines_first(content).items():
@@ -144,20 +144,20 @@ def hull_table(content):
 
 
 def matrix_table(content):
-    """One line for each gas and search: every queue; and for the better search, how far the
+    """One line for each gas and search: every calendar; and for the better search, how far the
     tournament, which `auto` takes, is from the best."""
-    rows, queues = [], []
+    rows, calendars = [], []
     for scene, (baseline, *cases) in baselines_first(content).items():
         found = {tuple(case["name"].split("/")[1:3]): case for case in cases}
-        queues = list(dict.fromkeys(queue for _, queue in found))
+        calendars = list(dict.fromkeys(calendar for _, calendar in found))
         best = min(cases, key=lambda case: statistics.median(case["us_per_collision"]))
         for search in dict.fromkeys(search for search, _ in found):
             mine = found[search, "tournament"]
             better = best["name"].split("/")[1] == search
-            rows.append([scene, search, *(us(found[search, queue]) for queue in queues),
+            rows.append([scene, search, *(us(found[search, calendar]) for calendar in calendars),
                          spread(quotients(mine["us_per_collision"], best["us_per_collision"]))
                          if better else "", us(baseline), times(mine, baseline)])
-    return table(["scene", "search", *queues, "tournament over best", "baseline",
+    return table(["scene", "search", *calendars, "tournament over best", "baseline",
                   "tournament, times baseline"], rows)
 
 
@@ -192,11 +192,11 @@ SECTIONS = {  # part: title, what makes its table
     "searches": ("Searches", case_table),
     "density": ("Density: us per collision of 10000 needles", density_table),
     "size": ("Size: us per collision", size_table),
-    "matrix": ("Every search by every queue: us per collision", matrix_table),
+    "matrix": ("Every search by every calendar: us per collision", matrix_table),
     "storage": ("Storage by place or by id", case_table),
-    "hulls": ("Sides of cells and radii of capsules: us per collision", hull_table),
+    "hulls": ("Sides of cells and radii of capsules: us per collision", volume_size_table),
     "cloud": ("A cloud: cells for the whole box, and as chosen", case_table),
-    "queues": ("Queues", case_table),
+    "queues": ("Calendars", case_table),
     "isa": ("Instruction sets", case_table),
     "effects": ("Effects", case_table),
     "calendars": ("Calendars by themselves", calendar_table),

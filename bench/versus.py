@@ -9,9 +9,9 @@
 Prints, for each scene, the CPU time of the event loop per collision, the least of each, and how much
 the second takes of the first's: the median over repetitions of the quotient of neighbours in time,
 with an interval that holds the true median in 95 of 100 cases or more. A machine that changes its
-speed does so for both. Runs count from their start on, when all hulls are fresh: costs are a little
-lower than those of `needlework bench`. Fails when the trajectories differ; builds of commits between
-which they were changed are compared by --other-trajectory.
+speed does so for both. Runs count from their start on, when no needle is about to leave its bounding
+volume: costs are a little lower than those of `needlework bench`. Fails when the trajectories differ;
+builds of commits between which they were changed are compared by --other-trajectory.
 """
 
 import argparse

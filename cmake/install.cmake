@@ -28,9 +28,12 @@ install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
 
 install(DIRECTORY include/needlework TYPE INCLUDE)
 install(FILES include/needlework.h TYPE INCLUDE)
+install(DIRECTORY examples TYPE DOC)
 install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
 install(TARGETS needlework_c EXPORT NeedleworkCTargets)
+file(RELATIVE_PATH needlework_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig
+     ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/needlework.pc.in needlework.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/needlework.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

@@ -4,22 +4,27 @@
  * find_package(Needlework COMPONENTS c) and needlework::c. docs/c.md is the guide; examples/ has
  * complete programs in C and Fortran.
  *
- * Units: length in units in which the scene gives lengths (L = 1 unless it has [[species]]), mass
- * and time likewise. Arrays have one row of three numbers for each needle.
+ * Units are those of the scene: needles have length 1 and mass 1 unless it has [[species]]. Vectors
+ * have one row of three numbers for each needle. Structures are best set to {0} before their
+ * members are, so that members which are not named count as not given.
  *
  * Errors. Functions return a code of needlework_code, whose values are the program's exit codes.
  * The message of a function with a simulation is needlework_message(simulation), that of a function
  * without one is written to the needlework_error passed to it (NULL: not wanted). The library
  * throws no exception to its caller, never ends the process, prints nothing, and changes no signal
- * handler, no floating-point environment and no setting of OpenMP or HDF5. A function that fails
- * changes nothing, except where it says so.
+ * handler and no setting of OpenMP or HDF5. It computes in the default floating-point environment,
+ * whatever that of the caller is, and leaves the caller's as it was. A function that fails changes
+ * nothing, except where it says so. If memory runs out while a simulation runs, every function on
+ * it returns NEEDLEWORK_INVALID_STATE from then on; what its file holds stays.
  *
  * Threads. Each function says in square brackets which calls may run at the same time:
  *   [any]     with every other function
  *   [handle]  with every function on other simulations. A call on a simulation that another thread
- *             uses at that moment, or from its own callback, returns NEEDLEWORK_USAGE at once and
- *             leaves the message as it is.
- *   [signal]  with every other function, also in a signal handler and in a callback */
+ *             uses at that moment, or from its own callback, returns NEEDLEWORK_USAGE at once.
+ *   [signal]  with every other function, also in a signal handler and in a callback
+ * A thread must not be cancelled (pthread_cancel) in a call. Calls that read or write files exclude
+ * each other, but not HDF5 calls of the caller in other threads: those need a thread-safe build of
+ * HDF5, such as Debian's. */
 #ifndef NEEDLEWORK_H
 #define NEEDLEWORK_H
 
@@ -41,7 +46,7 @@ extern "C" {
 enum needlework_code {
   NEEDLEWORK_OK = 0,
   NEEDLEWORK_USAGE = 2,         /* an argument that is NULL or impossible, or a call not allowed */
-  NEEDLEWORK_INPUT = 3,         /* a scene, a state or a file that cannot be used */
+  NEEDLEWORK_INPUT = 3,         /* a scene, state or file that cannot be used; too little memory */
   NEEDLEWORK_INVALID_STATE = 4, /* the simulation cannot go on correctly */
   NEEDLEWORK_IO = 5             /* a file that cannot be read or written */
 };
@@ -54,12 +59,12 @@ typedef struct needlework_error {
 /* ---- Version and capabilities ---------------------------------------------------------------- */
 
 /* The version, such as "0.1.0". [any] */
-NEEDLEWORK_API const char *needlework_version(void);
+NEEDLEWORK_API const char* needlework_version(void);
 
 /* 1 if this library on this machine has what is named, else 0: "isa/scalar", "isa/sse4",
  * "isa/avx2", "isa/avx512" (instruction sets), "threads" (several threads for a simulation),
  * "files/h5md" (reading and writing files). [any] */
-NEEDLEWORK_API int needlework_has(const char *capability);
+NEEDLEWORK_API int needlework_has(const char* capability);
 
 /* ---- Making a simulation --------------------------------------------------------------------- */
 
@@ -72,16 +77,17 @@ enum needlework_flag {
 /* One vector for each needle: data[n * row + axis * column] is the component `axis` of needle n.
  * Both strides count numbers; 0 stands for 3 and 1, which is double data[N][3]. */
 typedef struct needlework_vectors {
-  double *data; /* NULL: absent, or not wanted */
+  double* data; /* NULL: absent, or not wanted */
   ptrdiff_t row, column;
 } needlework_vectors;
 
 typedef struct needlework_const_vectors {
-  const double *data; /* NULL: absent */
+  const double* data; /* NULL: absent */
   ptrdiff_t row, column;
 } needlework_const_vectors;
 
-/* The state to start from. The scene's count and box, where given, must agree with it. */
+/* The state to start from. The scene's count and box, where given, must agree with it. Positions
+ * beyond the box are moved into it, and images count from 0. */
 typedef struct needlework_initial {
   size_t count;
   double box[3];                             /* edges; all 0: those of the scene */
@@ -90,41 +96,44 @@ typedef struct needlework_initial {
   needlework_const_vectors orientation;      /* directors, of any length but 0 */
   needlework_const_vectors angular_velocity; /* of which the part normal to the director counts;
                                                 absent: all 0 */
-  const uint32_t *id;                        /* distinct; NULL: 0 to count - 1 */
+  const uint32_t* id;                        /* distinct; NULL: 0 to count - 1 */
 } needlework_initial;
 
-/* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing. The
- * initial state is drawn, or read from initial.file. If the scene names output.file, that file is
- * written as the program `needlework run` writes it. `flags` is 0 or NEEDLEWORK_REPLACE. Returns NULL on
- * failure. The caller destroys the simulation. [any] */
-NEEDLEWORK_API needlework_simulation *needlework_create(const char *scene, unsigned flags,
-                                                        needlework_error *error);
-/* The same for a scene in a file. */
-NEEDLEWORK_API needlework_simulation *needlework_open(const char *path, unsigned flags,
-                                                      needlework_error *error);
+/* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing.
+ * The initial state is drawn, or read from initial.file. If the scene names output.file, that file
+ * is written as the program `needlework run` writes it. NEEDLEWORK_ISA and OMP_NUM_THREADS count as
+ * they do for the program. `flags` is 0 or NEEDLEWORK_REPLACE. Returns NULL on failure. The caller
+ * destroys the simulation. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_create(const char* scene, unsigned flags,
+                                                        needlework_error* error);
+/* The same for a scene in a file. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_open(const char* path, unsigned flags,
+                                                      needlework_error* error);
 /* The same from a state of the caller's, which is copied. The scene must have neither initial.file
- * nor temperatures, and needs neither needles.count nor needles.box. */
-NEEDLEWORK_API needlework_simulation *needlework_create_from(const char *scene,
-                                                             const needlework_initial *initial,
+ * nor temperatures, and needs neither needles.count nor needles.box. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_create_from(const char* scene,
+                                                             const needlework_initial* initial,
                                                              unsigned flags,
-                                                             needlework_error *error);
+                                                             needlework_error* error);
 
 /* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due; call
- * needlework_close() first for one at the end. No other call may use the simulation. */
-NEEDLEWORK_API void needlework_destroy(needlework_simulation *simulation);
+ * needlework_close() first for one at the end. No other call may use the simulation, nor may this
+ * be called from its callback. */
+NEEDLEWORK_API void needlework_destroy(needlework_simulation* simulation);
 
-/* The message of the last call on this simulation that failed, or "". Valid until the next call that
- * fails. [handle] */
-NEEDLEWORK_API const char *needlework_message(const needlework_simulation *simulation);
+/* The message of the last call on this simulation that failed, or ""; while another call uses the
+ * simulation, a message that says so. Valid until the next call that fails. [handle] */
+NEEDLEWORK_API const char* needlework_message(const needlework_simulation* simulation);
 
 /* ---- Running --------------------------------------------------------------------------------- */
 
-/* Conditions of which the first one met ends the call. 0: no such condition. */
+/* Conditions of which the first one met ends the call. 0: no such condition. None may be negative,
+ * and one must be set. */
 typedef struct needlework_limits {
   double time;
   uint64_t collisions;          /* of all needles together */
   double collisions_per_needle; /* 2 collisions / N */
-  double energy_ratio;          /* energy at most this share of that at the reference */
+  double energy_ratio;          /* energy at most this share of that at the start, or at present */
   double wall_s;                /* wall-clock time of this call, in seconds */
 } needlework_limits;
 
@@ -137,55 +146,62 @@ enum needlework_stop {
   NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5 /* and there is no limit on time */
 };
 
-/* Runs until a limit is met. Limits count from the start of the simulation; NULL stands for the
- * scene's [until]. `stop` receives a value of needlework_stop (NULL: not wanted). Never changes the
- * trajectory by where it stops. On NEEDLEWORK_INVALID_STATE the state is that before the event
- * that failed; on NEEDLEWORK_IO the output file is complete up to the last sample. [handle] */
-NEEDLEWORK_API int needlework_run_until(needlework_simulation *simulation,
-                                        const needlework_limits *limits, int *stop);
-/* The same with limits that count from the present state, and of which one must be set. */
-NEEDLEWORK_API int needlework_advance(needlework_simulation *simulation,
-                                      const needlework_limits *limits, int *stop);
+/* Runs until a limit is met, at once if it is met already. Limits count from the start of the
+ * simulation; NULL stands for the scene's [until]. `stop` receives a value of needlework_stop
+ * (NULL: not wanted). Where a call stops does not change the trajectory. On failure the simulation
+ * has come as far as it could: on NEEDLEWORK_INVALID_STATE the state is that before the event that
+ * failed; on NEEDLEWORK_IO the output file is complete up to the last sample, and the simulation
+ * can be looked at, but not run any further. [handle] */
+NEEDLEWORK_API int needlework_run_until(needlework_simulation* simulation,
+                                        const needlework_limits* limits, int* stop);
+/* The same with limits that count from the present state; NULL is not allowed. [handle] */
+NEEDLEWORK_API int needlework_advance(needlework_simulation* simulation,
+                                      const needlework_limits* limits, int* stop);
 
-/* Stops the call that is running the simulation soon, or else the next one at once. [signal] */
-NEEDLEWORK_API void needlework_interrupt(needlework_simulation *simulation);
+/* Stops the call that is running the simulation soon, or else the next one that runs it at once,
+ * with NEEDLEWORK_STOP_INTERRUPTED. NULL is allowed. [signal] */
+NEEDLEWORK_API void needlework_interrupt(needlework_simulation* simulation);
 
-/* Adds a sample at the present time to the output file and closes it. Then the simulation can be
- * looked at, but not run. Without an output file it does nothing. [handle] */
-NEEDLEWORK_API int needlework_close(needlework_simulation *simulation);
+/* Adds a sample and a frame at the present time to the output file and closes it. Then, and also
+ * if this fails, the simulation can be looked at, but not run. Without an output file, and when
+ * called again, it does nothing. [handle] */
+NEEDLEWORK_API int needlework_close(needlework_simulation* simulation);
 
 /* ---- Collisions ------------------------------------------------------------------------------ */
 
 /* One collision; vectors and signs refer to the first needle, the one with the lower id. */
 typedef struct needlework_collision {
-  int64_t epoch;              /* the time is exactly epoch * epoch length + offset */
-  double offset;              /* [time] */
-  double time;                /* the time rounded to a double [time] */
-  uint32_t first, second;     /* ids */
-  int32_t shift[3];           /* boxes added to the second needle's recorded centre */
-  double arm_first;           /* s12, from the centre to the contact [length] */
-  double arm_second;          /* s21 [length] */
-  double sin_angle;           /* |u1 x u2| */
-  double normal_velocity;     /* before the collision [length / time] */
-  double impulse[3];          /* on the first needle [mass length / time] */
-  double energy_change;       /* of the total energy, <= 0 up to rounding */
-  uint8_t contact_time_rule;  /* 1 if the t_c rule made it elastic */
-  struct {                    /* states of both needles just after it */
+  int64_t epoch;             /* the time is exactly epoch * epoch length + offset */
+  double offset;             /* [time] */
+  double time;               /* the time rounded to a double [time] */
+  uint32_t first, second;    /* ids */
+  int32_t shift[3];          /* boxes added to the second needle's recorded centre */
+  double arm_first;          /* s12, from the centre to the contact [length] */
+  double arm_second;         /* s21 [length] */
+  double sin_angle;          /* |u1 x u2| */
+  double normal_velocity;    /* before the collision [length / time] */
+  double impulse[3];         /* on the first needle [mass length / time] */
+  double energy_change;      /* of the total energy, <= 0 up to rounding */
+  uint8_t contact_time_rule; /* 1 if the t_c rule made it elastic */
+  struct {                   /* states of both needles just after it */
     double position[3], velocity[3], orientation[3], angular_velocity[3];
   } after[2];
 } needlework_collision;
 
 /* Receives collisions in order of time. The array is valid during the call only. Returns 0 to go
- * on, anything else to stop the run soon; collisions until then are kept for the next call. With several threads it
- * may be called by any of them, one call at a time. It must not leave by an exception or longjmp,
- * and of this simulation may call needlework_interrupt() only. */
-typedef int (*needlework_on_collisions)(const needlework_collision *collisions, size_t count,
-                                        void *user);
+ * on, anything else to stop the run soon, with NEEDLEWORK_STOP_INTERRUPTED; the few collisions
+ * until it stops are kept for the next call that runs the simulation. It is called by the thread
+ * that runs the simulation, in the default floating-point environment. It must not leave by an
+ * exception or longjmp, and of functions on this simulation may call only those marked [signal] or
+ * [any]. */
+typedef int (*needlework_on_collisions)(const needlework_collision* collisions, size_t count,
+                                        void* user);
 
-/* Sets the function that is given all collisions from now on, `batch` at once and the rest at the
- * end of each call that runs. NULL: none. [handle] */
-NEEDLEWORK_API int needlework_set_callback(needlework_simulation *simulation, size_t batch,
-                                           needlework_on_collisions callback, void *user);
+/* Sets the function that is given all collisions from now on, `batch` (at least 1) at once, fewer
+ * if memory does not suffice, and the rest at the end of each call that runs the simulation. NULL:
+ * none. What was kept for the previous function is dropped. [handle] */
+NEEDLEWORK_API int needlework_set_callback(needlework_simulation* simulation, size_t batch,
+                                           needlework_on_collisions callback, void* user);
 
 /* ---- State ----------------------------------------------------------------------------------- */
 
@@ -193,26 +209,29 @@ NEEDLEWORK_API int needlework_set_callback(needlework_simulation *simulation, si
 typedef struct needlework_state {
   needlework_vectors position; /* inside the box */
   needlework_vectors velocity, orientation, angular_velocity;
-  int32_t *image; /* [N][3], box crossings along each axis */
-  uint32_t *id;   /* [N] */
+  int32_t* image; /* [N][3], box crossings along each axis */
+  uint32_t* id;   /* [N] */
 } needlework_state;
 
-/* The number of needles; 0 for NULL. [handle] */
-NEEDLEWORK_API size_t needlework_count(const needlework_simulation *simulation);
+/* The number of needles; 0 for NULL. [any] */
+NEEDLEWORK_API size_t needlework_count(const needlework_simulation* simulation);
 /* The edges of the box. [handle] */
-NEEDLEWORK_API int needlework_get_box(const needlework_simulation *simulation, double box[3]);
-/* Copies the state into the caller's arrays of needlework_count() rows. [handle] */
-NEEDLEWORK_API int needlework_get_state(needlework_simulation *simulation,
-                                        const needlework_state *into);
-/* Writes the state as a file that initial.file of a scene can name. [handle] */
-NEEDLEWORK_API int needlework_write_state(needlework_simulation *simulation, const char *path,
+NEEDLEWORK_API int needlework_get_box(const needlework_simulation* simulation, double box[3]);
+/* Copies the state into the caller's arrays of needlework_count() rows, which must not overlap.
+ * [handle] */
+NEEDLEWORK_API int needlework_get_state(needlework_simulation* simulation,
+                                        const needlework_state* into);
+/* Writes the state as a file that initial.file of a scene can name. A file that is replaced stays
+ * until the new one is complete. `flags` is 0 or NEEDLEWORK_REPLACE. [handle] */
+NEEDLEWORK_API int needlework_write_state(needlework_simulation* simulation, const char* path,
                                           unsigned flags);
 
-/* Replaces all velocities at the present time, by increasing id. Needles that touch stay on their
- * sides; hash, counts and the energy at the start are kept. [handle] */
-NEEDLEWORK_API int needlework_set_velocities(needlework_simulation *simulation,
-                                             const needlework_const_vectors *velocity,
-                                             const needlework_const_vectors *angular_velocity);
+/* Replaces all velocities at the present time, by increasing id; the part of an angular velocity
+ * along the director is removed. Needles that touch stay on their sides; hash, counts and the
+ * energy at the start are kept. [handle] */
+NEEDLEWORK_API int needlework_set_velocities(needlework_simulation* simulation,
+                                             const needlework_const_vectors* velocity,
+                                             const needlework_const_vectors* angular_velocity);
 
 /* ---- Numbers --------------------------------------------------------------------------------- */
 
@@ -220,45 +239,46 @@ typedef struct needlework_totals {
   double time;            /* since the start */
   double t_tr, t_rot;     /* (2/3) <m v^2 / 2> and <I w^2 / 2> */
   double energy;          /* per needle */
-  double initial_energy;  /* per needle, at the start */
+  double initial_energy;  /* per needle, at the start; NaN without needles */
   double momentum[3];     /* of all needles */
   uint64_t collisions;    /* since the start */
   uint64_t tc_collisions; /* those made elastic by the t_c rule */
-  double mean_free_time;  /* by kinetic theory, at about the present temperatures */
-  double epoch_length;    /* of needlework_collision.epoch */
+  double mean_free_time; /* by kinetic theory, at about the present temperatures; may be infinite */
+  double epoch_length;   /* of needlework_collision.epoch */
 } needlework_totals;
 
-/* [handle] */
-NEEDLEWORK_API int needlework_get_totals(needlework_simulation *simulation,
-                                         needlework_totals *totals);
+/* Sums over all needles at the present time. [handle] */
+NEEDLEWORK_API int needlework_get_totals(needlework_simulation* simulation,
+                                         needlework_totals* totals);
 /* The hash of all collisions so far, in 32 hexadecimal digits and a zero. [handle] */
-NEEDLEWORK_API int needlework_get_hash(needlework_simulation *simulation, char hash[33]);
+NEEDLEWORK_API int needlework_get_hash(needlework_simulation* simulation, char hash[33]);
 /* The names of the counters of work done, by index from 0; NULL behind the last. [any] */
-NEEDLEWORK_API const char *needlework_counter_name(size_t index);
+NEEDLEWORK_API const char* needlework_counter_name(size_t index);
 /* The value of a counter. [handle] */
-NEEDLEWORK_API int needlework_get_counter(needlework_simulation *simulation, const char *name,
-                                          uint64_t *value);
-/* What is in use of "search", "queue", "isa" or "effects"; NULL for other names. Valid until the
- * next call of this function on the simulation. [handle] */
-NEEDLEWORK_API const char *needlework_setting(needlework_simulation *simulation, const char *name);
+NEEDLEWORK_API int needlework_get_counter(needlework_simulation* simulation, const char* name,
+                                          uint64_t* value);
+/* What is in use of "search", "queue", "isa" or "effects"; NULL on failure, as for other names.
+ * Valid until the next call of this function on the simulation. [handle] */
+NEEDLEWORK_API const char* needlework_setting(needlework_simulation* simulation, const char* name);
 
 /* ---- First contacts of pairs ----------------------------------------------------------------- */
 
-/* Pairs of needles of length 1 at time 0, without periodic images. */
+/* Pairs of needles of length 1 at time 0, without periodic images. All but `skip` and `accuracy`
+ * must be given. */
 typedef struct needlework_pairs {
   size_t count;
   needlework_const_vectors r1, u1, v1, w1; /* the first needles: centre, director, velocity, */
   needlework_const_vectors r2, u2, v2, w2; /* angular velocity; the second needles */
-  const double *horizon;                   /* [count] */
-  const unsigned char *skip; /* [count], 1: the pair has just collided at time 0; NULL: all 0 */
-  const char *accuracy;      /* "fast", "standard" or "rigorous"; NULL: "standard" */
+  const double* horizon;                   /* [count], 0 or later */
+  const unsigned char* skip; /* [count], 1: the pair has just collided at time 0; NULL: all 0 */
+  const char* accuracy;      /* "fast", "standard" or "rigorous"; NULL: "standard" */
 } needlework_pairs;
 
 /* Writes time and arms of the first contact in (0, horizon] of each pair to arrays of `count`
  * numbers (NULL: not wanted); infinity, NaN and NaN where there is none. On failure the message
  * names the pair, and the results before it are written. [any] */
-NEEDLEWORK_API int needlework_predict(const needlework_pairs *pairs, double *time, double *s12,
-                                      double *s21, needlework_error *error);
+NEEDLEWORK_API int needlework_predict(const needlework_pairs* pairs, double* time, double* s12,
+                                      double* s21, needlework_error* error);
 
 /* ---- Kinetic theory, for needles of length 1 and mass 1 -------------------------------------- */
 
@@ -269,14 +289,15 @@ typedef struct needlework_gas {
 
 /* Collisions of one needle per unit time at number density `density`. [any] */
 NEEDLEWORK_API int needlework_collision_rate(double k, double density, double t_tr, double t_rot,
-                                             double *rate, needlework_error *error);
+                                             double* rate, needlework_error* error);
 /* The long-time ratio T_tr / T_rot of a cooling gas; NaN if it does not cool. [any] */
-NEEDLEWORK_API int needlework_ratio(const needlework_gas *gas, double *ratio,
-                                    needlework_error *error);
-/* The cooling curve at `count` times tau = (2/3) sqrt(pi) n t, from these temperatures at 0. [any] */
-NEEDLEWORK_API int needlework_cooling(const needlework_gas *gas, double t_tr0, double t_rot0,
-                                      size_t count, const double *tau, double *t_tr, double *t_rot,
-                                      needlework_error *error);
+NEEDLEWORK_API int needlework_ratio(const needlework_gas* gas, double* ratio,
+                                    needlework_error* error);
+/* The cooling curve at `count` times tau = (2/3) sqrt(pi) n t, in any order, from these
+ * temperatures at 0. t_tr and t_rot are arrays of `count` numbers (NULL: not wanted). [any] */
+NEEDLEWORK_API int needlework_cooling(const needlework_gas* gas, double t_tr0, double t_rot0,
+                                      size_t count, const double* tau, double* t_tr, double* t_rot,
+                                      needlework_error* error);
 
 #ifdef __cplusplus
 }

@@ -43,7 +43,7 @@ inline Vec3d centre_after(const Flight& flight, double elapsed) {
 }
 Vec3d director_after(const Flight& flight, double elapsed);
 
-/// What two needles carry from having touched at s = 0: the contact function is continued from the
+/// What is kept of a touch of two needles at s = 0: the contact function is continued from the
 /// value it had, so that rounding a record never moves a needle to the other side of its neighbour.
 struct Touch {
   bool touching = false;
@@ -183,8 +183,8 @@ Estimate estimate(const Frame<T>& frame, const T& s, const Sample<T>& sample) {
   out.distance = std::sqrt(to_double(dot(sample.r, sample.r)));
   if constexpr (std::is_same_v<T, DoubleDouble>) {
     // f is off by |x| times what r is, by |u2 x r| and |u1 x r| times what the directors are, and
-    // by |r| times the rounding of x, whose factors are as exact as the directors. All of that
-    // shrinks where the needles come to lie along one line, and f with it, to second order.
+    // by |r| times the rounding of x, whose factors are as exact as the directors. All of
+    // these errors, like f itself, vanish to second order as the needles approach one line.
     const Vec3d centres = to_double(sample.r);
     const auto arm = [&](const Vec3<T>& u) {
       const Vec3d c = cross(to_double(u), centres);
@@ -211,13 +211,13 @@ double third_derivative_bound(const Frame<T>& frame, const Estimate& e, double o
   return (3 * v + (e.distance + v * off) * w) * w * w;
 }
 
-/// What an estimate says of the time `off` later, or before, by Taylor's expansion.
+/// The estimate at a time later by `off`, or earlier, by Taylor's expansion.
 /// |f'''| is not above `third` between. The distance remains that of e.
 Estimate expanded(const Estimate& e, double off, double third);
 
 /// f as the sum of a slow and a fast part, each (a + b s) times sines and cosines of one frequency,
 /// |w1| - |w2| and |w1| + |w2|: bounds on f's derivatives for needles that stay close to one plane
-/// or parallel, where |r|, |v| and the sum of the frequencies say too much.
+/// or parallel, where bounds by |r|, |v| and the sum of the frequencies are far too large.
 struct Amplitude {
   struct Part {
     double a, b;  ///< sums of the magnitudes of the coefficients

@@ -24,14 +24,14 @@ class ContactValues {
  public:
   static constexpr bool escalates = escalation != Escalation::never;
 
-  ContactValues(const Pair& pair, const PairScale& scale, SearchCounters& counters)
+  ContactValues(const Pair& pair, const PairScale& scale, EvaluationCounters& counters)
       : pair_(pair), scale_(scale), frame_(make_frame<double>(pair, scale)), counters_(counters) {
     if (pair.touch.touching) continue_from_touch();
   }
 
   const Pair& pair() const { return pair_; }
   const PairScale& scale() const { return scale_; }
-  SearchCounters& counters() { return counters_; }
+  EvaluationCounters& counters() { return counters_; }
   const Frame<double>& frame() const { return frame_; }
   const Frame<DoubleDouble>& precise_frame();
   bool just_collided() const { return pair_.touch.collided; }
@@ -82,7 +82,7 @@ class ContactValues {
   std::optional<Frame<DoubleDouble>> precise_;
   double kept_at_ = std::numeric_limits<double>::quiet_NaN();
   Sample<double> kept_;
-  SearchCounters& counters_;
+  EvaluationCounters& counters_;
 };
 
 // f is continued from the gap it had: in double, where that decides whether f leaves the touch on
@@ -114,8 +114,8 @@ const Frame<DoubleDouble>& ContactValues<escalation>::precise_frame() {
   const Sample<DoubleDouble> start = evaluate(frame, DoubleDouble());
   frame.offset_error = estimate(frame, DoubleDouble(), start).error_f;
   frame.offset = DoubleDouble(gap()) - start.f;
-  // A just-collided pair does not approach; what rounding of the velocities says otherwise is
-  // taken off.
+  // A just-collided pair does not approach; a slope to the contrary is due to rounding of the
+  // velocities and is subtracted.
   if (pair_.touch.collided && to_double(start.df) * pair_.touch.side < 0) frame.slope = -start.df;
   return frame;
 }
@@ -143,7 +143,7 @@ Sample<DoubleDouble> ContactValues<escalation>::sample_at(const DoubleDouble& s)
   return evaluate(precise_frame(), s);
 }
 
-// f and its derivatives, without a look at their errors where double decides everything.
+// f and its derivatives, without their errors if double decides everything.
 template <Escalation escalation>
 template <class T>
 Estimate ContactValues<escalation>::estimate_of(const T& s, const Sample<T>& sample) {

@@ -25,13 +25,14 @@ struct Root {
   int side;  // sign of f before
 };
 
-// The search for one way to find free intervals and one way to escalate, chosen at compile time, so
-// that its code contains nothing that only the others need.
+// Finds the first root that is a contact. How intervals are proved free of roots and when precision
+// escalates are chosen at compile time, so that the code contains nothing that only the others
+// need.
 template <Isolation isolation, Escalation escalation>
-class Search {
+class RootFinder {
  public:
-  Search(const Pair& pair, const PairScale& scale, const Accuracy& accuracy,
-         SearchCounters& counters)
+  RootFinder(const Pair& pair, const PairScale& scale, const Accuracy& accuracy,
+             EvaluationCounters& counters)
       : accuracy_(accuracy), values_(pair, scale, counters), stretches_(values_) {}
 
   Contact run(double from, double until);
@@ -74,8 +75,8 @@ class Search {
 // Sign of f just after an end of the interval that was classified by e. The expansion of e often
 // decides it.
 template <Isolation isolation, Escalation escalation>
-int Search<isolation, escalation>::sign_at_end(const Interval& interval, const Estimate& e,
-                                               double end) {
+int RootFinder<isolation, escalation>::sign_at_end(const Interval& interval, const Estimate& e,
+                                                   double end) {
   const bool carried = end == 0 && values_.pair().touch.touching;
   if (escalation != Escalation::always && !carried) {
     const Estimate there =
@@ -88,8 +89,8 @@ int Search<isolation, escalation>::sign_at_end(const Interval& interval, const E
 // The sign of f at the beginning of an interval on which |f'| is at least `least_slope`, when f has
 // a root there; else 0. The values in the middle often decide both.
 template <Isolation isolation, Escalation escalation>
-int Search<isolation, escalation>::side_before_root(const Interval& interval, const Estimate& e,
-                                                    double least_slope) {
+int RootFinder<isolation, escalation>::side_before_root(const Interval& interval, const Estimate& e,
+                                                        double least_slope) {
   const int slope = sign_of(e.df);
   const bool carried = interval.begin == 0 && values_.pair().touch.touching;
   if (carried || !(std::abs(e.f) > e.error_f)) {
@@ -109,8 +110,8 @@ int Search<isolation, escalation>::side_before_root(const Interval& interval, co
 // beyond a tip.
 template <Isolation isolation, Escalation escalation>
 template <class T>
-auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, double least_slope)
-    -> std::optional<Refined<T>> {
+auto RootFinder<isolation, escalation>::refine(T begin, T end, T start, int side,
+                                               double least_slope) -> std::optional<Refined<T>> {
   const double share =
       std::is_same_v<T, double> ? std::max(0x1p-52, accuracy_.root_tolerance) : 0x1p-98;
   std::optional<Refined<T>> out(std::in_place);
@@ -145,8 +146,9 @@ auto Search<isolation, escalation>::refine(T begin, T end, T start, int side, do
 
 // The root between begin and end, when it is a contact.
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::accept(double begin, double end, double start,
-                                                          int side, double least_slope) {
+std::optional<Root> RootFinder<isolation, escalation>::accept(double begin, double end,
+                                                              double start, int side,
+                                                              double least_slope) {
   const auto refined = refine(begin, end, start, side, least_slope);
   if (!refined) return std::nullopt;
   const auto& [s, near, sample, e] = *refined;
@@ -168,10 +170,10 @@ std::optional<Root> Search<isolation, escalation>::accept(double begin, double e
 }
 
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::accept_precisely(const DoubleDouble& begin,
-                                                                    const DoubleDouble& end,
-                                                                    const DoubleDouble& start,
-                                                                    int side) {
+std::optional<Root> RootFinder<isolation, escalation>::accept_precisely(const DoubleDouble& begin,
+                                                                        const DoubleDouble& end,
+                                                                        const DoubleDouble& start,
+                                                                        int side) {
   if constexpr (!escalates) return accept(begin.hi, end.hi, start.hi, side);
   const auto [s, near, sample, e] = *refine(begin, end, start, side, 0);
   const double off = values_.root_uncertainty(e, to_double(near), 0x1p-102);
@@ -182,8 +184,8 @@ std::optional<Root> Search<isolation, escalation>::accept_precisely(const Double
 
 // f'' keeps its sign on the interval.
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& interval,
-                                                               const Estimate& e) {
+std::optional<Root> RootFinder<isolation, escalation>::search_fold(const Interval& interval,
+                                                                   const Estimate& e) {
   const int before = sign_at_end(interval, e, interval.begin),
             after = sign_at_end(interval, e, interval.end);
   const int bend = sign_of(e.ddf);
@@ -234,8 +236,8 @@ std::optional<Root> Search<isolation, escalation>::search_fold(const Interval& i
 // The interval that begins where the pair has just collided: f(0) = 0 is known and f does not
 // approach there. Only called where f'' keeps its sign or f' does.
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::search_start(const Interval& interval,
-                                                                const Estimate& e) {
+std::optional<Root> RootFinder<isolation, escalation>::search_start(const Interval& interval,
+                                                                    const Estimate& e) {
   const int side = values_.pair().touch.side, after = sign_at_end(interval, e, interval.end);
   if (after == side || after == 0) return std::nullopt;
   if (sign_of(e.ddf) == side) return std::nullopt;
@@ -263,7 +265,7 @@ std::optional<Root> Search<isolation, escalation>::search_start(const Interval& 
 // side, which need not be the pair's. f' and f'' vanish too when the contact points of rough
 // needles have come to rest on each other.
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::search_flat_start(const Interval& interval) {
+std::optional<Root> RootFinder<isolation, escalation>::search_flat_start(const Interval& interval) {
   const int side = values_.pair().touch.side;
   if (side == 0 || values_.sign_at(interval.end) != -side) return std::nullopt;
   return Root{0.0, side};
@@ -271,7 +273,7 @@ std::optional<Root> Search<isolation, escalation>::search_flat_start(const Inter
 
 // Looks only at the signs at equal steps.
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::search_samples(const Interval& interval) {
+std::optional<Root> RootFinder<isolation, escalation>::search_samples(const Interval& interval) {
   const double length = interval.end - interval.begin;
   const double steps = std::max(1.0, std::ceil(length / accuracy_.sampling_step));
   double begin = interval.begin;
@@ -290,7 +292,7 @@ std::optional<Root> Search<isolation, escalation>::search_samples(const Interval
 }
 
 template <Isolation isolation, Escalation escalation>
-std::optional<Root> Search<isolation, escalation>::search_interval(const Interval& interval) {
+std::optional<Root> RootFinder<isolation, escalation>::search_interval(const Interval& interval) {
   if (interval.end < first_ || interval.begin > last_) return std::nullopt;
   if constexpr (isolation == Isolation::sampling) return search_samples(interval);
   if (stretches_.vanishes(interval.depth)) return std::nullopt;
@@ -330,11 +332,11 @@ std::optional<Root> Search<isolation, escalation>::search_interval(const Interva
 }
 
 // The times at which |r + v s| <= reach, with a margin; empty when begin > end.
-struct Window {
+struct TimeSpan {
   double begin, end;
 };
 
-Window sphere_window(const Vec3d& r, const Vec3d& v, double reach) {
+TimeSpan sphere_overlap(const Vec3d& r, const Vec3d& v, double reach) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const double r2 = dot(r, r);
   // The second term covers the rounding of r x v and of r . r, for needles far apart.
@@ -355,13 +357,14 @@ Window sphere_window(const Vec3d& r, const Vec3d& v, double reach) {
 }
 
 template <Isolation isolation, Escalation escalation>
-Contact Search<isolation, escalation>::run(double from, double until) {
+Contact RootFinder<isolation, escalation>::run(double from, double until) {
   const double end = until * values_.scale().per_time;
-  // A root outside the window of the spheres has an arm beyond a tip.
+  // A root at which the spheres do not overlap has an arm beyond a tip.
   const Frame<double>& frame = values_.frame();
-  const Window window = sphere_window(frame.r, frame.v, frame.half[0] + frame.half[1]);
-  last_ = std::min(end, window.end * roundup);
-  first_ = std::max({0.0, from * values_.scale().per_time, window.begin * (1 - 0x1p-20) - 0x1p-40});
+  const TimeSpan overlap = sphere_overlap(frame.r, frame.v, frame.half[0] + frame.half[1]);
+  last_ = std::min(end, overlap.end * roundup);
+  first_ =
+      std::max({0.0, from * values_.scale().per_time, overlap.begin * (1 - 0x1p-20) - 0x1p-40});
   if (values_.pair().touch.touching && from == 0) first_ = 0;
   if (!(first_ <= last_)) return {};
   if (values_.pair().touch_within > 0 && from == 0 && !values_.pair().touch.touching) {
@@ -397,12 +400,12 @@ Contact Search<isolation, escalation>::run(double from, double until) {
 
 }  // namespace
 
-Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
+Contact first_contact(const Pair& pair, double from, double until, EvaluationCounters& counters,
                       const Accuracy& accuracy) {
   const PairScale scale = scale_of(pair);
   const auto by = [&]<Isolation isolation>() {
     const auto with = [&]<Escalation escalation>() {
-      return Search<isolation, escalation>(pair, scale, accuracy, counters).run(from, until);
+      return RootFinder<isolation, escalation>(pair, scale, accuracy, counters).run(from, until);
     };
     if (accuracy.escalation == Escalation::undecided) {
       return with.template operator()<Escalation::undecided>();
@@ -452,7 +455,7 @@ int side_after(const Pair& pair) {
 
 double gap_at(const Pair& pair, const DoubleDouble& elapsed) {
   const PairScale scale = scale_of(pair);
-  SearchCounters ignored;
+  EvaluationCounters ignored;
   ContactValues<Escalation::undecided> values(pair, scale, ignored);
   const DoubleDouble s{elapsed.hi * scale.per_time, elapsed.lo * scale.per_time};
   return to_double(values.sample_at(s).f) / scale.per_length;

@@ -17,8 +17,8 @@
 
 namespace needlework::kernels {
 
-/// Work done by searches; only ever added to.
-struct SearchCounters {
+/// Evaluations of the contact function; each call adds to them.
+struct EvaluationCounters {
   std::uint64_t evaluated = 0;  ///< evaluations of f in double
   std::uint64_t escalated = 0;  ///< evaluations of f in double-double
 };
@@ -37,7 +37,7 @@ struct Contact {
 
 /// The first contact with elapsed time in (0, until]. The caller promises that there is none before
 /// `from`, so that intervals wholly before it are skipped. `until` must be finite.
-Contact first_contact(const Pair& pair, double from, double until, SearchCounters& counters,
+Contact first_contact(const Pair& pair, double from, double until, EvaluationCounters& counters,
                       const Accuracy& accuracy = standard_accuracy);
 
 /// The pair at the moment of contact.

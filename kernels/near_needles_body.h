@@ -61,14 +61,14 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
       const std::size_t size = links[b].size;
       seen += size;
       for (std::size_t lane = 0; lane < size; lane += floats_at_once) {
-        // Places beyond the last needle hold anything.
+        // The contents of places beyond the last needle are arbitrary.
         const Mask taken = first_lanes(size - lane);
         const Floats needle = load_numbers(block.needle + lane);
         const Packing found_here =
             packing_of(taken & test(block, lane, cell.offset) & !same_numbers(needle, self));
         store_numbers(packed(needle, found_here), needles + count);
         store_numbers(number(n), cells + count);
-        // The first of several; where there is none, whatever stands there.
+        // Of several, the first. If there is none, the index is arbitrary and the prefetch useless.
         __builtin_prefetch(
             reinterpret_cast<const void*>(motions + sizeof(Motion) * needles[count]));
         count += found_here.count;
@@ -253,12 +253,12 @@ void contact_function(const Seeker& seeker, const PairColumns& pairs, std::size_
 }
 
 /// The time from now on in which the bounding spheres of pairs overlap, widened by a margin.
-struct SimdWindow {
+struct SimdTimeSpan {
   Floats begin, end;
   Mask never;
 };
 
-NEEDLEWORK_INLINE SimdWindow overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
+NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
   const Floats zero(0.0f), margin(0x1p-18f);
   const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
   const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
@@ -332,9 +332,9 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
   const SimdPairs pair = load_pairs(seeker, pairs, k);
   const SimdBounds bounds = bounds_of(seeker, pair, column(C::until));
-  const SimdWindow window = overlap_of_spheres(pair, bounds);
-  Floats until = minimum(window.end, column(C::until));
-  Floats low = maximum(maximum(window.begin, column(C::from)) - margin, zero);
+  const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
+  Floats until = minimum(overlap.end, column(C::until));
+  Floats low = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
   if (parts > 1) {
     const Floats span = (until - low) * Floats(1.0f / static_cast<float>(parts)),
                  begin = load_floats(part);
@@ -350,7 +350,7 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
   const Floats step = square_root(Floats(8 * most_bend) / bounds.bend);
   // Still to be searched: from low to high, and from next on.
   Floats high = minimum(low + step, until), next = high;
-  Mask searching = first_lanes(end - k) & (!window.never) & (low <= until);
+  Mask searching = first_lanes(end - k) & (!overlap.never) & (low <= until);
   Floats from(infinity);
   std::size_t evaluations = 0;
   for (int round = 0; round < 40 && any(searching); ++round) {
@@ -359,8 +359,8 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
     const SimdShares free = free_around(sample(pair, middle), bounds, h);
     const Mask left = free.before >= one, right = free.after >= one, both = left & right;
 
-    // Where nothing of the first half is left, the search goes on in the second half, or after it;
-    // else in what is left of the first half, and then in what is left of the second.
+    // If the whole first half is free, the search continues in the second half, or after it.
+    // Otherwise it continues in the rest of the first half, and then in the rest of the second.
     const Floats freed = middle + h * free.after;
     low = select(left, select(right, next, freed), low);
     high = select(both, minimum(next + step, until), select(left, high, middle - h * free.before));
@@ -394,7 +394,7 @@ std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t 
   using C = PairColumns;
   if (n == 0) return 0;
   // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
-  // many parts depends on nothing but n, so that no result depends on where its pair stands.
+  // many parts depends on nothing but n, so that no result depends on the position of its pair.
   const std::size_t parts = std::clamp<std::size_t>(block_size / n, 1, 4);
   std::size_t evaluations = 0;
   for (std::size_t k = 0; k < n; k += block_size) {

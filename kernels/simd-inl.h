@@ -20,8 +20,8 @@ namespace needlework::kernels::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
 
-// Functions stand outside of their classes: GCC compiles those defined inside after the end of the
-// region that sets the instruction set.
+// Functions are defined outside of their classes: GCC compiles those defined inside after the end
+// of the region that sets the instruction set.
 struct Mask {
   hn::Mask<Tag> m;
 };

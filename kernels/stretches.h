@@ -60,7 +60,7 @@ class Stretches {
   ContactValues<escalation>& values_;
   std::optional<Amplitude> amplitude_;
   bool vanishes_ = false;
-  // For interval arithmetic: the frame, and the ranges of the derivatives on the interval at hand,
+  // For interval arithmetic: the frame, and the ranges of the derivatives on the present interval,
   // where they decided its shape.
   struct Enclosure {
     Range df, ddf;

@@ -1,5 +1,5 @@
 // Included in the namespace of each number type: needlework, and that of each instruction set.
-// Functions stand outside of the class for the sake of the latter (see simd-inl.h).
+// Functions are defined outside of the class because of the latter (see simd-inl.h).
 
 template <class T>
 struct Vec3 {

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Measures what accuracy costs in time: cost against error, for each level and knob.
 
-    bench/accuracy/accuracy.py                    everything; goes on where it was stopped
+    bench/accuracy/accuracy.py                    everything; continues where it was stopped
     bench/accuracy/accuracy.py pairs tc           some parts
-    bench/accuracy/accuracy.py --time-budget 20   for 20 minutes; the same command goes on later
+    bench/accuracy/accuracy.py --time-budget 20   for 20 minutes; the same command continues later
     bench/accuracy/accuracy.py tables             no measuring: tables and pictures of what there is
 
 Parts: pairs (first contacts against the oracle), cost, audit, long-audit, drift,
@@ -82,7 +82,7 @@ class Bench:
 
 
 def measure_pairs(bench, scale):
-    """Each family by each setting that can tell pairs apart: time, misses, errors of times."""
+    """Each family by each setting that distinguishes pairs: time, misses, errors of times."""
     names = [n for n in SETTINGS if "filter" not in SETTINGS[n]]
     texts = {n: ",".join([SETTINGS[n].get("accuracy", "standard")] + [
         f"{k}={v}" for k, v in SETTINGS[n].items() if k != "accuracy"]) for n in names}

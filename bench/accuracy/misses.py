@@ -3,7 +3,7 @@
 
 The oracle settles in double what is far from every limit, and the rest in many digits; one pair in
 128 is settled both ways. Takes up where it was stopped: what has been counted stays in the file,
-and a family that has fewer pairs than asked for goes on with others. Stop it at any time (Ctrl-C). Exits
+and a family that has fewer pairs than asked for continues with others. Stop it at any time (Ctrl-C). Exits
 with 1 when a contact was missed or invented outside of the condition limit.
 
     bench/accuracy/misses.py --file FILE --thermal 5e8 --hard 1e7     # 1 + 3 hours on one core

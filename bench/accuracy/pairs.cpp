@@ -274,7 +274,7 @@ int main(int argc, char** argv) {
   app.add_flag_callback(
       "--fewest-digits", [&] { options.digits = test::Digits::fewest; },
       "let the oracle settle in double what is clear; then only 1 contact in 128, and those that "
-      "are not clear, tell errors of time");
+      "are not clear, show errors of time");
   app.add_option("--list", options.errors_to, "file for the pairs that one of them gets wrong");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -66,7 +66,7 @@ void contact_function(benchmark::State& state, double density) {
 void first_contact(benchmark::State& state, double density) {
   const std::vector<NearPair> pairs = near_pairs(density, pair_count);
   const double ahead = time_ahead(density);
-  kernels::SearchCounters counters;
+  kernels::EvaluationCounters counters;
   std::size_t found = 0;
   for_pairs(state, pairs, [&](const NearPair& pair, std::size_t) {
     const kernels::Contact contact = kernels::first_contact(pair.view(), 0, ahead, counters);

@@ -37,9 +37,9 @@ void count_pairs(benchmark::State& state, double pairs) {
       Counter(pairs / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
 }
 
-/// Room for what a filter finds.
-struct Findings {
-  explicit Findings(std::size_t most)
+/// Room for the needles that a filter finds.
+struct FoundBuffer {
+  explicit FoundBuffer(std::size_t most)
       : needles(most + kernels::block_size), cells(most + kernels::block_size) {}
   Found view() { return {needles.data(), cells.data()}; }
 
@@ -50,7 +50,7 @@ struct Findings {
 template <class Apply>
 void filter(benchmark::State& state, const std::string& name, Isa isa, const Neighbourhoods& gas,
             Apply&& apply) {
-  Findings found(gas.most_needles), expected(gas.most_needles);
+  FoundBuffer found(gas.most_needles), expected(gas.most_needles);
   for (const Neighbourhood& one : gas.all) {
     const std::size_t count = apply(kernels::near_kernels(isa), one, found.view()).found;
     require(count == apply(kernels::near_kernels(Isa::scalar), one, expected.view()).found, name,
@@ -111,7 +111,7 @@ void free_flight(benchmark::State& state, Isa isa, double density) {
   }
   double done = 0;
   for (auto _ : state) {
-    // In place: centres and directors go on from where they are.
+    // In place: each flight starts from the centres and directors of the one before.
     kernels::fly(isa, columns, count);
     benchmark::ClobberMemory();
     done += count;

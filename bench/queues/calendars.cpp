@@ -100,7 +100,7 @@ struct Mix {
   const std::vector<double>& times = exponentials();
 };
 
-template <class Model, Calendar Queue>
+template <class Model, Calendar C>
 class Play {
  public:
   explicit Play(std::uint32_t n)
@@ -121,37 +121,37 @@ class Play {
   void set(const Event& event) { calendar_.set(event, event.owner.index / in_block); }
 
   Model model_;
-  Queue calendar_;
+  C calendar_;
   std::uint32_t n_;
 };
 
-template <class Model, Calendar Queue>
+template <class Model, Calendar C>
 void check_against_plain() {
-  Play<Model, Queue> play(1000);
+  Play<Model, C> play(1000);
   Play<Model, LazyHeap> plain(1000);
   for (int n = 0; n < 20000; ++n) {
     const Event event = play.step(), expected = plain.step();
     if (event < expected || expected < event) {
-      throw std::logic_error(std::string(Queue::name) + ": wrong event");
+      throw std::logic_error(std::string(C::name) + ": wrong event");
     }
   }
 }
 
-template <class Model, Calendar Queue>
+template <class Model, Calendar C>
 void measure(benchmark::State& state) {
-  check_against_plain<Model, Queue>();
+  check_against_plain<Model, C>();
   const auto n = static_cast<std::uint32_t>(state.range(0));
-  Play<Model, Queue> play(n);
+  Play<Model, C> play(n);
   for (std::uint32_t step = 0; step < 2 * n; ++step) play.step();  // to the stationary state
   for (auto _ : state) benchmark::DoNotOptimize(play.step());
   state.SetItemsProcessed(state.iterations());
 }
 
-template <class Model, class... Queues>
-void add(CalendarList<Queues...>) {
+template <class Model, class... Calendars>
+void add(CalendarList<Calendars...>) {
   for (const std::int64_t n : {1000, 10000, 100000, 1000000}) {
-    (benchmark::RegisterBenchmark((std::string(Model::name) + "/" + Queues::name).c_str(),
-                                  measure<Model, Queues>)
+    (benchmark::RegisterBenchmark((std::string(Model::name) + "/" + Calendars::name).c_str(),
+                                  measure<Model, Calendars>)
          ->Arg(n),
      ...);
   }

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 """Measures how a run gains from threads, and what limits it.
 
-    bench/scaling/scaling.py                     all scenes on 1 to all cores; goes on where it was
+    bench/scaling/scaling.py                     all scenes on 1 to all cores; continues where it was
                                                  stopped
     bench/scaling/scaling.py dilute weak         some of them
-    bench/scaling/scaling.py --time-budget 20    for 20 minutes; the same command goes on later
+    bench/scaling/scaling.py --time-budget 20    for 20 minutes; the same command continues later
     bench/scaling/scaling.py tables              no measuring: table and picture of what there is
 
 Repetitions of all settings are interleaved. Times are wall times of the event loop per collision.
 A speed-up is over the run by one thread in the same repetition; the table gives medians and ranges.
-"alone" is one thread with whatever search and queue is best for one; "apart" is as many runs of that
+"alone" is one thread with whatever search and calendar is best for one; "apart" is as many runs of that
 as there are threads, at once, and their collisions together: what the cores can give; "crowded" has
 four threads for each core. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of

@@ -20,8 +20,8 @@ struct GasScene {
 };
 
 struct Parts {
-  std::string search, queue, isa, storage = "sorted";
-  double hull = 1;  ///< size of cells or capsules, in units of what `auto` chooses
+  std::string search, calendar, isa, storage = "sorted";
+  double volume_size = 1;  ///< size of the bounding volumes, in units of what `auto` chooses
   bool operator==(const Parts&) const = default;
 };
 
@@ -47,15 +47,15 @@ Case make_case(const GasScene& gas, const Parts& parts) {
   out.scene.needles.k = gas.k;
   out.scene.collisions = gas.collisions;
   out.scene.engine.search = parts.search;
-  out.scene.engine.queue = parts.queue;
+  out.scene.engine.queue = parts.calendar;
   out.scene.engine.isa = parts.isa;
   out.scene.engine.storage = parts.storage;
   out.scene.engine.threads = 1;
   const double density = static_cast<double>(gas.needles) / std::pow(gas.box, 3);
-  if (parts.search == "linked-cells" && parts.hull != 1) {
-    out.scene.engine.cell_side = parts.hull * auto_cell_side(density);
-  } else if (parts.hull != 1) {
-    out.scene.engine.capsule_radius = parts.hull * auto_capsule_radius(density);
+  if (parts.search == "linked-cells" && parts.volume_size != 1) {
+    out.scene.engine.cell_side = parts.volume_size * auto_cell_side(density);
+  } else if (parts.volume_size != 1) {
+    out.scene.engine.capsule_radius = parts.volume_size * auto_capsule_radius(density);
   }
   out.is_baseline = parts == baseline;
   return out;
@@ -79,10 +79,11 @@ std::vector<Parts> all_searches() {
   return out;
 }
 
-std::vector<Parts> all_queues() {
+std::vector<Parts> all_calendars() {
   std::vector<Parts> out;
-  for (const char* queue : {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
-    out.push_back({"auto", queue, widest()});
+  for (const char* calendar :
+       {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
+    out.push_back({"auto", calendar, widest()});
   }
   return out;
 }
@@ -95,8 +96,8 @@ std::vector<Parts> all_instruction_sets() {
 
 // From the baseline to the default, changing one part at a time.
 std::vector<Parts> all_steps() {
-  return {{"auto", baseline.queue, baseline.isa},
-          {"auto", baseline.queue, widest()},
+  return {{"auto", baseline.calendar, baseline.isa},
+          {"auto", baseline.calendar, widest()},
           {"auto", "auto", widest()}};
 }
 
@@ -133,7 +134,7 @@ std::vector<Case> by_all() {
   for (const double density : {0.72, 11.6}) gases.push_back(gas_of(1000000, density));
   std::vector<Parts> parts;
   for (const std::string& search : fast_searches) {
-    for (Parts one : all_queues()) {
+    for (Parts one : all_calendars()) {
       one.search = search;
       parts.push_back(one);
     }
@@ -149,7 +150,7 @@ std::vector<Case> by_storage() {
 
 // Given sizes around the chosen ones, for uniform rods and for masses at the tips and at the
 // centre.
-std::vector<Case> by_hulls() {
+std::vector<Case> by_volume_sizes() {
   std::vector<Case> out;
   for (const double k : {2.0, 6.0, 100.0}) {
     for (const double density : {0.1, 0.72, 2.0, 4.0, 11.6, 50.0}) {
@@ -157,9 +158,9 @@ std::vector<Case> by_hulls() {
       gas.k = k;
       gas.name += fmt::format(",k={}", k);
       std::vector<Parts> sizes;
-      for (const double hull : {0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0}) {
+      for (const double size : {0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0}) {
         sizes.push_back(searched_by(chosen_search("auto", density)));
-        sizes.back().hull = hull;
+        sizes.back().volume_size = size;
       }
       for (Case& one : product({gas}, sizes)) out.push_back(std::move(one));
     }
@@ -207,7 +208,7 @@ std::string Case::name() const {
 
 const std::vector<Subset>& subsets() {
   static const std::vector<Subset> all{
-      {"quick", "both scenes of the paper by each search by lanes; under a minute",
+      {"quick", "both scenes of the paper by each SIMD search; under a minute",
        [] {
          return product({dilute, dense}, each_search_and_auto());
        }},
@@ -219,27 +220,27 @@ const std::vector<Subset>& subsets() {
        [] {
          return product({dilute, dense}, all_searches());
        }},
-      {"queues", "both scenes: each queue",
+      {"queues", "both scenes: each calendar",
        [] {
-         return product({dilute, dense}, all_queues());
+         return product({dilute, dense}, all_calendars());
        }},
       {"isa", "both scenes: each instruction set of this CPU",
        [] {
          return product({dilute, dense}, all_instruction_sets());
        }},
-      {"steps", "both scenes: from the baseline on, first the search, then lanes, then the queue",
+      {"steps", "both scenes: from the baseline on, first the search, then SIMD, then the calendar",
        [] {
          return product({dilute, dense}, all_steps());
        }},
       {"density", "10000 needles at n L^3 = 0.1 to 50", by_density},
       {"size", "1000 to 1000000 needles at n L^3 = 0.72, to 100000 at 11.6", by_size},
       {"matrix",
-       "1000 to 1000000 needles at n L^3 = 0.1 to 50: each search by lanes by each queue; 40 "
+       "1000 to 1000000 needles at n L^3 = 0.1 to 50: each SIMD search by each calendar; 40 "
        "minutes",
        by_all},
       {"storage", "10000 to 1000000 needles, stored by place or by id", by_storage},
       {"hulls", "8000 needles, k = 2, 6, 100: cells and capsules smaller and larger than chosen",
-       by_hulls},
+       by_volume_sizes},
       {"cloud", "8000 needles in a part of their box: cells for the whole box, and as chosen",
        by_cloud},
       {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},

@@ -15,7 +15,7 @@ struct Case {
   double filled = 1;  ///< fraction of each edge of the box in which needles start
   bool is_baseline = false;
 
-  /// SCENE/SEARCH/QUEUE/ACCURACY/ISA/threads:N, as asked for, and other settings.
+  /// SCENE/SEARCH/CALENDAR/ACCURACY/ISA/threads:N, as asked for, and other settings.
   std::string name() const;
 };
 

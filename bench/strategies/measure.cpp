@@ -25,7 +25,7 @@ struct Message {
   double setup_s, cpu_s;
   std::uint64_t collisions, bytes;
   Counters counters;
-  Text search, queue, effects, warm_up_hash, error;
+  Text search, calendar, effects, warm_up_hash, error;
 };
 static_assert(std::is_trivially_copyable_v<Message>);
 
@@ -79,7 +79,7 @@ Message measure_here(const Case& what, double min_time) {
   out.bytes = runs::peak_memory() - before;
   out.counters = difference(simulation.counters(), counters);
   out.search = text_of(simulation.search());
-  out.queue = text_of(simulation.queue());
+  out.calendar = text_of(simulation.queue());
   out.effects = text_of(simulation.effects());
   return out;
 }
@@ -134,7 +134,7 @@ Sample measure(const Case& what, double min_time) {
   out.counters = message.counters;
   out.bytes = message.bytes;
   out.search = message.search.data();
-  out.queue = message.queue.data();
+  out.calendar = message.calendar.data();
   out.effects = message.effects.data();
   out.warm_up_hash = message.warm_up_hash.data();
   return out;

@@ -32,7 +32,7 @@ struct Sample {
   std::uint64_t collisions = 0;  ///< in cpu_s
   Counters counters;             ///< in cpu_s
   std::uint64_t bytes = 0;       ///< largest memory of the simulation, set-up included
-  std::string search, queue, effects;
+  std::string search, calendar, effects;
   std::string warm_up_hash;  ///< trajectory hash when the measurement starts
 };
 

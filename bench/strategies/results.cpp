@@ -140,7 +140,7 @@ void add_sample(CaseResult& result, const Sample& sample) {
   result.us_per_collision.push_back(five_digits(1e6 * sample.cpu_s / collisions));
   Json& details = result.details;
   details["search"] = sample.search;
-  details["queue"] = sample.queue;
+  details["queue"] = sample.calendar;
   details["effects"] = sample.effects;
   details["setup_s"].push_back(sample.setup_s);
   details["collisions"].push_back(sample.collisions);

@@ -13,7 +13,7 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A simulation that cannot go on correctly, such as an unresolvable collapse (exit code 4).
+/// A simulation that cannot be continued correctly, such as an unresolvable collapse (exit code 4).
 struct InvalidStateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

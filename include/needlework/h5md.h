@@ -26,6 +26,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -91,19 +92,39 @@ class Writer {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Reads the last frame of any H5MD file that has position, velocity, orientation and
-/// angular_velocity in /particles/needles, or in the only group under /particles, whatever its
-/// name.
+/// The frames of any H5MD file that has position, velocity, orientation and angular_velocity in
+/// /particles/needles, or in the only group under /particles, whatever its name.
 ///
 /// Each of the four may be an H5MD element [F][N][3] or a plain dataset [N][3], with numbers of any
 /// type. Box edges may be [3], [3][3] (a diagonal matrix), [F][3] or [F][3][3], as a plain dataset
 /// or an element. id and image may be plain datasets, elements or absent. mass is not read. If
-/// elements have different steps, the last step that all of them have is read. Centres may lie on
-/// the edges of the box or outside. Numbers are not changed: |u| = 1 must hold within 1e-6, and
+/// elements have different steps, the frames are the steps that all of them have. Centres may lie
+/// on the edges of the box or outside. Numbers are not changed: |u| = 1 must hold within 1e-6, and
 /// u·w = 0 within 1e-6 |w|.
 ///
 /// Throws IoError if the file cannot be read or is cut short, and InputError for wrong content,
 /// "PATH: /DATASET[index] = VALUE: expected ...".
+class FrameFile {
+ public:
+  /// Opens the file. Frames that are written to it afterwards are not seen.
+  explicit FrameFile(const std::string& path);
+  FrameFile(const FrameFile&) = delete;
+  FrameFile& operator=(const FrameFile&) = delete;
+  ~FrameFile();
+
+  /// Number of frames, at least 1.
+  std::size_t count() const;
+  /// Time of a frame [time], or nothing if the file does not have it.
+  std::optional<double> time(std::size_t frame) const;
+  /// Reads a frame. Frames are counted from 0; throws std::invalid_argument beyond the last.
+  State read(std::size_t frame) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Reads the last frame of a FrameFile.
 State read_last_frame(const std::string& path);
 
 /// What a file holds of a run, without its frames and events.

@@ -29,8 +29,9 @@ struct FirstContact {
 
 /// The first contact of two needles in (0, horizon], without periodic images. `just_collided`
 /// means that they have collided at time 0 and separate; that contact is not found again. Throws
-/// InputError for positions beyond 1e150, velocities beyond 1e300, a director that is 0, and
-/// needles that turn by more than 2^22 radians near each other without a contact.
+/// InputError for positions beyond 1e150, velocities beyond 1e300, a director that is 0, a horizon
+/// below 0, numbers that are NaN, and needles that turn by more than 2^22 radians near each other
+/// without a contact.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 

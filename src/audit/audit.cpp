@@ -54,7 +54,7 @@ const char* name(Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-double Tally::bound95(Kind kind) const {
+double Findings::bound95(Kind kind) const {
   const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
   const std::uint64_t n = of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0);
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -78,12 +78,12 @@ Audit::Audit(const State& initial, const Setup& setup)
 
 // An audit that was interrupted before the first collision starts from the beginning.
 void Audit::resume(Checkpoint checkpoint) {
-  if (checkpoint.tally.collisions > 0) resumed_ = std::move(checkpoint);
+  if (checkpoint.findings.collisions > 0) resumed_ = std::move(checkpoint);
 }
 
 Checkpoint Audit::checkpoint() const {
   if (resumed_) return *resumed_;
-  return {tally_, fingerprint_, touches_};
+  return {findings_, fingerprint_, continuations_};
 }
 
 Audit::Index Audit::index_of(std::uint32_t id) const {
@@ -117,10 +117,10 @@ Approach Audit::approach_of(Index i, Index j) const {
 }
 
 void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) {
-  ++tally_.differences[static_cast<std::size_t>(kind)];
-  if (tally_.listed.size() >= most_listed) return;
+  ++findings_.differences[static_cast<std::size_t>(kind)];
+  if (findings_.listed.size() >= most_listed) return;
   const double time = (since_start(begin) + s) * setup_.epoch_length;
-  tally_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
+  findings_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
 }
 
 void Audit::add(const Collision& reported) {
@@ -132,7 +132,7 @@ void Audit::add(const Collision& reported) {
         std::uint64_t{collision.first} << 32 | collision.second}) {
     fingerprint_ = mixed(fingerprint_ ^ word);
   }
-  ++tally_.collisions;
+  ++findings_.collisions;
   if (!resumed_) {
     check_order(now, collision);
     const bool backwards = now < needles_[a].record.time || now < needles_[b].record.time;
@@ -149,14 +149,14 @@ void Audit::add(const Collision& reported) {
     }
   }
   follow(a, b, now, collision);
-  if (resumed_ && tally_.collisions == resumed_->tally.collisions) {
+  if (resumed_ && findings_.collisions == resumed_->findings.collisions) {
     if (fingerprint_ != resumed_->fingerprint) {
       throw InputError(
           "the collisions are not those of the interrupted audit: expected the same "
           "scene and engine");
     }
-    tally_ = std::move(resumed_->tally);
-    touches_ = std::move(resumed_->touches);
+    findings_ = std::move(resumed_->findings);
+    continuations_ = std::move(resumed_->continuations);
     resumed_.reset();
   }
 }
@@ -176,9 +176,9 @@ void Audit::follow(Index a, Index b, const Instant& now, const Collision& collis
 
 bool Audit::finish(double time, const std::function<bool()>& stop) {
   if (resumed_) {
-    throw InputError("the run ended after " + std::to_string(tally_.collisions) +
+    throw InputError("the run ended after " + std::to_string(findings_.collisions) +
                      " collisions: expected at least the " +
-                     std::to_string(resumed_->tally.collisions) + " of the interrupted audit");
+                     std::to_string(resumed_->findings.collisions) + " of the interrupted audit");
   }
   const double epochs = time / setup_.epoch_length;
   const Instant end{static_cast<std::int64_t>(std::floor(epochs)), epochs - std::floor(epochs)};
@@ -193,8 +193,8 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   }
   slack_ = 0;
   if (stopped) {
-    tally_ = std::move(before.tally);
-    touches_ = std::move(before.touches);
+    findings_ = std::move(before.findings);
+    continuations_ = std::move(before.continuations);
   }
   return !stopped;
 }
@@ -240,23 +240,23 @@ bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool repor
   return false;
 }
 
-std::optional<Touch> Audit::take_touch(Index i, Index j) {
-  const auto found = touches_.find(key_of(i, j));
-  if (found == touches_.end()) return std::nullopt;
-  const Touch touch = found->second;
-  touches_.erase(found);
-  return touch;
+std::optional<Continuation> Audit::take_continuation(Index i, Index j) {
+  const auto found = continuations_.find(key_of(i, j));
+  if (found == continuations_.end()) return std::nullopt;
+  const Continuation continuation = found->second;
+  continuations_.erase(found);
+  return continuation;
 }
 
 namespace {
 
-// How the pair's flight in this image starts, given its touch before.
-Start start_of(const Vector<double>& r, const std::optional<Touch>& touch) {
-  if (!touch) return {};
+// How the pair's flight in this image starts, given how its previous flight ended.
+Start start_of(const Vector<double>& r, const std::optional<Continuation>& continuation) {
+  if (!continuation) return {};
   for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(r[axis] - touch->r[axis]) > 0.25) return {};
+    if (std::abs(r[axis] - continuation->r[axis]) > 0.25) return {};
   }
-  return touch->start;
+  return continuation->start;
 }
 
 }  // namespace
@@ -267,13 +267,13 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   if (!is_chosen(i, j)) return;
   const double duration = elapsed<double>(begin_of(i, j), now).middle;
   if (!(duration > 0)) return;
-  ++tally_.checked;
+  ++findings_.checked;
   const Approach approach = approach_of(i, j);
-  std::optional<Touch> touch;
-  if (!touches_.empty()) touch = take_touch(i, j);
+  std::optional<Continuation> continuation;
+  if (!continuations_.empty()) continuation = take_continuation(i, j);
   for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
-                 start_of(separation(approach, 0, encounter.shift, space_.box), touch)});
+                 start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
   });
 }
 
@@ -281,16 +281,16 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
 // from 0 with another slope.
 void Audit::go_on_from_contact(Index i, Index j, const Instant& now) {
   if (!(begin_of(i, j) == now)) return;
-  const auto found = touches_.find(key_of(std::min(i, j), std::max(i, j)));
-  if (found == touches_.end() || found->second.start.kind != Start::collided) return;
+  const auto found = continuations_.find(key_of(std::min(i, j), std::max(i, j)));
+  if (found == continuations_.end() || found->second.start.kind != Start::collided) return;
   const int side = found->second.start.side;
   found->second.start = {side != 0 ? Start::touching : Start::apart, side, 0.0};
 }
 
 // Checks that the pair had no contact until now, and has one now.
 void Audit::check_contact(Index a, Index b, const Instant& now) {
-  ++tally_.checked;
-  ++tally_.contacts;
+  ++findings_.checked;
+  ++findings_.contacts;
   const double duration = elapsed<double>(begin_of(a, b), now).middle;
   const Approach approach = approach_of(a, b);
   const Vector<double> r = separation(approach, duration, {}, space_.box);
@@ -298,12 +298,13 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   for (int axis = 0; axis < 3; ++axis) {
     nearest[axis] = static_cast<std::int32_t>(std::round(r[axis] / space_.box[axis]));
   }
-  const std::optional<Touch> touch = take_touch(a, b);
+  const std::optional<Continuation> continuation = take_continuation(a, b);
   bool met = false;
   for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
     const Flown flown{
-        a,         b,        approach,
-        encounter, duration, start_of(separation(approach, 0, encounter.shift, space_.box), touch)};
+        a,        b,
+        approach, encounter,
+        duration, start_of(separation(approach, 0, encounter.shift, space_.box), continuation)};
     if (encounter.shift == nearest && encounter.end >= duration) {
       met = true;
       check_touching(flown);
@@ -315,53 +316,54 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
 }
 
 // Uncertainty of the time of a contact at s.
-double Audit::tolerance(Pair& pair, double s) const {
+double Audit::tolerance(PairFlight& pair, double s) const {
   const Sample sample = pair.precise(s);
   return 4 * pair.limit(sample, s) / std::abs(sample.df) + relative_tolerance * std::abs(s) +
          2 * resolution + slack_;
 }
 
-void Audit::keep_touch(const Flown& flown, const Start& start) {
-  touches_[key_of(flown.first, flown.second)] = {
+void Audit::keep_continuation(const Flown& flown, const Start& start) {
+  continuations_[key_of(flown.first, flown.second)] = {
       separation(flown.approach, flown.duration, flown.encounter.shift, space_.box), start};
 }
 
-void Audit::settle(const Pair& pair, bool undecided) {
-  tally_.escalated += pair.needed_quad();
-  tally_.undecided += undecided;
+void Audit::settle(const PairFlight& pair, bool undecided) {
+  findings_.escalated += pair.needed_quad();
+  findings_.undecided += undecided;
 }
 
 void Audit::check_apart(const Flown& flown) {
   const double duration = flown.duration, last = flown.encounter.end;
   const bool to_the_end = last >= duration;
-  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
-            flown.start);
+  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
+                  flown.start);
   if (!(pair.rate() > 0)) return;
-  Search search(pair);
+  ContactFinder finder(pair);
   bool undecided = false;
-  for (auto finding = search.first(flown.encounter.begin, last); finding;
-       finding = search.next(finding->end, last)) {
+  for (auto contact = finder.first(flown.encounter.begin, last); contact;
+       contact = finder.next(contact->end, last)) {
     // An event at the same time may come first; the contact is then found in the next flight.
-    const double early = finding->certain ? tolerance(pair, finding->end) : 0;
-    if (to_the_end && finding->end >= duration - early) {
-      const auto kind = finding->side != 0 ? Start::touching : Start::apart;
+    const double early = contact->certain ? tolerance(pair, contact->end) : 0;
+    if (to_the_end && contact->end >= duration - early) {
+      const auto kind = contact->side != 0 ? Start::touching : Start::apart;
       // Counts as 0 if the contact is assumed to be due and was not.
       const double gap = pair.precise(duration).f;
-      keep_touch(flown, {kind, finding->side, gap, std::abs(gap)});
-      const bool brief = (finding->end - finding->begin) * pair.rate() < longest_touch;
-      return settle(pair, undecided || finding->side == 0 || !brief);
+      keep_continuation(flown, {kind, contact->side, gap, std::abs(gap)});
+      const bool brief = (contact->end - contact->begin) * pair.rate() < longest_touch;
+      return settle(pair, undecided || contact->side == 0 || !brief);
     }
-    if (finding->certain) {
+    if (contact->certain) {
       report(Kind::missed, flown.first, flown.second, begin_of(flown.first, flown.second),
-             finding->begin);
+             contact->begin);
       return settle(pair, undecided);
     }
     undecided = true;
-    if (finding->end >= last) break;
+    if (contact->end >= last) break;
   }
   if (to_the_end && pair.is_near_contact(duration)) {
-    const int side = search.on_needles(duration, duration) >= 0 ? search.sign(duration) : 0;
-    keep_touch(flown, {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
+    const int side = finder.on_needles(duration, duration) >= 0 ? finder.sign(duration) : 0;
+    keep_continuation(flown,
+                      {side != 0 ? Start::touching : Start::apart, side, pair.precise(duration).f});
   }
   settle(pair, undecided);
 }
@@ -369,27 +371,28 @@ void Audit::check_apart(const Flown& flown) {
 void Audit::check_touching(const Flown& flown) {
   const double duration = flown.duration;
   const Start& start = flown.start;
-  Pair pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_, start);
-  Search search(pair);
+  PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
+                  start);
+  ContactFinder finder(pair);
   const double off = tolerance(pair, duration), begin = duration - off, end = duration + off;
   bool undecided = !(off * pair.rate() < 0.25);
 
   // A contact before this one.
-  std::optional<Finding> before;
+  std::optional<ContactInterval> before;
   if (begin > flown.encounter.begin) {
-    before = search.first(flown.encounter.begin, begin);
+    before = finder.first(flown.encounter.begin, begin);
     while (before && !before->certain) {
       undecided = true;
-      before = before->end < begin ? search.next(before->end, begin) : std::nullopt;
+      before = before->end < begin ? finder.next(before->end, begin) : std::nullopt;
     }
   }
   // The contact of this collision. The touch at which the pair started does not count.
   const bool at_start = begin <= 0 && start.kind != Start::apart;
-  const int side = at_start ? start.side : search.sign(begin), after = search.sign(end);
-  const int inside = search.on_needles(begin, end);
+  const int side = at_start ? start.side : finder.sign(begin), after = finder.sign(end);
+  const int inside = finder.on_needles(begin, end);
   // If f is curved, it may vanish now without a change of sign within the range that its slope
   // gives.
-  const bool keeps_sign = side != 0 && side == after, off_contact = search.sign(duration) != 0;
+  const bool keeps_sign = side != 0 && side == after, off_contact = finder.sign(duration) != 0;
   const bool none = !undecided && (inside < 0 || (keeps_sign && off_contact));
   const auto differs = [&](Kind kind, double s) {
     report(kind, flown.first, flown.second, begin_of(flown.first, flown.second), s);
@@ -398,7 +401,7 @@ void Audit::check_touching(const Flown& flown) {
   if (none && before) {
     differs(Kind::late, duration);
   } else if (none) {
-    const auto later = search.next(end, end + early_reach / pair.rate());
+    const auto later = finder.next(end, end + early_reach / pair.rate());
     spurious = !(later && later->certain);
     differs(spurious ? Kind::spurious : Kind::early, duration);
   } else if (before) {
@@ -408,7 +411,9 @@ void Audit::check_touching(const Flown& flown) {
   }
   // The needles stay on the side from which they came.
   const double approaching = pair.precise(duration).df;
-  if (!spurious) keep_touch(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
+  if (!spurious) {
+    keep_continuation(flown, {Start::collided, undecided ? 0 : approaching < 0 ? 1 : -1, {}});
+  }
   settle(pair, undecided);
 }
 

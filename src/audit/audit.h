@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "needlework/simulation.h"
+#include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 #include "src/audit/rule.h"
-#include "src/audit/search.h"
 
 namespace needlework::audit {
 
@@ -35,7 +35,7 @@ struct Difference {
 };
 
 /// The results of an audit so far.
-struct Tally {
+struct Findings {
   std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
   std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
   std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
@@ -52,17 +52,17 @@ struct Tally {
   double bound95(Kind kind) const;
 };
 
-/// The state of a pair that touches at the end of a flight.
-struct Touch {
+/// What the next flight of a pair continues from, if it touches at the end of a flight.
+struct Continuation {
   Vector<double> r;  ///< r12
   Start start;       ///< how its next flight starts
 };
 
 /// The data from which an interrupted audit continues.
 struct Checkpoint {
-  Tally tally;
+  Findings findings;
   std::uint64_t fingerprint = 0;  ///< hash of the collisions so far
-  std::unordered_map<std::uint64_t, Touch> touches;
+  std::unordered_map<std::uint64_t, Continuation> continuations;
 };
 
 struct Setup {
@@ -91,7 +91,7 @@ class Audit {
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
 
-  const Tally& tally() const { return tally_; }
+  const Findings& findings() const { return findings_; }
 
  private:
   using Index = std::uint32_t;  // of needles, in order of id
@@ -118,10 +118,10 @@ class Audit {
   void go_on_from_contact(Index i, Index j, const Instant& now);
   void check_apart(const Flown& flown);
   void check_touching(const Flown& flown);
-  std::optional<Touch> take_touch(Index i, Index j);
-  void keep_touch(const Flown& flown, const Start& start);
-  void settle(const Pair& pair, bool undecided);
-  double tolerance(Pair& pair, double s) const;
+  std::optional<Continuation> take_continuation(Index i, Index j);
+  void keep_continuation(const Flown& flown, const Start& start);
+  void settle(const PairFlight& pair, bool undecided);
+  double tolerance(PairFlight& pair, double s) const;
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
   void follow(Index a, Index b, const Instant& now, const Collision& collision);
 
@@ -130,9 +130,9 @@ class Audit {
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
   std::vector<bool> has_collided_;
-  std::unordered_map<std::uint64_t, Touch> touches_;
+  std::unordered_map<std::uint64_t, Continuation> continuations_;
   std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;
-  Tally tally_;
+  Findings findings_;
   std::uint64_t fingerprint_ = 0;
   std::optional<Checkpoint> resumed_;
   double slack_ = 0;  ///< uncertainty of the end time of the run [epochs]

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 
 namespace needlework::audit {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "needlework/simulation.h"
-#include "src/audit/pair.h"
+#include "src/audit/pair_flight.h"
 
 namespace needlework::audit {
 

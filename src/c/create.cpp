@@ -3,10 +3,10 @@
 #include <array>
 #include <utility>
 
-#include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
+#include "src/runs/estimates.h"
 
 namespace needlework::c {
 namespace {
@@ -14,15 +14,33 @@ namespace {
 /// How messages name a scene that has no file.
 constexpr const char* scene_name = "scene";
 
-State state_of(const needlework_initial& initial, const std::array<double, 3>& box_of_scene) {
-  const std::size_t count = initial.count;
-  if (count > 0) {
+/// Ids are 32 bits wide, and one of them stands for none.
+constexpr std::size_t most_needles = (std::size_t{1} << 32) - 2;
+
+/// Before the state is copied: a count that is wrong must not fill the memory.
+void require_possible(const needlework_initial& initial, const Scene& scene) {
+  if (initial.count > most_needles) {
+    throw UsageError("initial->count = " + std::to_string(initial.count) + ": expected at most " +
+                     std::to_string(most_needles));
+  }
+  if (initial.count > 0) {
     require(initial.position.data, "initial->position.data");
     require(initial.orientation.data, "initial->orientation.data");
   }
+  Scene sized = scene;
+  sized.needles.count = initial.count;
+  runs::require_memory(sized);
+}
+
+State state_of(const needlework_initial& initial, const std::array<double, 3>& box_of_scene) {
+  constexpr std::array<double, 3> not_given{};
+  const std::size_t count = initial.count;
   State state;
   std::copy_n(initial.box, 3, state.box.begin());
-  if (state.box == std::array<double, 3>{}) state.box = box_of_scene;
+  if (state.box == not_given) state.box = box_of_scene;
+  if (state.box == not_given) {
+    throw UsageError("initial->box = 0: expected its edges, as the scene has no needles.box");
+  }
   state.position = rows_of(initial.position, count);
   state.velocity = rows_of(initial.velocity, count);
   state.orientation = rows_of(initial.orientation, count);
@@ -35,9 +53,7 @@ template <class Load>
 needlework_simulation* create(unsigned flags, needlework_error* error, Load&& load) noexcept {
   needlework_simulation* made = nullptr;
   guarded(error, [&] {
-    if (flags & ~unsigned{NEEDLEWORK_REPLACE}) {
-      throw UsageError("flags = " + std::to_string(flags) + ": expected 0 or NEEDLEWORK_REPLACE");
-    }
+    require_flags(flags);
     made = new needlework_simulation(load(), flags & NEEDLEWORK_REPLACE);
   });
   return made;
@@ -69,6 +85,7 @@ needlework_simulation* needlework_create_from(const char* scene, const needlewor
     c::require(scene, "scene");
     c::require(initial, "initial");
     Scene parsed = parse_scene(scene, c::scene_name, {}, {.state = true, .end = true});
+    c::require_possible(*initial, parsed);
     State state = c::state_of(*initial, parsed.needles.box);
     return runs::complete_scene(std::move(parsed), std::move(state));
   });
@@ -77,5 +94,7 @@ needlework_simulation* needlework_create_from(const char* scene, const needlewor
 void needlework_destroy(needlework_simulation* simulation) { delete simulation; }
 
 const char* needlework_message(const needlework_simulation* simulation) {
-  return simulation ? simulation->message.c_str() : "";
+  if (!simulation) return "simulation is NULL: expected a pointer";
+  if (simulation->busy) return "another call uses the simulation: expected one call at a time";
+  return simulation->last.message;
 }

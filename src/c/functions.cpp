@@ -2,6 +2,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "needlework/error.h"
 #include "needlework/predict.h"
@@ -14,15 +16,17 @@
 namespace needlework::c {
 namespace {
 
-void require_vectors(const needlework_pairs& pairs) {
-  const auto& p = pairs;
+void require_vectors(const needlework_pairs& p) {
   for (const auto& [vectors, name] :
        {std::pair(&p.r1, "r1"), std::pair(&p.u1, "u1"), std::pair(&p.v1, "v1"),
         std::pair(&p.w1, "w1"), std::pair(&p.r2, "r2"), std::pair(&p.u2, "u2"),
         std::pair(&p.v2, "v2"), std::pair(&p.w2, "w2")}) {
-    if (!vectors->data) throw UsageError(std::string(name) + ".data is NULL: expected vectors");
+    if (!vectors->data)
+      throw UsageError(std::string("pairs->") + name +
+                       ".data is NULL: expected "
+                       "a pointer");
   }
-  require(pairs.horizon, "horizon");
+  require(p.horizon, "pairs->horizon");
 }
 
 FirstContact contact_of(const needlework_pairs& p, std::size_t n, const Accuracy& accuracy) {
@@ -38,6 +42,16 @@ FirstContact contact_of(const needlework_pairs& p, std::size_t n, const Accuracy
     return predict(first, second, p.horizon[n], p.skip && p.skip[n], accuracy);
   } catch (const InputError& error) {
     throw InputError("pair " + std::to_string(n) + ": " + error.what());
+  }
+}
+
+Accuracy accuracy_named(const char* name) {
+  Scene::Engine engine;
+  if (name) engine.accuracy = name;
+  try {
+    return accuracy_of(engine);
+  } catch (const InputError& error) {
+    throw UsageError(std::string("pairs->accuracy: ") + error.what());
   }
 }
 
@@ -69,9 +83,7 @@ int needlework_predict(const needlework_pairs* pairs, double* time, double* s12,
   return c::guarded(error, [&] {
     c::require(pairs, "pairs");
     if (pairs->count > 0) c::require_vectors(*pairs);
-    Scene::Engine engine;
-    if (pairs->accuracy) engine.accuracy = pairs->accuracy;
-    const Accuracy accuracy = accuracy_of(engine);
+    const Accuracy accuracy = c::accuracy_named(pairs->accuracy);
     for (std::size_t n = 0; n < pairs->count; ++n) {
       const FirstContact contact = c::contact_of(*pairs, n, accuracy);
       if (time) time[n] = contact.time;

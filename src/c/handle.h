@@ -2,12 +2,13 @@
 #pragma once
 
 #include <atomic>
-#include <cstddef>
 #include <exception>
+#include <new>
 #include <string>
+#include <utility>
 
+#include "kernels/default_arithmetic.h"
 #include "needlework.h"
-#include "src/runs/failure.h"
 #include "src/runs/prepared_run.h"
 
 struct needlework_simulation {
@@ -16,8 +17,10 @@ struct needlework_simulation {
 
   needlework::runs::PreparedRun run;
   bool closed = false;
-  std::string message, setting;
-  std::atomic<bool> busy = false;  ///< whether a call or a callback uses the simulation
+  bool broken = false;  ///< whether a change of the state was cut off in the middle
+  needlework_error last{};
+  std::string setting;
+  std::atomic<bool> busy = false;  ///< whether a call, or its callback, uses the simulation
 };
 
 namespace needlework::c {
@@ -31,52 +34,57 @@ struct UsageError : std::exception {
 
 /// Throws UsageError, "NAME is NULL: expected ...", if it is.
 void require(const void* argument, const char* name);
+/// Throws UsageError if there are flags that mean nothing.
+void require_flags(unsigned flags);
 
-/// The failure that the exception being handled stands for; to be called in a catch block.
-runs::Failure failure_now();
-
-/// Cuts the message off where the structure is full. `error` may be null.
-void report(const runs::Failure& failure, needlework_error* error) noexcept;
+/// Writes code and message of the exception being handled, and returns the code; to be called in a
+/// catch block. `error` may be null. Needs no memory: a message for which there is none is
+/// replaced.
+int report_failure(needlework_error* error) noexcept;
 
 /// Calls action(), and turns its exceptions into a code and a message. No exception leaves it, not
 /// even one for want of memory.
 template <class Action>
 int guarded(needlework_error* error, Action&& action) noexcept {
+  const kernels::DefaultArithmetic arithmetic;
   if (error) *error = {};
   try {
     action();
     return NEEDLEWORK_OK;
   } catch (...) {
-    try {
-      const runs::Failure failure = failure_now();
-      report(failure, error);
-      return failure.exit_code;
-    } catch (...) {
-      report({runs::bad_input, {}}, error);
-      return NEEDLEWORK_INPUT;
-    }
+    return report_failure(error);
   }
 }
+
+/// Throws InvalidStateError if the simulation is broken.
+void require_whole(const needlework_simulation& simulation);
 
 /// The same with a simulation, which is claimed for the time of the call.
 template <class Action>
 int guarded(needlework_simulation* simulation, Action&& action) noexcept {
   if (!simulation || simulation->busy.exchange(true)) return NEEDLEWORK_USAGE;
+  const kernels::DefaultArithmetic arithmetic;
   int code = NEEDLEWORK_OK;
   try {
+    require_whole(*simulation);
     action(*simulation);
   } catch (...) {
-    code = NEEDLEWORK_INPUT;
-    try {
-      runs::Failure failure = failure_now();
-      code = failure.exit_code;
-      simulation->message = std::move(failure.message);
-    } catch (...) {
-      simulation->message.clear();
-    }
+    code = report_failure(&simulation->last);
   }
   simulation->busy = false;
   return code;
+}
+
+/// Changes the state of the simulation by change(). If memory does not suffice, that ends in the
+/// middle of an event, and the simulation is broken.
+template <class Change>
+auto changing(needlework_simulation& simulation, Change&& change) {
+  try {
+    return change();
+  } catch (const std::bad_alloc&) {
+    simulation.broken = true;
+    throw;
+  }
 }
 
 }  // namespace needlework::c

@@ -1,7 +1,10 @@
 // What C callers learn of a simulation: state, sums, counters, settings.
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
@@ -11,7 +14,7 @@ using namespace needlework;
 
 namespace {
 
-/// Calls that do not change the simulation claim it all the same: another thread may be running it.
+/// Calls that do not change the simulation still claim it: another thread may be running it.
 needlework_simulation* mutable_of(const needlework_simulation* simulation) {
   return const_cast<needlework_simulation*>(simulation);
 }
@@ -19,7 +22,7 @@ needlework_simulation* mutable_of(const needlework_simulation* simulation) {
 }  // namespace
 
 size_t needlework_count(const needlework_simulation* simulation) {
-  return simulation ? simulation->run.simulation().needles() : 0;
+  return simulation ? simulation->run.scene().needles.count : 0;
 }
 
 int needlework_get_box(const needlework_simulation* simulation, double box[3]) {
@@ -48,6 +51,12 @@ int needlework_get_state(needlework_simulation* simulation, const needlework_sta
 int needlework_write_state(needlework_simulation* simulation, const char* path, unsigned flags) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
     c::require(path, "path");
+    c::require_flags(flags);
+    std::error_code ignored;
+    if (!self.closed && std::filesystem::equivalent(path, self.run.scene().output.file, ignored)) {
+      throw c::UsageError(std::string(path) +
+                          ": is the output file, which is still written: expected another file");
+    }
     runs::write_state(self.run.simulation(), self.run.scene(), path, flags & NEEDLEWORK_REPLACE);
   });
 }

@@ -1,8 +1,12 @@
 // Simulations run by C callers.
 #include <cstddef>
 #include <cstring>
+#include <optional>
+#include <span>
+#include <string>
 #include <type_traits>
 
+#include "needlework/error.h"
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
 #include "src/runs/limits.h"
@@ -41,14 +45,26 @@ runs::Limits limits_of(const needlework_limits& limits) {
 /// callback, so that a request after the last event does not stop the next call.
 struct StopRequested : std::exception {};
 
+/// The limits of a call, by from_start() or from_now(). What is wrong with them is an argument.
+template <class Count>
+Scene::Until until_of(const needlework_limits& limits, const needlework_simulation& simulation,
+                      Count&& count) {
+  try {
+    return count(limits_of(limits), simulation.run.simulation());
+  } catch (const InputError& error) {
+    throw UsageError(std::string("limits: ") + error.what());
+  }
+}
+
 template <class Until>
 int run(needlework_simulation* simulation, int* stop, Until&& until) noexcept {
   return guarded(simulation, [&](needlework_simulation& self) {
     if (self.closed) throw UsageError("the simulation is closed: expected one that can be run");
+    const Scene::Until end = until(self);
     NoMonitor monitor;
     Stop reason = Stop::interrupted;
     try {
-      reason = self.run.advance(until(self), monitor);
+      reason = changing(self, [&] { return self.run.advance(end, monitor); });
     } catch (const StopRequested&) {
     }
     if (stop) *stop = static_cast<int>(reason);
@@ -74,6 +90,12 @@ static_assert(offsetof(Collision, energy_change) == offsetof(needlework_collisio
 static_assert(offsetof(Collision, contact_time_rule) ==
               offsetof(needlework_collision, contact_time_rule));
 static_assert(offsetof(Collision, after) == offsetof(needlework_collision, after));
+using After = std::remove_extent_t<decltype(needlework_collision::after)>;
+static_assert(sizeof(StateAfterCollision) == sizeof(After));
+static_assert(offsetof(StateAfterCollision, position) == offsetof(After, position));
+static_assert(offsetof(StateAfterCollision, velocity) == offsetof(After, velocity));
+static_assert(offsetof(StateAfterCollision, orientation) == offsetof(After, orientation));
+static_assert(offsetof(StateAfterCollision, angular_velocity) == offsetof(After, angular_velocity));
 
 }  // namespace
 }  // namespace needlework::c
@@ -84,7 +106,7 @@ int needlework_run_until(needlework_simulation* simulation, const needlework_lim
                          int* stop) {
   return c::run(simulation, stop, [&](const needlework_simulation& self) {
     const Scene::Until& until = self.run.scene().until;
-    if (limits) return runs::from_start(c::limits_of(*limits), self.run.simulation());
+    if (limits) return c::until_of(*limits, self, runs::from_start);
     if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
       throw c::UsageError("limits is NULL: expected limits, as the scene has no [until]");
     }
@@ -96,7 +118,7 @@ int needlework_advance(needlework_simulation* simulation, const needlework_limit
                        int* stop) {
   return c::run(simulation, stop, [&](const needlework_simulation& self) {
     c::require(limits, "limits");
-    return runs::from_now(c::limits_of(*limits), self.run.simulation());
+    return c::until_of(*limits, self, runs::from_now);
   });
 }
 
@@ -136,7 +158,7 @@ int needlework_set_velocities(needlework_simulation* simulation,
     c::require(velocity->data, "velocity->data");
     c::require(angular_velocity->data, "angular_velocity->data");
     const std::size_t count = self.run.simulation().needles();
-    self.run.simulation().set_velocities(c::rows_of(*velocity, count),
-                                         c::rows_of(*angular_velocity, count));
+    const auto v = c::rows_of(*velocity, count), w = c::rows_of(*angular_velocity, count);
+    c::changing(self, [&] { self.run.simulation().set_velocities(v, w); });
   });
 }

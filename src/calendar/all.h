@@ -11,7 +11,7 @@
 namespace needlework {
 
 /// A list of types, to be deduced from an argument.
-template <class... Queues>
+template <class... Calendars>
 struct CalendarList {};
 
 static_assert(Calendar<LazyHeap> && Calendar<IndexedHeap> && Calendar<Tournament> &&

@@ -16,14 +16,13 @@
 
 namespace needlework {
 
-/// A block holds the keys of the events of its needles, and knows its next event. The key of that
-/// event is called the block's clock. Blocks are divided among zones, initially one, and each zone
-/// has a tournament of its own blocks.
+/// A block holds the keys of the events of its needles, and knows its next event. Blocks are
+/// divided among zones, initially one, and each zone has a tournament of its own blocks.
 ///
 /// With `set` alone it is a calendar like the others. Several threads, each with a zone, use it in
 /// three steps. `put` changes blocks that no other thread reads or writes at the time. `publish`
-/// makes their new clocks visible; all threads may read them at any time. `follow`, called by the
-/// thread of the zone, updates the tournament.
+/// makes the keys of their next events visible; all threads may read these at any time. `follow`,
+/// called by the thread of the zone, updates the tournament.
 ///
 /// `set` is O(1) on average for an event that does not become the next one, else O(log n). `top`
 /// is O(number of zones). About 110 bytes per needle.
@@ -37,7 +36,7 @@ class CellCalendar {
 
   /// Makes this number of blocks. Needles are distributed over them by index until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
-      : events_(n, clock), places_(n), blocks_(blocks), clocks_(blocks) {
+      : events_(n, clock), places_(n), blocks_(blocks), published_keys_(blocks) {
     for (Needle i{0}; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
     for (Block b = 0; b < blocks; ++b) find_next(b);
     divide(std::vector<std::uint32_t>(blocks, 0), 1);
@@ -76,9 +75,11 @@ class CellCalendar {
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
   /// The next event of a block that has one.
   const Event& top_of(Block b) const { return events_[blocks_[b].next]; }
-  /// The clock of a block as last published: none of its events is earlier. Any thread may call
-  /// this.
-  TimeKey clock_of(Block b) const { return clocks_[b].load(std::memory_order_acquire); }
+  /// The key of a block's next event as last published: none of its events is earlier. Any thread
+  /// may call this.
+  TimeKey published_key(Block b) const {
+    return published_keys_[b].load(std::memory_order_acquire);
+  }
   TimeKey key_of(Time time) const { return events_.key_of(time); }
   std::uint32_t zone_of(Block b) const { return owners_[b].zone; }
   std::size_t needles_in(Block b) const { return blocks_[b].keys.size(); }
@@ -131,7 +132,7 @@ class CellCalendar {
     if (content.next == i) {
       find_next(block);
     } else {
-      const TimeKey first = key_of_next(block);
+      const TimeKey first = next_key(block);
       if (first < key || (first == key && !events_.before(i, content.next))) return;
       content.next = i;
     }
@@ -143,14 +144,15 @@ class CellCalendar {
     const Entry* keys = blocks_[b].keys.data();
     for (std::size_t line = 0; line < 3; ++line) prefetch(keys + line * 64 / sizeof(Entry));
   }
-  /// The present clock of a block, published or not.
-  TimeKey key_of_next(Block b) const {
+  /// The key of a block's next event, published or not.
+  TimeKey next_key(Block b) const {
     const Content& content = blocks_[b];
     return content.keys.empty() ? no_event : content.keys[places_[Needle(content.next)].slot].key;
   }
-  void publish(Block b) { clocks_[b].store(key_of_next(b), std::memory_order_release); }
+  void publish(Block b) { published_keys_[b].store(next_key(b), std::memory_order_release); }
 
-  /// The block of a zone whose event is next, according to the clocks that the tournament knows.
+  /// The block of a zone whose event is next, according to the keys that the tournament has been
+  /// given.
   Block winner(std::uint32_t z) const {
     const Zone& zone = zones_[z];
     return zone.blocks.empty() ? 0 : zone.blocks[zone.order.winner()];
@@ -159,7 +161,7 @@ class CellCalendar {
     return zones_[z].order.key(zones_[z].order.winner());
   }
   /// Updates the tournament of the block's zone. Of equal keys the earlier event wins.
-  void follow(Block b) { follow(b, clock_of(b)); }
+  void follow(Block b) { follow(b, published_key(b)); }
   /// The same without reading events: of equal keys the lower block wins.
   void follow_by_key(Block b, TimeKey key) {
     Zone& zone = zones_[owners_[b].zone];
@@ -203,13 +205,13 @@ class CellCalendar {
     WinnerTree order;
     std::vector<Block> blocks;
   };
-  struct ClockCell : std::atomic<TimeKey> {
-    ClockCell() : std::atomic<TimeKey>(no_event) {}
-    ClockCell(ClockCell&& other) noexcept : std::atomic<TimeKey>(other.load()) {}
+  struct PublishedKey : std::atomic<TimeKey> {
+    PublishedKey() : std::atomic<TimeKey>(no_event) {}
+    PublishedKey(PublishedKey&& other) noexcept : std::atomic<TimeKey>(other.load()) {}
   };
 
   bool earlier(Block a, Block b) const {
-    const TimeKey x = key_of_next(a), y = key_of_next(b);
+    const TimeKey x = next_key(a), y = next_key(b);
     if (x != y || x == no_event) return x < y;
     return top_of(a) < top_of(b);
   }
@@ -254,7 +256,7 @@ class CellCalendar {
   EventTable events_;
   LargeArray<Place> places_;
   std::vector<Content> blocks_;
-  std::vector<ClockCell> clocks_;
+  std::vector<PublishedKey> published_keys_;
   std::vector<Owner> owners_;
   std::vector<Zone> zones_;
   std::vector<Block> changed_;

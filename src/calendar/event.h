@@ -19,7 +19,7 @@ enum class EventKind : std::uint8_t {
 struct Event {
   Time time = Time::never();
   Needle owner;
-  Needle partner;                    ///< of a contact; otherwise no_needle
+  Needle partner = no_needle;        ///< the second needle of a contact
   std::uint32_t partner_serial = 0;  ///< of the partner's record; if the partner's has changed, the
                                      ///< contact is stale
   Id lower_id;                       ///< ids of the two needles; without a partner both are the
@@ -34,6 +34,8 @@ struct Event {
   bool owner_is_lower = true;  ///< the owner has the lower id
 
   bool is_contact() const { return kind == EventKind::contact; }
+  /// Whether processing the event may change a second needle, the partner.
+  bool has_partner() const { return partner != no_needle; }
   Needle lower() const { return owner_is_lower ? owner : partner; }
   Needle higher() const { return owner_is_lower ? partner : owner; }
 

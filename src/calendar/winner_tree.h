@@ -21,7 +21,7 @@ struct alignas(64) KeyLine {
                                     ~TimeKey{4}, ~TimeKey{5}, ~TimeKey{6}, ~TimeKey{7}};
 };
 
-/// The smallest key; bit n tells whether the key at position n is equal to it. Without branches,
+/// The smallest key; bit n is set if the key at position n is equal to it. Without branches,
 /// because which key is smallest cannot be predicted.
 struct LeastKeys {
   explicit LeastKeys(const KeyLine& line)

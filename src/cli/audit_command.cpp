@@ -30,7 +30,7 @@ namespace needlework::cli {
 using enum runs::ExitCode;
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock [s].
+/// Longest time in the event loop between two checks of wall time and signals [s].
 constexpr double longest_step = 0.25;
 
 struct Outcome {
@@ -81,8 +81,8 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
       outcome.stop = simulation.advance(until);
       if (outcome.is_complete()) break;
     }
-    // until.wall_s is not looked at here, or an audit that goes on with these flights alone might
-    // never come to their end.
+    // until.wall_s does not apply here: an audit that is continued with only these flights left
+    // could be stopped by it every time.
     if (outcome.is_complete() && !audit.finish(simulation.time(), SignalGuard::received)) {
       outcome.stop = Stop::interrupted;
     }
@@ -93,24 +93,24 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   return outcome;
 }
 
-nlohmann::ordered_json json_of(const audit::Tally& tally, const AuditArguments& arguments,
+nlohmann::ordered_json json_of(const audit::Findings& findings, const AuditArguments& arguments,
                                const Outcome& outcome) {
   nlohmann::ordered_json json;
-  json["checked"] = tally.checked;
-  for (const audit::Kind kind : audit::kinds) json[audit::name(kind)] = tally.count(kind);
-  json["undecided"] = tally.undecided;
+  json["checked"] = findings.checked;
+  for (const audit::Kind kind : audit::kinds) json[audit::name(kind)] = findings.count(kind);
+  json["undecided"] = findings.undecided;
   for (const audit::Kind kind : audit::kinds) {
-    json["bound95"][audit::name(kind)] = number(tally.bound95(kind));
+    json["bound95"][audit::name(kind)] = number(findings.bound95(kind));
   }
-  json["collisions"] = tally.collisions;
-  json["contacts"] = tally.contacts;
-  json["escalated"] = tally.escalated;
+  json["collisions"] = findings.collisions;
+  json["contacts"] = findings.contacts;
+  json["escalated"] = findings.escalated;
   json["share"] = arguments.share;
   json["complete"] = outcome.is_complete() && !outcome.failure;
   json["wall_s"] = outcome.clock.wall();
   json["cpu_s"] = outcome.clock.cpu();
   json["differences"] = nlohmann::json::array();
-  for (const audit::Difference& difference : tally.listed) {
+  for (const audit::Difference& difference : findings.listed) {
     json["differences"].push_back({{"kind", audit::name(difference.kind)},
                                    {"time", difference.time},
                                    {"pair", {difference.first, difference.second}}});
@@ -118,21 +118,22 @@ nlohmann::ordered_json json_of(const audit::Tally& tally, const AuditArguments& 
   return json;
 }
 
-std::string text_of(const audit::Tally& tally, const AuditArguments& arguments,
+std::string text_of(const audit::Findings& findings, const AuditArguments& arguments,
                     const Outcome& outcome) {
   std::string text =
-      fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", tally.checked,
+      fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", findings.checked,
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
-                  tally.collisions, runs::duration_text(outcome.clock.wall()));
+                  findings.collisions, runs::duration_text(outcome.clock.wall()));
   for (const audit::Kind kind : audit::kinds) {
-    const double bound = tally.bound95(kind);
-    text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), tally.count(kind),
+    const double bound = findings.bound95(kind);
+    text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), findings.count(kind),
                         std::isnan(bound)
                             ? "no bound, as there was nothing to check"
                             : fmt::format("at most {:.2g} of all collisions (95 %)", bound));
   }
-  text += fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", tally.undecided);
-  for (const audit::Difference& difference : tally.listed) {
+  text +=
+      fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", findings.undecided);
+  for (const audit::Difference& difference : findings.listed) {
     text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
                         difference.first, difference.second, difference.time);
   }
@@ -145,13 +146,13 @@ void require_unit_needles(const Scene& scene) {
   const auto require = [&](const char* key, double value) {
     if (value == 1) return;
     throw InputError(place_of(scene, std::string("species.") + key, fmt::format("{}", value)) +
-                     ": expected 1, as the audit knows needles of length and mass 1 only");
+                     ": expected 1, as the audit checks needles of length and mass 1 only");
   };
   require("length", species.length);
   require("mass", species.mass);
 }
 
-int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
+int exit_code_of(const audit::Findings& findings, const Outcome& outcome,
                  const std::optional<std::string>& state) {
   if (outcome.failure) {
     print_error(*outcome.failure);
@@ -160,11 +161,11 @@ int exit_code_of(const audit::Tally& tally, const Outcome& outcome,
   if (!outcome.is_complete()) {
     print_error(fmt::format(
         "stopped by {} after {} collisions ({})",
-        outcome.stop == Stop::wall_time ? "until.wall_s" : "a signal", tally.collisions,
+        outcome.stop == Stop::wall_time ? "until.wall_s" : "a signal", findings.collisions,
         state ? "saved in " + *state : "nothing is saved, as no --state file is named"));
     return stopped;
   }
-  return tally.clean() ? ok : differences_found;
+  return findings.clean() ? ok : differences_found;
 }
 
 }  // namespace
@@ -196,19 +197,19 @@ int run(const AuditArguments& arguments) {
       write_audit_state(*arguments.state, identity, audit.checkpoint());
     }
   }
-  const audit::Tally tally = audit.checkpoint().tally;
-  if (arguments.share < 1 && tally.contacts == 0) {
+  const audit::Findings findings = audit.checkpoint().findings;
+  if (arguments.share < 1 && findings.contacts == 0) {
     print_warning(
         fmt::format("--share {:g}: none of the {} collisions is one of the pairs chosen: expected "
                     "a larger share",
-                    arguments.share, tally.collisions));
+                    arguments.share, findings.collisions));
   }
   if (arguments.json) {
-    fmt::print("{}\n", json_text(json_of(tally, arguments, outcome), 2));
+    fmt::print("{}\n", json_text(json_of(findings, arguments, outcome), 2));
   } else if (!arguments.quiet) {
-    fmt::print("{}", text_of(tally, arguments, outcome));
+    fmt::print("{}", text_of(findings, arguments, outcome));
   }
-  return exit_code_of(tally, outcome, arguments.state);
+  return exit_code_of(findings, outcome, arguments.state);
 }
 
 }  // namespace needlework::cli

@@ -16,58 +16,61 @@ using Json = nlohmann::ordered_json;
 
 // 64-bit keys are text: readers of JSON may hold numbers as doubles.
 Json json_of(const audit::Checkpoint& checkpoint) {
-  const audit::Tally& tally = checkpoint.tally;
-  Json touches = Json::array();
-  for (const auto& [pair, touch] : checkpoint.touches) {
-    touches.push_back({{"pair", std::to_string(pair)},
-                       {"r", touch.r.components},
-                       {"kind", static_cast<int>(touch.start.kind)},
-                       {"side", touch.start.side}});
-    if (touch.start.gap) touches.back()["gap"] = {*touch.start.gap, touch.start.gap_error};
+  const audit::Findings& findings = checkpoint.findings;
+  Json continuations = Json::array();
+  for (const auto& [pair, continuation] : checkpoint.continuations) {
+    continuations.push_back({{"pair", std::to_string(pair)},
+                             {"r", continuation.r.components},
+                             {"kind", static_cast<int>(continuation.start.kind)},
+                             {"side", continuation.start.side}});
+    if (continuation.start.gap) {
+      continuations.back()["gap"] = {*continuation.start.gap, continuation.start.gap_error};
+    }
   }
   Json listed = Json::array();
-  for (const audit::Difference& difference : tally.listed) {
+  for (const audit::Difference& difference : findings.listed) {
     listed.push_back(
         {static_cast<int>(difference.kind), difference.time, difference.first, difference.second});
   }
   return {{"fingerprint", std::to_string(checkpoint.fingerprint)},
-          {"collisions", tally.collisions},
-          {"contacts", tally.contacts},
-          {"checked", tally.checked},
-          {"escalated", tally.escalated},
-          {"undecided", tally.undecided},
-          {"differences", tally.differences},
+          {"collisions", findings.collisions},
+          {"contacts", findings.contacts},
+          {"checked", findings.checked},
+          {"escalated", findings.escalated},
+          {"undecided", findings.undecided},
+          {"differences", findings.differences},
           {"listed", listed},
-          {"touches", touches}};
+          {"touches", continuations}};
 }
 
 audit::Checkpoint checkpoint_of(const Json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
-  audit::Tally& tally = out.tally;
+  audit::Findings& findings = out.findings;
   for (const char* key : {"collisions", "contacts", "checked", "escalated", "undecided"}) {
     if (!from.at(key).is_number_unsigned()) throw std::out_of_range(key);
   }
-  from.at("collisions").get_to(tally.collisions);
-  from.at("contacts").get_to(tally.contacts);
-  from.at("checked").get_to(tally.checked);
-  from.at("escalated").get_to(tally.escalated);
-  from.at("undecided").get_to(tally.undecided);
-  from.at("differences").get_to(tally.differences);
+  from.at("collisions").get_to(findings.collisions);
+  from.at("contacts").get_to(findings.contacts);
+  from.at("checked").get_to(findings.checked);
+  from.at("escalated").get_to(findings.escalated);
+  from.at("undecided").get_to(findings.undecided);
+  from.at("differences").get_to(findings.differences);
   for (const Json& row : from.at("listed")) {
-    tally.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()), row.at(1).get<double>(),
-                            row.at(2).get<std::uint32_t>(), row.at(3).get<std::uint32_t>()});
+    findings.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()),
+                               row.at(1).get<double>(), row.at(2).get<std::uint32_t>(),
+                               row.at(3).get<std::uint32_t>()});
   }
   for (const Json& row : from.at("touches")) {
-    audit::Touch touch;
-    row.at("r").get_to(touch.r.components);
-    touch.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
-    row.at("side").get_to(touch.start.side);
+    audit::Continuation continuation;
+    row.at("r").get_to(continuation.r.components);
+    continuation.start.kind = static_cast<audit::Start::Kind>(row.at("kind").get<int>());
+    row.at("side").get_to(continuation.start.side);
     if (row.contains("gap")) {
-      touch.start.gap = row.at("gap").at(0).get<double>();
-      row.at("gap").at(1).get_to(touch.start.gap_error);
+      continuation.start.gap = row.at("gap").at(0).get<double>();
+      row.at("gap").at(1).get_to(continuation.start.gap_error);
     }
-    out.touches[std::stoull(row.at("pair").get<std::string>())] = touch;
+    out.continuations[std::stoull(row.at("pair").get<std::string>())] = continuation;
   }
   return out;
 }

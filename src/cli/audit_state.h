@@ -1,4 +1,4 @@
-// The file in which an interrupted audit keeps what it needs to go on.
+// The file in which an interrupted audit keeps what it needs to continue.
 #pragma once
 
 #include <optional>

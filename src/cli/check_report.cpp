@@ -94,7 +94,7 @@ std::string expected_text(const runs::Explanation& e) {
 }
 
 std::string engine_text(const runs::Explanation& e) {
-  return fmt::format("search {}, queue {}, accuracy {}, {} thread{}, {}", e.search, e.queue,
+  return fmt::format("search {}, calendar {}, accuracy {}, {} thread{}, {}", e.search, e.calendar,
                      e.accuracy, e.threads, e.threads == 1 ? "" : "s", e.isa);
 }
 
@@ -149,7 +149,7 @@ std::string json_of(const runs::Explanation& e) {
                         {"wall_s", number(e.seconds)}};
   }
   json["search"] = e.search;
-  json["queue"] = e.queue;
+  json["queue"] = e.calendar;
   json["accuracy"] = e.accuracy;
   json["threads"] = e.threads;
   json["isa"] = e.isa;

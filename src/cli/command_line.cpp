@@ -18,6 +18,7 @@
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/export_command.h"
+#include "src/cli/import_command.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
 #include "src/cli/predict_command.h"
@@ -306,20 +307,77 @@ void add_info_command(CLI::App& app, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
+void add_import_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "import", "make a scene and a state of a configuration of another program");
+  const auto arguments = std::make_shared<ImportArguments>();
+  command
+      ->add_option("FILE", arguments->from,
+                   "configuration of DynamO (.xml or .xml.bz2), extended XYZ, or dump or data file "
+                   "of LAMMPS")
+      ->required();
+  command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
+      ->option_text("DIR")
+      ->required();
+  command->add_flag("--force", arguments->force, "replace existing files");
+  command->footer(R"(Nothing is rescaled. What needles do not have, such as other interactions,
+several species, gravity or walls, is an error that names its place. Of several
+frames the last is taken. The end of the run is not in such a file: choose one in
+[until] of scene.toml.
+
+Examples:
+  needlework import config.xml.bz2 --out lines
+  needlework run lines/scene.toml --out lines/run.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+// A number of a frame, or one of three words.
+CLI::Validator frame_choice() {
+  return {[](const std::string& text) -> std::string {
+            const bool is_number =
+                !text.empty() && text.size() < 19 &&
+                std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+            if (is_number || text == "first" || text == "last" || text == "all") return "";
+            return fmt::format("{}: expected a number from 0, first, last or all", text);
+          },
+          "FRAME"};
+}
+
 void add_export_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("export", "write the last frame of an H5MD file for ParaView and VTK");
+      app.add_subcommand("export", "write frames of an H5MD file in the format of another program");
   const auto arguments = std::make_shared<ExportArguments>();
   command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
-  command->add_option("OUT.vtkhdf", arguments->to, "VTKHDF file to write")->required();
-  command->add_flag("--force", arguments->force, "replace an existing file");
+  command->add_option("OUT", arguments->to, "file to write; its ending is that of its format")
+      ->option_text("FILE")
+      ->required();
+  add_choice(command->add_option("--to", arguments->format, "format, whatever the ending of OUT"),
+             names_of_export_formats());
+  command
+      ->add_option("--frame", arguments->frame,
+                   "which frames, counted from 0; by default all, or the last where a format holds "
+                   "one")
+      ->option_text("N|first|last|all")
+      ->check(frame_choice());
+  command->add_flag("--force", arguments->force, "replace existing files");
+  command->footer(R"(Formats:
+  vtkhdf  .vtkhdf             one frame   ParaView and VTK
+  pvd     .pvd                all frames  ParaView; one .vtu file for each in a folder beside it
+  xyz     .xyz, .extxyz       all frames  extended XYZ: ASE, OVITO
+  lammps  .dump, .lammpstrj   all frames  dump of LAMMPS
+  lammps  .data, .lmp         one frame   data file of LAMMPS
+  dynamo  .xml, .xml.bz2      one frame   configuration of DynamO
+
+Examples:
+  needlework export run.h5 run.pvd
+  needlework export run.h5 start.xml.bz2 --frame first)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
-      "bench", "measure searches, queues and instruction sets on the same scenes");
+      "bench", "measure searches, calendars and instruction sets on the same scenes");
   command
       ->add_option("SUBSET", arguments->subset,
                    "what to measure, by default quick; --list describes all")
@@ -444,6 +502,19 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.set_help_flag("-h,--help", "show this help");
   app.require_subcommand(1);
   app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
+  add_run_command(app, exit_code);
+  add_sweep_command(app, exit_code);
+  add_check_command(app, exit_code);
+  add_theory_command(app, exit_code);
+  add_predict_command(app, exit_code);
+  add_audit_command(app, exit_code);
+  add_info_command(app, exit_code);
+  add_import_command(app, exit_code);
+  add_export_command(app, exit_code);
+  add_serve_command(app, exit_code);
+  add_bench_command(app, exit_code);
+  add_help_command(app, exit_code);
+  // Set last, because commands added later would inherit it.
   app.footer(R"(needlework COMMAND --help shows the arguments and options of a command.
 Results are printed on standard output; progress, warnings and errors on
 standard error.
@@ -460,17 +531,6 @@ Exit codes:
 Environment:
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
-  add_run_command(app, exit_code);
-  add_sweep_command(app, exit_code);
-  add_check_command(app, exit_code);
-  add_theory_command(app, exit_code);
-  add_predict_command(app, exit_code);
-  add_audit_command(app, exit_code);
-  add_info_command(app, exit_code);
-  add_export_command(app, exit_code);
-  add_serve_command(app, exit_code);
-  add_bench_command(app, exit_code);
-  add_help_command(app, exit_code);
 }
 
 }  // namespace

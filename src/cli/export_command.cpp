@@ -1,9 +1,17 @@
 #include "src/cli/export_command.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+
+#include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/cli/file_kind.h"
 #include "src/cli/messages.h"
-#include "src/io/vtkhdf.h"
+#include "src/io/formats/export_formats.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
 
@@ -11,12 +19,95 @@ namespace needlework::cli {
 
 using enum runs::ExitCode;
 
+namespace {
+
+// The usual endings of names of the formats, or of those that hold several frames.
+std::string endings(bool many) {
+  std::vector<std::string_view> all;
+  for (const io::ExportFormat& format : io::export_formats()) {
+    if (format.many || !many) all.push_back(format.endings.front());
+  }
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+bool fits(const io::ExportFormat& format, const std::string& path) {
+  return std::any_of(format.endings.begin(), format.endings.end(),
+                     [&](std::string_view ending) { return path.ends_with(ending); });
+}
+
+struct FrameRange {
+  std::size_t begin, end;
+};
+
+FrameRange chosen_frames(const std::string& choice, bool many, std::size_t count) {
+  if (choice == "all" || (choice.empty() && many)) return {0, count};
+  if (choice == "last" || choice.empty()) return {count - 1, count};
+  if (choice == "first") return {0, 1};
+  std::size_t number = count;  // the command line has checked that it is one
+  std::from_chars(choice.data(), choice.data() + choice.size(), number);
+  if (number >= count) {
+    throw InputError(
+        fmt::format("--frame {}: expected a number from 0 to {}, as there are {} frames", choice,
+                    count - 1, count));
+  }
+  return {number, number + 1};
+}
+
+io::Material read_material(const std::string& path, const io::ExportFormat& format) {
+  io::Material material = io::read_material(path);
+  if (!format.whole_material) return material;
+  io::require_complete(material, path);
+  if (material.beta && *material.beta != -1) {
+    print_warning(
+        fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path, *material.beta));
+  }
+  return material;
+}
+
+void export_frames(const ExportArguments& arguments, const io::ExportFormat& format) {
+  const auto file = read_file(arguments.from, FileKind::h5md,
+                              [&] { return std::make_unique<io::FrameFile>(arguments.from); });
+  const FrameRange range = chosen_frames(arguments.frame, format.many, file->count());
+  const io::Material material = read_material(arguments.from, format);
+  const auto writer = format.open(arguments.to, arguments.force, material);
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    writer->add({i, file->time(i), file->read(i)});
+  }
+  writer->publish();
+}
+
+}  // namespace
+
+std::vector<std::string> names_of_export_formats() {
+  std::vector<std::string> names;
+  for (const io::ExportFormat& format : io::export_formats()) {
+    if (names.empty() || names.back() != format.name) names.emplace_back(format.name);
+  }
+  return names;
+}
+
 int run(const ExportArguments& arguments) {
-  runs::require_writable(arguments.to, arguments.force, arguments.to);
-  const State state = read_file(arguments.from, FileKind::h5md,
-                                [&] { return io::read_last_frame(arguments.from); });
-  warn_of_name("OUT.vtkhdf " + arguments.to, arguments.to, {".vtkhdf", ".hdf"});
-  io::write_vtkhdf(arguments.to, arguments.force, state);
+  const std::string& to = arguments.to;
+  runs::require_writable(to, arguments.force, to);
+  const bool many = arguments.frame == "all";
+  const io::ExportFormat* format = io::find_export_format(arguments.format, to, many);
+  if (!format) {
+    print_error(
+        fmt::format("OUT {}: expected a name that ends in {}, or --to", to, endings(false)));
+    return bad_usage;
+  }
+  if (many && !format->many) {
+    print_error(
+        fmt::format("--frame all: {} holds one frame: expected first, last or a number, or "
+                    "a name that ends in {}",
+                    format->what, endings(true)));
+    return bad_usage;
+  }
+  if (!fits(*format, to)) {
+    print_warning(fmt::format("OUT {}: will be {} nevertheless: expected a name that ends in {}",
+                              to, format->what, format->endings.front()));
+  }
+  export_frames(arguments, *format);
   return ok;
 }
 

@@ -8,6 +8,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/io/formats/read_configuration.h"
 #include "src/scene/document.h"
 #include "src/scene/schema.h"
 
@@ -53,6 +54,8 @@ std::string name_of(FileKind kind) {
       return "the grid of a sweep (TOML)";
     case FileKind::pairs:
       return "a list of pairs of needles (CSV)";
+    case FileKind::foreign:
+      return "a configuration of another program";
     default:
       return "an HDF5 file";
   }
@@ -66,6 +69,8 @@ std::string command_for(FileKind kind, const std::string& path) {
       return fmt::format("needlework sweep {} runs", path);
     case FileKind::pairs:
       return fmt::format("needlework predict {} reads", path);
+    case FileKind::foreign:
+      return fmt::format("needlework import {} reads", path);
     default:
       return fmt::format("needlework info {} describes", path);
   }
@@ -93,6 +98,7 @@ FileKind kind_of(const std::string& path) {
   const std::string text = beginning_of(path);
   if (text.starts_with(hdf5_signature)) return FileKind::h5md;
   if (is_line_of_a_pair(text)) return FileKind::pairs;
+  if (io::is_configuration(text)) return FileKind::foreign;
   try {
     return kind_of_toml(text);
   } catch (const InputError&) {

@@ -25,7 +25,7 @@ void warn_of_name(std::string_view place, std::string_view file,
                                 [&](std::string_view ending) { return file.ends_with(ending); });
   if (fits) return;
   print_warning(
-      fmt::format("{}: will be an HDF5 file all the same: expected a name that ends in {}", place,
+      fmt::format("{}: will be an HDF5 file nevertheless: expected a name that ends in {}", place,
                   *endings.begin()));
 }
 

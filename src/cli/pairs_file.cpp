@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/io/decimal.h"
 
 namespace needlework {
 namespace {
@@ -60,16 +61,11 @@ struct Line {
   double number_at(int column) const {
     const std::string_view text = fields[column];
     double value = 0;
-    // from_chars knows no leading plus.
-    const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + plus, end, value);
+    const std::errc error = io::read_decimal(text, value);
     if (error == std::errc::result_out_of_range) {
       reject(column_name(column), text, "a number that a double can hold");
     }
-    if (error != std::errc() || stop != end || !std::isfinite(value)) {
-      reject(column_name(column), text, "a finite number");
-    }
+    if (error != std::errc()) reject(column_name(column), text, "a finite number");
     return value;
   }
 };

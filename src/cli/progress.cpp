@@ -10,7 +10,7 @@
 
 #include "src/cli/messages.h"
 #include "src/cli/signals.h"
-#include "src/runs/amount_text.h"
+#include "src/runs/progress_text.h"
 
 namespace needlework::cli {
 namespace {
@@ -34,9 +34,7 @@ bool ProgressLine::is_due(double elapsed) const { return !quiet_ && elapsed >= n
 
 void ProgressLine::show(double elapsed, double fraction, std::string_view more) {
   next_ = elapsed + (terminal_ ? terminal_interval : line_interval);
-  const double left = elapsed / fraction - elapsed;  // infinite at 0, and then not known
-  std::string line =
-      fmt::format("{:4.1f} % done, {} left: {}", 100 * fraction, runs::duration_text(left), more);
+  std::string line = runs::progress_text(elapsed, fraction, more);
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;
@@ -53,11 +51,7 @@ void ProgressLine::clear() {
 }
 
 void RunProgress::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
-  std::string more = fmt::format("{} collisions, time {:.4g}", now.collisions, now.time);
-  if (now.energy < 0.999 * initial_energy) {
-    more += fmt::format(", E/E(0) = {:.3g}", now.energy / initial_energy);
-  }
-  line_.show(elapsed, fraction, more);
+  line_.show(elapsed, fraction, runs::progress_of_run(now, initial_energy));
 }
 
 bool RunProgress::stop_requested() const { return SignalGuard::received() != 0; }

@@ -1,4 +1,4 @@
-// The only file that knows MPI: its C interface, as far as a sweep needs it.
+// The only file that uses MPI: its C interface, as far as a sweep needs it.
 #include "src/cli/ranks.h"
 
 #ifdef NEEDLEWORK_MPI
@@ -19,7 +19,7 @@ namespace needlework::cli {
 using enum runs::ExitCode;
 namespace {
 
-// What launchers tell their processes: that of Open MPI, and the process managers of others.
+// Environment variables that Open MPI and other launchers set for their processes.
 constexpr const char* marks[] = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_SIZE", "PMI_RANK"};
 
 bool launched() {

@@ -21,7 +21,7 @@ struct Report {
   /// Per needle and unit time, over the run; NaN if no time has passed.
   double collision_rate() const;
   /// The exact rate of a gas in equilibrium, and the standard error of the measured one; NaN for
-  /// other gases, the error also for runs too short to tell.
+  /// other gases, the error also for runs that are too short to estimate it.
   double collision_rate_exact() const;
   double collision_rate_error() const;
   /// Collisions that a needle has taken part in; NaN without needles.

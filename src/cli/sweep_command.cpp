@@ -43,7 +43,7 @@ struct Share {
   std::size_t k = 0, m = 1;
 };
 
-// Codes of members that this process knows nothing of; less than all exit codes.
+// Codes of members that this process has not run; less than all exit codes.
 constexpr int unknown = -1;
 
 std::optional<Share> parse_share(const std::string& text) {
@@ -186,7 +186,7 @@ void Sweep::run_what_is_missing() {
   runs::run_members(runs, progress, codes_);
 }
 
-// Members that were in the hands of another process may be done by now.
+// Members that another process was running may be complete by now.
 void Sweep::look_at_those_of_others() {
   for (const std::size_t member : members_) {
     if (codes_[member] != stopped) continue;
@@ -218,7 +218,7 @@ void Sweep::print(std::span<const sweep::PointSummary> summary) {
   if (stops > 0) {
     print_error(
         fmt::format("{} of {} members are not finished, stopped by a signal or in the hands of "
-                    "another process: the same command goes on with them",
+                    "another process: the same command continues with them",
                     stops, members_.size()));
   } else if (arguments_.summary && missing_ > 0) {
     print_warning(fmt::format("{} of {} members are missing", missing_, grid_.members.size()));

@@ -19,7 +19,7 @@ struct Done {
   TimeKey key;
   Vec3d r;       ///< not wrapped into the box [L]
   double speed;  ///< [L/time]
-  bool contact;
+  bool has_partner;
   Id lower_id, higher_id;  ///< of the event's two needles
   Time time;               ///< the exact time, of which the key has 53 bits
 };
@@ -76,8 +76,8 @@ class DoneLog {
   static bool comes_after(const Done& a, const Done& b) {
     if (a.time != b.time) return a.time > b.time;
     // The order of two searches at the same time does not matter.
-    return (a.contact || b.contact) && std::tie(a.contact, a.lower_id, a.higher_id) >
-                                           std::tie(b.contact, b.lower_id, b.higher_id);
+    return (a.has_partner || b.has_partner) && std::tie(a.has_partner, a.lower_id, a.higher_id) >
+                                                   std::tie(b.has_partner, b.lower_id, b.higher_id);
   }
   bool are_nearer(const Vec3d& a, const Vec3d& b, double distance) const {
     double squares = 0;

@@ -61,8 +61,8 @@ class EventProcessor {
   /// Discards cached predictions. To be called after needles have moved in storage, or after
   /// records have been put back.
   void forget() { predictor_.forget(); }
-  /// Hands over the old records when a caller has just replaced some. They tell on which side of
-  /// each other two needles are that touch.
+  /// Hands over the old records when a caller has just replaced some. They determine on which side
+  /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
   UndoLog* undo = nullptr;                    ///< if not null, receives what the processor replaces

@@ -1,4 +1,4 @@
-// The interface of all event loops, whatever the search, calendar, effects and number of threads.
+// The interface of all event loops, for any search, calendar, effects and number of threads.
 #pragma once
 
 #include <chrono>

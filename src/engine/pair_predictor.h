@@ -31,8 +31,8 @@ class PairPredictor {
     ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
     return entry.wraps = renew();
   }
-  /// Hands over the old records when a caller has just replaced some. They tell on which side of
-  /// each other two needles are that touch.
+  /// Hands over the old records when a caller has just replaced some. They determine on which side
+  /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }
   /// Discards what is cached. To be called after needles have moved in storage, or after records
   /// have been put back.
@@ -62,7 +62,7 @@ class PairPredictor {
   };
 
   kernels::Contact first_contact(const kernels::Pair& pair, double from, double to) {
-    kernels::SearchCounters spent;
+    kernels::EvaluationCounters spent;
     const kernels::Contact contact = model_.first_contact(pair, from, to, spent);
     counters_.evaluated += spent.evaluated;
     counters_.escalated += spent.escalated;
@@ -123,8 +123,8 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   return contact;
 }
 
-// Decides on which side a needle stands of another that it touches to within rounding. Rounding
-// the new record may have moved it to the other side, so the gap is continued from the records
+// Decides on which side of each other two needles are that touch to within rounding. Rounding the
+// new record may have moved one to the other side, so the gap is continued from the records
 // before.
 template <Model M>
 void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {

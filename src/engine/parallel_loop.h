@@ -32,6 +32,7 @@
 #include <string>
 #include <tuple>
 
+#include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
@@ -193,6 +194,8 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
 #pragma omp parallel num_threads(threads)
     {
       if (omp_get_num_threads() == threads) {
+        // OpenMP's threads may have been made by a host program, with its choice of arithmetic.
+        const kernels::DefaultArithmetic arithmetic;
         const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
         try {
           threads_[zone].work(end_key);

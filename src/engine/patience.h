@@ -11,7 +11,7 @@
 
 namespace needlework {
 
-/// Spins for a while, then yields the core, which the awaited thread may need.
+/// Spins for a while, then yields the core, which the other thread may need.
 class Patience {
  public:
   explicit Patience(int spins) : spins_(spins) {}
@@ -33,7 +33,7 @@ class Patience {
 };
 
 /// Counts how often a thread is blocked, and for how long.
-class Blockings {
+class BlockedTime {
  public:
   void begin() {
     if (!blocked_) since_ = SteadyClock::now();

@@ -1,5 +1,5 @@
 // The previous state of records that were replaced at one instant. It determines on which side of
-// each other two needles stand that touched at that instant.
+// each other two needles are that touched at that instant.
 #pragma once
 
 #include <algorithm>

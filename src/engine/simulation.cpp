@@ -90,16 +90,21 @@ struct Simulation::Implementation {
     loop = make_loop(run, std::move(choice));
     replaced = {};
     search = loop->search_name();
-    queue = loop->calendar_name();
+    calendar = loop->calendar_name();
   }
 
   // Places in storage, ordered by id.
   std::vector<Needle> by_id() const {
-    std::vector<Needle> out;
-    out.reserve(run.gas.size());
-    for (Needle i{0}; i < run.gas.size(); ++i) out.push_back(i);
-    std::sort(out.begin(), out.end(),
-              [&](Needle a, Needle b) { return run.gas.ids[a] < run.gas.ids[b]; });
+    std::vector<Needle> out(run.gas.size());
+    const auto& ids = run.gas.ids;
+    // Ids are distinct, and nearly always 0 to N - 1. They need no sorting then, which would take
+    // longer than to copy all needles.
+    if (std::all_of(ids.begin(), ids.end(), [&](Id id) { return id.value < out.size(); })) {
+      for (Needle i{0}; i < out.size(); ++i) out[ids[i].value] = i;
+      return out;
+    }
+    for (Needle i{0}; i < out.size(); ++i) out[i] = i;
+    std::sort(out.begin(), out.end(), [&](Needle a, Needle b) { return ids[a] < ids[b]; });
     return out;
   }
 
@@ -137,7 +142,7 @@ struct Simulation::Implementation {
   std::optional<Sizing> sizing;  ///< empty if the scene sets the size of cells or capsules
   std::unique_ptr<Loop> loop;
   ReplacedRecords replaced;  ///< by a caller at the present time, not known to a loop yet
-  std::string search, queue;
+  std::string search, calendar;
   kernels::Isa isa;
 };
 
@@ -193,7 +198,7 @@ void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
   implementation_->set_velocities(velocity, angular_velocity);
 }
 std::string Simulation::search() const { return implementation_->search; }
-std::string Simulation::queue() const { return implementation_->queue; }
+std::string Simulation::queue() const { return implementation_->calendar; }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
 std::string Simulation::effects() const { return name_effects(implementation_->scene.collisions); }
 

@@ -32,6 +32,7 @@ class alignas(128) ZoneThread {
  public:
   ZoneThread(Phase<S>& phase, const M& model, std::uint32_t zone)
       : phase_(phase),
+        model_(model),
         zone_(zone),
         changes_(phase.calendar),
         search_(phase.search, tally_.counters),
@@ -74,6 +75,10 @@ class alignas(128) ZoneThread {
   void read_mail();
   void publish_changes();
   Block earlier_around(Block centre, Block block, TimeKey key) const;
+  static double speed_of(const Record& record) {
+    const Vec3d& v = record.flight.v;
+    return std::sqrt(dot(v, v));
+  }
   Done take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   bool may_have_met(const Done& mine, double speed, bool in_order, bool alone) const;
@@ -83,6 +88,7 @@ class alignas(128) ZoneThread {
   static constexpr Block nobody = ~Block{0};
 
   Phase<S>& phase_;
+  const M& model_;
   const std::uint32_t zone_;
   Tally tally_;
   ZoneChanges changes_;
@@ -112,13 +118,13 @@ void ZoneThread<S, M>::undo(std::vector<Needle>& needles) {
 template <Search S, Model M>
 void ZoneThread<S, M>::work(TimeKey end) {
   Patience patience(phase_.spins);
-  Blockings blockings;
+  BlockedTime blocked_time;
   const auto go_on = [&] {
     patience.reset();
-    blockings.end(tally_.counters.turns, tally_.counters.blocked);
+    blocked_time.end(tally_.counters.turns, tally_.counters.blocked);
   };
   const auto wait = [&] {
-    blockings.begin();
+    blocked_time.begin();
     patience.wait();
   };
   while (!phase_.amiss.load(std::memory_order_relaxed)) {
@@ -137,7 +143,7 @@ void ZoneThread<S, M>::work(TimeKey end) {
       continue;
     }
     if (key >= end && held_.empty()) {
-      blockings.begin();
+      blocked_time.begin();
       if (phase_.mail.rest(zone_, phase_.amiss, Patience(phase_.spins))) break;
       continue;
     }
@@ -165,19 +171,19 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     if (!claim(Claims::owner, phase_.cell_of(block))) return Outcome::again;
     // Another thread may have changed this block, or others of the zone near it, just before the
     // claim.
-    if (phase_.calendar.clock_of(block) != key || phase_.mail.has_some(zone_)) {
+    if (phase_.calendar.published_key(block) != key || phase_.mail.has_some(zone_)) {
       return give_up(nobody);
     }
   }
   const Event event = phase_.calendar.top_of(block);
   processor_.prefetch(phase_.calendar.likely_next_in(zone_));
-  if (event.is_contact()) {
+  if (event.has_partner()) {
     phase_.calendar.prefetch_place(event.partner);
     processor_.prefetch(event.partner);
   }
   phase_.calendar.prefetch_keys(block);
   bool stale = false, near_partner = false;
-  if (event.is_contact()) {
+  if (event.has_partner()) {
     // If the partner is no longer near, it has collided since the prediction.
     const Block other = phase_.calendar.block_of(event.partner);
     const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
@@ -194,12 +200,12 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
       stale = processor_.is_stale(event);
     }
   }
-  const bool collides = event.is_contact() && !stale;
+  const bool changes_partner = event.has_partner() && !stale;
   const Done owner = take(event.owner, event, key);
   phase_.done.prefetch(owner.r);
   if (!claim(Claims::owner, cells_of(event.owner, owner.r))) return Outcome::again;
   Done partner;
-  if (collides) {
+  if (changes_partner) {
     partner = take(event.partner, event, key);
     phase_.done.prefetch(partner.r);
     if (!claim(Claims::partner, cells_of(event.partner, partner.r))) return Outcome::again;
@@ -208,7 +214,7 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     phase_.amiss = true;
     return give_up(nobody);
   }
-  const double fastest = collides ? std::max(owner.speed, partner.speed) : owner.speed;
+  const double fastest = changes_partner ? std::max(owner.speed, partner.speed) : owner.speed;
   const bool in_order = phase_.fronts.publish_event(zone_, key, fastest);
   changes_.changed.clear();
 #ifndef NDEBUG
@@ -217,12 +223,12 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   processor_.process(event, stale);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.amiss = true;
   const auto record = [&](Needle i, const Done& taken) {
-    const Vec3d& v = phase_.run.gas.records[i].flight.v;
-    if (may_have_met(taken, std::sqrt(dot(v, v)), in_order, alone)) phase_.amiss = true;
+    const double speed = speed_of(phase_.run.gas.records[i]);
+    if (may_have_met(taken, speed, in_order, alone)) phase_.amiss = true;
     phase_.done.add(taken);
   };
   record(event.owner, owner);
-  if (collides) record(event.partner, partner);
+  if (changes_partner) record(event.partner, partner);
   // No event reads a record from later than its own time, unless the phase is undone.
   assert(!processor_.has_read_ahead() || phase_.amiss);
   publish_changes();
@@ -243,9 +249,11 @@ template <Search S, Model M>
 void ZoneThread<S, M>::release_held() {
   std::erase_if(held_, [&](const Held& held) {
     look_away();
-    const TimeKey clock = phase_.calendar.clock_of(held.for_block);
-    if (clock < held.key || (clock == held.key && held.for_block < held.block)) return false;
-    phase_.calendar.follow_by_key(held.block, phase_.calendar.clock_of(held.block));
+    const TimeKey published = phase_.calendar.published_key(held.for_block);
+    if (published < held.key || (published == held.key && held.for_block < held.block)) {
+      return false;
+    }
+    phase_.calendar.follow_by_key(held.block, phase_.calendar.published_key(held.block));
     return true;
   });
 }
@@ -254,7 +262,7 @@ template <Search S, Model M>
 void ZoneThread<S, M>::read_mail() {
   for (const Block block : phase_.mail.take(zone_)) {
     std::erase_if(held_, [&](const Held& held) { return held.block == block; });
-    phase_.calendar.follow_by_key(block, phase_.calendar.clock_of(block));
+    phase_.calendar.follow_by_key(block, phase_.calendar.published_key(block));
   }
 }
 
@@ -266,7 +274,7 @@ void ZoneThread<S, M>::publish_changes() {
   std::vector<Block>& changed = changes_.changed;
   look_away();
   for (const Block b : changed) {
-    if (phase_.calendar.key_of_next(b) < phase_.calendar.clock_of(b)) phase_.calendar.publish(b);
+    if (phase_.calendar.next_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
   }
   for (const Block b : changed) {
     look_away();
@@ -274,7 +282,7 @@ void ZoneThread<S, M>::publish_changes() {
     const std::uint32_t zone = phase_.calendar.zone_of(b);
     if (zone == zone_) {
       std::erase_if(held_, [&](const Held& held) { return held.block == b; });
-      phase_.calendar.follow_by_key(b, phase_.calendar.clock_of(b));
+      phase_.calendar.follow_by_key(b, phase_.calendar.published_key(b));
       continue;
     }
     ++tally_.counters.foreign;
@@ -301,8 +309,8 @@ auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) co
       return false;
     }
     for (Block b = first; b < last; ++b) {
-      const TimeKey clock = phase_.calendar.clock_of(b);
-      if (clock > key || (clock == key && b >= block)) continue;
+      const TimeKey published = phase_.calendar.published_key(b);
+      if (published > key || (published == key && b >= block)) continue;
       found = b;
       return true;
     }
@@ -314,11 +322,11 @@ auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) co
 template <Search S, Model M>
 auto ZoneThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Done {
   const Record& record = phase_.run.gas.records[i];
-  const kernels::Flight& flight = record.flight;
+  const double elapsed = phase_.run.gas.clock.difference(event.time, record.time);
   return {key,
-          centre_after(flight, phase_.run.gas.clock.difference(event.time, record.time)),
-          std::sqrt(dot(flight.v, flight.v)),
-          event.is_contact(),
+          model_.centre(record, elapsed),
+          speed_of(record),
+          event.has_partner(),
           event.lower_id,
           event.higher_id,
           event.time};

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -125,6 +126,15 @@ void copy_kept(const DriverFile::Kept& kept, haddr_t address, std::size_t size, 
   std::memcpy(to + (begin - address), kept.bytes.data() + (begin - kept.address), end - begin);
 }
 
+// The other way: replaces that part of `kept`.
+void replace_kept(DriverFile::Kept& kept, haddr_t address, std::size_t size,
+                  const std::byte* from) {
+  const haddr_t begin = std::max(address, kept.address);
+  const haddr_t end = std::min(address + size, kept.address + kept.bytes.size());
+  if (begin >= end) return;
+  std::memcpy(kept.bytes.data() + (begin - kept.address), from + (begin - address), end - begin);
+}
+
 herr_t driver_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
                    void* buffer) {
   const DriverFile& file = driver_file(base);
@@ -161,17 +171,25 @@ void write_to_disk(DriverFile& file, haddr_t address, const std::byte* bytes, st
   file.size_on_disk = std::max(file.size_on_disk, address + size);
 }
 
+// What there is no memory to keep goes to the disk at once: the order of writing then protects the
+// file no more, should the program be killed, but the file itself is right.
+void keep(DriverFile& file, haddr_t address, const std::byte* bytes, std::size_t size) noexcept {
+  try {
+    file.kept.push_back({address, {bytes, bytes + size}});
+  } catch (const std::bad_alloc&) {
+    for (DriverFile::Kept& kept : file.kept) replace_kept(kept, address, size, bytes);
+    if (*file.error == 0) write_to_disk(file, address, bytes, size);
+  }
+}
+
 herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::size_t size,
                     const void* buffer) {
-  return guarded([&] {
-    DriverFile& file = driver_file(base);
-    const auto* const bytes = static_cast<const std::byte*>(buffer);
-    if (type == H5FD_MEM_DRAW && *file.error == 0) write_to_disk(file, address, bytes, size);
-    if (type != H5FD_MEM_DRAW || *file.error != 0) {
-      file.kept.push_back({address, {bytes, bytes + size}});
-    }
-    file.end_of_file = std::max(file.end_of_file, address + size);
-  });
+  DriverFile& file = driver_file(base);
+  const auto* const bytes = static_cast<const std::byte*>(buffer);
+  if (type == H5FD_MEM_DRAW && *file.error == 0) write_to_disk(file, address, bytes, size);
+  if (type != H5FD_MEM_DRAW || *file.error != 0) keep(file, address, bytes, size);
+  file.end_of_file = std::max(file.end_of_file, address + size);
+  return 0;
 }
 
 void set_size_on_disk(DriverFile& file, haddr_t size) {
@@ -252,6 +270,7 @@ void set_pages(hid_t creation, const std::string& place) {
 
 OutputFile::OutputFile(std::string name, std::string place, Use use)
     : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
+  driver_ = register_driver(place_);
   const Handle creation = hdf5::without_times(H5P_FILE_CREATE, place_);
   if (use == Use::growing) set_pages(creation.get(), place_);
   const Handle access = make_access();
@@ -272,9 +291,8 @@ Handle OutputFile::make_access() const {
   // SWMR mode needs the file format of HDF5 1.10. Newer formats are excluded, so that HDF5 1.10 can
   // read the file.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
-  const Handle driver = register_driver(place_);
   const DriverSettings settings{error_.get()};
-  check(H5Pset_driver(access.get(), driver.get(), &settings), place_);
+  check(H5Pset_driver(access.get(), driver_.get(), &settings), place_);
   return access;
 }
 

@@ -55,6 +55,8 @@ class OutputFile {
   std::string name_;
   std::string place_;
   std::unique_ptr<int> error_;  // errno of the first failed write, or 0; set by the driver
+  hdf5::Handle driver_;  // must outlive the file: H5FD_close frees a driver that nothing else
+                         // holds, and then reads it (HDF5 1.10.8)
   hdf5::Handle file_;
 };
 

@@ -1,4 +1,4 @@
-// Reads initial states: the last frame of a file, with a check of each number.
+// Reads states: the frames of a file, with a check of each number.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,9 +6,12 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/frame_rows.h"
+#include "src/io/needle_check.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -18,12 +21,6 @@ using hdf5::Shape;
 namespace {
 
 using Vector = std::array<double, 3>;
-
-constexpr double director_tolerance = 1e-6;
-
-double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 [[noreturn]] void reject(const std::string& place, const std::string& what) {
   throw InputError(place + what);
@@ -41,9 +38,11 @@ struct Slice {
 
 class FrameReader {
  public:
-  explicit FrameReader(const std::string& path) : source_(path), group_(find_particles(source_)) {}
+  explicit FrameReader(const std::string& path);
 
-  State read();
+  std::size_t count() const { return rows_->count(); }
+  std::optional<double> time(std::size_t frame) const;
+  State read(std::size_t frame);
 
  private:
   std::string place(const Element& element) const { return source_.place(element.name()); }
@@ -54,10 +53,11 @@ class FrameReader {
   const Element& element(const std::string& name) {
     return elements_.try_emplace(name, source_, group_ + "/" + name).first->second;
   }
+  Slice slice(const Element& element, std::size_t rank) const {
+    return {&element, rows_->row(element, rank, frame_)};
+  }
 
   void require_periodic_box() const;
-  void choose_frame();
-  Slice slice(const Element& element, std::size_t rank) const;
   Vector read_box();
   bool has_row_a_frame(const Element& edges) const;
   Vector diagonal(const Slice& edges) const;
@@ -70,10 +70,12 @@ class FrameReader {
   std::string group_;
   std::map<std::string, Element> elements_;
   std::uint64_t needles_ = 0;
-  std::optional<std::int64_t> step_;  // the step to read, if any element has steps
+  std::optional<FrameRows> rows_;
+  std::optional<std::vector<double>> times_;  // of the rows of the positions
+  std::size_t frame_ = 0;                     // the one that is read
 };
 
-State FrameReader::read() {
+FrameReader::FrameReader(const std::string& path) : source_(path), group_(find_particles(source_)) {
   for (const char* name : {"position", "velocity", "orientation", "angular_velocity"})
     element(name);
   for (const char* name : {"image", "id", "box/edges"}) {
@@ -82,18 +84,34 @@ State FrameReader::read() {
   if (!has("box/edges")) reject(source_.place(group_ + "/box/edges"), ": missing: expected edges");
   require_periodic_box();
 
-  const Shape& shape = element("position").shape();
+  const Element& position = element("position");
+  const Shape& shape = position.shape();
   if (shape.size() < 2) {
-    reject(place(element("position")),
+    reject(place(position),
            fmt::format(": shape {}: expected [frames][needles][3]", hdf5::to_string(shape)));
   }
   needles_ = shape[shape.size() - 2];
   if (needles_ > std::numeric_limits<std::uint32_t>::max()) {
-    reject(place(element("position")),
-           fmt::format(": {} needles: expected fewer than 2^32", needles_));
+    reject(place(position), fmt::format(": {} needles: expected fewer than 2^32", needles_));
   }
-  choose_frame();
+  std::vector<const Element*> all;
+  for (const auto& [name, element] : elements_) all.push_back(&element);
+  rows_.emplace(source_, position, all);
+  if (position.is_group()) times_ = position.times();
+}
 
+std::optional<double> FrameReader::time(std::size_t frame) const {
+  const auto row = rows_->row(elements_.at("position"), 2, frame);
+  if (!times_ || !row || *row >= times_->size()) return {};
+  return (*times_)[*row];
+}
+
+State FrameReader::read(std::size_t frame) {
+  if (frame >= count()) {
+    throw std::invalid_argument(
+        fmt::format("{}: frame {}: expected one below {}", source_.path(), frame, count()));
+  }
+  frame_ = frame;
   State state;
   state.box = read_box();
   state.position = read_vectors("position");
@@ -117,50 +135,6 @@ void FrameReader::require_periodic_box() const {
       reject(where, fmt::format(": boundary = {}: expected periodic", boundary));
     }
   }
-}
-
-// Chooses the step to read: the last one that all elements with steps have. In the files of most
-// programs that is the last step of each element. If a step occurs more than once, the last row
-// with that step is read.
-void FrameReader::choose_frame() {
-  std::vector<std::pair<const Element*, std::size_t>> rows;
-  for (const auto& [name, element] : elements_) {
-    if (!element.steps()) continue;
-    if (element.rows() == 0) reject(place(element), ": no frames: expected at least one");
-    rows.emplace_back(&element, element.rows());
-  }
-  const auto last = [](const auto& row) { return (*row.first->steps())[row.second - 1]; };
-  while (!rows.empty() && !step_) {
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
-    for (const auto& row : rows) least = std::min(least, last(row));
-    bool common = true;
-    for (auto& row : rows) {
-      while (row.second > 0 && last(row) > least) --row.second;
-      if (row.second == 0) {
-        reject(place(*row.first), ": no step in common with the other elements: expected one");
-      }
-      common = common && last(row) == least;
-    }
-    if (common) step_ = least;
-  }
-}
-
-// The part of `element` to read if a frame has `rank` dimensions. An element without steps is read
-// at the row of the positions.
-Slice FrameReader::slice(const Element& element, std::size_t rank) const {
-  if (element.shape().size() == rank) return {&element, {}};
-  if (element.rows() == 0) reject(place(element), ": no frames: expected at least one");
-  if (element.steps()) {
-    const auto end = std::upper_bound(element.steps()->begin(), element.steps()->end(), *step_);
-    return {&element, static_cast<hsize_t>(end - element.steps()->begin()) - 1};
-  }
-  const Element& position = elements_.at("position");
-  if (&element == &position || position.shape().size() == 2) return {&element, element.rows() - 1};
-  if (element.rows() != position.rows()) {
-    reject(place(element), fmt::format(": {} frames: expected {}, as in {}", element.rows(),
-                                       position.rows(), position.name()));
-  }
-  return {&element, slice(position, 2).frame};
 }
 
 Vector FrameReader::read_box() {
@@ -304,29 +278,51 @@ void FrameReader::require_needles(const State& state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Vector& u = state.orientation[i];
     const Vector& w = state.angular_velocity[i];
-    if (!(std::abs(length(u) - 1) <= director_tolerance)) {
+    if (!is_unit(u)) {
       reject(show("orientation", i, u),
-             fmt::format(", of length {}: expected a unit vector, within {}", length(u),
+             fmt::format(", of length {}: expected a unit vector, within {}", length_of(u),
                          director_tolerance));
     }
-    // The division prevents overflow and underflow in the length of the vector.
-    const double scale = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2])});
-    if (scale == 0) continue;
-    const Vector direction{w[0] / scale, w[1] / scale, w[2] / scale};
-    const double cosine = dot(direction, u) / length(direction);
-    if (!(std::abs(cosine) <= director_tolerance)) {
+    if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
       reject(show("angular_velocity", i, w),
              fmt::format(", of which {} of its length along the director: expected none, within {}",
-                         cosine, director_tolerance));
+                         part, director_tolerance));
     }
   }
 }
 
 }  // namespace
 
-State read_last_frame(const std::string& path) {
+struct FrameFile::Implementation {
+  explicit Implementation(const std::string& path) : reader(path) {}
+
+  FrameReader reader;
+};
+
+FrameFile::FrameFile(const std::string& path) {
   const hdf5::Session session;
-  return FrameReader(path).read();
+  implementation_ = std::make_unique<Implementation>(path);
+}
+
+FrameFile::~FrameFile() {
+  const hdf5::Session session;
+  implementation_.reset();
+}
+
+std::size_t FrameFile::count() const { return implementation_->reader.count(); }
+
+std::optional<double> FrameFile::time(std::size_t frame) const {
+  return implementation_->reader.time(frame);
+}
+
+State FrameFile::read(std::size_t frame) const {
+  const hdf5::Session session;
+  return implementation_->reader.read(frame);
+}
+
+State read_last_frame(const std::string& path) {
+  const FrameFile file(path);
+  return file.read(file.count() - 1);
 }
 
 }  // namespace needlework::io

@@ -11,6 +11,7 @@
 #include "src/io/atomic_file.h"
 #include "src/io/descriptions.h"
 #include "src/io/hdf5.h"
+#include "src/io/needle_ends.h"
 #include "src/io/output_file.h"
 
 namespace needlework::io {
@@ -37,25 +38,12 @@ void write_counter(hid_t group, const char* name, std::size_t value, const std::
   write_array<std::int64_t>(group, name, {1}, {&count, 1}, place);
 }
 
-// The tail of each needle, then its tip.
-Vectors ends_of(const State& state) {
-  Vectors ends;
-  ends.reserve(2 * state.size());
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    for (const double s : {-0.5, 0.5}) {
-      auto& end = ends.emplace_back(state.position[i]);
-      for (std::size_t axis = 0; axis < 3; ++axis) end[axis] += s * state.orientation[i][axis];
-    }
-  }
-  return ends;
-}
-
-void write_lines(hid_t group, const State& state, const std::string& place) {
+void write_lines(hid_t group, const State& state, double length, const std::string& place) {
   const std::size_t count = state.size();
   write_counter(group, "NumberOfPoints", 2 * count, place);
   write_counter(group, "NumberOfCells", count, place);
   write_counter(group, "NumberOfConnectivityIds", 2 * count, place);
-  write_vectors(group, "Points", ends_of(state), place);
+  write_vectors(group, "Points", ends_of(state, length), place);
   std::vector<std::int64_t> points(2 * count);
   std::iota(points.begin(), points.end(), 0);
   write_array<std::int64_t>(group, "Connectivity", {points.size()}, points, place);
@@ -79,7 +67,7 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
 
 }  // namespace
 
-void write_vtkhdf(const std::string& path, bool force, const State& state) {
+void write_vtkhdf(const std::string& path, bool force, const State& state, double length) {
   const hdf5::Session session;
   AtomicFile atomic(path, force);
   OutputFile file(atomic.temporary(), path, OutputFile::Use::in_one_go);
@@ -88,7 +76,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state) {
     const std::array<std::int32_t, 2> version{1, 0};
     hdf5::write_attribute(root.get(), "Version", version, {2}, path);
     hdf5::write_attribute(root.get(), "Type", std::string("UnstructuredGrid"), path);
-    write_lines(root.get(), state, path);
+    write_lines(root.get(), state, length, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
   write_descriptions(file.get(), vtkhdf_descriptions(), path);

@@ -37,7 +37,7 @@ namespace needlework {
 template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,
                          Time now, const DoubleDouble& elapsed, double time,
-                         const kernels::Pair& pair, kernels::SearchCounters& spent,
+                         const kernels::Pair& pair, kernels::EvaluationCounters& spent,
                          const kernels::ContactGeometry& geometry, const Vec3d& vector) {
   { M::effects } -> std::convertible_to<Effects>;
   { model.gas() } -> std::same_as<Gas&>;

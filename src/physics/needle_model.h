@@ -38,7 +38,7 @@ class NeedleModel {
     return out;
   }
   kernels::Contact first_contact(const kernels::Pair& pair, double from, double to,
-                                 kernels::SearchCounters& spent) const {
+                                 kernels::EvaluationCounters& spent) const {
     return kernels::first_contact(pair, from, to, spent, accuracy_);
   }
   double gap(const kernels::Pair& pair, const DoubleDouble& elapsed) const {

@@ -68,11 +68,14 @@ NearInterval near_interval(const kernels::Pair& pair) {
 
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy) {
+  if (!(horizon >= 0)) {
+    throw InputError(fmt::format("horizon = {:g}: expected a time, 0 or later", horizon));
+  }
   const kernels::Flight a = flight_of(first), b = flight_of(second);
   kernels::Pair pair;
   pair.first = &a;
   pair.second = &b;
-  kernels::SearchCounters counters;
+  kernels::EvaluationCounters counters;
   if (just_collided) {
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};

@@ -15,14 +15,14 @@ struct Body {
   double length() const { return 2 * half_length; }
 };
 
-/// One species. Lengths and masses are in the units of the scene, in which a needle of the default
-/// species has length 1 and mass 1.
+/// One species, in the units of the scene, in which the default species has length 1 and mass 1.
+/// The searches read half lengths by species with and without the table (src/search/lengths.h).
 struct Species {
   double length = 1;  ///< [L]
   double mass = 1;    ///< [m]
   double k = 6;       ///< m L^2 / (2 I) [1]
 
-  /// Needles of length 1 and mass 1 need no table, because all factors of their species are 1.
+  /// The model needs no table for length 1 and mass 1, because all factors of the species are 1.
   bool is_unit() const { return length == 1 && mass == 1; }
   double inertia() const { return mass * (length * length) / (2 * k); }
   /// For length 1 and mass 1 the inverse inertia is exactly 2 k.

@@ -22,7 +22,8 @@ class CollisionBatches {
  public:
   using Callback = std::function<void(std::span<const Collision>)>;
 
-  /// Calls for each `batch` collisions (at least 1). Both must outlive this object.
+  /// Calls for each `batch` collisions (at least 1), or for fewer where memory does not suffice.
+  /// Both must outlive this object.
   CollisionBatches(Simulation& simulation, std::size_t batch, Callback callback);
 
   void add(const Collision& collision);
@@ -30,6 +31,7 @@ class CollisionBatches {
   void flush();
 
  private:
+  void make_room();
   void pass_on();
 
   Simulation& simulation_;

@@ -18,7 +18,7 @@ namespace {
 using Names = std::vector<std::string>;
 
 const Names parallel_searches{"linked-cells", "capsules"};
-const Names parallel_queues{"cell-calendar"};
+const Names parallel_calendars{"cell-calendar"};
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -65,13 +65,13 @@ void choose_engine(Scene& scene) {
   const std::string threads_place =
       place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
   const bool parallel = (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
-                        (engine.queue == "auto" || contains(parallel_queues, engine.queue));
+                        (engine.queue == "auto" || contains(parallel_calendars, engine.queue));
   if (engine.threads && *engine.threads > 1 && !parallel) {
     throw InputError(
         fmt::format("{}: expected 1 with search {} and queue {}; several threads need "
                     "search {} and queue {}",
                     threads_place, engine.search, engine.queue, list(parallel_searches),
-                    list(parallel_queues)));
+                    list(parallel_calendars)));
   }
   const int most = omp_get_thread_limit();
   if (engine.threads && *engine.threads > most) {

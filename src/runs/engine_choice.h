@@ -13,7 +13,7 @@ std::vector<std::string> instruction_sets();
 
 /// Completes the scene's choice from the environment and checks that threads and instruction set
 /// are on offer. NEEDLEWORK_ISA counts where the scene says auto. OMP_NUM_THREADS is a wish for at
-/// most so many threads, where the scene does not say how many; a search or queue for one thread
+/// most so many threads, where the scene does not say how many; a search or calendar for one thread
 /// takes one. Throws InputError naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene);
 

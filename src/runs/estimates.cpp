@@ -15,7 +15,7 @@
 namespace needlework::runs {
 namespace {
 
-// Peak resident memory, measured from N = 1e3 to 1e6 with the searches by lanes, and what frames
+// Peak resident memory, measured from N = 1e3 to 1e6 with the SIMD searches, and what frames
 // add. The scalar search takes a quarter less.
 constexpr double base_bytes = 12e6;
 constexpr double bytes_per_needle = 580;
@@ -31,8 +31,9 @@ double estimated_memory(const Scene& scene) {
 
 double estimated_seconds_per_collision(const Scene& scene, double density) {
   // Fits to n L^3 = 0.01 to 50 at N = 1e4. The number of candidates grows with the density, or with
-  // the number of needles, unless filtered by lanes. On the long way to the next collision of a
-  // dilute gas a needle leaves cells, whose side is about L or takes in some needles.
+  // the number of needles, unless a SIMD filter rules them out. On the long way to the next
+  // collision of a dilute gas a needle leaves cells, whose side is about L or takes in some
+  // needles.
   const std::string search = chosen_search(scene.engine.search, density);
   const double count = static_cast<double>(scene.needles.count);
   if (density == 0) return 0;  // nothing to collide with

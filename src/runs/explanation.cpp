@@ -42,7 +42,7 @@ Explanation::Explanation(const LoadedScene& loaded)
                   : undefined),
       memory(estimated_memory(scene)),
       search(chosen_search(scene.engine.search, density)),
-      queue(chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1))),
+      calendar(chosen_calendar(scene.engine.queue, scene.engine.threads.value_or(1))),
       accuracy(accuracy_name(scene.engine)),
       isa(resolved_isa(scene.engine)),
       threads(scene.engine.threads.value_or(1)),

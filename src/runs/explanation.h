@@ -23,7 +23,7 @@ struct Explanation {
   double collisions;                 ///< of all needles until then; NaN if nothing is expected
   double seconds;                    ///< estimate of the wall time; NaN if no end is expected
   double memory;                     ///< estimate [bytes]
-  std::string search, queue, accuracy, isa;  ///< of the engine, `auto` resolved
+  std::string search, calendar, accuracy, isa;  ///< of the engine, `auto` resolved
   int threads;
   std::vector<std::string> warnings;
 };

@@ -4,11 +4,18 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <system_error>
 
 #include "needlework/error.h"
 
 namespace needlework::runs {
+namespace {
+
+constexpr const char* not_enough_memory =
+    "not enough memory: expected fewer needles (needles.count)";
+
+}  // namespace
 
 Failure current_failure() {
   try {
@@ -20,7 +27,9 @@ Failure current_failure() {
   } catch (const IoError& error) {
     return {input_output_error, error.what()};
   } catch (const std::bad_alloc&) {
-    return {bad_input, "not enough memory: expected fewer needles (needles.count)"};
+    return {bad_input, not_enough_memory};
+  } catch (const std::length_error&) {  // more than any memory
+    return {bad_input, not_enough_memory};
   } catch (const std::system_error& error) {  // of printing
     return {input_output_error, error.what()};
   } catch (const std::exception& error) {

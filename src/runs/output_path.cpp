@@ -9,7 +9,8 @@
 
 namespace needlework::runs {
 
-void require_writable(const std::string& file, bool force, const std::string& place) {
+void require_writable(const std::string& file, bool force, const std::string& place,
+                      const char* option) {
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path path(file);
@@ -23,7 +24,8 @@ void require_writable(const std::string& file, bool force, const std::string& pl
       throw IoError(place + ": cannot be written: expected an ordinary file");
     }
     if (!force) {
-      throw IoError(place + ": exists already: expected a new file, or --force to replace it");
+      throw IoError(fmt::format("{}: exists already: expected a new file, or {} to replace it",
+                                place, option));
     }
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {

@@ -7,7 +7,9 @@ namespace needlework::runs {
 
 /// Throws IoError, "PLACE: REASON", if `file` could not be made there, or exists already and
 /// `force` is false. Makes nothing. Asked before a run, so that no computing is wasted on a result
-/// that cannot be kept. The place is where the file was named.
-void require_writable(const std::string& file, bool force, const std::string& place);
+/// that cannot be kept. The place is where the file was named, `option` what the user would give to
+/// replace it.
+void require_writable(const std::string& file, bool force, const std::string& place,
+                      const char* option = "--force");
 
 }  // namespace needlework::runs

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <utility>
 
 #include "needlework/error.h"
@@ -86,14 +87,17 @@ Course PreparedRun::drive(RunMonitor& monitor) {
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   if (!batches_) return driver_->advance(until, monitor);
+  Stop stop{};
   try {
-    const Stop stop = driver_->advance(until, monitor);
-    batches_->flush();
-    return stop;
-  } catch (const InvalidStateError&) {
+    stop = driver_->advance(until, monitor);
+  } catch (const std::bad_alloc&) {
+    throw;  // in the middle of an event, so that it must not be replaced by an error of the caller
+  } catch (...) {
     batches_->flush();
     throw;
   }
+  batches_->flush();
+  return stop;
 }
 
 void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback callback) {

@@ -10,7 +10,7 @@
 namespace needlework::runs {
 namespace {
 
-/// Longest stay in the event loop between two looks at the clock and at the monitor [s].
+/// Longest time in the event loop between two checks of wall time and of the monitor [s].
 constexpr double longest_step = 0.1;
 /// Longest time for which results are not yet safe in the file [s].
 constexpr double flush_interval = 10;
@@ -69,6 +69,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
 }
 
 Course RunDriver::finish() {
+  if (failure_) std::rethrow_exception(failure_);
   if (!begun_) begin();
   course_.last = simulation_.totals();
   if (samples()) {
@@ -88,15 +89,16 @@ void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
 }
 
 void RunDriver::begin() {
-  begun_ = true;
   last_flush_ = SteadyClock::now();
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
   course_.initial = simulation_.totals();
-  if (!samples()) return;
-  sample(true, true);
-  series_.pass(0);
-  frames_.pass(0);
+  if (samples()) {
+    sample(!last_sample_, !last_frame_);
+    series_.pass(0);
+    frames_.pass(0);
+  }
+  begun_ = true;
 }
 
 void RunDriver::listen_to_collisions() {
@@ -108,13 +110,26 @@ void RunDriver::listen_to_collisions() {
   }
   simulation_.on_collision([this, events, observes](const Collision& collision) {
     if (rate_) rate_->add(collision.time);
-    if (events) output_.writer->write_event(collision);
-    if (observes) output_.observation->collision(collision);
+    if (events || observes) record(collision);
     if (callback_) callback_(collision);
   });
 }
 
-// One stay in the event loop; a value when one of the conditions is met.
+// The engine cannot continue from an exception in the middle of a collision, so it is stopped after
+// it.
+void RunDriver::record(const Collision& collision) {
+  try {
+    if (!failure_) {
+      if (scene_.output.events) output_.writer->write_event(collision);
+      output_.observation->collision(collision);
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  if (failure_) simulation_.interrupt();
+}
+
+// One call of the event loop; returns a value when one of the conditions is met.
 std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time_point start) {
   Scene::Until limits = until;
   const double next = std::min(series_.next(), frames_.next());
@@ -129,6 +144,7 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
     const Timed timed(course_.loop);
     return simulation_.advance(limits);
   }();
+  if (failure_) std::rethrow_exception(failure_);  // here and in every later call
   if (stop == Stop::wall_time) return std::nullopt;
   if (stop != Stop::time || !to_sample) return stop;
   sample(series_.next() <= next, frames_.next() <= next);
@@ -144,9 +160,9 @@ void RunDriver::sample(bool series, bool frame) {
   State state;
   if (observes || (writer && frame)) simulation_.copy(state);
   if (series) {
-    last_sample_ = totals;
     if (keeps_course_) course_.samples.push_back(totals);
     if (writer) writer->write_series(totals, output_.observation->sample(state, totals));
+    last_sample_ = totals;
   }
   if (frame && writer) {
     writer->write_frame(totals, state);

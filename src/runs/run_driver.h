@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
-#include "src/observe/blocks.h"
+#include "src/observe/batch_rate.h"
 #include "src/observe/observation.h"
 #include "src/observe/schedule.h"
 #include "src/runs/resources.h"
@@ -25,7 +26,7 @@ struct Course {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
   Stopwatch loop;                      ///< time spent in the event loop
-  BlockRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
+  BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
 /// Where the samples of a run go. Both are null, or neither.
@@ -60,6 +61,7 @@ class RunDriver {
 
   bool samples() const { return output_.writer || keeps_course_; }
   void begin();
+  void record(const Collision& collision);
   void listen_to_collisions();
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
@@ -73,8 +75,9 @@ class RunDriver {
   const bool keeps_course_;
   bool begun_ = false;
   Schedule series_, frames_;
-  std::optional<BlockRate> rate_;
+  std::optional<BatchRate> rate_;
   std::function<void(const Collision&)> callback_;
+  std::exception_ptr failure_;  ///< of writing or observing a collision
   Course course_;
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written

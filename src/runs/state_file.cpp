@@ -1,7 +1,8 @@
 #include "src/runs/state_file.h"
 
+#include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "src/runs/output_path.h"
+#include "src/io/atomic_file.h"
 #include "src/scene/accuracy.h"
 
 namespace needlework::runs {
@@ -15,14 +16,21 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
 
 void write_state(const Simulation& simulation, const Scene& scene, const std::string& path,
                  bool force) {
-  require_writable(path, force, path);
   Scene without_events = scene;
   without_events.output.events = false;
-  io::Writer writer(path, force, without_events, run_info(simulation, scene));
-  const Totals totals = simulation.totals();
-  writer.write_series(totals);
-  writer.write_frame(totals, simulation.copy());
-  writer.close();
+  io::AtomicFile file(path, force);
+  try {
+    io::Writer writer(file.temporary(), true, without_events, run_info(simulation, scene));
+    const Totals totals = simulation.totals();
+    writer.write_series(totals);
+    writer.write_frame(totals, simulation.copy());
+    writer.close();
+  } catch (const IoError& error) {
+    std::string message = error.what();
+    if (message.starts_with(file.temporary())) message.replace(0, file.temporary().size(), path);
+    throw IoError(message);
+  }
+  file.publish();
 }
 
 }  // namespace needlework::runs

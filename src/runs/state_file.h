@@ -13,7 +13,8 @@ namespace needlework::runs {
 io::RunInfo run_info(const Simulation& simulation, const Scene& scene);
 
 /// Writes a file with one frame, that initial.file of a scene can name. An existing file is
-/// replaced if `force` is true. Throws IoError, "PATH: REASON".
+/// replaced if `force` is true, as a whole: a failure leaves what was there. Throws IoError, "PATH:
+/// REASON".
 void write_state(const Simulation& simulation, const Scene& scene, const std::string& path,
                  bool force);
 

@@ -75,7 +75,7 @@ SweepFolder::SweepFolder(std::string path, const sweep::Grid& grid, bool force,
   if (present && !force_) {
     throw InputError(
         fmt::format("{}: is of another grid, scene or version ({}): expected a new folder, or "
-                    "--force to go on in this one",
+                    "--force to continue in this one",
                     place, file));
   }
   write_record(file, record);
@@ -139,7 +139,7 @@ Claim::Claim(const SweepFolder& folder, const sweep::Member& member)
   for (;;) {
     descriptor_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor_ < 0) throw IoError(path_ + ": " + reason(errno));
-    // Where a file system has no locks there is nobody to exclude.
+    // A file system without locks cannot exclude other processes.
     const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     struct stat locked, named;
     const bool current = !taken && fstat(descriptor_, &locked) == 0 &&

@@ -94,7 +94,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
         fmt::format("{} (saved in {})", *course.failure, folder.failed_file(member)));
   }
   if (course.stop == Stop::interrupted) {
-    // It cannot go on from there on the same trajectory.
+    // It cannot be continued from there on the same trajectory.
     folder.remove_unfinished(member);
     return stopped;
   }

@@ -29,7 +29,7 @@ class SweepMonitor {
   virtual bool is_due(double elapsed) const = 0;
   /// `fraction` is the share of the work done, in [0, 1]; `finished` counts members.
   virtual void show(double elapsed, double fraction, std::size_t finished, std::size_t members) = 0;
-  /// A member could not be run; the others go on.
+  /// A member could not be run; the others are continued.
   virtual void report_failure(const sweep::Member& member, const Failure& failure) = 0;
   /// Whether to end all members; asked several times a second.
   virtual bool stop_requested() const { return false; }

@@ -4,6 +4,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <new>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -116,11 +118,19 @@ bool is_bare_key(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), allowed);
 }
 
+// Parses TOML that is safe to parse. toml++ ends the process where memory fails it, so that there
+// has to be enough before it begins: an element of an array takes two bytes of text and some
+// hundred of memory.
+toml::table parse(std::string_view text) {
+  ::operator delete(::operator new(64 * text.size() + (std::size_t{1} << 16)));
+  return toml::parse(text);
+}
+
 // The value of an override: TOML if it is one value in TOML, otherwise a string.
 Value override_value(std::string_view text) {
   const std::string toml = "value = " + std::string(text);
   try {
-    const toml::table table = find_toml_hazard(toml) ? toml::table() : toml::parse(toml);
+    const toml::table table = find_toml_hazard(toml) ? toml::table() : parse(toml);
     if (table.size() == 1) return value_of(table.begin()->second);
   } catch (const toml::parse_error&) {
   }
@@ -154,7 +164,7 @@ Document::Document(std::string_view text, std::string_view name,
   if (const auto hazard = find_toml_hazard(text))
     throw InputError(fmt::format("{}: line {}: {}", file, hazard->line, hazard->reason));
   try {
-    entries_ = flattened(toml::parse(text));
+    entries_ = flattened(parse(text));
   } catch (const toml::parse_error& error) {
     throw InputError(fmt::format("{}: line {}: {}", file, error.source().begin.line,
                                  reason(error.description())));

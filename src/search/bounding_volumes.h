@@ -2,7 +2,7 @@
 //
 // A needle that is placed gets a bounding volume, a region fixed in space that it does not leave
 // before a known time, and an entry in the cell that its centre is in. Only needles whose bounding
-// volumes come near each other can meet before one of them is placed again, and a needle that is
+// volumes are near each other can meet before one of them is placed again, and a needle that is
 // placed again searches again. So nothing else is kept: there are no neighbour lists.
 //
 //   cell     the bounding volume is the cell and a fifth of its side around it

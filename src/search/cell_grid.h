@@ -58,7 +58,7 @@ class CellGrid {
 
   std::int32_t wrap(std::int32_t c, int axis) const {
     const std::int32_t n = count_[axis];
-    // A division takes long.
+    // A division is slow.
     if (0 <= c && c < n) return c;
     if (-n <= c && c < 0) return c + n;
     const std::int32_t m = c % n;
@@ -86,7 +86,7 @@ class CellGrid {
     }
   }
 
-  /// Cells of one axis that come near an interval.
+  /// Cells of one axis that are near an interval.
   struct AxisCell {
     std::int32_t cell;  ///< not wrapped
     std::int32_t wrapped;
@@ -94,8 +94,8 @@ class CellGrid {
     float gap_squared;  ///< of its distance from the interval, not above [unit^2]
   };
 
-  /// Appends the cells of an axis that, made larger by `overlap` on either side, are not farther
-  /// than `reach` from [low, high]. They are described in a unit of length of which L contains
+  /// Appends the cells of an axis that, extended by `overlap` on either side, are at most `reach`
+  /// away from [low, high]. They are described in a unit of length of which L contains
   /// `per_length`, a power of two.
   void append_near(int axis, std::int32_t origin, double low, double high, double overlap,
                    double reach, double per_length, std::vector<AxisCell>& out) const {
@@ -113,8 +113,7 @@ class CellGrid {
     }
   }
 
-  /// Boxes to add to a centre in cell `from` so that it comes to lie in `to`, an image of that
-  /// cell.
+  /// Number of boxes to add to a centre in cell `from` to move it to `to`, an image of that cell.
   std::array<std::int32_t, 3> boxes_between(const Cell& to, const Cell& from) const {
     if (to[0] == from[0] && to[1] == from[1] && to[2] == from[2]) return {};
     return {(to[0] - from[0]) / count_[0], (to[1] - from[1]) / count_[1],

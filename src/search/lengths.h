@@ -8,6 +8,11 @@
 namespace needlework {
 
 /// Half the length of needle i. [L]
+///
+/// It is read from the table of species even if all needles have length 1, because a search is
+/// compiled once for all effects. A constant in its place changes the instructions per collision
+/// by less than 0.1 % with the SIMD searches, which read it when a needle is placed. It would save
+/// 0.6 % (dilute) to 1.4 % (dense) with `linked-lists`, which reads it for each candidate.
 inline double half_length_of(const Gas& gas, Needle i) {
   return gas.bodies[gas.records[i].species].half_length;
 }

@@ -124,7 +124,8 @@ inline void NearSearch::propose(const kernels::Found& found, std::size_t k, doub
   candidates_.push_back({from, to, j, found.cell[k], {}});
 }
 
-// Proposes those of the needles found that may meet the seeker, from when on they may.
+// Proposes those of the needles found that may meet the seeker, with the earliest time at which
+// they may.
 inline void NearSearch::follow(const kernels::Seeker& seeker, Needle just_hit,
                                const kernels::Found& found, std::size_t count) {
   const BoundingVolumes& volumes = *volumes_;

@@ -1,7 +1,7 @@
 // Searches with SIMD kernels over rows of cells: `linked-cells` and `capsules`.
 //
-// Both look through the cells around a needle (bounding_volumes.h) with a filter, and follow the
-// pairs that pass it: bracket() of kernels/near_needles.h finds the time before which a pair cannot
+// Both look through the cells around a needle (bounding_volumes.h) with a filter. For the
+// pairs that pass it, bracket() of kernels/near_needles.h finds the time before which a pair cannot
 // meet, or that it does not meet at all.
 //
 //   linked-cells  needles whose bounding spheres meet in flight; for dilute gases, where needles

@@ -15,8 +15,8 @@
 namespace needlework::test {
 namespace {
 
+using audit::Findings;
 using audit::Kind;
-using audit::Tally;
 
 #ifdef NDEBUG
 constexpr int thin = 1;
@@ -34,17 +34,17 @@ audit::Setup setup_of(const Scene& scene, double epoch_length) {
   return setup;
 }
 
-std::string text_of(const Tally& tally) {
+std::string text_of(const Findings& findings) {
   std::string text;
   for (const Kind kind : audit::kinds) {
-    text += std::string(audit::name(kind)) + " " + std::to_string(tally.count(kind)) + ", ";
+    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
   }
-  text += "undecided " + std::to_string(tally.undecided) + ", collisions " +
-          std::to_string(tally.collisions) + ", checked " + std::to_string(tally.checked);
-  for (const auto& d : tally.listed) {
+  text += "undecided " + std::to_string(findings.undecided) + ", collisions " +
+          std::to_string(findings.collisions) + ", checked " + std::to_string(findings.checked);
+  for (const auto& d : findings.listed) {
     text += "\n" + std::string(audit::name(d.kind)) + " " + std::to_string(d.time) + " " +
             std::to_string(d.first) + " " + std::to_string(d.second);
-    if (&d - tally.listed.data() >= 5) break;
+    if (&d - findings.listed.data() >= 5) break;
   }
   return text;
 }
@@ -67,11 +67,11 @@ struct EngineRun {
     end = simulation.time();
   }
 
-  Tally audited() const {
+  Findings audited() const {
     audit::Audit audit(initial, setup);
     for (const Collision& collision : collisions) audit.add(collision);
     audit.finish(end);
-    return audit.tally();
+    return audit.findings();
   }
 };
 
@@ -79,11 +79,12 @@ Scene gas(std::uint64_t count, double density) {
   return scene_of(count, std::cbrt(static_cast<double>(count) / density));
 }
 
-void expect_clean(const Tally& tally, const std::string& what) {
-  EXPECT_TRUE(tally.clean()) << what << ": " << text_of(tally);
+void expect_clean(const Findings& findings, const std::string& what) {
+  EXPECT_TRUE(findings.clean()) << what << ": " << text_of(findings);
   // Pairs whose contact rounding decides are one in millions.
-  EXPECT_LE(tally.undecided, 1 + tally.checked / 1000000) << what << ": " << text_of(tally);
-  EXPECT_GT(tally.contacts, 0u);
+  EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000)
+      << what << ": " << text_of(findings);
+  EXPECT_GT(findings.contacts, 0u);
 }
 
 TEST(Audit, FindsNothingWrongWithTheEngine) {
@@ -123,15 +124,15 @@ TEST(Audit, FollowsBouncesDownToTheContactTime) {
 
 TEST(Audit, LooksAtEveryPairAndCollision) {
   const EngineRun run(gas(40, 1), 20);
-  const Tally tally = run.audited();
+  const Findings findings = run.audited();
   const std::size_t n = run.initial.size(), m = run.collisions.size();
-  EXPECT_EQ(tally.collisions, m);
-  EXPECT_EQ(tally.contacts, m);
-  // Two flights to each of the others, one between the partners; all once more at the end, but
+  EXPECT_EQ(findings.collisions, m);
+  EXPECT_EQ(findings.contacts, m);
+  // Two flights to each of the others, one between the partners; all again at the end, but
   // perhaps those that begin there.
   const std::size_t at_collision = 2 * (n - 2) + 1, most = m * at_collision + n * (n - 1) / 2;
-  EXPECT_LE(tally.checked, most);
-  EXPECT_GE(tally.checked, most - at_collision);
+  EXPECT_LE(findings.checked, most);
+  EXPECT_GE(findings.checked, most - at_collision);
 }
 
 TEST(Audit, ChecksAShareOfAllPairsByItsSeed) {
@@ -142,7 +143,7 @@ TEST(Audit, ChecksAShareOfAllPairsByItsSeed) {
     part.setup.seed = seed;
     return part.audited();
   };
-  const Tally all = run.audited(), fifth = share(0.2, 1), other = share(0.2, 2);
+  const Findings all = run.audited(), fifth = share(0.2, 1), other = share(0.2, 2);
   EXPECT_NEAR(static_cast<double>(fifth.checked), 0.2 * static_cast<double>(all.checked),
               0.02 * static_cast<double>(all.checked));
   EXPECT_EQ(fifth.checked, share(0.2, 1).checked);
@@ -153,11 +154,11 @@ TEST(Audit, ChecksAShareOfAllPairsByItsSeed) {
 }
 
 TEST(Audit, BoundsWhatItDidNotSee) {
-  Tally tally;
-  tally.contacts = tally.collisions = 1000;
-  EXPECT_NEAR(tally.bound95(Kind::late), 2.9957e-3, 1e-6);  // -log(0.05) / n
-  tally.differences[0] = 2;                                 // missed
-  EXPECT_NEAR(tally.bound95(Kind::missed), 6.2958 / 1002, 1e-6);
+  Findings findings;
+  findings.contacts = findings.collisions = 1000;
+  EXPECT_NEAR(findings.bound95(Kind::late), 2.9957e-3, 1e-6);  // -log(0.05) / n
+  findings.differences[0] = 2;                                 // missed
+  EXPECT_NEAR(findings.bound95(Kind::missed), 6.2958 / 1002, 1e-6);
 }
 
 // --- Faults planted in the engine: a history that is consistent but wrong.
@@ -182,11 +183,12 @@ TEST_P(PlantedFault, IsReported) {
   audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
   for (const Collision& collision : run.collisions) audit.add(collision);
   audit.finish(run.end);
-  const Tally& tally = audit.tally();
+  const Findings& findings = audit.findings();
   const auto expected = static_cast<std::uint64_t>(run.planted);
-  EXPECT_GE(tally.count(planted.kind) + 1, expected) << text_of(tally);  // one may lie at the end
-  EXPECT_LE(tally.count(planted.kind), expected) << text_of(tally);
-  EXPECT_GT(tally.count(planted.kind), 0u) << text_of(tally);
+  EXPECT_GE(findings.count(planted.kind) + 1, expected)
+      << text_of(findings);  // one may lie at the end
+  EXPECT_LE(findings.count(planted.kind), expected) << text_of(findings);
+  EXPECT_GT(findings.count(planted.kind), 0u) << text_of(findings);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -206,7 +208,7 @@ TEST(PlantedFault, NoneIsReportedWhereThereIsNone) {
   audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
   for (const Collision& collision : run.collisions) audit.add(collision);
   audit.finish(run.end);
-  expect_clean(audit.tally(), "reference");
+  expect_clean(audit.findings(), "reference");
 }
 
 // --- Faults in what is reported.
@@ -249,7 +251,7 @@ TEST_F(FalseReport, OfTheOrderIsSeen) {
   EXPECT_EQ(count(Kind::wrong_order), 1u);
 }
 
-// At one instant ids decide, but a collision may bring about another one of its own needles.
+// At one instant ids decide, but a collision may cause another one of its own needles.
 TEST_F(FalseReport, OfTheOrderAtOneInstantIsSeen) {
   run.setup.share = 0;  // no flights: with such reports they would take long
   victim().first = 30;
@@ -312,9 +314,9 @@ TEST(ContactTime, OfAnAbsoluteKindIsChecked) {
   EXPECT_GT(run.audited().count(Kind::wrong_rule), 0u);
 }
 
-// One needle spins above another, so fast that the search gives up: of what then came nothing is
-// known, also when the flight ends with it.
-TEST(Audit, SaysWhenItGaveUp) {
+// One needle spins above another, so fast that the contact finder gives up: the rest of the flight
+// is undecided, also if the flight ends there.
+TEST(Audit, ReportsThatItGaveUp) {
   State state;
   state.box = {8, 8, 8};
   state.id = {0, 1};
@@ -326,9 +328,9 @@ TEST(Audit, SaysWhenItGaveUp) {
     state.angular_velocity[1][2] = spin;
     audit::Audit audit(state, setup_of(test::scene_of(2, 8), 1));
     audit.finish(1);
-    EXPECT_TRUE(audit.tally().clean());
-    EXPECT_EQ(audit.tally().checked, 1u);
-    EXPECT_EQ(audit.tally().undecided, spin > 1 ? 1u : 0u);
+    EXPECT_TRUE(audit.findings().clean());
+    EXPECT_EQ(audit.findings().checked, 1u);
+    EXPECT_EQ(audit.findings().undecided, spin > 1 ? 1u : 0u);
   }
 }
 
@@ -340,7 +342,7 @@ TEST(Audit, GoesOnWhereItWasInterrupted) {
   scene.collisions.tc_relative = 1e-3;
   EngineRun run(scene, 100);
   run.collisions[run.collisions.size() / 3].impulse[0] += 1e-6;  // to have something to remember
-  const Tally whole = run.audited();
+  const Findings whole = run.audited();
   for (const std::size_t at :
        {std::size_t{0}, std::size_t{1}, run.collisions.size() / 2, run.collisions.size()}) {
     audit::Audit first(run.initial, run.setup);
@@ -349,7 +351,7 @@ TEST(Audit, GoesOnWhereItWasInterrupted) {
     second.resume(first.checkpoint());
     for (const Collision& collision : run.collisions) second.add(collision);
     second.finish(run.end);
-    EXPECT_EQ(text_of(second.tally()), text_of(whole));
+    EXPECT_EQ(text_of(second.findings()), text_of(whole));
   }
 }
 
@@ -360,18 +362,18 @@ TEST(Audit, StoppedWhileItChecksTheLastFlightsIsAsBefore) {
   const EngineRun run(scene, 100);
   audit::Audit audit(run.initial, run.setup);
   for (const Collision& collision : run.collisions) audit.add(collision);
-  const std::string before = text_of(audit.tally());
-  const std::size_t touches = audit.checkpoint().touches.size();
-  EXPECT_GT(touches, 0u);
+  const std::string before = text_of(audit.findings());
+  const std::size_t continued = audit.checkpoint().continuations.size();
+  EXPECT_GT(continued, 0u);
   for (const int most : {1, 500}) {
     int asked = 0;
     EXPECT_FALSE(audit.finish(run.end, [&] { return ++asked == most; }));
     EXPECT_EQ(asked, most);
-    EXPECT_EQ(text_of(audit.tally()), before);
-    EXPECT_EQ(audit.checkpoint().touches.size(), touches);
+    EXPECT_EQ(text_of(audit.findings()), before);
+    EXPECT_EQ(audit.checkpoint().continuations.size(), continued);
   }
   EXPECT_TRUE(audit.finish(run.end, [] { return false; }));
-  EXPECT_EQ(text_of(audit.tally()), text_of(run.audited()));
+  EXPECT_EQ(text_of(audit.findings()), text_of(run.audited()));
 }
 
 TEST(Audit, RefusesToGoOnWithAnotherRun) {

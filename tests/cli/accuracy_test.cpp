@@ -72,7 +72,7 @@ bool same_contact(double a, double b) {
   return std::isinf(a) || std::isinf(b) ? a == b : std::abs(a - b) <= 1e-9 * a;
 }
 
-TEST_F(Accuracy, PairsTellTheLevelsApart) {
+TEST_F(Accuracy, PairsDistinguishTheLevels) {
   const auto standard = times("--accuracy standard"), rigorous = times("--accuracy rigorous");
   const auto fast = times("--accuracy fast"), sampling = times("--isolation sampling");
   const auto all = shown();

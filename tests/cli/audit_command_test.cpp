@@ -1,4 +1,4 @@
-// What `needlework audit` prints, how it ends, and how it goes on.
+// What `needlework audit` prints, how it ends, and how it is continued.
 #include <string>
 
 #include "tests/cli/program.h"
@@ -41,7 +41,7 @@ TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
   EXPECT_EQ(result["differences"].size(), 0u);
 }
 
-TEST_F(AuditCommand, TellsPeople) {
+TEST_F(AuditCommand, PrintsATable) {
   const Outcome outcome = run("audit small.toml");
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* part : {"flights of pairs checked", "missed", "undecided"}) {

@@ -168,7 +168,7 @@ TEST_F(BenchCommand, ReadsAllCommittedResultsOfScenes) {
   EXPECT_GT(read_files, 0u);
 }
 
-TEST_F(BenchCommand, ListsWhatItCanMeasure) {
+TEST_F(BenchCommand, ListsItsSubsets) {
   const Outcome outcome = run("bench --list");
   EXPECT_EQ(outcome.exit_code, 0);
   for (const char* subset : {"quick", "dilute", "dense", "searches", "queues", "isa", "steps",
@@ -189,7 +189,7 @@ TEST_F(BenchCommand, FindsFasterAndSlower) {
   EXPECT_EQ(verdict(1), "slower");
 }
 
-TEST_F(BenchCommand, FindsTheSame) {
+TEST_F(BenchCommand, FindsNoDifference) {
   write_results("old.json", steady, {10, 10.3, 10.1, 10.2, 10.1});
   write_results("new.json", steady, {10.1, 10.2, 10.1, 10.1, 10.2});
   EXPECT_EQ(verdict(0), "same");
@@ -206,13 +206,13 @@ TEST_F(BenchCommand, DoesNotJudgeNoise) {
   write_results("old.json", steady, {10, 14, 9, 12, 10});
   write_results("new.json", steady, {9, 13, 8, 11, 10});
   EXPECT_EQ(verdict(0), "unclear");
-  // However clear they look, three repetitions do not tell.
+  // However clear the difference looks, three repetitions are too few to judge.
   write_results("old.json", {40, 40, 40}, {10, 10, 10});
   write_results("new.json", {40, 40, 40}, {5, 5, 5});
   EXPECT_EQ(verdict(0), "unclear");
 }
 
-TEST_F(BenchCommand, TellsCasesThatOnlyOneHas) {
+TEST_F(BenchCommand, ReportsCasesThatOnlyOneResultHas) {
   write_results("new.json", steady, steady);
   json old = results_of(steady, steady);
   old["cases"][1]["name"] = "s/other";
@@ -225,13 +225,13 @@ TEST_F(BenchCommand, TellsCasesThatOnlyOneHas) {
   const Outcome none = run("bench --results new.json --compare old.json");
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_TRUE(none.complains("no case in common"));
-  // Told before anything is measured: this would take a quarter of an hour.
+  // Reported before anything is measured: this would take a quarter of an hour.
   const Outcome measured = run("bench smoke --min-time 200 --json new_too.json --compare old.json");
   EXPECT_EQ(measured.exit_code, 3);
   EXPECT_TRUE(measured.complains("no case in common"));
 }
 
-TEST_F(BenchCommand, TellsWhatElseMayHaveChangedCosts) {
+TEST_F(BenchCommand, WarnsOfOtherCausesOfChangedCosts) {
   json old = results_of(steady, steady), now = old;
   old["machine"] = "A";
   now["machine"] = "B";
@@ -245,7 +245,7 @@ TEST_F(BenchCommand, TellsWhatElseMayHaveChangedCosts) {
   EXPECT_EQ(run("bench --results new.json --compare new.json").err, "");
 }
 
-TEST_F(BenchCommand, RefusesWhatItCannotUse) {
+TEST_F(BenchCommand, RefusesBadInput) {
   json bare = results_of(steady, steady), uneven = bare, negative = bare, older = bare, none = bare;
   bare["cases"].erase(0);
   uneven["cases"][1] = case_of(case_name, false, {1, 2});

@@ -1,4 +1,4 @@
-// What `needlework check` and `needlework info` tell.
+// What `needlework check` and `needlework info` print.
 #include <string>
 
 #include "needlework/theory.h"
@@ -33,7 +33,7 @@ TEST_F(CheckCommand, PrintsOneJsonObject) {
   EXPECT_GT(json["memory_bytes"].get<double>(), 0);
 }
 
-TEST_F(CheckCommand, WarnsOfWhatIsHardlyMeant) {
+TEST_F(CheckCommand, WarnsOfDoubtfulSettings) {
   const Outcome outcome = run("check small.toml --set collisions.epsilon=0.9");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.complains("warning: collisions.epsilon = 0.9: "));
@@ -102,7 +102,7 @@ TEST_F(CheckCommand, EstimatesTheTimeOfARun) {
   }
 }
 
-TEST_F(CheckCommand, InfoTellsWhatAFileHolds) {
+TEST_F(CheckCommand, InfoListsTheContentsOfAFile) {
   ASSERT_EQ(run("run small.toml --quiet --out a.h5").exit_code, 0);
   const Outcome outcome = run("info a.h5");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -1,10 +1,26 @@
-// What `needlework export` does with files; tests/io/open_with_vtk.py reads what it writes.
+// What `needlework export` does with files; tests/io/open_with_*.py read what it writes.
+#include <fmt/format.h>
+
+#include "needlework/h5md.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
 namespace {
 
-using ExportCommand = ProgramTest;
+class ExportCommand : public ProgramTest {
+ protected:
+  // Runs a scene of needles of length 1.5 that writes frames at three times to a.h5.
+  void make_frames() const {
+    write("frames.toml",
+          "needles.box = 7\nuntil.time = 2\noutput = { file = \"a.h5\", frames = [1] }\n"
+          "collisions.epsilon = 0.5\ncollisions.tc = 1e-3\n"
+          "[[species]]\nname = \"a\"\ncount = 20\nlength = 1.5\nmass = 3\nk = 2.3\n");
+    ASSERT_EQ(run("run frames.toml --quiet").exit_code, 0);
+  }
+  State frame(const std::string& name, std::size_t number) const {
+    return io::FrameFile(path(name)).read(number);
+  }
+};
 
 TEST_F(ExportCommand, KeepsAnExistingFileUnlessForced) {
   ASSERT_EQ(run("run small.toml --quiet --out a.h5").exit_code, 0);
@@ -26,6 +42,7 @@ TEST_F(ExportCommand, WritesNothingAfterAnError) {
   for (const auto& [arguments, message] :
        {std::pair{"absent.h5 a.vtkhdf", "absent.h5: No such file"},
         {"text.h5 a.vtkhdf", "text.h5: not an HDF5 file"},
+        {"text.h5 a.pvd", "text.h5: not an HDF5 file"},
         {"text.h5 x/a.vtkhdf", "x/a.vtkhdf: cannot be written: expected a folder that exists"}}) {
     const Outcome outcome = run(std::string("export ") + arguments);
     EXPECT_EQ(outcome.exit_code, 5) << arguments;
@@ -33,6 +50,89 @@ TEST_F(ExportCommand, WritesNothingAfterAnError) {
   }
   EXPECT_EQ(run("export text.h5").exit_code, 2);
   EXPECT_EQ(files(), (std::vector<std::string>{small, "text.h5"}));
+}
+
+TEST_F(ExportCommand, WritesTheFrameThatIsAskedFor) {
+  make_frames();
+  for (const char* name : {"a.xml", "a.xml.bz2", "a.xyz", "a.data", "a.dump"}) {
+    std::size_t number = 0;
+    for (const char* choice : {"first", "1", "last"}) {
+      ASSERT_EQ(run(fmt::format("export a.h5 {} --frame {} --force", name, choice)).exit_code, 0);
+      ASSERT_EQ(run(fmt::format("import {} --out b --force", name)).exit_code, 0) << name;
+      const State wanted = frame("a.h5", number++), found = frame("b/state.h5", 0);
+      EXPECT_EQ(found.position, wanted.position) << name << " " << choice;
+      EXPECT_EQ(found.velocity, wanted.velocity);
+      EXPECT_EQ(found.orientation, wanted.orientation);
+      EXPECT_EQ(found.angular_velocity, wanted.angular_velocity);
+      EXPECT_EQ(found.box, wanted.box);
+      EXPECT_EQ(found.id, wanted.id);
+    }
+  }
+}
+
+TEST_F(ExportCommand, ImportOfAnExportHasTheSameSpecies) {
+  make_frames();
+  for (const char* name : {"a.xml", "a.xyz", "a.data"}) {
+    ASSERT_EQ(run(fmt::format("export a.h5 {}", name)).exit_code, 0);
+    const Outcome imported = run(fmt::format("import {} --out {}-folder", name, name));
+    EXPECT_EQ(imported.exit_code, 0);
+    EXPECT_EQ(imported.out + imported.err, "");
+    const std::string scene = read(std::string(name) + "-folder/scene.toml");
+    for (const char* line : {"length = 1.5\n", "mass = 3\n", "k = 2.3\n", "epsilon = 0.5\n"}) {
+      EXPECT_NE(scene.find(line), scene.npos) << name << " " << line;
+    }
+  }
+  ASSERT_EQ(run("export a.h5 a.dump").exit_code, 0);
+  const Outcome dump = run("import a.dump --out b");
+  EXPECT_EQ(dump.err,
+            "needlework: warning: a.dump: k is not in the file: 6 is assumed\n"
+            "needlework: warning: a.dump: epsilon is not in the file: 1 is assumed\n");
+}
+
+TEST_F(ExportCommand, WritesAllFramesWhereTheFormatHoldsThem) {
+  make_frames();
+  const auto count = [&](const std::string& name, const std::string& word) {
+    const std::string text = read(name);
+    int found = 0;
+    for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(run("export a.h5 a.xyz").exit_code, 0);
+  EXPECT_EQ(count("a.xyz", "Lattice"), 3);
+  EXPECT_EQ(
+      run("export a.h5 a.txt --to lammps --frame all").err,
+      "needlework: warning: OUT a.txt: will be a dump of LAMMPS nevertheless: expected a name "
+      "that ends in .dump\n");
+  EXPECT_EQ(count("a.txt", "ITEM: TIMESTEP"), 3);
+  EXPECT_EQ(run("export a.h5 a.pvd").exit_code, 0);
+  EXPECT_EQ(count("a.pvd", "a/frame-"), 3);
+  EXPECT_TRUE(exists("a/frame-00002.vtu"));
+}
+
+TEST_F(ExportCommand, SaysWhichFramesAndFormatsThereAre) {
+  make_frames();
+  for (const auto& [arguments, exit_code, message] :
+       {std::tuple{"a.vtkhdf --frame all", 2,
+                   "--frame all: a VTKHDF file holds one frame: expected"},
+        {"a.xml --frame all", 2,
+         "--frame all: a configuration of DynamO holds one frame: expected"},
+        {"a.txt", 2,
+         "OUT a.txt: expected a name that ends in .vtkhdf, .pvd, .xyz, .data, .dump, .xm"},
+        {"a.xyz --frame 3", 3, "--frame 3: expected a number from 0 to 2, as there are 3 frames"},
+        {"a.xyz --frame -1", 2, "--frame -1: expected a number from 0, first, last or all"},
+        {"a.xyz --frame middle", 2, "--frame middle: expected a number from 0, first, last or all"},
+        {"a.xyz --to abc", 2, "--to abc: expected one of vtkhdf, pvd, xyz, lammps, dynamo"}}) {
+    const Outcome outcome = run(std::string("export a.h5 ") + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    EXPECT_TRUE(outcome.complains(message));
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.h5", "frames.toml", small}));
+}
+
+TEST_F(ExportCommand, WarnsOfWhatDynamoDoesNotHave) {
+  ASSERT_EQ(run("run small.toml --quiet --out a.h5 --set collisions.beta=0.5").exit_code, 0);
+  EXPECT_TRUE(
+      run("export a.h5 a.xml").complains("beta = 0.5 is left out: lines of DynamO are smooth"));
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ struct Mistake {
 
 TEST_F(Messages, WrongUsageIsAnsweredByWhatIsMeant) {
   const std::string commands =
-      "expected one of run, sweep, check, theory, predict, audit, info, export, bench, help";
+      "expected one of run, sweep, check, theory, predict, audit, info, import, export, bench, "
+      "help";
   for (const Mistake& mistake : {
            Mistake{"", "expected a command, such as needlework run SCENE.toml (see "},
            {"simulate small.toml",
@@ -121,11 +122,13 @@ TEST_F(Messages, NamesThatHideWhatAFileIsDeserveAWarning) {
   const Outcome outcome = run("run small.toml --quiet --out x.txt");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.complains(
-      "warning: --out x.txt: will be an HDF5 file all the same: expected a name that ends in .h5"));
+      "warning: --out x.txt: will be an HDF5 file nevertheless: expected a name that ends in .h5"));
   for (const std::string name : {"a.h5", "a.hdf5", "a.h5md"}) {
     EXPECT_EQ(run("run small.toml --quiet --out " + name).err, "") << name;
   }
-  EXPECT_TRUE(run("export a.h5 a.vtk").complains("warning: OUT.vtkhdf a.vtk: "));
+  EXPECT_TRUE(run("export a.h5 a.vtk --to vtkhdf")
+                  .complains("warning: OUT a.vtk: will be a VTKHDF file nevertheless: expected a "
+                             "name that ends in .vtkhdf"));
   EXPECT_EQ(run("export a.h5 a.vtkhdf").err, "");
 }
 

@@ -1,4 +1,4 @@
-// `needlework predict` as a user meets it: lines in, lines or JSON out, exit codes.
+// `needlework predict` as a user runs it: lines in, lines or JSON out, exit codes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ std::string answer_to_meets() {
                      contact.arm_second);
 }
 
-TEST_F(PredictCommand, AnswersOneLineAPair) {
+TEST_F(PredictCommand, PrintsOneLineForEachPair) {
   const Outcome outcome = run_on("# a comment\nid,family,horizon\n\n" + meets + "\r\n  " + misses);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, answer_to_meets() + "b,inf,nan,nan\n");
@@ -65,7 +65,7 @@ TEST_F(PredictCommand, ReadsStandardInput) {
   EXPECT_EQ(run("predict --json -").out, "{\"pairs\":[]}\n");
 }
 
-TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
+TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNoResults) {
   const auto expect = [&](std::size_t column, const char* value, const std::string& message) {
     std::stringstream fields(meets);
     std::string line, field;
@@ -95,8 +95,8 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNothingElse) {
       cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, found 27"));
 }
 
-// Numbers that are finite, but for which nothing can be told in a finite time.
-TEST_F(PredictCommand, RefusesWhatWouldTakeForEver) {
+// Finite numbers with which a prediction would take too long, or would overflow.
+TEST_F(PredictCommand, RefusesPairsThatWouldTakeTooLong) {
   const auto line = [](const char* horizon, const char* v, const char* w) {
     return std::string("1,,") + horizon + ",.25,-.125,-.5,1,0,0,0,0," + v + ",0,0," + w +
            ",0,0,0,0,3,0,0,0,-" + v + ",0,0,0,0\n";
@@ -112,7 +112,7 @@ TEST_F(PredictCommand, RefusesWhatWouldTakeForEver) {
   EXPECT_EQ(run_on(line("1e9", "1", "1e3")).exit_code, 0);
 }
 
-TEST_F(PredictCommand, SaysSoWhereThereIsNothingToDo) {
+TEST_F(PredictCommand, WarnsOfAFileWithoutPairs) {
   const Outcome nothing = run_on("\xEF\xBB\xBFid,family,horizon\n");
   EXPECT_EQ(nothing.exit_code, 0);
   EXPECT_EQ(nothing.err, "needlework: warning: pairs.csv: there are no pairs in it\n");
@@ -121,7 +121,7 @@ TEST_F(PredictCommand, SaysSoWhereThereIsNothingToDo) {
   EXPECT_TRUE(run_on(meets, "--sampling-step 0.1").complains("engine.sampling_step"));
 }
 
-TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
+TEST_F(PredictCommand, HasAnExitCodeForEachKindOfError) {
   const Outcome absent = run("predict absent.csv");
   EXPECT_EQ(absent.exit_code, 5);
   EXPECT_EQ(absent.out, "");
@@ -132,7 +132,7 @@ TEST_F(PredictCommand, TellsUsageInputAndFileErrorsApart) {
   EXPECT_EQ(run("predict pairs.csv", "", "/dev/full").exit_code, 5);
 }
 
-TEST_F(PredictCommand, GivesWhatTheLibraryGives) {
+TEST_F(PredictCommand, FindsWhatTheLibraryFinds) {
   std::vector<NeedlePair> pairs;
   for (const PairFamily& family : pair_families()) {
     for (const NeedlePair& pair : draw_pairs(family.name, 50, 9)) pairs.push_back(pair);

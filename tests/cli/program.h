@@ -12,7 +12,7 @@
 
 namespace needlework {
 
-/// What came of a run of the program.
+/// The result of a run of the program.
 struct Outcome {
   int exit_code = -1;  ///< -1: it was killed
   std::string out, err;
@@ -28,7 +28,7 @@ class ProgramTest : public testing::Test {
  protected:
   ProgramTest();
 
-  /// Runs `needlework ARGUMENTS`, words as for a shell. `before` is what stands before the program,
+  /// Runs `needlework ARGUMENTS`, words as for a shell. `before` is put before the program,
   /// such as VARIABLE=value; stdout goes to `out` if that is given.
   Outcome run(const std::string& arguments, const std::string& before = "",
               const std::string& out = "") const;

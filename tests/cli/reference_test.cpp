@@ -92,7 +92,7 @@ echo "${COMPREPLY[@]%/}"
 TEST_F(ReferenceForShells, ZshCompletes) {
   if (!installed("zsh")) GTEST_SKIP() << "zsh is not installed";
   write("_needlework", printed("zsh"));
-  // An interactive shell in which Tab completes and Control-T writes down what stands there.
+  // An interactive shell in which Tab completes and Control-T writes the command line to a file.
   write("complete", R"(zmodload zsh/zpty
 zpty shell "zsh -f -i"
 zpty -w shell "unset zle_bracketed_paste; fpath=($PWD \$fpath); autoload -Uz compinit"

@@ -281,8 +281,8 @@ std::string on_one_processor() {
   return "taskset -c " + std::to_string(first);
 }
 
-// Where the runtime and the system put the threads changes no bit, and those that share a processor
-// get on: who waits soon yields.
+// The placement of threads by the runtime and the system changes no bit, and threads that share a
+// processor make progress, because a waiting thread soon yields.
 TEST_F(RunCommand, RunsWhereverItsThreadsAreBound) {
   const std::string gas = "small.toml --set needles.count=1000 --set needles.box=9 --threads ";
   const json one = result(gas + '1');
@@ -299,7 +299,7 @@ TEST_F(RunCommand, RunsWhereverItsThreadsAreBound) {
   }
 }
 
-TEST_F(RunCommand, RefusesThreadsThatSearchOrQueueCannotUse) {
+TEST_F(RunCommand, RefusesThreadsThatSearchOrCalendarCannotUse) {
   for (const char* choice : {"queue=tournament", "search=all-pairs", "search=linked-lists"}) {
     const Outcome outcome = run(std::string("run small.toml --threads 2 --set engine.") + choice);
     EXPECT_EQ(outcome.exit_code, 3);
@@ -307,7 +307,7 @@ TEST_F(RunCommand, RefusesThreadsThatSearchOrQueueCannotUse) {
   }
 }
 
-TEST_F(RunCommand, TellsHowThreadsGotOn) {
+TEST_F(RunCommand, ReportsWhatThreadsDid) {
   const std::string more = "small.toml --set needles.count=1000 --set needles.box=8 ";
   const std::string few = "small.toml --set needles.count=20 --set needles.box=4 ";
   EXPECT_NE(run("run " + more + "--threads 2").out.find(" events a turn, blocked "),

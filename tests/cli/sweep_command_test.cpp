@@ -1,4 +1,4 @@
-// `needlework sweep`: what it computes, and how it goes on after whatever stopped it.
+// `needlework sweep`: what it computes, and how it continues after it was stopped.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -161,7 +161,7 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
         run_and_signal("sweep --json --threads 2 " + out, "ls " + signal + "/*.h5.part", signal);
     if (signal != "KILL") {
       EXPECT_EQ(stopped.exit_code, 75) << signal;
-      EXPECT_NE(stopped.err.find("the same command goes on with them"), std::string::npos);
+      EXPECT_NE(stopped.err.find("the same command continues with them"), std::string::npos);
       EXPECT_EQ(count_of_files(signal, ".part") + count_of_files(signal, ".lock"), 0u);
     }
     EXPECT_FALSE(exists(signal + "/summary.h5"));
@@ -208,7 +208,7 @@ TEST_F(SweepCommand, KeepsToTheGridOfItsFolder) {
 }
 
 // Inelastic pairs collapse sooner or later without the t_c rule.
-TEST_F(SweepCommand, OneThatFailsIsNamedAndHarmsNoOther) {
+TEST_F(SweepCommand, AFailedMemberIsNamedAndAffectsNoOther) {
   write("failing.toml", R"(seeds = [1, 2]
 [needles]
 count = 200
@@ -235,7 +235,7 @@ collisions_per_needle = 100
   EXPECT_NE(again.err.find("member epsilon=0.3,seed=2: failed before"), std::string::npos);
 }
 
-TEST_F(SweepCommand, ErrorsOfUsageAndInputAreTold) {
+TEST_F(SweepCommand, ErrorsOfUsageAndInputAreReported) {
   const std::tuple<std::string, int, std::string> cases[] = {
       {"grid.toml --out a --member 0/3", 2, "--member 0/3: expected K/M"},
       {"grid.toml --out a --member 4/3", 2, "--member 4/3: expected K/M"},
@@ -317,7 +317,7 @@ TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral) {
   EXPECT_NE(run("run --help", launcher).out.find("SCENE"), std::string::npos);
 }
 
-TEST_F(SweepOverRanks, TellAnErrorOnce) {
+TEST_F(SweepOverRanks, ReportAnErrorOnce) {
   const Outcome outcome = run("sweep grid.toml", launcher);
   EXPECT_EQ(outcome.exit_code, 3);
   const std::string message = "needlework: grid.toml: out is missing";

@@ -40,6 +40,26 @@ endforeach()
 build_and_run(all_ninja needlework "" -G Ninja -DCMAKE_PREFIX_PATH=${prefix})
 build_and_run(all_default needlework "needlework;core" -DCMAKE_PREFIX_PATH=${prefix})
 
+# The C interface needs the shared library alone, and no compiler of C++.
+function(build_and_run_c name example components)
+  set(SOURCE ${SOURCE}/c)
+  build_and_run(${name} ${example} "${components}" -DCMAKE_C_FLAGS=${FLAGS} ${ARGN})
+endfunction()
+set(c_prefix ${WORK}/c_prefix)
+file(COPY ${prefix}/ DESTINATION ${c_prefix})
+file(GLOB_RECURSE rest ${c_prefix}/*/libneedlework*.a ${c_prefix}/*/NeedleworkTargets*.cmake
+     ${c_prefix}/*/NeedleworkCoreTargets*.cmake)
+file(REMOVE ${rest} ${c_prefix}/bin/needlework)
+foreach(example smallest own_arrays)
+  build_and_run_c(c_${example} ${SOURCE}/../../examples/c/${example}.c c
+                  -DCMAKE_PREFIX_PATH=${c_prefix})
+endforeach()
+execute_process(COMMAND ${OBJDUMP} -p ${WORK}/c_smallest/consumer OUTPUT_VARIABLE needed
+                COMMAND_ERROR_IS_FATAL ANY)
+if(NOT needed MATCHES "NEEDED +libneedlework\\.so\\.1\n" OR needed MATCHES "hdf5|libfmt")
+  message(FATAL_ERROR "expected a program that needs libneedlework.so.1:\n${needed}")
+endif()
+
 # What the component core needs must be there without the rest of the library, and without HDF5.
 set(core_prefix ${WORK}/core_prefix)
 file(COPY ${prefix}/ DESTINATION ${core_prefix})

@@ -1,4 +1,4 @@
-// A program as someone else would write it: a run that goes on from a file.
+// A program as someone else would write it: a run that continues from a file.
 #include <needlework/error.h>
 #include <needlework/h5md.h>
 #include <needlework/scene.h>

@@ -17,7 +17,8 @@ FILE = re.compile(r"`((?:[a-z_.-]+/)+[a-z0-9_.-]+\.(?:h|cpp|py|toml|md|txt))`")
 
 
 def documents():
-    folders = ["docs", "src", "kernels", "include", "tests", "bench", "profiles", "cmake"]
+    folders = ["docs", "src", "kernels", "include", "tests", "bench", "profiles", "cmake",
+               "examples"]
     found = [*ROOT.glob("*.md"), *(d for f in folders for d in (ROOT / f).rglob("*.md"))]
     assert len(found) > 20, found
     return sorted(found)

@@ -30,7 +30,10 @@ def main(needlework, readme_program):
         # The first run of the guide, but shorter.
         run(needlework, "run", ROOT / "profiles/quickstart.toml", "--out", "cooling.h5",
             "--set", "until.energy_ratio=1e-2")
-        for number, script in enumerate(blocks("docs/user-guide.md", "python")):
+        run(needlework, "export", "cooling.h5", "first.xyz", "--frame", "first")
+        run(needlework, "export", "cooling.h5", "run.xyz")
+        for number, script in enumerate(blocks("docs/user-guide.md", "python") +
+                                        blocks("docs/formats.md", "python")):
             path = Path(folder, f"script{number}.py")
             path.write_text(script)
             assert run(sys.executable, path).strip(), path.read_text()

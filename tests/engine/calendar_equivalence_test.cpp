@@ -8,7 +8,7 @@
 namespace needlework {
 namespace {
 
-template <Calendar Queue>
+template <Calendar C>
 class CalendarEquivalence : public testing::Test {};
 TYPED_TEST_SUITE(CalendarEquivalence, AllCalendars<testing::Types>);
 

@@ -1,4 +1,4 @@
-// An effect that the scene does not call for costs nothing: its code is not in the loop that runs,
+// An effect that the scene does not use costs nothing: its code is not in the loop that runs,
 // and it holds nothing for any needle.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

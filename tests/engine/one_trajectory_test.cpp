@@ -25,16 +25,16 @@ std::string hash_of(const Scene& scene) {
   return simulation.trajectory_hash();
 }
 
-TEST(OneTrajectory, OfEverySearchQueueAndInstructionSet) {
+TEST(OneTrajectory, OfEverySearchCalendarAndInstructionSet) {
   Scene scene = cooling_scene();
   for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    for (const char* queue :
+    for (const char* calendar :
          {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
       for (const kernels::Isa isa : kernels::available()) {
         scene.engine.search = search;
-        scene.engine.queue = queue;
+        scene.engine.queue = calendar;
         scene.engine.isa = kernels::name_of(isa);
-        ASSERT_EQ(hash_of(scene), hash) << search << ", " << queue << ", " << scene.engine.isa;
+        ASSERT_EQ(hash_of(scene), hash) << search << ", " << calendar << ", " << scene.engine.isa;
       }
     }
   }

@@ -53,32 +53,33 @@ inline Scene::Until until_collision(double number, double needles) {
 }
 
 struct Parts {
-  std::string search, queue;
+  std::string search, calendar;
   int threads = 1;
 
   std::string name() const {
-    return search + ", " + queue + ", threads " + std::to_string(threads);
+    return search + ", " + calendar + ", threads " + std::to_string(threads);
   }
   Scene of(Scene scene) const {
     scene.engine.search = search;
-    scene.engine.queue = queue;
+    scene.engine.queue = calendar;
     scene.engine.threads = threads;
     return scene;
   }
 };
 
-template <class... Queues>
-std::vector<std::string> names_of(CalendarList<Queues...>) {
-  return {Queues::name...};
+template <class... Calendars>
+std::vector<std::string> names_of(CalendarList<Calendars...>) {
+  return {Calendars::name...};
 }
 
 /// Every search, with every calendar in turn, and several threads; all-pairs first.
 inline std::vector<Parts> all_parts() {
   std::vector<Parts> out;
-  const std::vector<std::string> queues = names_of(AllCalendars<CalendarList>());
+  const std::vector<std::string> calendars = names_of(AllCalendars<CalendarList>());
   std::size_t n = 0;
   for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    for (int times = 0; times < 2; ++times) out.push_back({search, queues[n++ % queues.size()]});
+    for (int times = 0; times < 2; ++times)
+      out.push_back({search, calendars[n++ % calendars.size()]});
   }
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const int threads : {2, 3}) out.push_back({search, "cell-calendar", threads});

@@ -1,4 +1,4 @@
-// Velocities replaced by a caller: the run goes on from them.
+// Velocities replaced by a caller: the run continues from them.
 #include "tests/engine/set_velocities.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ using test::until_collision;
 using test::until_collisions;
 using test::until_time;
 
-/// Collisions of a run that began anew at `start`, a multiple of the epoch, audited from there.
+/// Collisions of a run that was restarted at `start`, a multiple of the epoch, audited from there.
 void expect_clean(const Scene& scene, const State& state, std::int64_t start_epoch,
                   const Followed& run, double end) {
   audit::Setup setup;
@@ -47,12 +47,12 @@ void expect_clean(const Scene& scene, const State& state, std::int64_t start_epo
     audit.add(c);
   }
   audit.finish(end - static_cast<double>(start_epoch) * setup.epoch_length);
-  EXPECT_TRUE(audit.tally().clean());
-  for (const audit::Difference& d : audit.tally().listed) {
+  EXPECT_TRUE(audit.findings().clean());
+  for (const audit::Difference& d : audit.findings().listed) {
     ADD_FAILURE() << audit::name(d.kind) << " at " << d.time << ": " << d.first << ", " << d.second;
   }
-  EXPECT_EQ(audit.tally().undecided, 0u);
-  EXPECT_GT(audit.tally().contacts, 50u);
+  EXPECT_EQ(audit.findings().undecided, 0u);
+  EXPECT_GT(audit.findings().contacts, 50u);
 }
 
 TEST(SetVelocities, ToThoseThatTheNeedlesHaveGoesOn) {
@@ -417,7 +417,7 @@ TEST(SetVelocities, LeaveTheEnergyOfTheStart) {
   }
 }
 
-// What collisions take is counted from the energy that the velocities brought.
+// The energy lost in collisions is counted from the energy of the new velocities.
 TEST(SetVelocities, KeepTheAccountOfTheEnergy) {
   Scene scene = test::scene_of(100, 5, 18);
   scene.collisions.epsilon = 0.8;

@@ -166,12 +166,12 @@ TEST(SetVelocities, OfANeedleTouchingTwoKeepBothSides) {
   }
 }
 
-// Many needles whose contact points come to one point at time 1: nearly all pairs touch to within
+// Many needles whose contact points meet in one point at time 1: nearly all pairs touch to within
 // rounding, in the midst of a train of collisions. Whatever velocities they get then, none comes
 // through another.
 TEST(SetVelocities, OfManyThroughOnePointKeepTheirSides) {
   constexpr double little = 1e-4;
-  int told = 0;
+  int compared = 0;
   std::uint64_t touches = 0;
   for (const int count : {3, 8, 14}) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -212,16 +212,16 @@ TEST(SetVelocities, OfManyThroughOnePointKeepTheirSides) {
           if (kind == 3) scale_velocities(simulation, 0.5);
           simulation.advance(until_time(simulation.time() + little));
           touches += simulation.counters().touches;
-          told += test::expect_same_sides(before, simulation.copy());
+          compared += test::expect_same_sides(before, simulation.copy());
           // And again, from there back to the point.
           reverse(simulation);
           simulation.advance(until_time(simulation.time() + 3 * little));
-          told += test::expect_same_sides(before, simulation.copy());
+          compared += test::expect_same_sides(before, simulation.copy());
         }
       }
     }
   }
-  EXPECT_GT(told, 500);
+  EXPECT_GT(compared, 500);
   EXPECT_GT(touches, 1000u);
 }
 

@@ -199,6 +199,25 @@ TEST(Simulation, CopiesIntoMemoryThatThereIs) {
   EXPECT_TRUE(are_same(larger, state));
 }
 
+TEST(Simulation, CopiesNeedlesInOrderOfTheirIds) {
+  const Scene scene = test::scene_of(120, 4);
+  // With and without gaps between the ids.
+  for (const std::uint32_t step : {1u, 3u}) {
+    State initial = draw_initial_state(scene);
+    initial.id.resize(initial.size());
+    for (std::size_t n = 0; n < initial.size(); ++n) {
+      initial.id[n] = static_cast<std::uint32_t>(step * (n * 77 % initial.size()));
+    }
+    const Simulation simulation(scene, initial);
+    const State all = simulation.copy();
+    for (std::size_t n = 0; n < initial.size(); ++n) {
+      const std::size_t row = initial.id[n] / step;
+      ASSERT_EQ(all.id[row], initial.id[n]);
+      ASSERT_EQ(all.velocity[row], initial.velocity[n]);
+    }
+  }
+}
+
 TEST(Simulation, GivesOneNeedleAsItsRowOfAll) {
   const Scene scene = test::scene_of(120, 4);
   State initial = draw_initial_state(scene);
@@ -249,7 +268,7 @@ TEST(Simulation, GivesAWrappedStateWithImages) {
   EXPECT_GT(crossed, 100);
 }
 
-// Unwrapped centres move by v dt between looks, whatever is wrapped when.
+// Unwrapped centres move by v dt between two copies, independent of when they are wrapped.
 TEST(Simulation, MovesCentresWithTheirVelocities) {
   const Scene scene = test::scene_of(30, 3);
   Simulation simulation(scene);

@@ -67,7 +67,7 @@ TEST(Collapse, WithoutContactTimeEndsInAClearError) {
     });
     try {
       simulation.advance(until_time(0.3));
-      ADD_FAILURE() << "epsilon " << epsilon << " went on";
+      ADD_FAILURE() << "epsilon " << epsilon << " did not end";
     } catch (const InvalidStateError& error) {
       const std::string message = error.what();
       EXPECT_NE(message.find("needles 0 and 1"), std::string::npos) << message;

@@ -90,7 +90,7 @@ TEST(AtRest, NothingHappens) {
 }
 
 // One needle moves among many at rest, and sets them in motion.
-TEST(AtRest, AllButOneAreWokenUp) {
+TEST(AtRest, AllButOneAreSetInMotion) {
   Scene resting = gas(60, 4);
   resting.initial.t_tr = resting.initial.t_rot = 0;
   for (const bool spins : {false, true}) {

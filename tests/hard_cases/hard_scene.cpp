@@ -122,7 +122,7 @@ HardRun run_once(const Scene& scene, const State& state, const Scene::Until& unt
   run.counters = simulation.counters();
   if (audited) {
     audit.finish(run.time);
-    run.tally = audit.tally();
+    run.findings = audit.findings();
   }
   return run;
 }
@@ -152,16 +152,16 @@ void expect_sound(const HardRun& run, const Scene& scene) {
   }
 }
 
-void expect_clean(const audit::Tally& tally, const Watch& watch) {
+void expect_clean(const audit::Findings& findings, const Watch& watch) {
   for (const audit::Kind kind : audit::kinds) {
-    EXPECT_EQ(tally.count(kind), 0u) << audit::name(kind);
+    EXPECT_EQ(findings.count(kind), 0u) << audit::name(kind);
   }
-  for (std::size_t n = 0; n < std::min<std::size_t>(3, tally.listed.size()); ++n) {
-    const auto& d = tally.listed[n];
+  for (std::size_t n = 0; n < std::min<std::size_t>(3, findings.listed.size()); ++n) {
+    const auto& d = findings.listed[n];
     ADD_FAILURE() << audit::name(d.kind) << ": " << d.first << " and " << d.second << " at "
                   << d.time;
   }
-  EXPECT_LE(tally.undecided, watch.undecided) << "of " << tally.checked;
+  EXPECT_LE(findings.undecided, watch.undecided) << "of " << findings.checked;
 }
 
 void expect_same(const HardRun& truth, const HardRun& other, const std::string& what) {
@@ -186,7 +186,7 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
   scene.engine.search = "all-pairs";
   const HardRun truth = run_once(scene, state, until, &watch);
   expect_sound(truth, scene);
-  if (watch.audited) expect_clean(truth.tally, watch);
+  if (watch.audited) expect_clean(truth.findings, watch);
 
   const auto choices = search_choices();
   for (const SearchChoice& choice : choices) {
@@ -203,7 +203,7 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
     scene.engine.accuracy = "rigorous";
     const HardRun rigorous = run_once(scene, state, until, &watch);
     expect_sound(rigorous, scene);
-    expect_clean(rigorous.tally, watch);
+    expect_clean(rigorous.findings, watch);
     if (!watch.by_rounding) {
       EXPECT_EQ(rigorous.failed(), truth.failed());
     }

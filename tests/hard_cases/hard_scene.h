@@ -33,7 +33,7 @@ struct HardRun {
   double time = 0;
   std::string hash;
   Counters counters;
-  audit::Tally tally;
+  audit::Findings findings;
 
   bool failed() const { return !failure.empty(); }
 };

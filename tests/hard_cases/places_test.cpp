@@ -140,7 +140,7 @@ TEST_P(Borders, AreDecidedToTheLastBit) {
 // third needle strikes one of them.
 TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
   constexpr int steps = 512, scenes = 10;
-  int told = 0;
+  int compared = 0;
   std::size_t met = 0;
   for (std::uint64_t n = 0; n < scenes; ++n) {
     SCOPED_TRACE(n);
@@ -161,12 +161,12 @@ TEST(CentreOnCentre, HasASideOnceAThirdStrikes) {
     for (int step = 1; step <= steps; ++step) {
       simulation.advance(until_time(step / double(steps)));
       State is = simulation.copy();
-      told += expect_same_sides(was, is);
+      compared += expect_same_sides(was, is);
       was = std::move(is);
     }
   }
   EXPECT_GT(met, 7u);
-  EXPECT_GT(told, scenes * steps / 10);
+  EXPECT_GT(compared, scenes * steps / 10);
 }
 
 // Needles without rotation whose contact points all meet in one point at one time.
@@ -354,7 +354,7 @@ TEST(OnePlane, TiltedRattles) {
     const HardRun run =
         run_hard(elastic(), state, until_time(1.0 / thin), {.undecided = 800, .by_rounding = true});
     std::printf("%zu collisions, %g of %g flights undecided\n", run.collisions.size(),
-                double(run.tally.undecided), double(run.tally.checked));
+                double(run.findings.undecided), double(run.findings.checked));
     met += run.collisions.size();
   }
   EXPECT_TRUE(thin > 1 || met > 150) << met;  // the shorter runs may be over before
@@ -372,7 +372,7 @@ TEST(OnePlane, TiltedGoesOnOrSaysWhyNot) {
     const HardRun run =
         run_hard(scene, state, until_time(1.0 / thin), {.undecided = 200, .by_rounding = true});
     std::printf("%zu collisions, %g of %g flights undecided; %s\n", run.collisions.size(),
-                double(run.tally.undecided), double(run.tally.checked), run.failure.c_str());
+                double(run.findings.undecided), double(run.findings.checked), run.failure.c_str());
     EXPECT_TRUE(run.stop == Stop::time || run.failure.starts_with("collapse of needles"));
     scene.needles.count = state.size();
     scene.collisions.tc_relative = 1e-3;

@@ -46,12 +46,24 @@ def check_file(path):
     universe.trajectory.close()
 
 
-def main(writer, _program):
+def check_topology(folder, program):
+    """An export of one frame is a topology, so that a universe is made in one line."""
+    path = os.path.join(folder, "sample.h5")
+    first = os.path.join(folder, "first.xyz")
+    subprocess.run([program, "export", path, first, "--frame", "first"], check=True, timeout=3600)
+    universe = mda.Universe(first, path, format="H5MD", convert_units=False)
+    assert universe.trajectory.n_frames == FRAMES
+    for frame in range(FRAMES):
+        check_frame(universe, frame)
+
+
+def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
         assert result.returncode == -signal.SIGKILL, result.returncode
         check_file(os.path.join(folder, "sample.h5"))
         check_file(os.path.join(folder, "killed.h5"))
+        check_topology(folder, program)
 
 
 if __name__ == "__main__":

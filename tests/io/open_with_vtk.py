@@ -1,10 +1,11 @@
-"""Reads what `needlework export` made of write_h5md_sample's files: with h5py dataset by dataset, and
-with VTK, where there is one, as ParaView does."""
+"""Reads what `needlework export` made of write_h5md_sample's files: VTKHDF with h5py dataset by
+dataset, and with VTK, where there is one, as ParaView does; collections of .vtu files with VTK."""
 import os
 import signal
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 import h5py
 import numpy as np
@@ -12,15 +13,15 @@ import numpy as np
 try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOHDF import vtkHDFReader
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError:
     vtkHDFReader = None
 
 VTK_LINE = 3
 
 
-def expected(needles):
-    """The last frame of the sample."""
-    frame = 6
+def expected(needles, frame=6):
+    """A frame of the sample, by default the last."""
     i = np.arange(needles)
     one = np.ones(needles)
     u = np.stack([0 * one, i % 2 == 0, i % 2 == 1], axis=-1)
@@ -80,6 +81,55 @@ def check_with_vtk(path, needles, values):
         same(vtk_to_numpy(grid.GetCellData().GetArray(name)), values[name], name)
 
 
+def read_grid(path):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    assert reader.GetErrorCode() == 0, path
+    return reader.GetOutput()
+
+
+def check_grid(path, needles, values):
+    grid = read_grid(path)
+    assert grid.GetNumberOfCells() == needles
+    assert [grid.GetCellType(i) for i in range(needles)] == needles * [VTK_LINE]
+    if needles == 0:
+        return
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    same(points, values["points"], "points")
+    ends = [[grid.GetCell(i).GetPointId(end) for end in (0, 1)] for i in range(needles)]
+    assert ends == [[2 * i, 2 * i + 1] for i in range(needles)]
+    for name in ("velocity", "orientation", "angular_velocity"):
+        same(vtk_to_numpy(grid.GetCellData().GetArray(name)), values[name], name)
+    size = {"speed": values["velocity"], "spin": values["angular_velocity"]}
+    wanted = {name: np.linalg.norm(vectors, axis=1) for name, vectors in size.items()}
+    wanted |= {"id": values["id"], "species": np.zeros(needles)}
+    assert grid.GetPointData().GetNumberOfArrays() == len(wanted)
+    for name, numbers in wanted.items():
+        found = vtk_to_numpy(grid.GetPointData().GetArray(name))
+        assert np.allclose(found, np.repeat(numbers, 2), rtol=1e-15, atol=0), (name, found)
+
+
+def check_collection(folder, name, needles, program):
+    path = os.path.join(folder, name + ".pvd")
+    subprocess.run([program, "export", os.path.join(folder, name + ".h5"), path], check=True,
+                   timeout=3600)
+    files = [(float(data.get("timestep")), data.get("part"), data.get("file"))
+             for data in xml.etree.ElementTree.parse(path).getroot().iter("DataSet")]
+    frames = [(time, file) for time, part, file in files if part == "0"]
+    boxes = [(time, file) for time, part, file in files if part == "1"]
+    assert [time for time, _ in frames] == [time for time, _ in boxes]
+    assert [time for time, _ in frames] == [0.5 * frame for frame in range(len(frames))]
+    for frame, (_, file) in enumerate(frames):
+        check_grid(os.path.join(folder, file), needles, expected(needles, frame))
+    for _, file in boxes:
+        box = read_grid(os.path.join(folder, file))
+        assert box.GetBounds() == (0, 8, 0, 9, 0, 10) and box.GetNumberOfCells() == 12
+        lengths = [box.GetCell(i).GetLength2() for i in range(12)]
+        assert sorted(lengths) == 4 * [64] + 4 * [81] + 4 * [100], lengths
+    return len(frames)
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -92,6 +142,9 @@ def main(writer, program):
             check_structure(path, needles, values)
             if vtkHDFReader:
                 check_with_vtk(path, needles, values)
+        if vtkHDFReader:
+            assert check_collection(folder, "sample", 5, program) == 7
+            check_collection(folder, "empty", 0, program)
     if not vtkHDFReader:
         print("read with h5py, but not with VTK: python3-vtk9 is not installed")
         sys.exit(77)  # skipped

@@ -35,7 +35,7 @@ KernelPair held_pair(const NeedlePair& drawn) {
 }
 
 Contact contact_of(const KernelPair& pair, double horizon, const Accuracy& accuracy) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   return first_contact(pair.view(), 0, horizon, counters, accuracy);
 }
 
@@ -121,7 +121,7 @@ TEST_P(AccuracyLevels, IsolationsAgree) {
 }
 
 TEST_P(AccuracyLevels, EscalationCanBeOff) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 43)) {
     const KernelPair pair = held_pair(drawn);
     first_contact(pair.view(), 0, drawn.horizon, counters, fast_accuracy);
@@ -141,7 +141,7 @@ TEST_P(AccuracyLevels, SkippingChangesNoBit) {
     for (const Accuracy& accuracy : accuracies) {
       const Contact whole = contact_of(pair, drawn.horizon, accuracy);
       if (!whole.found || whole.unresolvable) continue;
-      SearchCounters counters;
+      EvaluationCounters counters;
       const Contact late =
           first_contact(pair.view(), 0.75 * whole.elapsed.hi, drawn.horizon, counters, accuracy);
       ASSERT_TRUE(late.found) << test::csv_line(0, drawn);

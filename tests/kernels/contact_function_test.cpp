@@ -216,7 +216,7 @@ void expect_expansion(Kind kind, int count) {
   for (int derivative = 0; derivative < 3; ++derivative) EXPECT_LT(far.mean(derivative), 30);
 }
 
-TEST_P(ContactFunction, ExpansionTellsItAtOtherTimes) {
+TEST_P(ContactFunction, ExpansionHoldsAtOtherTimes) {
   expect_expansion<double>(GetParam(), 2000);
   expect_expansion<DoubleDouble>(GetParam(), 1000);
 }

@@ -53,7 +53,7 @@ inline SimdPair simd_pair(Random& random, const test::NeedlePair& drawn, Halves 
     const int side = side_after(out.pair.view());
     out.pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  SearchCounters work;
+  EvaluationCounters work;
   const double horizon = drawn.horizon * (random.coin() ? 1 : random.uniform());
   out.truth = first_contact(out.pair.view(), 0, horizon, work);
   // The gas may be faster or slower than this pair, and the partner placed some time ago.

@@ -1,4 +1,4 @@
-// The search for the first contact ends soon, whatever the pair.
+// The search for the first contact ends soon for every pair.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr int thin = 10;
 #endif
 
 /// Evaluations that a search may take on top of `per_interval` for each half unit of scaled time
-/// that it has to look at, be the pair ever so degenerate.
+/// that it covers, for any degenerate pair.
 constexpr double most = 3000;
 constexpr double per_interval = 8;
 
@@ -36,7 +36,7 @@ struct Cost {
 };
 
 Cost cost(const KernelPair& pair, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   Cost out;
   out.contact = first_contact(pair.view(), 0, until, counters);
   out.spent = static_cast<double>(counters.evaluated + counters.escalated);

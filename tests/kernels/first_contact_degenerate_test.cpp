@@ -31,7 +31,7 @@ struct Answer {
 };
 
 Answer find(const KernelPair& pair, double from, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), from, until, counters);
   return {contact, counters.evaluated + counters.escalated};
 }
@@ -129,7 +129,7 @@ TEST(FirstContactOfFlatFunctions, OnTheGridIsFoundFromTheContactItself) {
   EXPECT_TRUE(find(pair, 0.5, 1).contact.found);
 }
 
-// Beyond 1e8 the window in which the centres are near must not drown in the rounding of |r|^2.
+// Beyond 1e8 the time span in which the centres are near must not drown in the rounding of |r|^2.
 TEST(FirstContactOfFlatFunctions, IsFoundFromFarAway) {
   for (const double distance : {1e7, 1e8, 1e9, 1e10}) {
     KernelPair pair;

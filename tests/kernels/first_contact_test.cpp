@@ -34,7 +34,7 @@ constexpr int thin = 10;  // unoptimised: the same on fewer pairs
 #endif
 
 Contact find(const KernelPair& pair, double from, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   return first_contact(pair.view(), from, until, counters);
 }
 Contact find(const KernelPair& pair, double until) { return find(pair, 0, until); }
@@ -244,7 +244,7 @@ TEST(FirstContactByHand, NeedlesOfOnePlaneNeverMeet) {
     KernelPair held =
         falling(0, 0, random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(0, 6));
     held.first.v = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
-    SearchCounters counters;
+    EvaluationCounters counters;
     EXPECT_FALSE(first_contact(held.view(), 0, 20, counters).found) << "seed " << seed;
     EXPECT_LT(counters.evaluated + counters.escalated, 200u) << "seed " << seed;
   }
@@ -343,7 +343,7 @@ TEST(FirstContactByHand, NeedlesThatMoveAlikeNeverMeet) {
   KernelPair held;
   held.first = flight({0, 0, 0}, {1, 0, 0}, {3, 2, 1}, {});
   held.second = flight({0, 0, 0}, {0, 1, 0}, {3, 2, 1}, {});
-  SearchCounters counters;
+  EvaluationCounters counters;
   EXPECT_FALSE(first_contact(held.view(), 0, 1e300, counters).found);
   EXPECT_EQ(counters.evaluated, 0u);
 }

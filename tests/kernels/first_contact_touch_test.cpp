@@ -30,7 +30,7 @@ constexpr int count = 60;
 #endif
 
 Contact find(const KernelPair& pair, double until) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), 0, until, counters);
   EXPECT_LT(counters.evaluated + counters.escalated, 3000u);
   return contact;
@@ -181,8 +181,9 @@ TEST(FirstContactAfterCollision, AReturnBelowRoundingIsUnresolvable) {
   EXPECT_GT(unresolvable, count / 2);
 }
 
-// Contact points at rest to each other, as rough needles come to be: f, f' and f'' are 0, and the
-// third derivative decides. Whatever the search cannot resolve near 0, the side must not be lost.
+// Contact points at rest relative to each other, as of rough needles after many bounces: f, f' and
+// f'' are 0, and the third derivative decides. Whatever the search cannot resolve near 0, the side
+// must not be lost.
 TEST(FirstContactAfterCollision, ACubicReturnIsUnresolvableAndNotMissed) {
   for (const double turn : {0.5, -0.5}) {
     KernelPair pair;
@@ -251,7 +252,7 @@ TEST(FirstContactNearATouch, IsLeftOpenUnlessTheSideIsKnown) {
     EXPECT_TRUE(find(pair, 1).side_unknown) << "seed " << seed << ", pair " << n;
     EXPECT_FALSE(find(pair, 1).found);
     // Later searches of the same pair are past the touch.
-    SearchCounters counters;
+    EvaluationCounters counters;
     EXPECT_FALSE(first_contact(pair.view(), 1e-3, 1, counters).side_unknown);
     KernelPair known = pair;
     collided(known);

@@ -39,7 +39,7 @@ constexpr int thin = 10;
 #endif
 
 Contact find(const KernelPair& pair, double until, const Accuracy& accuracy = standard_accuracy) {
-  SearchCounters counters;
+  EvaluationCounters counters;
   return first_contact(pair.view(), 0, until, counters, accuracy);
 }
 

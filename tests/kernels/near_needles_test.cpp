@@ -1,4 +1,4 @@
-// SIMD kernels give the same bits on every instruction set, whatever the other lanes hold.
+// SIMD kernels give the same bits on every instruction set, for any contents of unused lanes.
 #include "kernels/near_needles.h"
 
 #include <gtest/gtest.h>

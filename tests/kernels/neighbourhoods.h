@@ -16,7 +16,7 @@ namespace needlework::kernels {
 
 using test::Random;
 
-/// Blocks of needles in cells around a seeker, whatever they hold.
+/// Blocks of needles in cells around a seeker, with any contents.
 struct Neighbourhood {
   std::vector<NeedleBlock> blocks;
   std::vector<BlockLink> links;

@@ -154,7 +154,7 @@ TEST(OneAnswer, OfFirstContacts) {
     Pair pair;
     pair.first = &first;
     pair.second = &second;
-    SearchCounters counters;
+    EvaluationCounters counters;
     const Contact contact = first_contact(pair, 0, 3, counters);
     contacts += contact.found;
     out.take(contact.elapsed.hi);

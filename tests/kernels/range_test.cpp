@@ -1,4 +1,4 @@
-// Interval arithmetic against many digits: what it says encloses what is true.
+// Interval arithmetic against many digits: its results enclose the exact ones.
 #include "kernels/range.h"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST(Range, OperationsEncloseTheResultOfAllNumbersInTheOperands) {
   }
 }
 
-// Not so wide that it says nothing: a few units in the last place.
+// Nor is it needlessly wide: a few units in the last place.
 TEST(Range, OperationsOnNumbersAreTight) {
   test::Random random(32);
   for (int i = 0; i < count; ++i) {
@@ -122,7 +122,7 @@ TEST(Range, ContactFunctionsAreEnclosed) {
   }
 }
 
-// A contact function that goes on from a touch is f with another start; what it starts from is
+// A contact function that continues from a touch is f with another start; what it starts from is
 // enclosed too.
 TEST(Range, ContinuationsFromATouchAreEnclosed) {
   test::Random random(36);

@@ -97,7 +97,7 @@ TEST_P(Bracket, IsNeverTooLate) {
     ASSERT_LE(from / pair.unit, pair.truth.elapsed.hi)
         << "of " << drawn.horizon << ", seed " << seed << "\n"
         << test::csv_line(id - 1, drawn);
-    // The oracle knows nothing of the engine, and takes its time.
+    // The oracle is independent of the engine, and slow.
     if (id % 50 != 0) continue;
     const auto oracle =
         test::first_contact(drawn.first, drawn.second, drawn.horizon, drawn.just_collided);
@@ -137,11 +137,11 @@ TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
   Random random(seed);
   std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
   for (const test::NeedlePair& drawn : draw_pairs("thermal-k6", 20000 / thin, seed + 1)) {
-    // From where the spheres meet, over a short window.
+    // From where the spheres meet, over a short time.
     test::NeedlePair pair = advanced(drawn, 0.3 * drawn.horizon);
     pair.horizon = 0.1;
     const KernelPair kernel = kernel_pair(pair);
-    SearchCounters work;
+    EvaluationCounters work;
     const Contact truth = first_contact(kernel.view(), 0, pair.horizon, work);
     const double unit = unit_of(kernel.first, kernel.second);
     const float until = static_cast<float>(pair.horizon * unit);

@@ -42,7 +42,7 @@ LAYERS = [
           ["theory", "engine"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
-          ["base", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
+          ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "scene", "search", "observe", "io", "audit", "runs", "bindings"],
@@ -54,9 +54,11 @@ FREE = ["bench", "tests"]  # may use anything; nothing else may use them
 LIBRARIES = [
     (r"hdf5\.h|H5.*", ["io", "runs"]),
     (r"toml\+\+/.*", ["scene"]),
+    (r"bzlib\.h|pugixml\.hpp", ["io"]),
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
+    (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),
 ]
 

@@ -77,7 +77,8 @@ TEST(Forecast, SaysNothingOfWhatNeverHappens) {
   EXPECT_FALSE(forecast(cooling, {1, 1}, 1, until));
 }
 
-// At tau = 1e20 there have been some thousand collisions per needle: Haff's law goes on from there.
+// At tau = 1e20 there have been some thousand collisions per needle: Haff's law continues from
+// there.
 TEST(Forecast, GoesOnBeyondTheCurveByHaffsLaw) {
   Scene::Until until;
   until.collisions_per_needle = 5000;

@@ -14,7 +14,7 @@
 // contacts at the smallest |V_n|, and no run is long enough to estimate their scatter. So below a
 // probability of 0.01 the number of contacts is only bounded from below by the pairs that separate,
 // which are half of the law's. Tolerance: chi-square with a probability of at least 0.0027 (3
-// standard errors). The variances are those that the blocks of the run show, because a pair that
+// standard errors). The variances are those that the batches of the run show, because a pair that
 // has met often meets again.
 #include <gtest/gtest.h>
 
@@ -31,10 +31,10 @@
 namespace needlework {
 namespace {
 
-using test::BlockHistogram;
+using test::BatchHistogram;
 using Edges = std::vector<double>;
 
-constexpr int blocks = 100;
+constexpr int batches = 100;
 
 // Probabilities of bins from the law's distribution function at their upper ends.
 template <class Function>
@@ -48,7 +48,7 @@ std::vector<double> probabilities(const Edges& ends, Function&& below) {
   return out;
 }
 
-void print(const char* name, const BlockHistogram& histogram) {
+void print(const char* name, const BatchHistogram& histogram) {
   std::cout << name << ": " << histogram.chi_square() << '\n';
   for (const std::size_t bin : {std::size_t{0}, histogram.bins() - 1}) {
     std::cout << "  bin " << bin << ": " << histogram.counted(bin) << ", expected "
@@ -60,7 +60,7 @@ void print(const char* name, const BlockHistogram& histogram) {
 class AngleHistogram {
  public:
   void add(const Collision& c) { histogram_.add(test::bin_of(c.sin_angle, ends_)); }
-  BlockHistogram& histogram() { return histogram_; }
+  BatchHistogram& histogram() { return histogram_; }
 
  private:
   static double below(double sine) {
@@ -69,7 +69,7 @@ class AngleHistogram {
   }
 
   Edges ends_{0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.95, 0.98, 0.995, 1};
-  BlockHistogram histogram_{probabilities(ends_, below)};
+  BatchHistogram histogram_{probabilities(ends_, below)};
 };
 
 // The larger of |s12| and |s21|: squares around the middle, the law's integral known for each.
@@ -84,11 +84,11 @@ class OuterArmHistogram {
   void add(const Collision& c) {
     histogram_.add(test::bin_of(std::max(std::abs(c.arm_first), std::abs(c.arm_second)), ends_));
   }
-  BlockHistogram& histogram() { return histogram_; }
+  BatchHistogram& histogram() { return histogram_; }
 
  private:
   Edges ends_{0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.49, 0.499, 0.4999, 0.5};
-  BlockHistogram histogram_;
+  BatchHistogram histogram_;
 };
 
 // Both arms with their signs, on a coarse grid; integrals by the midpoint rule.
@@ -99,7 +99,7 @@ class ArmsHistogram {
     histogram_.add(test::bin_of(c.arm_first, ends_) * ends_.size() +
                    test::bin_of(c.arm_second, ends_));
   }
-  BlockHistogram& histogram() { return histogram_; }
+  BatchHistogram& histogram() { return histogram_; }
 
  private:
   std::vector<double> grid(double k) const {
@@ -119,7 +119,7 @@ class ArmsHistogram {
   }
 
   Edges ends_{-0.45, -0.3, -0.15, 0, 0.15, 0.3, 0.45, 0.5};
-  BlockHistogram histogram_;
+  BatchHistogram histogram_;
 };
 
 // The distribution function of |V_n| at the collision's arms, uniform on [0, 1].
@@ -134,7 +134,7 @@ class SpeedHistogram {
     histogram_.add(test::bin_of(u, ends_));
     if (u < grazing_ends_.back()) ++grazing_[test::bin_of(u, grazing_ends_)];
   }
-  BlockHistogram& histogram() { return histogram_; }
+  BatchHistogram& histogram() { return histogram_; }
 
   // Few enough contacts at |V_n| -> 0 for some to have been lost?
   void expect_grazing() const {
@@ -155,7 +155,7 @@ class SpeedHistogram {
   std::array<double, 3> grazing_{};
   Edges ends_{0.01, 0.05, 0.1, 0.2,  0.3,  0.4,   0.5,    0.6,
               0.7,  0.8,  0.9, 0.95, 0.99, 0.999, 0.9999, 1};
-  BlockHistogram histogram_{probabilities(ends_, [](double u) { return u; })};
+  BatchHistogram histogram_{probabilities(ends_, [](double u) { return u; })};
 };
 
 struct Gas {
@@ -193,12 +193,12 @@ TEST_P(ContactDistribution, IsExactInEquilibrium) {
     speed.add(c);
     both_signs[c.normal_velocity > 0] = true;
   });
-  for (int block = 0; block < blocks; ++block) {
+  for (int batch = 0; batch < batches; ++batch) {
     *until.collisions_per_needle += 16;
     simulation.advance(until);
-    for (BlockHistogram* histogram :
+    for (BatchHistogram* histogram :
          {&angle.histogram(), &outer_arm.histogram(), &arms.histogram(), &speed.histogram()}) {
-      histogram->end_block();
+      histogram->end_batch();
     }
   }
 

@@ -5,7 +5,7 @@
 // sqrt(1 + k r^2) over the unit square (the flux of the contact points through each other, averaged
 // over Gaussian velocities); with momentum 0 and energy fixed, the finite number of needles enters
 // by way of the microcanonical ensemble (theory::equilibrium_rate).
-// Tolerance: 3 standard errors, from the scatter of runs with different seeds; blocks of one run
+// Tolerance: 3 standard errors, from the scatter of runs with different seeds; batches of one run
 // would be correlated in a dense gas, where density waves decay slowly. The error itself is at most
 // 0.3 % of the rate, in builds without optimisation 0.5 %.
 #include <gtest/gtest.h>

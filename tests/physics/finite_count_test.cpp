@@ -2,7 +2,7 @@
 //
 // Laws, for the microcanonical ensemble with momentum 0 (3 (N - 1) translational and 2 N
 // rotational degrees of freedom): the rate is theory::equilibrium_rate, and T_tr / T_rot is (N -
-// 1) / N. Tolerance: 3 standard errors, from the scatter of blocks, each more than 100 mean free
+// 1) / N. Tolerance: 3 standard errors, from the scatter of batches, each more than 100 mean free
 // times long. The values for infinitely many needles must be far outside, so that the test is
 // sensitive to these terms.
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Averages {
   Measured rate, t_tr, t_rot;
 };
 
-constexpr int blocks = 100;
+constexpr int batches = 100;
 constexpr double collisions = 1.2e5;
 
 // Time averages of a run, the temperatures sampled twice per mean free time.
@@ -32,25 +32,25 @@ Averages averages(const Scene& scene) {
   const double count = static_cast<double>(scene.needles.count);
   Simulation simulation(scene);
   const double step = simulation.mean_free_time() / 2;
-  const int samples = static_cast<int>(4 * collisions / count / blocks);
+  const int samples = static_cast<int>(4 * collisions / count / batches);
   Mean rate, t_tr, t_rot;
   std::uint64_t before = 0;
   int steps = 0;
-  for (int block = 0; block < blocks; ++block) {
-    double block_tr = 0, block_rot = 0;
+  for (int batch = 0; batch < batches; ++batch) {
+    double batch_tr = 0, batch_rot = 0;
     Totals totals;
     for (int sample = 0; sample < samples; ++sample) {
       Scene::Until until;
       until.time = ++steps * step;
       simulation.advance(until);
       totals = simulation.totals();
-      block_tr += totals.t_tr / samples;
-      block_rot += totals.t_rot / samples;
+      batch_tr += totals.t_tr / samples;
+      batch_rot += totals.t_rot / samples;
     }
     rate.add(2 * static_cast<double>(totals.collisions - before) / (count * samples * step));
     before = totals.collisions;
-    t_tr.add(block_tr);
-    t_rot.add(block_rot);
+    t_tr.add(batch_tr);
+    t_rot.add(batch_rot);
   }
   return {rate.measured(), t_tr.measured(), t_rot.measured()};
 }

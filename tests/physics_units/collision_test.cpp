@@ -353,7 +353,7 @@ TEST(CollideByHand, ATipSetsItsNeedleSpinning) {
   EXPECT_NEAR(impact.w_first.y, -4, 1e-14);
 }
 
-// Perfectly inelastic: both contact points go on together, and half of the energy is left.
+// Perfectly inelastic: both contact points move on together, and half of the energy is left.
 TEST(CollideByHand, WithoutReboundTheContactPointsMoveOnTogether) {
   Encounter e = crossed(0, 0);
   e.restitution.epsilon = 0;

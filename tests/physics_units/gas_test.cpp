@@ -1,4 +1,4 @@
-// Records: made anew, wrapped, and seen in pairs.
+// Records: their renewal, their images in the box, and what a pair takes from them.
 #include "src/physics/gas.h"
 
 #include <gtest/gtest.h>
@@ -178,7 +178,7 @@ TEST(MakePair, ShiftsByWholeBoxesExactly) {
   EXPECT_TRUE(Wide(pair.shift.z.hi) + pair.shift.z.lo == Wide(7.7) * 5);
 }
 
-// What an earlier record says of a touch has been overtaken by the later one.
+// A touch kept in an earlier record is out of date if the other record is later.
 TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   Gas gas = gas_of(3, {4, 4, 4});
   Record &a = gas.records[0], &b = gas.records[1];
@@ -207,7 +207,7 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   EXPECT_EQ(touch(shift).side, -1);
   only_of_b(shift);
   EXPECT_FALSE(touch(shift).touching) << "the shift is of the partner";
-  // Records of one time: either may know.
+  // Of two records of one time, either may keep the touch.
   b.time = a.time;
   EXPECT_EQ(touch(shift).side, 1);
   a.touch_count = 0;
@@ -215,7 +215,7 @@ TEST(MakePair, TakesTouchesFromTheLaterRecordOnly) {
   only_of_b(-shift);
   EXPECT_EQ(touch(shift).side, -1);
   ++a.serial;
-  EXPECT_FALSE(touch(shift).touching) << "made anew at the same time";
+  EXPECT_FALSE(touch(shift).touching) << "renewed at the same time";
 }
 
 TEST(MakePair, FindsEachOfManyTouches) {
@@ -242,7 +242,7 @@ TEST(MakePair, FindsEachOfManyTouches) {
       EXPECT_EQ(found.collided, other == 1) << other;
       EXPECT_EQ(found.gap, 1e-16 * static_cast<double>(other)) << other;
       EXPECT_FALSE(touch(mine, other, {0, 0, -1}).touching) << "another image of " << other;
-      // By the partner, whose record says nothing, too.
+      // The same from the partner's side, whose record keeps no touch.
       EXPECT_EQ(make_pair(gas, Needle(other), gas.records[other], needle, mine,
                           {-static_cast<int>(other), 0, 1})
                     .touch.side,
@@ -250,13 +250,13 @@ TEST(MakePair, FindsEachOfManyTouches) {
     }
   };
   expect_all(gas.records[0]);
-  // A new record touches nobody; a copy of the one before, as undoing keeps it, still does.
+  // A new record keeps no touches; a copy of the one before, as an undo log keeps it, still does.
   renew_record(gas, needle, {}, {{1, 0, 0}, {}, {}});
   for (std::size_t other = 1; other < 6; ++other) {
     EXPECT_FALSE(touch(gas.records[0], other, {static_cast<int>(other), 0, -1}).touching);
   }
   expect_all(copy);
-  // Put back and made again, it has the touches of the second time.
+  // After it is restored and renewed again, it has the touches added the second time.
   const kernels::Touch again{.touching = true, .collided = false, .side = 1, .gap = 3e-16};
   for (const std::uint32_t id : {1u, 2u, 3u}) {
     gas.add_touch(needle, RecordedTouch::of(Id{id}, 0, {}, again));
@@ -328,7 +328,7 @@ TEST(Shift, AddsAndSubtracts) {
   EXPECT_EQ(-a, (Shift{-1, 2, -3}));
 }
 
-// Windows are as long as the theory says, without its libm.
+// The engine's own integration, which does not depend on the libm, agrees with the theory.
 TEST(MeanFreeTime, AgreesWithTheTheory) {
   Random random(seed);
   for (int n = 0; n < 50; ++n) {

@@ -250,8 +250,8 @@ TEST(Oracle, DoublesSettleOnlyWhatIsClear) {
   }
 }
 
-// Found among ten million: next to a parallel root arms change so fast that a root in double tells
-// nothing of them.
+// Found among ten million: next to a parallel root arms change so fast that a root in double does
+// not determine them.
 TEST(Oracle, DoublesLeaveArmsNextToAParallelRootToMoreDigits) {
   NeedlePair pair;
   pair.first = {{-1.3737114472236875, -2.0194753677257364, -0.38186888999200702},
@@ -362,14 +362,14 @@ TEST(Oracle, UlpsFlipOnlyDecisionsNearTheLimit) {
   EXPECT_GT(flipped, near / 10);
 }
 
-TEST(Oracle, DoublesTellTheSignOfFBeyondTheLimit) {
+TEST(Oracle, DoublesGiveTheSignOfFBeyondTheLimit) {
   for (const PairFamily& family : pair_families()) {
     if (family.name == "slow") continue;  // sample() underflows
     for (const NeedlePair& pair : draw_pairs(family.name, 400, 18)) {
       const OracleAnswer answer = ask(pair);
       if (!answer.contact || answer.decision_margin < 8) continue;
       const double reach = 4 * answer.time_limit + 1e-15;
-      // Where a second root is as near as the rounding, doubles tell nothing.
+      // A second root as near as the rounding cannot be resolved in double.
       if (answer.root_depth < 32) continue;
       const double before = sample(pair, answer.time * (1 - reach)).f;
       const double after = sample(pair, answer.time * (1 + reach)).f;

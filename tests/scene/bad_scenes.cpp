@@ -289,7 +289,7 @@ TEST(BadScene, AlternativesExcludeEachOther) {
   });
 }
 
-TEST(BadScene, FirstErrorByLineIsTheOneTold) {
+TEST(BadScene, FirstErrorByLineIsReported) {
   expect_messages({
       {"[until]\ntime = -1\n[needles]\ncount = -2\n",
        "s.toml: line 2: until.time = -1: expected a time >= 0"},

@@ -47,7 +47,7 @@ TEST(Species, HasDefaults) {
   EXPECT_EQ(species.t_rot, 1);
 }
 
-// Whoever knows nothing of species finds count, k and temperatures where they have always been.
+// Code that ignores species finds count, k and temperatures in the same members as before.
 TEST(Species, StandsForNeedlesAndInitial) {
   const Scene scene = parse_scene(
       least + "length = 2.5\nmass = 0.5\nk = 2\nt_tr = 3\nt_rot = 0\n[initial]\n", "s.toml");

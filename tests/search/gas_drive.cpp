@@ -141,7 +141,7 @@ std::vector<Candidate> within_reach(const Gas& gas, Needle i, Time now) {
 
 std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span) {
   std::vector<Ahead> out;
-  kernels::SearchCounters work;
+  kernels::EvaluationCounters work;
   for (Needle j{0}; j < gas.size(); ++j) {
     if (j == i) continue;
     const Time start = Gas::start_of(gas.records[i], gas.records[j]);

@@ -54,7 +54,7 @@ struct Ahead {
 };
 
 /// The first contacts of i with all images of all other needles, up to `span` from now. Those that
-/// begin in the past, since nobody has let them happen, are left out.
+/// begin in the past, as no event has made them happen, are left out.
 std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double span);
 
 /// Takes searches through the events that event loops would, one gas for all.

@@ -258,9 +258,9 @@ std::optional<QuadGas::Contact> QuadGas::next_contact(const Real& within) const 
   for (std::size_t i = 0; i < needles_.size(); ++i) {
     for (std::size_t j = i + 1; j < needles_.size(); ++j) {
       const auto offset = offsets_.find({i, j});
-      const auto after =
-          contact_of({needles_[i], needles_[j]}, best ? best->after : within,
-                     offset == offsets_.end() ? Real(0) : offset->second, touching_ == Pair(i, j));
+      const auto after = contact_of({needles_[i], needles_[j]}, best ? best->after : within,
+                                    offset == offsets_.end() ? Real(0) : offset->second,
+                                    touching_ == IndexPair(i, j));
       if (after) best = {*after, i, j};
     }
   }
@@ -281,7 +281,7 @@ QuadCollision QuadGas::strike(std::size_t i, std::size_t j) {
   const bool elastic = recent(i) || recent(j);
   const QuadCollision out{time_, i, j, arms(pair), normal_velocity(pair), elastic};
   bounce(pair, rule_, elastic);
-  std::map<Pair, Real> gaps;
+  std::map<IndexPair, Real> gaps;
   for (std::size_t n = 0; n < needles_.size(); ++n) {
     if (n != i) gaps[std::minmax(n, i)] = gap(std::min(n, i), std::max(n, i));
     if (n != j) gaps[std::minmax(n, j)] = gap(std::min(n, j), std::max(n, j));

@@ -67,10 +67,10 @@ class QuadGas {
   std::vector<NeedleState> needles_;
   Real time_ = 0;
   std::vector<std::optional<Real>> last_collision_;
-  using Pair = std::pair<std::size_t, std::size_t>;  // ascending
+  using IndexPair = std::pair<std::size_t, std::size_t>;  // ascending
   /// The two that are at a contact now, if any: f = 0.
-  std::optional<Pair> touching_;
-  std::map<Pair, Real> offsets_;  ///< added to f to correct for rounding
+  std::optional<IndexPair> touching_;
+  std::map<IndexPair, Real> offsets_;  ///< added to f to correct for rounding
 };
 
 /// s12 and s21 of the lines' nearest points.

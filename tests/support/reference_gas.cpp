@@ -131,7 +131,7 @@ class Gas {
     }
   }
 
-  // Boxes to add to the second needle's centre to bring it nearest to the first.
+  // Number of boxes to add to the second needle's centre for its image nearest to the first.
   std::array<std::int32_t, 3> nearest(const FreeNeedle& first, const FreeNeedle& second) const {
     std::array<std::int32_t, 3> shift;
     for (int axis = 0; axis < 3; ++axis) {

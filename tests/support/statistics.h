@@ -34,7 +34,7 @@ inline testing::AssertionResult agrees(const Measured& measured, double expected
          << expected;
 }
 
-/// Mean of independent samples, such as runs with different seeds or long blocks of one run.
+/// Mean of independent samples, such as runs with different seeds or long batches of one run.
 class Mean {
  public:
   void add(double sample) {
@@ -67,29 +67,29 @@ inline std::ostream& operator<<(std::ostream& out, const ChiSquare& test) {
              << test.worst << " by " << test.deviation << " standard errors";
 }
 
-/// Counts in bins of known probabilities, sampled in blocks of a run. Neighbouring samples are
+/// Counts in bins of known probabilities, sampled in batches of a run. Neighbouring samples are
 /// correlated, so each bin's variance is the multinomial one times a factor above 1 if the scatter
-/// of the blocks shows more. (The scatter alone would not do: a rare bin that stays empty has
+/// of the batches shows more. (The scatter alone would not do: a rare bin that stays empty has
 /// none.)
-class BlockHistogram {
+class BatchHistogram {
  public:
   /// `probabilities` sum to 1.
-  explicit BlockHistogram(std::vector<double> probabilities)
+  explicit BatchHistogram(std::vector<double> probabilities)
       : probabilities_(std::move(probabilities)),
-        block_(probabilities_.size()),
+        batch_(probabilities_.size()),
         total_(probabilities_.size()),
         scatter_(probabilities_.size()) {}
 
-  void add(std::size_t bin) { ++block_[bin]; }
+  void add(std::size_t bin) { ++batch_[bin]; }
 
-  void end_block() {
+  void end_batch() {
     double samples = 0;
-    for (const double count : block_) samples += count;
-    for (std::size_t bin = 0; bin < block_.size(); ++bin) {
+    for (const double count : batch_) samples += count;
+    for (std::size_t bin = 0; bin < batch_.size(); ++bin) {
       const double p = probabilities_[bin];
-      scatter_[bin].add((block_[bin] - samples * p) / std::sqrt(samples * p * (1 - p)));
-      total_[bin] += block_[bin];
-      block_[bin] = 0;
+      scatter_[bin].add((batch_[bin] - samples * p) / std::sqrt(samples * p * (1 - p)));
+      total_[bin] += batch_[bin];
+      batch_[bin] = 0;
     }
     samples_ += samples;
   }
@@ -116,7 +116,7 @@ class BlockHistogram {
   }
 
  private:
-  std::vector<double> probabilities_, block_, total_;
+  std::vector<double> probabilities_, batch_, total_;
   std::vector<Mean> scatter_;
   double samples_ = 0;
 };

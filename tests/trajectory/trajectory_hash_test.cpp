@@ -90,7 +90,7 @@ TEST(TrajectoryHash, ChangesWithEveryBitOfEveryField) {
   EXPECT_EQ(changes, 64u * 5 + 32u * 5 + 2);
 }
 
-TEST(TrajectoryHash, TellsMissingAndRepeatedCollisions) {
+TEST(TrajectoryHash, DetectsMissingAndRepeatedCollisions) {
   Random random(seed);
   std::vector<Collision> collisions = draw(random, 20);
   std::set<std::string> seen{hash(collisions), hash({})};

@@ -1,5 +1,5 @@
-// A cloud of needles in a large box: what search and sizes suit it changes as it spreads. Its
-// trajectory is that of any search all along, on any number of threads.
+// A cloud of needles in a large box: the best search and sizes change as it spreads. Its trajectory
+// is the same as with any single search, on any number of threads.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -60,7 +60,7 @@ TEST(Cloud, IsFollowedAsItSpreads) {
   }
 }
 
-// What is set by hand stays so.
+// Sizes that the scene sets are not changed.
 TEST(Cloud, IsSearchedAsAskedFor) {
   Scene scene = test::scene_of(1000, 25);
   const State state = cloud(scene);
@@ -83,7 +83,7 @@ TEST(Cloud, IsSearchedAsAskedFor) {
   EXPECT_EQ(resized(scene), 0u);
 }
 
-// The run goes on with another loop at any time between two events.
+// A run can be continued by another loop at any time between two events.
 TEST(Loops, MayFollowEachOther) {
   Scene scene = test::scene_of(600, 7, 8);
   scene.collisions.epsilon = 0.9;
@@ -160,8 +160,8 @@ TEST(Loops, MayFollowEachOtherAtOneInstant) {
   EXPECT_EQ(run.tally.hash.hex(), truth.trajectory_hash());
 }
 
-// Three needles or more that collapse are reported by how many collisions there are at one instant,
-// whichever loops have counted them.
+// A collapse of three needles or more is detected by the number of collisions at one instant, also
+// if several loops have counted them.
 TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
   Scene scene = test::scene_of(60, 4, 6);
   scene.collisions.epsilon = 0.6;
@@ -181,18 +181,18 @@ TEST(Loops, CountTogetherWhatHappensAtOneInstant) {
 
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   Limits limits(run, until);
-  const std::string told = failure([&] {
+  const std::string message = failure([&] {
     for (;;) {
       const auto loop = make_loop(run, {.search = "linked-lists", .calendar = "tournament"});
       limits.pause = run.tally.collisions + 1000;
       if (loop->advance(limits)) return;
     }
   });
-  EXPECT_EQ(told, expected);
+  EXPECT_EQ(message, expected);
 }
 
-// A loop that follows another does no more work than one that goes on.
-TEST(Loops, GoOnWhereTheOthersLeft) {
+// A loop that follows another does no more work than one that continues.
+TEST(Loops, ContinueWhereOthersStopped) {
   const Scene scene = test::scene_of(1000, 11);
   const auto searches_of_half = [&](bool by_another) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));

@@ -80,7 +80,7 @@ TEST(DoneLog, LooksAtLaterEventsOnly) {
 }
 
 // After many epochs two times may have one key.
-TEST(DoneLog, TellsTimesOfOneKeyApart) {
+TEST(DoneLog, DistinguishesTimesOfOneKey) {
   Done early = at(1, here, 0), late = at(1, here, 0);
   early.time = {std::int64_t{1} << 40, 0.5};
   late.time = {std::int64_t{1} << 40, std::nextafter(0.5, 1)};
@@ -121,7 +121,7 @@ TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
 }
 
 // `farthest` is a bound that the caller knows; a larger one gives the same result.
-TEST(DoneLog, SearchesAsFarAsItIsTold) {
+TEST(DoneLog, SearchesToTheGivenDistance) {
   DoneLog log(CellGrid(box, 0.7, 1000), box);
   log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));

@@ -43,7 +43,7 @@ TEST(Fronts, GoByTheFastestNeedleThereIs) {
 
 // Otherwise all threads would wait for ever. Also if the resolution of time is coarser than the
 // motion of needles.
-TEST(Fronts, HindmostIsNeverAhead) {
+TEST(Fronts, TheLastIsNeverAhead) {
   for (const double time : {0.0, 1e-300, 7.0, 1e20, 1e300}) {
     for (const double speed : {0.0, 1e-300, 1.0, 1e300, std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::quiet_NaN()}) {
@@ -57,7 +57,7 @@ TEST(Fronts, HindmostIsNeverAhead) {
   }
 }
 
-TEST(Fronts, TellHowFarLaterEventsMayMatter) {
+TEST(Fronts, BoundTheReachOfLaterEvents) {
   Fronts fronts(2, 1.2);
   fronts.begin(0);
   EXPECT_TRUE(fronts.publish_event(0, key(7), 0.5));

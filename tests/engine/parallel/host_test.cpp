@@ -147,7 +147,7 @@ TEST_F(HostWithOpenMP, RunsASimulationInEachThreadOfARegion) {
 }
 
 // Without nested regions each of those threads has no other to offer.
-TEST_F(HostWithOpenMP, IsToldThatARegionLeavesOneThread) {
+TEST_F(HostWithOpenMP, GetsAnErrorIfARegionLeavesOneThread) {
   omp_set_max_active_levels(1);
   std::array<std::string, 2> messages;
 #pragma omp parallel num_threads(2)

@@ -35,7 +35,7 @@ TEST(Mail, OfAPhaseBeforeIsGone) {
   EXPECT_TRUE(mail.take(0).empty());
 }
 
-TEST(Mail, LetsNobodyRest) {
+TEST(Mail, KeepsThreadsFromResting) {
   Mail mail(1);
   mail.begin();
   const std::atomic<bool> given_up = false;

@@ -1,4 +1,4 @@
-// Runs on several threads are those on one, bit for bit, to the last collision.
+// Runs on several threads equal those on one, bit for bit, to the last collision.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -34,7 +34,7 @@ Scene scene_of(const Case& c) {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// Also of scenes that call for neither.
+// Also for scenes that need neither effect.
 constexpr auto make_rough_tc_loop = test::make_parallel_loop<Effects{true, true}>;
 
 class ParallelRun : public testing::TestWithParam<Case> {};
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"two_needles", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 600}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// Who runs when is up to the system, so a run is repeated, above all where threads give way to each
-// other at random.
+// The system schedules the threads, so a run is repeated, more often in a build in which threads
+// yield at random.
 TEST(Parallel, IsTheSameEveryTime) {
   Scene scene = scene_of({"", 1000, {6, 6, 6}, 0.9, -1, 1e-3, 6, 0});
   scene.engine.threads = 1;
@@ -90,15 +90,15 @@ TEST(Parallel, IsTheSameEveryTime) {
   }
 }
 
-// Stretches of one thread may lie between phases of several, in which a gas cools: what was fast
-// then is not what is fast now.
-TEST(Parallel, GoesOnTogetherAfterALongTimeAlone) {
+// Between phases of several threads the gas may cool in stretches that one thread computes alone;
+// the largest speed of an earlier phase is then out of date.
+TEST(Parallel, UsesAllThreadsAfterALongStretchOnOne) {
   Scene scene = scene_of({"", 1000, {11, 11, 11}, 0.5, -1, 1e-3, 6, 0});
   const int steps = thin > 1 ? 20 : 100;
   const auto run = [&](int threads) {
     scene.engine.threads = threads;
     auto simulation = std::make_unique<Simulation>(scene);
-    // Too little for a phase, time and again.
+    // Each step is too short for a phase.
     for (int n = 0; n <= steps; ++n) simulation->advance(test::until_collisions(0.2 * n));
     EXPECT_EQ(simulation->counters().phases, 0u);
     simulation->advance(test::until_collisions(0.2 * steps + 6));
@@ -121,7 +121,7 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
   EXPECT_GT(counters.foreign, 10u);  // collisions over the border
-  EXPECT_GT(counters.sorts, 0u);     // which divides the box anew
+  EXPECT_GT(counters.sorts, 0u);     // which divides the box again
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {
@@ -164,24 +164,25 @@ TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   EXPECT_GE(simulation.counters().redone, 1u);
 }
 
-// The limit is a number of collisions and a bit: one more is needed, and no time is left for a
-// phase.
+// The limit is slightly above a number of collisions, so one more is needed, and no time is left
+// for a phase.
 TEST(Parallel, EndsAtTheNextCollision) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
-  std::size_t with_a_bit = 0;
+  std::size_t slightly_above = 0;
   for (int n = 1; n <= 300; n += 3) {
     const double mean = std::nextafter(n / 500.0, 1.0);
-    with_a_bit += mean * 500 > n;
+    slightly_above += mean * 500 > n;
     scene.engine.threads = 2;
     Simulation simulation(scene);
     ASSERT_EQ(simulation.advance({.collisions_per_needle = mean}), Stop::collisions);
     ASSERT_EQ(simulation.totals().collisions, static_cast<std::uint64_t>(std::ceil(mean * 500)));
   }
-  EXPECT_GT(with_a_bit, 30u);
+  EXPECT_GT(slightly_above, 30u);
 }
 
-// Called for short times on end, as the program does, a run does not try what was undone anew; and
-// needles that slide, with many more collisions than in thermal flight, make no endless phase.
+// A run that is advanced in many short steps, as the program does, does not repeat a phase that has
+// been undone. Needles that slide, with many more collisions than in thermal flight, do not make a
+// phase endless.
 TEST(Parallel, UndoesAPhaseOnlyOnce) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
@@ -203,14 +204,15 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   const Counters& counters = seen->counters();
   EXPECT_GT(counters.phases, 2u);
   EXPECT_LE(counters.redone, 3u);
-  // Each of 2^15 collisions at most, or twice that in vain.
+  // A phase has at most 2^15 collisions, and twice as many if it is undone.
   EXPECT_LE(counters.events, 2 * truth->counters().events);
 }
 
-// In rare gases a mean free time is longer than the times that the search can tell in float: phases
-// end before it has to begin them anew. Each end by energy undoes one, which is only right if what
-// the search knows of needles that were not put back is right at the time before.
-TEST(Parallel, RareGasesAreUndoneRightly) {
+// In rare gases a mean free time is longer than the times that the search can represent in float,
+// so a phase ends before the search has to choose a new origin of time. Each end by energy undoes a
+// phase, which is only correct if the search's data of the needles that are not restored are valid
+// at the earlier time.
+TEST(Parallel, UndoesPhasesOfRareGasesCorrectly) {
   const Scene scene =
       scene_of({"", 130, {1763.7097770949067, 2.01, 2.01}, 0.95, 0.0945871625986503, 1e-3, 6, 0});
   const int ends = thin > 1 ? 3 : 12;
@@ -229,8 +231,8 @@ TEST(Parallel, RareGasesAreUndoneRightly) {
   }
 }
 
-// Where zones hardly touch, nothing but a look at each other's clocks keeps threads so near in time
-// that it can be told who may have met.
+// If zones hardly touch, only the comparison of their times keeps threads close enough in time to
+// check which needles may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;
@@ -241,8 +243,8 @@ TEST(Parallel, StaysTogetherInTimeInALongBox) {
   EXPECT_LE(counters.redone, counters.phases / 4);
 }
 
-// Scenes so small that usually one thread does them alone.
-TEST(Parallel, FewNeedlesToo) {
+// Scenes so small that one thread usually computes them alone.
+TEST(Parallel, HasTheSameTrajectoryForFewNeedles) {
   for (const Case& c : {Case{"", 2, {2.01, 2.01, 2.01}, 1, -1, 0, 6, 300},
                         Case{"", 20, {3, 3, 3}, 0.9, 0.2, 1e-2, 6, 1000},
                         Case{"", 100, {4, 4, 4}, 0.8, -1, 1e-3, 6, 2000}}) {
@@ -262,7 +264,7 @@ TEST(Parallel, FewNeedlesToo) {
   }
 }
 
-TEST(Parallel, SaysWhenOpenMPGivesFewerThreads) {
+TEST(Parallel, ReportsThatOpenMPGivesFewerThreads) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
   const int levels = omp_get_max_active_levels();
@@ -305,7 +307,7 @@ TEST(Parallel, CanBeInterrupted) {
   EXPECT_EQ(simulation.advance({.wall_s = 0.05}), Stop::interrupted);
 }
 
-TEST(Parallel, RefusesSearchesAndQueuesOfOneThread) {
+TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {
   Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
   scene.engine.search = "all-pairs";

@@ -49,7 +49,7 @@ TEST_F(PhasePlanTest, EndsWhereItIsAskedTo) {
 }
 
 // One thread does not end earlier than asked: it needs no meetings.
-TEST_F(PhasePlanTest, LeavesToOneThreadWhatIsTooLittle) {
+TEST_F(PhasePlanTest, LeavesShortStretchesToOneThread) {
   PhasePlan::Outlook few = outlook(3, 100);
   few.end = at(3.6);
   expect_alone(few, 3.6);
@@ -74,7 +74,7 @@ TEST_F(PhasePlanTest, ComesToAnEndByCollisionsInSmallerAndSmallerPhases) {
   expect_alone(outlook(24, 100, -5), 1e6);
 }
 
-TEST_F(PhasePlanTest, LeavesWhatWasUndoneToOneThread) {
+TEST_F(PhasePlanTest, LeavesUndonePhasesToOneThread) {
   plan.undone(at(2), at(4));
   expect_alone(outlook(2, 0x1p13), 4);
   expect_alone(outlook(3.5, 0x1p13), 4);
@@ -88,7 +88,7 @@ TEST_F(PhasePlanTest, LeavesWhatWasUndoneToOneThread) {
   expect_together(outlook(11, 0x1p13), 15);
 }
 
-TEST_F(PhasePlanTest, TriesMoreAndMoreSeldomWhereAllIsInVain) {
+TEST_F(PhasePlanTest, TriesMoreRarelyAfterRepeatedFailure) {
   plan.undone(at(0), at(1));
   expect_alone(outlook(0, 0x1p13), 1);
   plan.undone(at(1), at(2));

@@ -1,6 +1,6 @@
 // Scenes drawn at random, on one thread and on several: of any density and shape of box, filled or
 // not, elastic, rough, cooling and sliding, with every kind of end. NEEDLEWORK_RANDOM_SCENES=N in
-// the environment asks for N of them. Random scenes have found what no chosen one had shown.
+// the environment sets their number. Random scenes have found errors that no chosen one had.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// Events done in the wrong order are found, and undone. To have some, these loops look less far for
-// earlier events than they should.
+// Events processed in the wrong order are detected and undone. To provoke them, these loops have a
+// shorter sight for earlier events than usual.
 #include <gtest/gtest.h>
 
 #include "needlework/initial_state.h"
@@ -32,7 +32,7 @@ std::string hash_of_one_thread(const Scene& scene, const Scene::Until& until) {
   return simulation.trajectory_hash();
 }
 
-TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
+TEST(ParallelOutOfOrder, IsUndoneWithoutSight) {
   const Scene::Until until = mean_collisions(4);
   const Scene dilute = test::scene_of(2000, 14, 3), dense = test::scene_of(2000, 5, 3);
   const std::string of_dilute = hash_of_one_thread(dilute, until);
@@ -43,8 +43,8 @@ TEST(ParallelOutOfOrder, IsUndoneWhereNobodyLooks) {
   }
 }
 
-// Here hardly any other sign tells of it.
-TEST(ParallelOutOfOrder, IsNoticedWhereNobodyLooksFar) {
+// With this sight few phases are undone, but some must be.
+TEST(ParallelOutOfOrder, IsDetectedWithShortSight) {
   const Scene::Until until = mean_collisions(12);
   const Scene scene = test::scene_of(2000, 5, 3);
   const std::string truth = hash_of_one_thread(scene, until);

@@ -1,5 +1,5 @@
 // Writes the files that tests/io/open_with_*.py read: `write_h5md_sample FOLDER`. All numbers are
-// simple functions of frame, sample, event and needle, written down once more in the scripts.
+// simple functions of frame, sample, event and needle, repeated in the scripts.
 #include <csignal>
 #include <cstdio>
 #include <exception>

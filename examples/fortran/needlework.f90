@@ -1,0 +1,226 @@
+! The C interface of Needlework for Fortran 2008: what most programs need of needlework.h, which
+! says what each function does. A function that is missing here is added in the same way.
+!
+!     gfortran needlework.f90 PROGRAM.f90 $(pkg-config --libs needlework)
+module needlework
+  use, intrinsic :: iso_c_binding
+  implicit none
+
+  integer(c_int), parameter :: needlework_ok = 0, needlework_usage = 2, needlework_input = 3, &
+                               needlework_invalid_state = 4, needlework_io = 5
+  integer(c_int), parameter :: needlework_replace = 1
+  integer(c_int), parameter :: needlework_stop_time = 0, needlework_stop_collisions = 1, &
+                               needlework_stop_energy = 2, needlework_stop_wall_time = 3, &
+                               needlework_stop_interrupted = 4, &
+                               needlework_stop_nothing_can_happen = 5
+
+  type, bind(c) :: needlework_error
+    integer(c_int) :: code = 0
+    character(kind=c_char) :: message(1024) = c_null_char
+  end type
+
+  ! Made by rows_of() or columns_of(). Serves as needlework_const_vectors as well.
+  type, bind(c) :: needlework_vectors
+    type(c_ptr) :: data = c_null_ptr
+    integer(c_intptr_t) :: row = 0, column = 0
+  end type
+
+  type, bind(c) :: needlework_initial
+    integer(c_size_t) :: count = 0
+    real(c_double) :: box(3) = 0
+    type(needlework_vectors) :: position, velocity, orientation, angular_velocity
+    type(c_ptr) :: id = c_null_ptr
+  end type
+
+  type, bind(c) :: needlework_state
+    type(needlework_vectors) :: position, velocity, orientation, angular_velocity
+    type(c_ptr) :: image = c_null_ptr, id = c_null_ptr
+  end type
+
+  type, bind(c) :: needlework_limits
+    real(c_double) :: time = 0
+    integer(c_int64_t) :: collisions = 0
+    real(c_double) :: collisions_per_needle = 0, energy_ratio = 0, wall_s = 0
+  end type
+
+  type, bind(c) :: needlework_totals
+    real(c_double) :: time, t_tr, t_rot, energy, initial_energy, momentum(3)
+    integer(c_int64_t) :: collisions, tc_collisions
+    real(c_double) :: mean_free_time, epoch_length
+  end type
+
+  type, bind(c) :: needlework_state_after
+    real(c_double) :: position(3), velocity(3), orientation(3), angular_velocity(3)
+  end type
+
+  type, bind(c) :: needlework_collision
+    integer(c_int64_t) :: epoch
+    real(c_double) :: offset, time
+    integer(c_int32_t) :: first, second, shift(3)
+    real(c_double) :: arm_first, arm_second, sin_angle, normal_velocity, impulse(3), energy_change
+    integer(c_int8_t) :: contact_time_rule
+    type(needlework_state_after) :: after(2)
+  end type
+
+  abstract interface
+    integer(c_int) function needlework_on_collisions(collisions, count, user) bind(c)
+      import :: needlework_collision, c_size_t, c_ptr, c_int
+      integer(c_size_t), value :: count
+      type(needlework_collision), intent(in) :: collisions(count)
+      type(c_ptr), value :: user
+    end function
+  end interface
+
+  interface
+    ! `scene` ends with c_null_char. The result is a null pointer on failure.
+    type(c_ptr) function needlework_create(scene, flags, error) bind(c)
+      import :: c_ptr, c_char, c_int, needlework_error
+      character(kind=c_char), intent(in) :: scene(*)
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out) :: error
+    end function
+
+    type(c_ptr) function needlework_create_from(scene, initial, flags, error) bind(c)
+      import :: c_ptr, c_char, c_int, needlework_error, needlework_initial
+      character(kind=c_char), intent(in) :: scene(*)
+      type(needlework_initial), intent(in) :: initial
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out) :: error
+    end function
+
+    subroutine needlework_destroy(simulation) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: simulation
+    end subroutine
+
+    ! See needlework_text().
+    type(c_ptr) function needlework_message(simulation) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: simulation
+    end function
+
+    integer(c_int) function needlework_run_until(simulation, limits, stop) bind(c)
+      import :: c_ptr, c_int, needlework_limits
+      type(c_ptr), value :: simulation
+      type(needlework_limits), intent(in) :: limits
+      integer(c_int), intent(inout) :: stop
+    end function
+
+    integer(c_int) function needlework_advance(simulation, limits, stop) bind(c)
+      import :: c_ptr, c_int, needlework_limits
+      type(c_ptr), value :: simulation
+      type(needlework_limits), intent(in) :: limits
+      integer(c_int), intent(inout) :: stop
+    end function
+
+    subroutine needlework_interrupt(simulation) bind(c)
+      import :: c_ptr
+      type(c_ptr), value :: simulation
+    end subroutine
+
+    integer(c_int) function needlework_close(simulation) bind(c)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: simulation
+    end function
+
+    ! `callback` is c_funloc() of a function like needlework_on_collisions.
+    integer(c_int) function needlework_set_callback(simulation, batch, callback, user) bind(c)
+      import :: c_ptr, c_int, c_size_t, c_funptr
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: batch
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+    end function
+
+    integer(c_size_t) function needlework_count(simulation) bind(c)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: simulation
+    end function
+
+    integer(c_int) function needlework_get_state(simulation, into) bind(c)
+      import :: c_ptr, c_int, needlework_state
+      type(c_ptr), value :: simulation
+      type(needlework_state), intent(in) :: into
+    end function
+
+    integer(c_int) function needlework_write_state(simulation, path, flags) bind(c)
+      import :: c_ptr, c_char, c_int
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value :: flags
+    end function
+
+    integer(c_int) function needlework_set_velocities(simulation, velocity, angular_velocity) &
+        bind(c)
+      import :: c_ptr, c_int, needlework_vectors
+      type(c_ptr), value :: simulation
+      type(needlework_vectors), intent(in) :: velocity, angular_velocity
+    end function
+
+    integer(c_int) function needlework_get_totals(simulation, totals) bind(c)
+      import :: c_ptr, c_int, needlework_totals
+      type(c_ptr), value :: simulation
+      type(needlework_totals), intent(inout) :: totals
+    end function
+
+    integer(c_int) function needlework_get_hash(simulation, hash) bind(c)
+      import :: c_ptr, c_int, c_char
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(inout) :: hash(33)
+    end function
+
+    integer(c_int) function needlework_collision_rate(k, density, t_tr, t_rot, rate, error) bind(c)
+      import :: c_int, c_double, needlework_error
+      real(c_double), value :: k, density, t_tr, t_rot
+      real(c_double), intent(inout) :: rate
+      type(needlework_error), intent(out) :: error
+    end function
+  end interface
+
+contains
+
+  ! An array a(3, N), one column for each needle. Must have the attribute target where it is
+  ! declared.
+  function rows_of(a) result(vectors)
+    real(c_double), intent(in), target, contiguous :: a(:, :)
+    type(needlework_vectors) :: vectors
+    if (size(a) > 0) vectors%data = c_loc(a)
+    vectors%row = 3
+    vectors%column = 1
+  end function
+
+  ! An array a(N, 3), one row for each needle.
+  function columns_of(a) result(vectors)
+    real(c_double), intent(in), target, contiguous :: a(:, :)
+    type(needlework_vectors) :: vectors
+    if (size(a) > 0) vectors%data = c_loc(a)
+    vectors%row = 1
+    vectors%column = size(a, 1)
+  end function
+
+  ! The text that a string of C holds.
+  function needlework_text(string) result(text)
+    type(c_ptr), intent(in) :: string
+    character(len=:), allocatable :: text
+    character(kind=c_char), pointer :: characters(:)
+    integer :: length
+    call c_f_pointer(string, characters, [4096])
+    length = 0
+    do while (characters(length + 1) /= c_null_char)
+      length = length + 1
+    end do
+    text = text_of(characters(:length))
+  end function
+
+  ! The text of an array of characters, up to the first c_null_char.
+  function text_of(characters) result(text)
+    character(kind=c_char), intent(in) :: characters(:)
+    character(len=:), allocatable :: text
+    integer :: n
+    text = ''
+    do n = 1, size(characters)
+      if (characters(n) == c_null_char) exit
+      text = text // characters(n)
+    end do
+  end function
+end module

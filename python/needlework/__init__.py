@@ -1,0 +1,27 @@
+"""Simulates gases of hard needles: infinitely thin rods that fly, spin and collide.
+
+    import needlework
+
+    sim = needlework.Simulation({"needles": {"count": 1000, "box": 10},
+                                 "collisions": {"epsilon": 0.9, "tc_relative": 1e-3}})
+    sim.run(energy_ratio=0.1)
+    print(sim.time, sim.totals.t_tr, sim.totals.t_rot)
+
+Simulation runs a gas, predict() finds first contacts of pairs, theory has rates and cooling curves,
+read() opens files of runs, and plot draws them. docs/python.md is the guide.
+"""
+
+from . import plot, theory
+from ._core import version as __version__
+from .collisions import COLLISION, COLLISION_WITH_STATES
+from .contacts import FirstContacts, predict
+from .errors import Error, InputError, InvalidStateError, IoError
+from .reading import Events, Frame, Frames, Recording, Series, read
+from .simulation import Counters, SceneWarning, Simulation, Totals
+from .values import Table, Values
+
+__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Error", "Events", "FirstContacts",
+           "Frame", "Frames", "InputError", "InvalidStateError", "IoError", "Recording",
+           "SceneWarning", "Series", "Simulation", "Table", "Totals", "Values", "plot", "predict",
+           "read", "theory", "__version__"]
+

@@ -1,0 +1,33 @@
+"""Checks of the arrays that users pass."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .errors import InputError
+
+
+def numbers(name: str, values: ArrayLike) -> np.ndarray:
+    """The values in double precision."""
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: expected an array of numbers: {error}") from None
+
+
+def vectors(name: str, values: ArrayLike) -> np.ndarray:
+    """The values in double precision, of any shape [..., 3]."""
+    array = numbers(name, values)
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise InputError(f"{name}: shape {array.shape}: expected (..., 3)")
+    return array
+
+
+def rows_of_vectors(name: str, values: ArrayLike, count: int | None = None) -> np.ndarray:
+    """The values in double precision, of shape [count, 3]; any count if that is None."""
+    array = numbers(name, values)
+    if array.ndim != 2 or array.shape[1] != 3 or count not in (None, len(array)):
+        raise InputError(f"{name}: shape {array.shape}: "
+                         f"expected ({'N' if count is None else count}, 3)")
+    return array

@@ -1,0 +1,103 @@
+"""Pictures of runs, drawn with Matplotlib (python3-matplotlib).
+
+``source`` is what needlework.read() gives, or a Series beside the ``gas`` of its simulation. Each
+function draws into ``axes``, or into new ones, and returns them.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import theory
+from .errors import InputError
+from .reading import Recording, Series
+from .values import Values
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["cooling", "needles", "temperature_ratio"]
+
+_MEASURED = {"color": "#d1495b", "marker": "o", "markersize": 4, "linestyle": "none"}
+_THEORY = {"color": "#1d3557", "linewidth": 1.6, "label": "kinetic theory"}
+
+
+def cooling(source: Recording | Series, gas: Values | None = None,
+            axes: Axes | None = None) -> Axes:
+    """The energy over its first value against time, beside kinetic theory."""
+    series, gas = _series_and_gas(source, gas)
+    axes = axes or _new_axes()
+    later, start = series.time > 0, series.energy[0]
+    axes.loglog(series.time[later], _theory(series, gas).energy / start, **_THEORY)
+    axes.loglog(series.time[later], series.energy[later] / start, **_MEASURED,
+                label=f"{gas.count} needles")
+    return _finished(axes, "E / E(0)")
+
+
+def temperature_ratio(source: Recording | Series, gas: Values | None = None,
+                      axes: Axes | None = None) -> Axes:
+    """The ratio of translational and rotational temperature against time, beside theory."""
+    series, gas = _series_and_gas(source, gas)
+    axes = axes or _new_axes()
+    later = (series.time > 0) & (series.t_rot > 0)
+    curve = _theory(series, gas)
+    axes.loglog(series.time[series.time > 0], curve.t_tr / curve.t_rot, **_THEORY)
+    axes.loglog(series.time[later], series.t_tr[later] / series.t_rot[later], **_MEASURED,
+                label=f"{gas.count} needles")
+    return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
+
+
+def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
+            most: int = 5000) -> Axes:
+    """Needles as lines in three dimensions, coloured by speed.
+
+    ``state`` is a Simulation or a frame; ``most`` is how many needles are drawn, those with the
+    lowest ids, because Matplotlib is slow with many.
+    """
+    import matplotlib.pyplot as plt
+    from mpl_toolkits.mplot3d.art3d import Line3DCollection
+
+    axes = axes or plt.figure(figsize=(6, 6)).add_subplot(projection="3d")
+    centre, half = state.position[:most], 0.5 * length * state.orientation[:most]
+    speed = np.linalg.norm(state.velocity[:most], axis=1)
+    lines = Line3DCollection(np.stack([centre - half, centre + half], axis=1), cmap="plasma",
+                             array=speed, linewidths=1)
+    axes.add_collection3d(lines)
+    for set_limits, edge in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), state.box):
+        set_limits(0, edge)
+    axes.set_box_aspect(state.box)
+    axes.figure.colorbar(lines, ax=axes, shrink=0.6, label="speed")
+    return axes
+
+
+def _series_and_gas(source: Recording | Series, gas: Values | None) -> tuple[Series, Values]:
+    if isinstance(source, Series):
+        if gas is None:
+            raise InputError("gas is missing: expected that of the simulation, as in "
+                             "plot.cooling(series, gas=sim.gas)")
+        return source, gas
+    return source.series, source.gas
+
+
+def _theory(series: Series, gas: Values) -> theory.CoolingCurve:
+    """At the times of the series but the first."""
+    # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
+    # density n L^2 / sqrt(m).
+    density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)
+    return theory.cooling(gas.epsilon, gas.k, gas.beta, series.t_rot[0],
+                          theory.tau(series.time[series.time > 0], density), series.t_tr[0])
+
+
+def _finished(axes: Axes, label: str) -> Axes:
+    axes.set_xlabel(r"time  [$L\sqrt{m/T}$]")
+    axes.set_ylabel(label)
+    axes.legend(frameon=False)
+    return axes
+
+
+def _new_axes() -> Axes:
+    import matplotlib.pyplot as plt
+
+    return plt.subplots(figsize=(6, 4))[1]

@@ -1,0 +1,61 @@
+"""How far a run is: one line that is drawn again and again, in a notebook or on a terminal."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from typing import Any
+
+
+def in_notebook() -> bool:
+    """Whether this is the kernel of a Jupyter notebook."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return getattr(shell, "kernel", None) is not None
+
+
+def progress_line(wanted: bool | None) -> NotebookLine | TerminalLine | None:
+    """The line to draw, if any; None shows progress in notebooks only."""
+    if wanted is None:
+        wanted = in_notebook()
+    if not wanted:
+        return None
+    return NotebookLine() if in_notebook() else TerminalLine()
+
+
+class TerminalLine:
+    """On stderr."""
+
+    def __init__(self) -> None:
+        self._width = 0
+
+    def show(self, text: str) -> None:
+        text = text[:shutil.get_terminal_size().columns - 1]
+        self._width = max(self._width, len(text))
+        sys.stderr.write(f"\r{text:<{self._width}}")
+        sys.stderr.flush()
+
+    def clear(self) -> None:
+        if self._width:
+            sys.stderr.write(f"\r{'':<{self._width}}\r")
+            sys.stderr.flush()
+
+
+class NotebookLine:
+    """Below the cell."""
+
+    def __init__(self) -> None:
+        self._handle: Any = None
+
+    def show(self, text: str) -> None:
+        from IPython.display import display
+
+        content = {"text/plain": text}
+        if self._handle is None:
+            self._handle = display(content, raw=True, display_id=True)
+        else:
+            self._handle.update(content, raw=True)
+
+    def clear(self) -> None:
+        if self._handle is not None:
+            self._handle.update({"text/plain": ""}, raw=True)

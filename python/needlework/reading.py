@@ -1,0 +1,287 @@
+"""Reads files of runs: series, frames and collisions as NumPy arrays.
+
+Files are read with h5py rather than with the library, which reads last frames and series only:
+h5py reads the frames and the collisions that are asked for and nothing else, whatever the size of
+the file. docs/file-format.md describes what is in a file.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .collisions import RECORDED_COLLISION
+from .errors import InputError, IoError
+from .values import Table, Values, html_table, pandas_table
+
+if TYPE_CHECKING:
+    import h5py
+    import pandas
+
+TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
+
+
+def read(path: str | os.PathLike[str]) -> Recording:
+    """Opens a file that a run has written, or is writing.
+
+    What is already in the file at that moment can be read; open it again to see more.
+
+    Raises IoError if the file cannot be read, and InputError if it is not the file of a run.
+    """
+    return Recording(path)
+
+
+class Series(Table):
+    """Sums over all needles at the times of the samples, arrays [S]."""
+
+    time: np.ndarray
+    """Since the start of the run [time]."""
+    t_tr: np.ndarray
+    """Translational temperature, two thirds of the mean energy of translation."""
+    t_rot: np.ndarray
+    """Rotational temperature, the mean energy of rotation."""
+    energy: np.ndarray
+    """Energy per needle."""
+    momentum: np.ndarray
+    """Total momentum, [S, 3]."""
+    collisions: np.ndarray
+    """Number of collisions since the start."""
+    tc_collisions: np.ndarray
+    """How many of them were elastic by the t_c rule."""
+
+    @classmethod
+    def of(cls, samples: Iterable[Mapping[str, Any]]) -> Series:
+        """The series of the totals of a simulation at some times, in order of time."""
+        samples = list(samples)
+        return cls({name: np.array([sample[name] for sample in samples])
+                    for name in ("time", *TOTALS)})
+
+
+class Frame:
+    """All needles at one instant, in order of id. Arrays are read when they are asked for."""
+
+    def __init__(self, needles: h5py.Group, index: int) -> None:
+        self._needles = needles
+        self._index = index
+        self.time: float = float(needles["position/time"][index])
+        """Since the start of the run [time]."""
+        self.collisions: int = int(needles["position/step"][index])
+        """Number of collisions before this instant."""
+
+    def _row(self, name: str) -> np.ndarray:
+        return self._needles[name]["value"][self._index]
+
+    @cached_property
+    def position(self) -> np.ndarray:
+        """Centres in the box, [N, 3] [L]."""
+        return self._row("position")
+
+    @cached_property
+    def velocity(self) -> np.ndarray:
+        """Velocities, [N, 3] [L / time]."""
+        return self._row("velocity")
+
+    @cached_property
+    def orientation(self) -> np.ndarray:
+        """Unit directors, [N, 3]."""
+        return self._row("orientation")
+
+    @cached_property
+    def angular_velocity(self) -> np.ndarray:
+        """Angular velocities, normal to the directors, [N, 3] [1 / time]."""
+        return self._row("angular_velocity")
+
+    @cached_property
+    def image(self) -> np.ndarray:
+        """Number of boxes to add to each centre to follow its path, [N, 3]."""
+        return self._row("image")
+
+    @cached_property
+    def box(self) -> np.ndarray:
+        """Edges of the periodic box, [3] [L]."""
+        return self._row("box/edges").diagonal().copy()
+
+    @cached_property
+    def id(self) -> np.ndarray:
+        """Ids of the needles, [N], the same in all frames."""
+        return self._needles["id"][:]
+
+    def __repr__(self) -> str:
+        return f"<Frame {self._index} at time {self.time:g}, {self.collisions} collisions>"
+
+
+class Frames(Sequence):
+    """Frames by index: ``frames[-1]``, ``len(frames)``, ``for frame in frames``."""
+
+    def __init__(self, needles: h5py.Group) -> None:
+        self._needles = needles
+        # The step of a frame is written last.
+        self._count = len(needles["position/step"])
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __getitem__(self, index: Any) -> Any:
+        places = range(self._count)[index]
+        if isinstance(places, range):
+            return [Frame(self._needles, place) for place in places]
+        return Frame(self._needles, places)
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of all frames, [F] [time]."""
+        return self._needles["position/time"][:self._count]
+
+    def __repr__(self) -> str:
+        return f"<{self._count} Frames>"
+
+
+class Events:
+    """Collisions in the order of their times.
+
+    ``events[i]`` is one of them and ``events[a:b]`` a structured array, of which nothing else is
+    read; ``events["arms"]`` is one field of all. The fields are those of Simulation.on_collisions
+    without sin_angle and energy_change, which files do not hold.
+    """
+
+    def __init__(self, group: h5py.Group) -> None:
+        self._group = group
+        self._count = len(group["time"])  # written last
+        self.dtype = RECORDED_COLLISION
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __getitem__(self, index: Any) -> np.ndarray:
+        if isinstance(index, str):
+            if index not in self.dtype.names:
+                raise InputError(f"events[{index!r}]: expected one of "
+                                 f"{', '.join(self.dtype.names)}")
+            return self._group[index][:self._count].astype(self.dtype[index].base)
+        places = range(self._count)[index]
+        if not isinstance(places, range):
+            return self[places:places + 1][0]
+        first, last = (min(places), max(places) + 1) if places else (0, 0)
+        rows = np.empty(last - first, dtype=self.dtype)
+        for name in self.dtype.names:
+            rows[name] = self._group[name][first:last]
+        return rows[::places.step] if places.step > 0 else rows[::-1][::-places.step]
+
+    def __iter__(self) -> Iterator[np.void]:
+        for begin in range(0, self._count, 8192):
+            yield from self[begin:begin + 8192]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """All collisions as a table of pandas, with columns such as pair_1 and impulse_x."""
+        return pandas_table({name: self[name] for name in self.dtype.names})
+
+    def __repr__(self) -> str:
+        return f"<{self._count} Events: {', '.join(self.dtype.names)}>"
+
+
+class Recording:
+    """The file of a run; see read(). It is closed by close(), by ``with``, or when forgotten."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = os.fspath(path)
+        self._file = _open(self.path)
+        if "particles/needles/position/step" not in self._file:
+            self._file.close()
+            raise InputError(f"{self.path}: /particles/needles is missing: "
+                             "expected the file of a run of Needlework")
+
+    @cached_property
+    def series(self) -> Series:
+        """Sums over all needles, many times per decade of time."""
+        group = self._group("series", "a file of a run with a series")
+        samples = len(group["step"])
+        columns = {"time": group["time"][:samples]}
+        columns |= {name: group[name]["value"][:samples] for name in TOTALS}
+        return Series(columns)
+
+    def observable(self, name: str) -> Values:
+        """What output.observables named, or "theory": fields of one row per sample of the series,
+        and constants such as the borders of bins."""
+        group = self._group(f"series/{name}", f"a run with {name!r} in output.observables")
+        samples = len(self._group("series", "a file of a run with a series")["step"])
+        return Values({field: item["value"][:samples] if isinstance(item, h5py.Group) else item[:]
+                       for field, item in group.items()})
+
+    @property
+    def frames(self) -> Frames:
+        """States of all needles, read one by one."""
+        return Frames(self._group("particles/needles", "needles"))
+
+    @property
+    def events(self) -> Events:
+        """Collisions, if the scene asked for them with output.events = true."""
+        return Events(self._group("events", "a run with output.events = true"))
+
+    @cached_property
+    def parameters(self) -> Values:
+        """Scene and settings of the run: scene, version, seed, isa, threads, k, epsilon, ..."""
+        group = self._group("parameters", "the parameters of a run")
+        return Values({name: _plain(data[()]) for name, data in group.items()})
+
+    @cached_property
+    def gas(self) -> Values:
+        """What theory has to know: count, box, k, epsilon, beta, length and mass."""
+        needles = self._group("particles/needles", "needles")
+        masses = needles["mass"][:1] if "mass" in needles else ()
+        given = self.parameters
+        return Values({"count": len(needles["id"]), "box": self.frames[0].box, "k": given.k,
+                       "epsilon": given.epsilon, "beta": given.beta,
+                       "length": given.get("length", 1.0),
+                       "mass": float(masses[0]) if len(masses) else 1.0})
+
+    def close(self) -> None:
+        """Closes the file. Arrays that were read stay."""
+        self._file.close()
+
+    def __enter__(self) -> Recording:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    def _group(self, name: str, expected: str) -> h5py.Group:
+        if not self._file:
+            raise IoError(f"{self.path}: is closed: expected an open file")
+        if name not in self._file:
+            raise InputError(f"{self.path}: /{name} is missing: expected {expected}")
+        return self._file[name]
+
+    def __repr__(self) -> str:
+        return f"<Recording {self.path}>" if self._file else f"<Recording {self.path}, closed>"
+
+    def _repr_html_(self) -> str:
+        facts = {"file": self.path}
+        if self._file:
+            facts |= {"title": self.parameters.title, "needles": self.gas.count,
+                      "samples": self.series.rows, "frames": len(self.frames),
+                      "events": len(self.events) if "events" in self._file else "not recorded"}
+        return html_table(facts)
+
+
+def _open(path: str) -> h5py.File:
+    try:
+        import h5py
+    except ImportError as error:
+        raise ImportError("needlework.read() needs h5py: expected the package python3-h5py "
+                          "to be installed") from error
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise IoError(f"{path}: cannot be read: {reason}") from error
+
+
+def _plain(value: Any) -> Any:
+    """Text for bytes, and numbers of Python for those of NumPy."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if isinstance(value, np.generic) else value

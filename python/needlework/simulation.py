@@ -1,0 +1,386 @@
+"""Simulations of gases of hard needles."""
+
+from __future__ import annotations
+
+import operator
+import os
+import warnings
+from collections.abc import Callable
+from typing import NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from .arrays import rows_of_vectors
+from .collisions import COLLISION, COLLISION_WITH_STATES
+from .errors import Error, InputError
+from .progress import progress_line
+from .scene_text import SceneLike, scene_text
+from .values import Values, html_table
+
+Callback = Callable[[np.ndarray], object]
+
+
+class SceneWarning(UserWarning):
+    """A setting of a scene that is allowed but probably not intended."""
+
+
+class Totals(Values):
+    """Sums over all needles at one instant."""
+
+    time: float
+    """Since the start of the run [time]."""
+    t_tr: float
+    """Translational temperature, two thirds of the mean energy of translation."""
+    t_rot: float
+    """Rotational temperature, the mean energy of rotation."""
+    energy: float
+    """Energy per needle."""
+    momentum: np.ndarray
+    """Total momentum, [3]."""
+    collisions: int
+    """Number of collisions since the start."""
+    tc_collisions: int
+    """How many of them were elastic by the t_c rule."""
+
+
+class Counters(Values):
+    """Counters of the work done, such as events, candidates and predicted. No trajectory depends
+    on them."""
+
+
+class Snapshot(NamedTuple):
+    """All needles at one instant, in order of id. The arrays never change."""
+
+    position: np.ndarray
+    velocity: np.ndarray
+    orientation: np.ndarray
+    angular_velocity: np.ndarray
+    image: np.ndarray
+    id: np.ndarray
+
+
+class Simulation:
+    """A gas of hard needles, simulated collision by collision.
+
+    Parameters
+    ----------
+    scene : dict, str or path
+        A dictionary of the scene's sections, such as ``{"needles": {"count": 1000, "box": 10}}``,
+        TOML text, or the path of a scene file. docs/scenes.md lists all keys. A scene without
+        [until] needs limits in each call of run().
+    position, velocity, orientation, angular_velocity : arrays [N, 3], optional
+        The state to start from: centres in the box or not [L], velocities [L / time], unit
+        directors, angular velocities normal to them [1 / time]. Positions and directors need each
+        other; velocities are 0 if they are not given. The scene then needs no needles.count, and
+        temperatures in it are an error.
+    force : bool
+        Whether output.file may replace an existing file.
+
+    Units: the length and the mass of needles are 1 unless the scene says otherwise, temperatures
+    are energies, and time is in L sqrt(m / T).
+
+    A simulation whose scene names output.file writes it as the program does. close() completes
+    the file, and so does the end of a ``with`` block.
+
+    Only one thread at a time may use a simulation; the others, and callbacks, may only call
+    interrupt(). Everything else raises Error while it runs. The interpreter is free for other
+    threads meanwhile, also for simulations of their own.
+
+    Raises InputError for a scene or a state that cannot be simulated, and IoError for files.
+    """
+
+    def __init__(self, scene: SceneLike, *, position: ArrayLike | None = None,
+                 velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
+                 angular_velocity: ArrayLike | None = None, force: bool = False) -> None:
+        text, name, has_lines = scene_text(scene)
+        state = _state({"position": position, "velocity": velocity, "orientation": orientation,
+                        "angular_velocity": angular_velocity})
+        self._run = _core.Run(text, name, has_lines, state, force)
+        for message in self._run.warnings():
+            warnings.warn(message, SceneWarning, stacklevel=2)
+        self._facts = Values(self._run.facts())
+        self._forget()
+
+    # Running
+
+    def run(self, time: float | None = None, collisions_per_needle: float | None = None,
+            energy_ratio: float | None = None, wall_s: float | None = None, *,
+            progress: bool | None = None) -> str:
+        """Runs until the first of these limits is met. They count from the start of the run.
+
+        Parameters
+        ----------
+        time : float
+            Simulated time [time].
+        collisions_per_needle : float
+            2 collisions / N, because a collision counts for both needles.
+        energy_ratio : float
+            Energy over that at the start.
+        wall_s : float
+            Wall-clock time of this call [s].
+        progress : bool
+            Whether to show a line with the progress; by default in notebooks only.
+
+        Without limits, those of the scene's [until] hold.
+
+        Returns
+        -------
+        str
+            Why it stopped: "time", "collisions", "energy", "wall_time", "interrupted" or
+            "nothing_can_happen".
+
+        Raises
+        ------
+        InvalidStateError
+            If the simulation cannot go on correctly. It stays as it was before that event.
+        KeyboardInterrupt
+            By Ctrl-C. The trajectory is not changed: the run may be continued by another call.
+        """
+        return self._drive(self._run.run, progress, {}, time=time,
+                           collisions_per_needle=collisions_per_needle,
+                           energy_ratio=energy_ratio, wall_s=wall_s)
+
+    def advance(self, time: float | None = None, collisions: int | None = None,
+                collisions_per_needle: float | None = None, energy_ratio: float | None = None,
+                wall_s: float | None = None, *, progress: bool | None = None) -> str:
+        """Runs on until the first of these limits is met. They count from the present state.
+
+        ``collisions`` is the number of collisions of all needles together; the others are those
+        of run(), whose return value and errors are the same. At least one limit is required.
+        """
+        return self._drive(self._run.advance, progress,
+                           {"collisions": _whole("collisions", collisions)}, time=time,
+                           collisions_per_needle=collisions_per_needle,
+                           energy_ratio=energy_ratio, wall_s=wall_s)
+
+    def interrupt(self) -> None:
+        """Stops run() or advance() soon: the call in progress, or else the next one.
+
+        It returns "interrupted". May be called by any thread and by callbacks.
+        """
+        self._run.interrupt()
+
+    def on_collisions(self, callback: Callback | None, batch: int = 1024, *,
+                      states: bool = False) -> None:
+        """Calls ``callback(rows)`` for all collisions from now on, up to ``batch`` at once.
+
+        Rows are a structured array of the type needlework.COLLISION, in order of time. The
+        collisions that are left when run() or advance() stops are passed on before it returns, so
+        that each collision is passed on exactly once. None ends it.
+
+        With ``states``, each row has the states of both needles after the collision, as
+        ``rows["after"]``; see needlework.COLLISION_WITH_STATES.
+
+        An exception of the callback stops the advance, which raises it. Collisions that happened
+        in between are passed on by the next advance.
+
+        The callback must not use the simulation, which is ahead of the collisions passed on;
+        only interrupt() may be called.
+        """
+        if callback is not None and not callable(callback):
+            raise InputError(f"callback = {callback!r}: expected a function or None")
+        size = _whole("batch", batch)
+        if size is None or size < 1:
+            raise InputError(f"batch = {batch!r}: expected a whole number, 1 or more")
+        self._run.on_collisions(callback, size, COLLISION_WITH_STATES if states else COLLISION)
+
+    def set_velocities(self, velocity: ArrayLike, angular_velocity: ArrayLike) -> None:
+        """Replaces the velocities of all needles, as arrays [N, 3] in order of id.
+
+        The part of an angular velocity along the director is removed. Counts, the hash and the
+        energy that energy_ratio refers to are kept. Costs about as much as a new simulation.
+        """
+        count = self._facts.count
+        self._forget()
+        self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
+                                 rows_of_vectors("angular_velocity", angular_velocity, count))
+
+    def save(self, path: str | os.PathLike[str], force: bool = False) -> None:
+        """Writes the present state to a file, from which ``initial.file`` of a scene starts.
+
+        ``force`` replaces an existing file. Raises IoError.
+        """
+        self._run.save(os.fspath(path), force)
+
+    def close(self) -> None:
+        """Completes output.file, if there is one. The state can be read, but not advanced."""
+        self._run.close()
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    # The present state
+
+    @property
+    def position(self) -> np.ndarray:
+        """Centres in the box, [N, 3] [L]. Like all arrays of the state: in order of id,
+        read-only, valid for good, and copied from the simulation once for each advance."""
+        return self._snapshot.position
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """Velocities of the centres, [N, 3] [L / time]."""
+        return self._snapshot.velocity
+
+    @property
+    def orientation(self) -> np.ndarray:
+        """Unit directors, [N, 3]."""
+        return self._snapshot.orientation
+
+    @property
+    def angular_velocity(self) -> np.ndarray:
+        """Angular velocities, normal to the directors, [N, 3] [1 / time]."""
+        return self._snapshot.angular_velocity
+
+    @property
+    def image(self) -> np.ndarray:
+        """Number of box edges to add to each centre to follow its path, [N, 3]."""
+        return self._snapshot.image
+
+    @property
+    def id(self) -> np.ndarray:
+        """Ids of the needles, [N]."""
+        return self._snapshot.id
+
+    @property
+    def time(self) -> float:
+        """Since the start of the run [time]."""
+        return self._run.time()
+
+    @property
+    def totals(self) -> Totals:
+        """Sums over all needles: time, t_tr, t_rot, energy, momentum, collisions, ..."""
+        if self._totals is None:
+            self._totals = Totals(self._run.totals())
+        return self._totals
+
+    @property
+    def counters(self) -> Counters:
+        """Counters of the work done so far."""
+        return Counters(self._run.counters())
+
+    @property
+    def hash(self) -> str:
+        """Hash of all collisions so far, 32 hexadecimal digits. Equal for the same trajectory."""
+        return self._run.hash()
+
+    @property
+    def mean_free_time(self) -> float:
+        """By kinetic theory, from the temperatures of the present window [time]."""
+        return self._run.mean_free_time()
+
+    # What does not change
+
+    def __len__(self) -> int:
+        """Number of needles."""
+        return self._facts.count
+
+    @property
+    def box(self) -> np.ndarray:
+        """Edges of the periodic box, [3] [L]."""
+        return self._facts.box
+
+    @property
+    def gas(self) -> Values:
+        """What theory has to know: count, box, k, epsilon, beta, length and mass."""
+        names = ("count", "box", "k", "epsilon", "beta", "length", "mass")
+        return Values({name: self._facts[name] for name in names})
+
+    @property
+    def engine(self) -> Values:
+        """The parts of the engine in use: search, queue, isa, threads and effects. Search and
+        queue may change with the density, where the scene leaves them to be chosen."""
+        names = ("search", "queue", "isa", "threads", "effects")
+        facts = self._run.facts()
+        return Values({name: facts[name] for name in names})
+
+    @property
+    def file(self) -> str:
+        """The file that is written, or an empty string."""
+        return self._facts.file
+
+    @property
+    def scene(self) -> str:
+        """The scene as TOML."""
+        return self._facts.text
+
+    def __repr__(self) -> str:
+        return f"<Simulation of {len(self)} needles>"
+
+    def _repr_html_(self) -> str:
+        facts = self._facts
+        edges = " x ".join(f"{edge:g}" for edge in facts.box)
+        rows = {"title": facts.title} if facts.title else {}
+        rows |= {"needles": f"{facts.count} in a box of {edges}", "collisions are": facts.effects}
+        try:
+            now = self.totals
+        except Error:
+            rows["state"] = "running"
+        else:
+            rows |= {"time": now.time, "energy": now.energy, "T_tr": now.t_tr,
+                     "T_rot": now.t_rot, "collisions": now.collisions, "hash": self.hash}
+        if facts.file:
+            rows["file"] = facts.file
+        return html_table(rows)
+
+    # The copies of the state that are handed out
+
+    @property
+    def _snapshot(self) -> Snapshot:
+        if self._copy is None:
+            self._copy = Snapshot(*self._run.state())
+        return self._copy
+
+    def _forget(self) -> None:
+        self._copy: Optional[Snapshot] = None
+        self._totals: Optional[Totals] = None
+
+    def _drive(self, call: Callable[..., str], progress: bool | None,
+               counts: dict[str, int | None], **limits: float | None) -> str:
+        numbers = {name: _number(name, limit) for name, limit in limits.items()}
+        line = progress_line(progress)
+        self._forget()
+        try:
+            return call(**counts, **numbers, show=line.show if line else None)
+        finally:
+            if line:
+                line.clear()
+
+
+def _state(arrays: dict[str, ArrayLike | None]) -> tuple[np.ndarray, ...] | None:
+    """The four arrays of an initial state, or None if there are none."""
+    given = {name: values for name, values in arrays.items() if values is not None}
+    if not given:
+        return None
+    for name in ("position", "orientation"):
+        if name not in given:
+            raise InputError(f"{name} is missing: expected position and orientation, where a "
+                             "state is given")
+    first = rows_of_vectors("position", given["position"])
+    return tuple(rows_of_vectors(name, given.get(name, np.zeros_like(first)), len(first))
+                 for name in arrays)
+
+
+def _number(name: str, value: float | None) -> float | None:
+    try:
+        return None if value is None else float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} = {value!r}: expected a number >= 0") from None
+
+
+def _whole(name: str, value: float | None) -> int | None:
+    """A number such as 1000 or 1e3 as an integer."""
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    try:
+        number = None if value is None else operator.index(value)
+    except TypeError:
+        number = -1
+    if number is not None and number < 0:
+        raise InputError(f"{name} = {value!r}: expected a whole number, 0 or more")
+    return number

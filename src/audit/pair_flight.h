@@ -1,0 +1,139 @@
+// Two needles and one periodic image between their collisions: the contact function with certified
+// error bounds, and how uncertain it is because of the rounded input.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "src/audit/flight.h"
+
+namespace needlework::audit {
+
+/// Number of boxes added to the second needle's centre.
+using Shift = std::array<std::int32_t, 3>;
+
+/// A needle's record, and its flight prepared for double.
+struct Needle {
+  explicit Needle(const Record& given) : record(given), flight(given) {}
+  Record record;
+  Flight<Ball<double>> flight;
+};
+
+/// The start of a pair's flight: apart, or touching with a side known from previous flights.
+struct Start {
+  enum Kind {
+    apart,
+    collided,  ///< with each other: f starts at 0, on `side`, or with unknown side if that is 0
+    touching,  ///< f(0) cannot be distinguished from 0, but the pair is on `side` of a contact
+  };
+  Kind kind = apart;
+  int side = 0;
+  /// f(0) of a pair that stays near a contact without a collision, which is f at the end of the
+  /// previous flight.
+  std::optional<double> gap;
+  double gap_error = 0;  ///< uncertainty of `gap`
+};
+
+/// The gas that the pairs belong to.
+struct Space {
+  std::array<double, 3> box{};
+
+  /// Largest change of a contact function by rounding a new record. [L]
+  double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2]); }
+  /// If |f| is below this and contact points are on the needles or within `beside` of them, f is
+  /// continued from one flight to the next. This is the engine's rule, so that sequences of
+  /// bounces are followed to their end. [L]
+  double continued() const { return 0x1p-44 * (1 + box[0] + box[1] + box[2]); }
+};
+
+/// After this many lengths or radians of flight the engine may have renewed and rounded a record.
+inline constexpr double longest_record = 0x1p9;
+
+/// Largest distance of a contact point beyond a tip at which it counts as near the needle. [L]
+inline constexpr double beside = 0x1p-18;
+
+/// Times are multiples of this or finer. [epochs]
+inline constexpr double resolution = 0x1p-52;
+
+/// The values at one time. Errors are those of the arithmetic alone.
+struct Sample {
+  double f, f_error;    ///< f = r12 . (u1 x u2)
+  double df, df_error;  ///< its time derivative
+  double distance;      ///< lower bound on |r12|
+  double sine;          ///< lower bound on |u1 x u2|
+  /// Bounds on |u2 x r12| and |u1 x r12|; at a contact these are |s12| and |s21| times the sine.
+  std::array<double, 2> moment_least, moment_most;
+  /// sine^2 / 2 - |(u2 x r12).(u1 x u2)|, and the same for u1; positive if the contact points are
+  /// on the needles.
+  std::array<double, 2> margin, margin_error;
+};
+
+/// Times s are counted from the later of both records.
+class PairFlight {
+ public:
+  PairFlight(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
+             const Start& start);
+
+  /// Values in double; use `precise` if their errors are too large.
+  Sample sample(double s) const;
+  Sample precise(double s);
+  bool needed_quad() const { return precise_.has_value(); }
+
+  double speed() const { return speed_; }  ///< lower bound on |v12|.
+  double spin() const { return spin_; }    ///< lower bound on |w1| + |w2|.
+  double rate() const { return speed_ + spin_; }
+  /// Bound on |f''| from `begin` to `end`, where |r12| is at most `distance`. [L / time^2]
+  double bend(double begin, double end, double distance) const;
+  /// Improves that bound for needles that are nearly in one plane; uses 113 bits.
+  void find_coefficients();
+  /// Bound on the rates of change of `moment` i and of |r12|, where |r12| is at most `distance`.
+  /// [L / time]
+  double moment_rate(int i, double distance) const { return speed_ + omega_[1 - i] * distance; }
+
+  /// The condition limit: the uncertainty of f within `half` of the time of the sample, if each
+  /// number of the records, with relative positions, may be off by half a unit, and f is computed
+  /// in double. [L]
+  double limit(const Sample& sample, double s, double half = 0) const;
+  /// The same for `margin`.
+  double margin_limit(const Sample& sample, double s) const;
+  /// Whether the value of f at s is continued into a flight that starts there.
+  bool is_near_contact(double s) const;
+  const Start& start() const { return start_; }
+
+ private:
+  struct Uncertainty {
+    double distance;                  ///< of r12
+    std::array<double, 2> directors;  ///< of u1 and u2
+    double lengths;                   ///< lengths from which f is computed [L]
+  };
+  Uncertainty uncertainty(double s) const;
+
+  struct Precise {
+    Flight<Ball<Quad>> first, second;
+    std::array<Ball<Quad>, 2> delay;
+  };
+  const Precise& in_quad();
+
+  const Needle& first_;
+  const Needle& second_;
+  Vector<double> shift_;
+  Space space_;
+  Start start_;
+  std::array<Ball<double>, 2> delay_;  ///< time from each record to s = 0
+  std::array<double, 2> omega_, velocity_;
+  double speed_ = 0, spin_ = 0;
+  double distance_ = 0;  ///< lower bound on |r12| at s = 0
+  double offset_ = 0;    ///< correction of f(0) to its value in the previous flight
+  double slope_ = 0;     ///< f'(0) of a pair that has just collided and, by rounding, approaches
+  std::optional<Precise> precise_;
+  // Coefficients of f as a sum of products of the cosine or sine of each needle's angle since its
+  // record.
+  struct Coefficient {
+    double constant, linear;  ///< constant and linear in time; upper bounds on their sizes
+  };
+  using Coefficients = std::array<std::array<Coefficient, 2>, 2>;
+  std::optional<Coefficients> coefficients_;
+};
+
+}  // namespace needlework::audit

@@ -1,0 +1,143 @@
+#include "src/cli/import_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "src/cli/file_kind.h"
+#include "src/cli/messages.h"
+#include "src/io/formats/read_configuration.h"
+#include "src/io/formats/text_file.h"
+#include "src/runs/exit_codes.h"
+#include "src/runs/loaded_scene.h"
+#include "src/runs/output_path.h"
+#include "src/scene/printable.h"
+
+namespace needlework::cli {
+
+using enum runs::ExitCode;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double assumed_collisions_per_needle = 10;
+
+// A string in TOML, for which that of JSON serves: control characters and invalid UTF-8 are gone.
+std::string toml(const std::string& text) { return nlohmann::json(printable(text)).dump(); }
+
+// A key that the file does not give has the value of the scene's default.
+void warn_of_what_is_assumed(const io::Material& material, const std::string& path) {
+  const Scene::Species species;
+  const Scene::Collisions collisions;
+  for (const auto& [name, value, assumed] :
+       {std::tuple("length", material.length, species.length),
+        std::tuple("mass", material.mass, species.mass), std::tuple("k", material.k, species.k),
+        std::tuple("epsilon", material.epsilon, collisions.epsilon)}) {
+    if (value) continue;
+    print_warning(
+        fmt::format("{}: {} is not in the file: {} is assumed", printable(path), name, assumed));
+  }
+}
+
+std::string scene_text(const io::Configuration& read, const std::string& from,
+                       const std::string& state_file) {
+  const io::Material& material = read.material;
+  const Scene::Species species;
+  const Scene::Collisions collisions;
+  const double beta = material.beta.value_or(collisions.beta);
+  return fmt::format(R"(title = {}
+
+[needles]
+box = [{}]
+
+[[species]]
+name = {}
+count = {}
+length = {}
+mass = {}
+k = {}
+
+[initial]
+file = {}
+
+[collisions]
+epsilon = {}
+{}
+[until]
+collisions_per_needle = {}  # not from the file: choose an end
+)",
+                     toml("Imported from " + fs::path(from).filename().string()),
+                     fmt::join(read.state.box, ", "),
+                     toml(material.name.empty() ? "needles" : material.name), read.state.size(),
+                     material.length.value_or(species.length), material.mass.value_or(species.mass),
+                     material.k.value_or(species.k), toml(state_file),
+                     material.epsilon.value_or(collisions.epsilon),
+                     beta == collisions.beta ? "" : fmt::format("beta = {}\n", beta),
+                     assumed_collisions_per_needle);
+}
+
+io::Configuration read_configuration(const std::string& path) {
+  try {
+    return io::read_configuration(path);
+  } catch (const InputError& error) {
+    throw InputError(printable(error.what()));
+  }
+}
+
+// Parses the scene, so that a configuration that cannot be run is reported now, not by `run`.
+Scene checked_scene(const std::string& text, const std::string& from) {
+  try {
+    return parse_scene(text, "scene.toml");
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: cannot be run: {}", printable(from), error.what()));
+  }
+}
+
+void write_state(const std::string& file, bool force, const Scene& scene, const State& state) {
+  io::RunInfo run;
+  run.isa = "none";  // nothing was computed
+  io::Writer writer(file, force, scene, run);
+  writer.write_frame(runs::totals_of(state, scene), state);
+  writer.close();
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw IoError(fmt::format("--out {}: cannot be made: {}", printable(folder),
+                              error ? error.message() : "expected a folder"));
+  }
+}
+
+}  // namespace
+
+int run(const ImportArguments& arguments) {
+  const io::Configuration read = read_file(arguments.from, FileKind::foreign,
+                                           [&] { return read_configuration(arguments.from); });
+  const fs::path folder(arguments.folder);
+  const std::string scene_file = (folder / "scene.toml").string();
+  const std::string state_file = (folder / "state.h5").string();
+  const std::string text =
+      scene_text(read, arguments.from, fs::absolute(state_file).lexically_normal().string());
+  const Scene scene = checked_scene(text, arguments.from);
+
+  make_folder(arguments.folder);
+  for (const std::string& file : {scene_file, state_file}) {
+    runs::require_writable(file, arguments.force, file);
+  }
+  warn_of_what_is_assumed(read.material, arguments.from);
+  write_state(state_file, arguments.force, scene, read.state);
+  io::TextFile out(scene_file, arguments.force);
+  out.write(text);
+  out.publish();
+  return ok;
+}
+
+}  // namespace needlework::cli

@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "needlework/error.h"
+#include "src/io/formats/dynamo.h"
+#include "src/io/formats/input_text.h"
+#include "src/io/formats/xml.h"
+#include "src/io/needle_check.h"
+
+namespace needlework::io {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr const char* version = "1.5.0";
+
+// About two million needles. The document takes about five times as much memory as its text.
+constexpr std::size_t max_xml_bytes = std::size_t{1} << 30;
+
+// A director that was written beside a quaternion differs from the quaternion's by roundings alone.
+constexpr double largest_rounding = 1e-14;
+
+Vector vector_of(const XmlElement& element) {
+  return {element.number("x"), element.number("y"), element.number("z")};
+}
+
+Vector read_vector(const XmlElement& parent, const char* name) {
+  const XmlElement element = parent.child(name);
+  element.require_only({"x", "y", "z"}, {});
+  return vector_of(element);
+}
+
+double positive_number(const XmlElement& element, const char* attribute) {
+  const double value = element.number(attribute);
+  if (!(value > 0)) element.reject(attribute, "a number > 0");
+  return value;
+}
+
+// Mass, length and elasticity can be the names of properties that differ between particles.
+double common_number(const XmlElement& element, const char* attribute) {
+  double value = 0;
+  try {
+    value = element.number(attribute);
+  } catch (const InputError&) {
+    element.reject(attribute, "a finite number, the same for all particles");
+  }
+  return value;
+}
+
+// All particles, or all pairs: as an element, or as an attribute in files of earlier programs.
+void require_all(const XmlElement& element, const char* range, const char* earlier) {
+  if (const auto child = element.first(range)) {
+    if (element.has("Range")) element.reject("Range", "this or the element, not both");
+    element.child(range).require_word("Type", {"All"}, "All: ranges cannot be carried over");
+    child->require_only({"Type"}, {});
+  } else {
+    element.require_word("Range", {earlier},
+                         fmt::format("{}: ranges cannot be carried over", earlier));
+  }
+}
+
+// Returns the moment of inertia for a unit of mass, with digits beyond those of a double: only
+// these may lead back to a given k.
+long double read_species(const XmlElement& simulation, Material& material) {
+  const XmlElement genus = simulation.child("Genus");
+  genus.require_only({}, {"Species"});
+  if (const auto species = genus.first("Species"); species && species->next()) {
+    species->next()->reject("a second species cannot be carried over: expected one");
+  }
+  const XmlElement species = genus.child("Species");
+  species.require_word("Type", {"SphericalTop", "Lines"},
+                       "SphericalTop or Lines: other particles cannot be carried over");
+  species.require_only({"Type", "Name", "IntName", "Mass", "InertiaConstant", "Range"},
+                       {"IDRange"});
+  require_all(species, "IDRange", "All");
+  material.name = species.text("Name");
+  material.mass = common_number(species, "Mass");
+  if (!(*material.mass > 0)) species.reject("Mass", "a number > 0");
+  positive_number(species, "InertiaConstant");
+  return std::strtold(std::string(species.text("InertiaConstant")).c_str(), nullptr);
+}
+
+void read_interaction(const XmlElement& simulation, Material& material) {
+  const XmlElement interactions = simulation.child("Interactions");
+  interactions.require_only({}, {"Interaction"});
+  for (auto each = interactions.first("Interaction"); each; each = each->next()) {
+    each->require_word("Type", {"Lines"}, "Lines: other interactions cannot be carried over");
+  }
+  const XmlElement lines = interactions.child("Interaction");
+  // A CaptureMap lists which pairs are near each other, and follows from the positions.
+  lines.require_only({"Type", "Name", "Length", "Elasticity", "Range"},
+                     {"IDPairRange", "CaptureMap"});
+  require_all(lines, "IDPairRange", "2All");
+  material.length = common_number(lines, "Length");
+  if (!(*material.length > 0)) lines.reject("Length", "a number > 0");
+  material.epsilon = common_number(lines, "Elasticity");
+  if (!(*material.epsilon >= 0 && *material.epsilon <= 1)) {
+    lines.reject("Elasticity", "a number from 0 to 1");
+  }
+}
+
+// Whatever acts on particles besides collisions.
+void require_nothing_else(const XmlElement& simulation) {
+  simulation.child("BC").require_word(
+      "Type", {"PBC"}, "PBC: boundaries other than periodic ones cannot be carried over");
+  simulation.child("BC").require_only({"Type"}, {});
+  simulation.child("Dynamics")
+      .require_word("Type", {"Newtonian"}, "Newtonian: other dynamics cannot be carried over");
+  simulation.child("Dynamics").require_only({"Type"}, {});
+  for (const char* name : {"Topology", "Locals", "SystemEvents"}) {
+    if (simulation.first(name)) simulation.child(name).require_only({}, {});
+  }
+  if (!simulation.first("Globals")) return;
+  // Lists of neighbours, and a guard of the boundaries, have no effect on the motion.
+  simulation.child("Globals").require_only({}, {"Global"});
+  for (auto global = simulation.child("Globals").first("Global"); global; global = global->next()) {
+    global->require_word("Type", {"Cells", "PBCSentinel"},
+                         "Cells or PBCSentinel: others cannot be carried over");
+  }
+}
+
+Vector read_box(const XmlElement& simulation) {
+  const XmlElement size = simulation.child("SimulationSize");
+  size.require_only({"x", "y", "z"}, {});
+  return {positive_number(size, "x"), positive_number(size, "y"), positive_number(size, "z")};
+}
+
+// The direction into which the quaternion turns (0, 0, 1). In long double, so that the result is
+// that of exact arithmetic within a rounding.
+Vector turned(long double w, long double x, long double y, long double z) {
+  const long double square = w * w + x * x + y * y + z * z;
+  return {static_cast<double>(2 * (x * z + w * y) / square),
+          static_cast<double>(2 * (y * z - w * x) / square),
+          static_cast<double>((w * w + z * z - x * x - y * y) / square)};
+}
+
+Vector read_orientation(const XmlElement& element) {
+  const Vector u = vector_of(element);
+  const double w = element.has("w") ? element.number("w") : 0;
+  // Products of numbers of this size neither overflow nor lose digits.
+  const double size = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2]), std::abs(w)});
+  if (!(size > 1e-100 && size < 1e100)) {
+    element.reject(fmt::format("of size {}: expected a direction, of size near 1", size));
+  }
+  if (element.has("w")) return turned(w, u[0], u[1], u[2]);
+  const long double x = u[0], y = u[1], z = u[2];
+  const long double length = std::sqrt(x * x + y * y + z * z);
+  return {static_cast<double>(x / length), static_cast<double>(y / length),
+          static_cast<double>(z / length)};
+}
+
+Vector read_director(const XmlElement& particle) {
+  const XmlElement orientation = particle.child("U");
+  orientation.require_only({"x", "y", "z", "w"}, {});
+  const Vector director = read_orientation(orientation);
+  if (!particle.first("Director")) return director;
+
+  const Vector exact = read_vector(particle, "Director");
+  const double length = length_of(exact);
+  const XmlElement element = particle.child("Director");
+  if (!is_unit(exact)) element.reject(fmt::format("of length {}: expected a unit vector", length));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::abs(exact[axis] / length - director[axis]) <= largest_rounding) continue;
+    element.reject(fmt::format("({}, {}, {}): expected ({}, {}, {}), to which U turns (0, 0, 1)",
+                               exact[0], exact[1], exact[2], director[0], director[1],
+                               director[2]));
+  }
+  return exact;
+}
+
+void read_particle(const XmlElement& particle, State& state) {
+  const std::size_t number = state.size();
+  if (particle.has("Static")) particle.reject("Static", "none: all needles move");
+  particle.require_only({"ID"}, {"P", "V", "O", "U", "Director"});
+  if (particle.has("ID") && particle.number("ID") != static_cast<double>(number)) {
+    particle.reject("ID", fmt::format("{}: particles are numbered in order", number));
+  }
+  const Vector u = read_director(particle);
+  const Vector w = read_vector(particle, "O");
+  if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
+    particle.child("O").reject(
+        fmt::format("{} of its length is along the director: expected none, within {}", part,
+                    director_tolerance));
+  }
+  state.position.push_back(read_vector(particle, "P"));
+  state.velocity.push_back(read_vector(particle, "V"));
+  state.orientation.push_back(u);
+  state.angular_velocity.push_back(w);
+}
+
+void read_particles(const XmlElement& root, State& state) {
+  const XmlElement data = root.child("ParticleData");
+  data.require_only({"OrientationData", "N"}, {"Pt"});
+  if (!data.has("OrientationData")) {
+    data.reject("OrientationData is missing: expected particles with orientations");
+  }
+  for (auto particle = data.first("Pt"); particle; particle = particle->next()) {
+    read_particle(*particle, state);
+  }
+  if (data.has("N") && data.number("N") != static_cast<double>(state.size())) {
+    data.reject("N", fmt::format("{}, the number of particles", state.size()));
+  }
+}
+
+}  // namespace
+
+bool is_dynamo(std::string_view beginning) {
+  if (beginning.starts_with("BZh")) return true;
+  const auto first = beginning.find_first_not_of("\xef\xbb\xbf \t\r\n");
+  return first != beginning.npos && beginning[first] == '<';
+}
+
+Configuration read_dynamo(const std::string& path) {
+  const XmlDocument document(read_text_file(path, max_xml_bytes), path);
+  const XmlElement root = document.root("DynamOconfig");
+  root.require_word("version", {version}, version);
+  root.require_only({"version"}, {"Simulation", "Properties", "ParticleData"});
+  const XmlElement simulation = root.child("Simulation");
+  simulation.require_only({"lastMFT"},
+                          {"Scheduler", "SimulationSize", "Genus", "BC", "Topology", "Interactions",
+                           "Locals", "Globals", "SystemEvents", "Dynamics", "Ensemble"});
+  if (root.first("Properties")) root.child("Properties").require_only({}, {});
+  require_nothing_else(simulation);
+
+  Configuration configuration;
+  Material& material = configuration.material;
+  const long double inertia = read_species(simulation, material);
+  read_interaction(simulation, material);
+  const long double length = *material.length;
+  material.k = static_cast<double>(length * length / (2 * inertia));
+  material.beta = -1;  // the impulse is normal to both lines
+  configuration.state.box = read_box(simulation);
+  read_particles(root, configuration.state);
+  return configuration;
+}
+
+}  // namespace needlework::io

@@ -1,0 +1,63 @@
+#include "src/io/formats/export_formats.h"
+
+#include <algorithm>
+
+#include "src/io/formats/dynamo.h"
+#include "src/io/formats/lammps.h"
+#include "src/io/formats/pvd.h"
+#include "src/io/formats/xyz.h"
+#include "src/io/vtkhdf.h"
+
+namespace needlework::io {
+namespace {
+
+class VtkhdfWriter : public FrameWriter {
+ public:
+  VtkhdfWriter(std::string path, bool force, double length)
+      : path_(std::move(path)), force_(force), length_(length) {}
+  void add(const Frame& frame) override { write_vtkhdf(path_, force_, frame.state, length_); }
+  void publish() override {}
+
+ private:
+  std::string path_;
+  bool force_;
+  double length_;
+};
+
+std::unique_ptr<FrameWriter> open_vtkhdf(const std::string& path, bool force,
+                                         const Material& material) {
+  return std::make_unique<VtkhdfWriter>(path, force, material.length.value_or(1));
+}
+
+}  // namespace
+
+std::span<const ExportFormat> export_formats() {
+  static const ExportFormat formats[] = {
+      {"vtkhdf", "a VTKHDF file", {".vtkhdf", ".hdf"}, false, false, open_vtkhdf},
+      {"pvd", "a collection of VTK files", {".pvd"}, true, false, write_pvd},
+      {"xyz", "an extended XYZ file", {".xyz", ".extxyz"}, true, false, write_xyz},
+      {"lammps",
+       "a data file of LAMMPS",
+       {".data", ".lmp", ".lammps"},
+       false,
+       false,
+       write_lammps_data},
+      {"lammps", "a dump of LAMMPS", {".dump", ".lammpstrj"}, true, false, write_lammps_dump},
+      {"dynamo", "a configuration of DynamO", {".xml", ".xml.bz2"}, false, true, write_dynamo},
+  };
+  return formats;
+}
+
+const ExportFormat* find_export_format(std::string_view name, std::string_view path, bool many) {
+  const ExportFormat* other = nullptr;
+  for (const ExportFormat& format : export_formats()) {
+    if (!name.empty() && name != format.name) continue;
+    const bool fits = std::any_of(format.endings.begin(), format.endings.end(),
+                                  [&](std::string_view ending) { return path.ends_with(ending); });
+    if (fits) return &format;
+    if (!name.empty() && (!other || (many && !other->many))) other = &format;
+  }
+  return other;
+}
+
+}  // namespace needlework::io

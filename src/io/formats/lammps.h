@@ -1,0 +1,39 @@
+// Files of LAMMPS: data files with one frame, and dump files with many.
+//
+// Needles are atoms of the style `hybrid sphere dipole`, because that has a direction and an
+// angular velocity: the dipole moment is the director, the diameter is the length. Ids are counted
+// from 1. https://docs.lammps.org/read_data.html and https://docs.lammps.org/dump.html describe the
+// formats.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "src/io/formats/configuration.h"
+#include "src/io/formats/frame_writer.h"
+
+namespace needlework::io {
+
+/// Whether a file with this beginning can be a dump, or a data file.
+bool is_lammps_dump(std::string_view beginning);
+bool is_lammps_data(std::string_view beginning);
+
+/// Reads the last frame of a dump in text with a rectangular periodic box and the columns id, x, y,
+/// z, vx, vy, vz, mux, muy, muz (a unit vector), omegax, omegay, omegaz; ix, iy, iz, diameter and
+/// mass are optional. Numbers are not changed. Throws IoError if the file cannot be read, and
+/// InputError, "PATH: line N: reason".
+Configuration read_lammps_dump(const std::string& path);
+/// Reads a data file with `Atoms # hybrid sphere dipole` and `Velocities`. Length, mass, k, epsilon
+/// and beta are taken from the first line, where write_lammps_data() writes them.
+Configuration read_lammps_data(const std::string& path);
+
+/// Writes frames from which the functions above read the same numbers. A dump has the number of the
+/// frame as its time step, and neither times nor k and epsilon.
+std::unique_ptr<FrameWriter> write_lammps_dump(const std::string& path, bool force,
+                                               const Material& material);
+/// Writes one frame.
+std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool force,
+                                               const Material& material);
+
+}  // namespace needlework::io

@@ -1,0 +1,241 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/io/formats/columns.h"
+#include "src/io/formats/input_text.h"
+#include "src/io/formats/lammps.h"
+#include "src/io/formats/text_file.h"
+
+namespace needlework::io {
+namespace {
+
+constexpr const char* style = "hybrid sphere dipole";
+constexpr std::int64_t most_needles = std::numeric_limits<std::uint32_t>::max();
+
+// A row of Atoms, id type x y z diameter density q mux muy muz ix iy iz, is followed by what the
+// row of Velocities has after the id, vx vy vz wx wy wz. Images may be absent.
+constexpr std::size_t atom_columns = 11;
+constexpr std::size_t velocity_columns = 7;
+
+Columns columns_of(bool with_images) {
+  const std::size_t v = with_images ? atom_columns + 3 : atom_columns;
+  Columns columns;
+  columns.count = v + velocity_columns - 1;
+  columns.id = 0;
+  columns.first_id = 1;
+  columns.position = {2, 3, 4};
+  columns.length = 5;
+  columns.orientation = {8, 9, 10};
+  if (with_images) columns.image = {11, 12, 13};
+  columns.velocity = {v, v + 1, v + 2};
+  columns.angular_velocity = {v + 3, v + 4, v + 5};
+  return columns;
+}
+
+class DataReader {
+ public:
+  DataReader(std::string_view text, const std::string& path) : lines_(text, path), path_(path) {}
+
+  Configuration read();
+
+ private:
+  void read_title();
+  void read_header_line();
+  void read_section();
+  std::vector<Row> read_rows(std::string_view section);
+
+  Lines lines_;
+  std::string path_;
+  std::int64_t count_ = -1;
+  std::vector<Row> atoms_;
+  std::unordered_map<std::string_view, Row> velocities_;  // by id
+  Configuration configuration_;
+};
+
+Configuration DataReader::read() {
+  read_title();
+  while (lines_.advance_if_any()) {
+    if (lines_.is_blank()) continue;
+    const char first = lines_.fields()[0][0];
+    if (first >= 'A' && first <= 'Z') {
+      read_section();
+    } else {
+      read_header_line();
+    }
+  }
+  const auto require = [&](bool found, const char* what) {
+    if (!found) throw InputError(fmt::format("{}: no {}: expected them", path_, what));
+  };
+  require(count_ >= 0, "number of atoms");
+  for (const double edge : configuration_.state.box) require(edge > 0, "bounds of the box");
+  require(count_ == 0 || !atoms_.empty(), "Atoms");
+  require(count_ == 0 || !velocities_.empty(), "Velocities");
+  const Columns without = columns_of(false), with = columns_of(true);
+  for (Row& row : atoms_) {
+    const auto velocity = velocities_.find(row.fields[0]);
+    if (velocity == velocities_.end()) {
+      row.reject(fmt::format("no velocity of atom {}: expected one", row.fields[0]));
+    }
+    const bool with_images = row.fields.size() > atom_columns;
+    const auto& further = velocity->second.fields;
+    row.fields.insert(row.fields.end(), further.begin() + 1, further.end());
+    read_needle(row, with_images ? with : without, configuration_);
+  }
+  require_distinct_ids(configuration_.state, without.first_id, path_);
+  return std::move(configuration_);
+}
+
+void DataReader::read_title() {
+  lines_.advance("a title");
+  for (const std::string_view word : lines_.fields()) {
+    const std::size_t equals = word.find('=');
+    if (equals == word.npos) continue;
+    set_material(configuration_.material, word.substr(0, equals), word.substr(equals + 1),
+                 lines_.row());
+  }
+}
+
+// "NUMBER atoms" or "LOWER UPPER xlo xhi"; other numbers, such as that of atom types, do not
+// matter.
+void DataReader::read_header_line() {
+  const Row& row = lines_.row();
+  const auto& fields = row.fields;
+  if (fields.size() >= 2 && fields[1] == "atoms") {
+    count_ = row.read_whole(0, "number of atoms", 0, most_needles);
+  }
+  if (std::find(fields.begin(), fields.end(), "xy") != fields.end()) {
+    row.reject("a tilted box: expected a rectangular one");
+  }
+  constexpr const char* upper[] = {"xhi", "yhi", "zhi"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (fields.size() < 4 || fields[3] != upper[axis]) continue;
+    const double edge = row.read(1, "upper bound") - row.read(0, "lower bound");
+    if (!(edge > 0)) row.reject(fmt::format("an edge of {}: expected one > 0", edge));
+    configuration_.state.box[axis] = edge;
+  }
+}
+
+void DataReader::read_section() {
+  const std::string_view name = lines_.fields()[0];
+  const std::string_view line = lines_.line();
+  if (name == "Atoms") {
+    // LAMMPS itself writes no more than the first word of the style.
+    if (line.find(style) == line.npos && !line.ends_with("# hybrid")) {
+      lines_.reject(fmt::format("{}: expected Atoms # {}", line.substr(0, 60), style));
+    }
+    atoms_ = read_rows(name);
+    const std::size_t width = atoms_.empty() ? atom_columns : atoms_[0].fields.size();
+    for (const Row& row : atoms_) {
+      if (row.fields.size() == width && (width == atom_columns || width == atom_columns + 3))
+        continue;
+      row.reject(fmt::format("{} columns: expected {}, or {} with images, in all rows",
+                             row.fields.size(), atom_columns, atom_columns + 3));
+    }
+  } else if (name == "Velocities") {
+    for (Row& row : read_rows(name)) {
+      if (row.fields.size() != velocity_columns) {
+        row.reject(fmt::format("{} columns: expected {}", row.fields.size(), velocity_columns));
+      }
+      const std::string_view id = row.fields[0];
+      if (!velocities_.emplace(id, row).second) {
+        row.reject(fmt::format("a second velocity of atom {}: expected one", id));
+      }
+    }
+  } else if (name != "Masses" && name != "Pair") {  // whose rows are passed over
+    lines_.reject(fmt::format("{}: expected Atoms and Velocities only", name));
+  }
+}
+
+std::vector<Row> DataReader::read_rows(std::string_view section) {
+  if (count_ < 0) lines_.reject("no number of atoms before: expected it");
+  lines_.advance("a blank line");
+  if (!lines_.is_blank()) lines_.reject("expected a blank line");
+  std::vector<Row> rows;
+  for (std::int64_t i = 0; i < count_; ++i) {
+    lines_.advance(fmt::format("{} rows of {}", count_, section));
+    if (lines_.is_blank()) {
+      lines_.reject(fmt::format("{} rows of {}: expected {}", i, section, count_));
+    }
+    rows.push_back(lines_.row());
+  }
+  return rows;
+}
+
+class DataWriter : public FrameWriter {
+ public:
+  DataWriter(const std::string& path, bool force, const Material& material)
+      : title_(text_of(material)),
+        length_(material.length.value_or(1)),
+        mass_(material.mass.value_or(1)),
+        file_(path, force) {}
+
+  void add(const Frame& frame) override {
+    const State& state = frame.state;
+    file_.print("LAMMPS data file of needles: {}", title_);
+    if (frame.time) file_.print(" time={}", *frame.time);
+    file_.print("\n\n{} atoms\n1 atom types\n\n", state.size());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      file_.print("0 {} {}lo {}hi\n", state.box[axis], "xyz"[axis], "xyz"[axis]);
+    }
+    write_atoms(state);
+    file_.print("\nVelocities\n\n");
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const auto& v = state.velocity[i];
+      const auto& w = state.angular_velocity[i];
+      file_.print("{} {} {} {} {} {} {}\n", std::int64_t{id_of(state, i)} + 1, v[0], v[1], v[2],
+                  w[0], w[1], w[2]);
+    }
+  }
+  void publish() override { file_.publish(); }
+
+ private:
+  void write_atoms(const State& state) {
+    // LAMMPS derives the mass from that of a sphere.
+    const double density = mass_ / (std::numbers::pi / 6 * length_ * length_ * length_);
+    file_.print("\nAtoms # {}\n\n", style);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const auto& r = state.position[i];
+      const auto& u = state.orientation[i];
+      file_.print("{} 1 {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1, r[0], r[1],
+                  r[2], length_, density, u[0], u[1], u[2]);
+      if (!state.image.empty()) {
+        file_.print(" {} {} {}", state.image[i][0], state.image[i][1], state.image[i][2]);
+      }
+      file_.print("\n");
+    }
+  }
+
+  std::string title_;
+  double length_, mass_;
+  TextFile file_;
+};
+
+}  // namespace
+
+bool is_lammps_data(std::string_view beginning) {
+  Lines lines(beginning, "");
+  if (!lines.advance_if_any()) return false;
+  for (int i = 0; i < 20 && lines.advance_if_any(); ++i) {
+    if (lines.fields().size() == 2 && lines.fields()[1] == "atoms") return true;
+  }
+  return false;
+}
+
+Configuration read_lammps_data(const std::string& path) {
+  const std::string text = read_text_file(path);
+  return DataReader(text, path).read();
+}
+
+std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool force,
+                                               const Material& material) {
+  return std::make_unique<DataWriter>(path, force, material);
+}
+
+}  // namespace needlework::io

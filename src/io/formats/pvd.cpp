@@ -1,0 +1,197 @@
+#include "src/io/formats/pvd.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/io/formats/text_file.h"
+#include "src/io/formats/vtu.h"
+#include "src/io/needle_check.h"
+#include "src/io/needle_ends.h"
+
+namespace needlework::io {
+namespace {
+
+namespace fs = std::filesystem;
+using Vector = std::array<double, 3>;
+
+constexpr std::uint8_t vtk_line = 3;
+
+std::vector<double> flat(const std::vector<Vector>& vectors) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * vectors.size());
+  for (const Vector& v : vectors) numbers.insert(numbers.end(), v.begin(), v.end());
+  return numbers;
+}
+
+// Lines between pairs of points that follow each other.
+void add_lines(VtuFile& file, const std::vector<Vector>& points) {
+  std::vector<std::int64_t> connectivity, offsets;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    connectivity.push_back(static_cast<std::int64_t>(i));
+    if (i % 2 == 1) offsets.push_back(static_cast<std::int64_t>(i + 1));
+  }
+  file.begin("Points");
+  file.add("Points", flat(points), 3);
+  file.begin("Cells");
+  file.add("connectivity", connectivity);
+  file.add("offsets", offsets);
+  file.add("types", std::vector<std::uint8_t>(points.size() / 2, vtk_line));
+}
+
+// The twelve edges, from corner 0 to the box's far corner.
+std::vector<Vector> outline(const Vector& box) {
+  std::vector<Vector> points;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int corner = 0; corner < 4; ++corner) {
+      Vector from{};
+      from[(axis + 1) % 3] = corner % 2 * box[(axis + 1) % 3];
+      from[(axis + 2) % 3] = corner / 2 * box[(axis + 2) % 3];
+      Vector to = from;
+      to[axis] = box[axis];
+      points.push_back(from);
+      points.push_back(to);
+    }
+  }
+  return points;
+}
+
+class PvdWriter : public FrameWriter {
+ public:
+  PvdWriter(const std::string& path, bool force, double length);
+  ~PvdWriter() override;
+
+  void add(const Frame& frame) override;
+  void publish() override;
+
+ private:
+  void write_needles(const std::string& name, const State& state);
+  void write_box(const std::string& name, const Vector& box);
+  // Where a file of the folder is, which is removed if nothing is published.
+  std::string file_of(const std::string& name);
+  void list(double time, int part, const std::string& name);
+
+  double length_;
+  bool force_;
+  TextFile collection_;
+  fs::path folder_;
+  bool made_folder_ = false;
+  std::vector<std::string> new_files_;
+  std::optional<Vector> box_;  // of the last outline
+  std::string box_name_;
+};
+
+PvdWriter::PvdWriter(const std::string& path, bool force, double length)
+    : length_(length), force_(force), collection_(path, force), folder_(path) {
+  folder_.replace_extension();
+  if (folder_ == fs::path(path)) folder_ += "-frames";
+  if (fs::exists(folder_)) {
+    if (!force || !fs::is_directory(folder_)) {
+      throw IoError(fmt::format("{}: exists already: expected a new name, or force to replace it",
+                                folder_.string()));
+    }
+  } else {
+    std::error_code error;
+    if (!fs::create_directory(folder_, error)) {
+      throw IoError(fmt::format("{}: {}", folder_.string(), error.message()));
+    }
+    made_folder_ = true;
+  }
+  collection_.print(R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="0.1">
+  <Collection>
+)");
+}
+
+PvdWriter::~PvdWriter() {
+  std::error_code ignored;
+  for (const std::string& file : new_files_) fs::remove(file, ignored);
+  if (made_folder_) fs::remove(folder_, ignored);
+}
+
+std::string PvdWriter::file_of(const std::string& name) {
+  std::string file = (folder_ / name).string();
+  if (!fs::exists(file)) new_files_.push_back(file);
+  return file;
+}
+
+void PvdWriter::list(double time, int part, const std::string& name) {
+  std::string file;
+  for (const char c : (folder_.filename() / name).string()) {
+    switch (c) {
+      case '&':
+        file += "&amp;";
+        break;
+      case '<':
+        file += "&lt;";
+        break;
+      case '"':
+        file += "&quot;";
+        break;
+      default:
+        file += c;
+    }
+  }
+  collection_.print("    <DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", time, part, file);
+}
+
+void PvdWriter::add(const Frame& frame) {
+  const double time = frame.time.value_or(static_cast<double>(frame.number));
+  const std::string name = fmt::format("frame-{:05}.vtu", frame.number);
+  write_needles(name, frame.state);
+  if (box_ != frame.state.box) {
+    box_ = frame.state.box;
+    box_name_ = fmt::format("box-{:05}.vtu", frame.number);
+    write_box(box_name_, *box_);
+  }
+  list(time, 0, name);
+  list(time, 1, box_name_);
+}
+
+void PvdWriter::write_needles(const std::string& name, const State& state) {
+  VtuFile file(file_of(name), force_);
+  add_lines(file, ends_of(state, length_));
+  std::vector<std::int64_t> ids;
+  std::vector<double> speeds, spins;
+  for (std::size_t i = 0; i < 2 * state.size(); ++i) {
+    ids.push_back(id_of(state, i / 2));
+    speeds.push_back(length_of(state.velocity[i / 2]));
+    spins.push_back(length_of(state.angular_velocity[i / 2]));
+  }
+  file.begin("PointData");
+  file.add("id", ids);
+  file.add("speed", speeds, 1);
+  file.add("spin", spins, 1);
+  file.add("species", std::vector<std::uint8_t>(2 * state.size(), 0));
+  file.begin("CellData");
+  file.add("velocity", flat(state.velocity), 3);
+  file.add("orientation", flat(state.orientation), 3);
+  file.add("angular_velocity", flat(state.angular_velocity), 3);
+  file.publish(2 * state.size(), state.size());
+}
+
+void PvdWriter::write_box(const std::string& name, const Vector& box) {
+  const std::vector<Vector> points = outline(box);
+  VtuFile file(file_of(name), force_);
+  add_lines(file, points);
+  file.publish(points.size(), points.size() / 2);
+}
+
+void PvdWriter::publish() {
+  collection_.print("  </Collection>\n</VTKFile>\n");
+  collection_.publish();
+  new_files_.clear();
+  made_folder_ = false;
+}
+
+}  // namespace
+
+std::unique_ptr<FrameWriter> write_pvd(const std::string& path, bool force,
+                                       const Material& material) {
+  return std::make_unique<PvdWriter>(path, force, material.length.value_or(1));
+}
+
+}  // namespace needlework::io

@@ -1,0 +1,20 @@
+// Reads the files of other programs, whose format shows in their first lines.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "src/io/formats/configuration.h"
+
+namespace needlework::io {
+
+/// Whether a file with this beginning is in one of the formats that are read.
+bool is_configuration(std::string_view beginning);
+
+/// Reads a configuration of DynamO, the last frame of an extended XYZ file or of a dump of LAMMPS,
+/// or a data file of LAMMPS. Throws IoError if the file cannot be read, and InputError, "PATH:
+/// PLACE: reason", for content that cannot be used. The message may quote it with its control
+/// characters.
+Configuration read_configuration(const std::string& path);
+
+}  // namespace needlework::io

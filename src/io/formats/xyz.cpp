@@ -1,0 +1,182 @@
+#include "src/io/formats/xyz.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "needlework/error.h"
+#include "src/io/decimal.h"
+#include "src/io/formats/columns.h"
+#include "src/io/formats/input_text.h"
+#include "src/io/formats/text_file.h"
+
+namespace needlework::io {
+namespace {
+
+constexpr std::int64_t most_needles = std::numeric_limits<std::uint32_t>::max();
+
+std::string_view unquoted(std::string_view text) {
+  if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') &&
+      text.front() == text.back()) {
+    return text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+void read_lattice(std::string_view text, const Lines& lines, State& state) {
+  const std::vector<std::string_view> words = words_of(text);
+  if (words.size() != 9) {
+    lines.reject(fmt::format("Lattice of {} numbers: expected 9", words.size()));
+  }
+  for (std::size_t i = 0; i < 9; ++i) {
+    double value = 0;
+    const bool edge = i % 4 == 0;
+    if (read_decimal(words[i], value) != std::errc() || (edge ? !(value > 0) : value != 0)) {
+      lines.reject(fmt::format("Lattice with {} in row {}, column {}: expected {}", words[i], i / 3,
+                               i % 3, edge ? "an edge > 0" : "0: a rectangular box"));
+    }
+    if (edge) state.box[i / 4] = value;
+  }
+}
+
+// "name:type:columns:name:type:columns..."
+Columns read_properties(std::string_view text, const Lines& lines) {
+  Columns columns;
+  while (!text.empty()) {
+    std::string_view parts[3];
+    for (std::string_view& part : parts) {
+      const std::size_t end = std::min(text.find(':'), text.size());
+      part = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    const auto [name, type, width] = parts;
+    const bool known_type = type == "S" || type == "R" || type == "I" || type == "L";
+    if (!known_type || width.size() != 1 || width[0] < '1' || width[0] > '9') {
+      lines.reject(
+          fmt::format("Properties with {}:{}:{}: expected NAME:TYPE:COLUMNS", name, type, width));
+    }
+    const std::size_t first = columns.count;
+    columns.count += static_cast<std::size_t>(width[0] - '0');
+    const VectorColumns vector{first, first + 1, first + 2};
+    const bool is_vector = type == "R" && width == "3";
+    if (name == "id" && type == "I" && width == "1") columns.id = first;
+    if (!is_vector) continue;
+    if (name == "pos") columns.position = vector;
+    if (name == "velo" || name == "velocities") columns.velocity = vector;
+    if (name == "orientation") columns.orientation = vector;
+    if (name == "angular_velocity") columns.angular_velocity = vector;
+  }
+  return columns;
+}
+
+Columns read_comment(const Lines& lines, Configuration& configuration) {
+  std::string_view lattice, properties;
+  for (const std::string_view word : words_of(lines.line())) {
+    const std::size_t equals = word.find('=');
+    if (equals == word.npos) continue;
+    const std::string_view key = word.substr(0, equals);
+    const std::string_view value = unquoted(word.substr(equals + 1));
+    if (key == "Lattice") lattice = value;
+    if (key == "Properties") properties = value;
+    if (key == "pbc" && value.find_first_of("Ff0") != value.npos) {
+      lines.reject(fmt::format("pbc = {}: expected T T T, a periodic box", value));
+    }
+    set_material(configuration.material, key, value, lines.row());
+  }
+  if (lattice.empty()) lines.reject("Lattice is missing: expected a box");
+  if (properties.empty()) lines.reject("Properties is missing: expected the names of the columns");
+  read_lattice(lattice, lines, configuration.state);
+  const Columns columns = read_properties(properties, lines);
+  require_all_vectors(columns, lines.row());
+  return columns;
+}
+
+std::int64_t read_count(const Lines& lines) {
+  if (lines.fields().size() != 1) {
+    lines.reject(fmt::format("{} words: expected the number of needles", lines.fields().size()));
+  }
+  return lines.row().read_whole(0, "number of needles", 0, most_needles);
+}
+
+// The offset in the text at which the last frame begins.
+std::size_t find_last_frame(std::string_view text, const std::string& path) {
+  Lines lines(text, path);
+  std::size_t last = 0;
+  while (lines.advance_if_any()) {
+    if (lines.is_blank()) {  // blank lines may end the file
+      while (lines.advance_if_any()) {
+        if (!lines.is_blank()) lines.reject("expected no line after a blank one");
+      }
+      break;
+    }
+    last = lines.offset();
+    const std::int64_t count = read_count(lines);
+    for (std::int64_t i = 0; i <= count; ++i) {
+      lines.advance(fmt::format("the comment and {} needles", count));
+    }
+  }
+  return last;
+}
+
+class XyzWriter : public FrameWriter {
+ public:
+  XyzWriter(const std::string& path, bool force, const Material& material)
+      : material_(text_of(material)), file_(path, force) {}
+
+  void add(const Frame& frame) override {
+    const State& state = frame.state;
+    file_.print(
+        "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:"
+        "3:orientation:R:3:angular_velocity:R:3",
+        state.size(), state.box[0], state.box[1], state.box[2]);
+    if (frame.time) file_.print(" Time={}", *frame.time);
+    file_.print(" pbc=\"T T T\"{}{}\n", material_.empty() ? "" : " ", material_);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const auto& r = state.position[i];
+      const auto& v = state.velocity[i];
+      const auto& u = state.orientation[i];
+      const auto& w = state.angular_velocity[i];
+      file_.print("X {} {} {} {} {} {} {} {} {} {} {} {} {}\n", r[0], r[1], r[2], id_of(state, i),
+                  v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2]);
+    }
+  }
+  void publish() override { file_.publish(); }
+
+ private:
+  std::string material_;
+  TextFile file_;
+};
+
+}  // namespace
+
+bool is_xyz(std::string_view beginning) {
+  Lines lines(beginning, "");
+  if (!lines.advance_if_any() || lines.fields().size() != 1) return false;
+  const std::string_view count = lines.fields()[0];
+  return std::all_of(count.begin(), count.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+Configuration read_xyz(const std::string& path) {
+  const std::string text = read_text_file(path);
+  Lines lines(text, path, find_last_frame(text, path));
+  lines.advance("the number of needles");
+  const std::int64_t count = read_count(lines);
+  lines.advance("a comment");
+  Configuration configuration;
+  const Columns columns = read_comment(lines, configuration);
+  for (std::int64_t i = 0; i < count; ++i) {
+    lines.advance(fmt::format("{} needles", count));
+    read_needle(lines.row(), columns, configuration);
+  }
+  require_distinct_ids(configuration.state, columns.first_id, path);
+  return configuration;
+}
+
+std::unique_ptr<FrameWriter> write_xyz(const std::string& path, bool force,
+                                       const Material& material) {
+  return std::make_unique<XyzWriter>(path, force, material);
+}
+
+}  // namespace needlework::io

@@ -1,0 +1,27 @@
+// Extended XYZ: a line for each needle, and a comment line with the box and the names of the
+// columns. https://github.com/libAtoms/extxyz describes the format.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "src/io/formats/configuration.h"
+#include "src/io/formats/frame_writer.h"
+
+namespace needlework::io {
+
+/// Whether a file with this beginning can be in this format.
+bool is_xyz(std::string_view beginning);
+
+/// Reads the last frame, which must have Lattice (rectangular) and the columns pos, velo (or
+/// velocities), orientation (a unit vector) and angular_velocity; id is optional. Length, mass, k,
+/// epsilon and beta are taken from the comment line. Numbers are not changed. Throws IoError if the
+/// file cannot be read, and InputError, "PATH: line N: reason".
+Configuration read_xyz(const std::string& path);
+
+/// Writes frames from which read_xyz() reads the same numbers. The chemical species is X.
+std::unique_ptr<FrameWriter> write_xyz(const std::string& path, bool force,
+                                       const Material& material);
+
+}  // namespace needlework::io

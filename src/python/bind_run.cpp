@@ -1,0 +1,87 @@
+// Makes Run a class of the module.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <utility>
+
+#include "src/python/arrays.h"
+#include "src/python/parts.h"
+#include "src/python/run.h"
+
+namespace needlework::python {
+namespace {
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using OptionalNumber = std::optional<double>;
+
+/// Position, velocity, orientation and angular velocity, [N][3] each.
+using Arrays = std::tuple<Rows, Rows, Rows, Rows>;
+
+State state_of(const Arrays& arrays) {
+  State state;
+  state.position = vectors(std::get<0>(arrays));
+  state.velocity = vectors(std::get<1>(arrays));
+  state.orientation = vectors(std::get<2>(arrays));
+  state.angular_velocity = vectors(std::get<3>(arrays));
+  return state;
+}
+
+std::unique_ptr<Run> make_run(std::optional<std::string> text, std::string name, bool has_lines,
+                              const std::optional<Arrays>& arrays, bool force) {
+  std::optional<State> state;
+  if (arrays) state = state_of(*arrays);
+  return std::make_unique<Run>(SceneSource{std::move(text), std::move(name), has_lines},
+                               std::move(state), force);
+}
+
+}  // namespace
+
+void add_run(py::module_& module) {
+  py::class_<Run>(module, "Run")
+      .def(py::init(&make_run))
+      .def(
+          "run",
+          [](Run& run, OptionalNumber time, OptionalNumber collisions_per_needle,
+             OptionalNumber energy_ratio, OptionalNumber wall_s, const py::object& show) {
+            return run.run({.time = time,
+                            .collisions_per_needle = collisions_per_needle,
+                            .energy_ratio = energy_ratio,
+                            .wall_s = wall_s},
+                           show);
+          },
+          "time"_a, "collisions_per_needle"_a, "energy_ratio"_a, "wall_s"_a, "show"_a)
+      .def(
+          "advance",
+          [](Run& run, OptionalNumber time, std::optional<std::uint64_t> collisions,
+             OptionalNumber collisions_per_needle, OptionalNumber energy_ratio,
+             OptionalNumber wall_s, const py::object& show) {
+            return run.advance({.time = time,
+                                .collisions = collisions,
+                                .collisions_per_needle = collisions_per_needle,
+                                .energy_ratio = energy_ratio,
+                                .wall_s = wall_s},
+                               show);
+          },
+          "time"_a, "collisions"_a, "collisions_per_needle"_a, "energy_ratio"_a, "wall_s"_a,
+          "show"_a)
+      .def("interrupt", &Run::interrupt)
+      .def("on_collisions", &Run::on_collisions)
+      .def("set_velocities",
+           [](Run& run, const Rows& velocity, const Rows& angular_velocity) {
+             run.set_velocities(vectors(velocity), vectors(angular_velocity));
+           })
+      .def("save", &Run::save)
+      .def("close", &Run::close)
+      .def("state", &Run::state)
+      .def("totals", &Run::totals)
+      .def("counters", &Run::counters)
+      .def("facts", &Run::facts)
+      .def("time", &Run::time)
+      .def("mean_free_time", &Run::mean_free_time)
+      .def("hash", &Run::hash)
+      .def("warnings", &Run::warnings);
+}
+
+}  // namespace needlework::python

@@ -1,0 +1,14 @@
+// The module needlework._core.
+#include <pybind11/pybind11.h>
+
+#include "src/python/errors.h"
+#include "src/python/parts.h"
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The compiled part of needlework. Use the package needlework, which documents it.";
+  module.attr("version") = NEEDLEWORK_VERSION;
+  needlework::python::translate_errors();
+  needlework::python::add_theory(module);
+  needlework::python::add_prediction(module);
+  needlework::python::add_run(module);
+}

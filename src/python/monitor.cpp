@@ -1,0 +1,32 @@
+#include "src/python/monitor.h"
+
+#include "src/runs/progress_text.h"
+
+namespace needlework::python {
+
+namespace py = pybind11;
+
+/// Time between two lines of progress [s].
+constexpr double interval = 0.5;
+
+void Monitor::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
+  next_ = elapsed + interval;
+  const std::string line =
+      runs::progress_text(elapsed, fraction, runs::progress_of_run(now, initial_energy));
+  const py::gil_scoped_acquire lock;
+  try {
+    show_(line);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+bool Monitor::stop_requested() const {
+  if (failure_) return true;
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() == 0) return false;
+  failure_ = std::make_exception_ptr(py::error_already_set());
+  return true;
+}
+
+}  // namespace needlework::python

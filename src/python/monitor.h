@@ -1,0 +1,37 @@
+// What Python sees of an advance while it lasts: signals and progress.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <string>
+
+#include "src/runs/run_monitor.h"
+
+namespace needlework::python {
+
+/// Lets Python handle its signals, and shows progress. The thread that runs does not hold the GIL;
+/// all members take it where they need it.
+class Monitor : public runs::RunMonitor {
+ public:
+  /// `show` is called with a line of text, or is None. The caller holds the GIL.
+  explicit Monitor(pybind11::object show) : show_(std::move(show)), quiet_(show_.is_none()) {}
+
+  bool is_due(double elapsed) const override { return !quiet_ && elapsed >= next_; }
+  void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
+  /// Asks Python, which runs the handlers of signals in its main thread only.
+  bool stop_requested() const override;
+
+  /// Throws what a handler of a signal has thrown, such as KeyboardInterrupt, or `show`.
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  pybind11::object show_;
+  bool quiet_;
+  double next_ = 0.5;  ///< no line for advances that are shorter [s]
+  mutable std::exception_ptr failure_;
+};
+
+}  // namespace needlework::python

@@ -1,0 +1,211 @@
+#include "src/python/run.h"
+
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "needlework/counters.h"
+#include "needlework/error.h"
+#include "src/python/arrays.h"
+#include "src/python/collision_rows.h"
+#include "src/python/errors.h"
+#include "src/python/monitor.h"
+#include "src/python/scene_source.h"
+#include "src/runs/engine_choice.h"
+#include "src/runs/output_path.h"
+#include "src/runs/state_file.h"
+
+namespace needlework::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// A Python object that may be forgotten by a thread without the GIL.
+std::shared_ptr<py::object> shared(const py::object& object) {
+  return {new py::object(object), [](py::object* pointer) {
+            const py::gil_scoped_acquire lock;
+            delete pointer;
+          }};
+}
+
+runs::Limits of_scene(const Scene::Until& until) {
+  return {.time = until.time,
+          .collisions_per_needle = until.collisions_per_needle,
+          .energy_ratio = until.energy_ratio,
+          .wall_s = until.wall_s};
+}
+
+}  // namespace
+
+Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
+  const py::gil_scoped_release release;
+  runs::LoadedScene loaded = load_scene(source, std::move(state));
+  const Scene& scene = loaded.scene;
+  if (const std::string& file = scene.output.file; !file.empty()) {
+    const auto place = scene.places.find("output.file");
+    runs::require_writable(file, force, place == scene.places.end() ? file : place->second,
+                           "force=True");
+  }
+  warnings_ = runs::all_warnings(scene);
+  run_.emplace(std::move(loaded), force);
+}
+
+// A file that was not closed has all its frames nevertheless; there is no one to hear of errors.
+Run::~Run() {
+  try {
+    run_->close();
+  } catch (...) {
+  }
+}
+
+void Run::require_idle() const {
+  if (busy_) {
+    throw UseError(
+        "simulation: is running: expected one that has returned from run() or "
+        "advance(); only interrupt() may be called meanwhile");
+  }
+}
+
+void Run::require_open() const {
+  if (closed_) throw UseError("simulation: is closed: expected one that is still open");
+}
+
+void Run::work(const std::function<void()>& function) {
+  require_idle();
+  struct Busy {
+    explicit Busy(bool& flag) : flag_(flag) { flag_ = true; }
+    ~Busy() { flag_ = false; }
+    bool& flag_;
+  };
+  const Busy busy(busy_);
+  const py::gil_scoped_release release;
+  function();
+}
+
+std::string Run::drive(const Scene::Until& until, const py::object& show) {
+  Monitor monitor(show);
+  Stop stop{};
+  work([&] { stop = run_->advance(until, monitor); });
+  monitor.rethrow();
+  return name_of(stop);
+}
+
+std::string Run::run(const runs::Limits& limits, const py::object& show) {
+  require_idle();
+  require_open();
+  return drive(
+      runs::from_start(limits.empty() ? of_scene(run_->scene().until) : limits, run_->simulation()),
+      show);
+}
+
+std::string Run::advance(const runs::Limits& limits, const py::object& show) {
+  require_idle();
+  require_open();
+  return drive(runs::from_now(limits, run_->simulation()), show);
+}
+
+void Run::on_collisions(const py::object& callback, std::size_t batch, const py::dtype& type) {
+  require_idle();
+  if (callback.is_none()) {
+    run_->on_collisions(batch, {});
+    return;
+  }
+  const auto function = shared(callback);
+  const auto row_type = shared(type);
+  run_->on_collisions(batch, [function, row_type](std::span<const Collision> collisions) {
+    const py::gil_scoped_acquire lock;
+    (*function)(collision_rows(collisions, py::reinterpret_borrow<py::dtype>(*row_type)));
+  });
+}
+
+void Run::set_velocities(std::vector<std::array<double, 3>> velocity,
+                         std::vector<std::array<double, 3>> angular_velocity) {
+  work([&] { run_->simulation().set_velocities(velocity, angular_velocity); });
+}
+
+void Run::save(const std::string& path, bool force) {
+  work([&] {
+    runs::require_writable(path, force, path, "force=True");
+    runs::write_state(run_->simulation(), run_->scene(), path, force);
+  });
+}
+
+void Run::close() {
+  if (closed_) return;
+  work([&] { run_->close(); });
+  closed_ = true;
+}
+
+py::tuple Run::state() {
+  State state;
+  work([&] { run_->simulation().copy(state); });
+  return py::make_tuple(read_only(state.position), read_only(state.velocity),
+                        read_only(state.orientation), read_only(state.angular_velocity),
+                        read_only(state.image), read_only(state.id));
+}
+
+py::dict Run::totals() {
+  Totals totals;
+  work([&] { totals = run_->simulation().totals(); });
+  py::dict out;
+  out["time"] = totals.time;
+  out["t_tr"] = totals.t_tr;
+  out["t_rot"] = totals.t_rot;
+  out["energy"] = totals.energy;
+  out["momentum"] = Column(3, totals.momentum.data());
+  out["collisions"] = totals.collisions;
+  out["tc_collisions"] = totals.tc_collisions;
+  return out;
+}
+
+py::dict Run::counters() {
+  require_idle();
+  const Counters& counters = run_->simulation().counters();
+  py::dict out;
+  for (const Counters::Named& counter : Counters::all) out[counter.name] = counters.*counter.value;
+  return out;
+}
+
+py::dict Run::facts() {
+  require_idle();
+  const Scene& scene = run_->scene();
+  const Simulation& simulation = run_->simulation();
+  const Scene::Species species = scene.one_species();
+  py::dict out;
+  out["title"] = scene.title;
+  out["text"] = scene.text;
+  out["file"] = scene.output.file;
+  out["count"] = scene.needles.count;
+  out["box"] = Column(3, scene.needles.box.data());
+  out["k"] = species.k;
+  out["epsilon"] = scene.collisions.epsilon;
+  out["beta"] = scene.collisions.beta;
+  out["length"] = species.length;
+  out["mass"] = species.mass;
+  out["search"] = simulation.search();
+  out["queue"] = simulation.queue();
+  out["isa"] = simulation.isa();
+  out["effects"] = simulation.effects();
+  out["threads"] = scene.engine.threads.value_or(1);
+  return out;
+}
+
+double Run::time() {
+  require_idle();
+  return run_->simulation().time();
+}
+
+double Run::mean_free_time() {
+  require_idle();
+  return run_->simulation().mean_free_time();
+}
+
+std::string Run::hash() {
+  require_idle();
+  return run_->simulation().trajectory_hash();
+}
+
+}  // namespace needlework::python

@@ -1,0 +1,71 @@
+// A simulation with its output, as Python uses it.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "needlework/scene.h"
+#include "needlework/state.h"
+#include "src/python/scene_source.h"
+#include "src/runs/limits.h"
+#include "src/runs/prepared_run.h"
+
+namespace needlework::python {
+
+/// One thread at a time uses a Run: while it advances, without the GIL, all but interrupt() throw
+/// UseError. Members are called with the GIL held.
+class Run {
+ public:
+  /// Without a state, that of the scene. Throws what the program would report.
+  Run(const SceneSource& source, std::optional<State> state, bool force);
+  ~Run();
+
+  /// Runs until one of the conditions is met, which count from the start of the run, or those of
+  /// the scene if there are none. Returns a word for the reason. `show` is None or called with
+  /// lines of progress. Throws what a callback or the handler of a signal has thrown.
+  std::string run(const runs::Limits& limits, const pybind11::object& show);
+  /// The same for conditions that count from the present state.
+  std::string advance(const runs::Limits& limits, const pybind11::object& show);
+  void interrupt() noexcept { run_->simulation().interrupt(); }
+
+  /// `callback`, unless it is None, is given arrays of up to `batch` rows of this type.
+  void on_collisions(const pybind11::object& callback, std::size_t batch,
+                     const pybind11::dtype& type);
+  void set_velocities(std::vector<std::array<double, 3>> velocity,
+                      std::vector<std::array<double, 3>> angular_velocity);
+  /// Writes the present state to a file of its own; see write_state().
+  void save(const std::string& path, bool force);
+  void close();
+
+  /// A copy of the present state: read-only arrays position, velocity, orientation,
+  /// angular_velocity, image and id.
+  pybind11::tuple state();
+  pybind11::dict totals();
+  pybind11::dict counters();
+  /// The scene, which does not change, and the parts of the engine in use.
+  pybind11::dict facts();
+  double time();
+  double mean_free_time();
+  std::string hash();
+  std::vector<std::string> warnings() const { return warnings_; }
+
+ private:
+  void require_idle() const;
+  void require_open() const;
+  /// Calls the function without the GIL. Meanwhile this Run is busy.
+  void work(const std::function<void()>& function);
+  std::string drive(const Scene::Until& until, const pybind11::object& show);
+
+  std::optional<runs::PreparedRun> run_;
+  std::vector<std::string> warnings_;
+  bool busy_ = false;  ///< guarded by the GIL
+  bool closed_ = false;
+};
+
+}  // namespace needlework::python

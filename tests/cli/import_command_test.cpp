@@ -1,0 +1,85 @@
+// `needlework import`: the scene and the state that it writes, and what it leaves alone.
+#include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "tests/cli/program.h"
+#include "tests/io/dynamo_text.h"
+
+namespace needlework {
+namespace {
+
+using io::dynamo_text;
+using io::replaced;
+
+using ImportCommand = ProgramTest;
+
+TEST_F(ImportCommand, MakesASceneThatRuns) {
+  write("lines.xml", dynamo_text);
+  const Outcome imported = run("import lines.xml --out a/b");
+  EXPECT_EQ(imported.exit_code, 0);
+  EXPECT_EQ(imported.out + imported.err, "");
+  const Scene scene = read_scene(path("a/b/scene.toml"));
+  ASSERT_EQ(scene.species.size(), 1u);
+  EXPECT_EQ(scene.species[0].name, "Bulk");
+  EXPECT_EQ(scene.species[0].count, 2u);
+  EXPECT_EQ(scene.species[0].length, 2);
+  EXPECT_EQ(scene.species[0].mass, 2);
+  EXPECT_EQ(scene.species[0].k, 6);
+  EXPECT_EQ(scene.collisions.epsilon, 0.9);
+  EXPECT_EQ(scene.needles.box, (std::array<double, 3>{8, 9, 10.5}));
+  const State state = io::read_last_frame(path("a/b/state.h5"));
+  EXPECT_EQ(state.position[0][0], -3.9);
+  EXPECT_EQ(state.box, scene.needles.box);
+  // From any folder, because the scene names its state by the full path.
+  EXPECT_EQ(shell("cd a && " NEEDLEWORK_PROGRAM " run b/scene.toml --quiet").exit_code, 0);
+}
+
+TEST_F(ImportCommand, KeepsExistingFilesUnlessForced) {
+  write("lines.xml", dynamo_text);
+  ASSERT_EQ(run("import lines.xml --out a").exit_code, 0);
+  const std::string before = read("a/state.h5");
+  write("other.xml", replaced(dynamo_text, "x=\"0.3\"", "x=\"0.4\""));
+  const Outcome refused = run("import other.xml --out a");
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(refused.complains("a/scene.toml: exists already: expected a new file, or --force"));
+  EXPECT_EQ(read("a/state.h5"), before);
+  EXPECT_EQ(run("import other.xml --out a --force").exit_code, 0);
+  EXPECT_NE(read("a/state.h5"), before);
+}
+
+TEST_F(ImportCommand, WritesNothingAfterAnError) {
+  write("small-box.xml", replaced(dynamo_text, "y=\"9\"", "y=\"4\""));
+  write("gravity.xml", replaced(dynamo_text, "Newtonian", "NewtonianGravity"));
+  for (const auto& [arguments, exit_code, message] :
+       {std::tuple("absent.xml --out a", 5, "absent.xml: cannot be read: No such file"),
+        std::tuple("gravity.xml --out a", 3, "gravity.xml: line 28: Dynamics Type = Newtonian"),
+        std::tuple("small-box.xml --out a", 3,
+                   "small-box.xml: cannot be run: scene.toml: line 4: "),
+        std::tuple("small.toml --out a", 3, "which needlework run small.toml runs"),
+        std::tuple(". --out a", 5, ".: cannot be read: Is a directory"),
+        std::tuple("gravity.xml", 2, "--out is missing: expected needlework import")}) {
+    const Outcome outcome = run(std::string("import ") + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    EXPECT_TRUE(outcome.complains(message));
+  }
+  EXPECT_FALSE(exists("a"));
+}
+
+TEST_F(ImportCommand, OtherCommandsNameIt) {
+  write("lines.xml", dynamo_text);
+  EXPECT_TRUE(
+      run("run lines.xml")
+          .complains(
+              "it is a configuration of another program, which needlework import lines.xml reads"));
+}
+
+TEST_F(ImportCommand, NamesThatNeedQuotesAreKept) {
+  write("lines \"a\\b\".xml",
+        replaced(dynamo_text, "Name=\"Bulk\" Type", "Name=\"a&quot;b\\&#10;&#233;\" Type"));
+  ASSERT_EQ(run("import 'lines \"a\\b\".xml' --out \"it's\"").exit_code, 0);
+  const Scene scene = read_scene(path("it's/scene.toml"));
+  EXPECT_EQ(scene.species[0].name, "a\"b\\\\né");  // the line break as \n
+  EXPECT_EQ(scene.title, "Imported from lines \"a\\b\".xml");
+}
+
+}  // namespace
+}  // namespace needlework

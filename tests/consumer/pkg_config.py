@@ -1,0 +1,96 @@
+"""Installs the build into a new prefix, compiles programs in C or Fortran there as their users do,
+with pkg-config, and runs them: examples/, and the program that docs/c.md shows.
+
+    pkg_config.py c|fortran BUILD ROOT FLAGS
+
+FLAGS are those of the C++ compiler, of which programs need the sanitizers. Exits with 77 if there
+is no compiler or no pkg-config.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+
+
+def skip_without(*programs):
+    for program in programs:
+        if not shutil.which(program):
+            print(f"skipped: {program} is not installed")
+            sys.exit(77)
+
+
+def check(name, condition, out):
+    print(f"{name}:\n{out}")
+    assert condition, name
+
+
+class Installed:
+    def __init__(self, build, folder, flags):
+        self.folder = folder
+        prefix = folder / "prefix"
+        self.run("cmake", "--install", build, "--prefix", prefix)
+        library, = prefix.glob("lib*/**/libneedlework.so")
+        self.environment = {**os.environ, "LD_LIBRARY_PATH": str(library.parent),
+                            "PKG_CONFIG_PATH": str(library.parent / "pkgconfig")}
+        self.sanitizers = [flag for flag in flags.split() if flag.startswith("-fsanitize=")]
+
+    def run(self, *command):
+        done = subprocess.run([str(part) for part in command], cwd=self.folder, text=True,
+                              capture_output=True, timeout=600,
+                              env=getattr(self, "environment", None))
+        assert done.returncode == 0, (command, done.returncode, done.stdout, done.stderr)
+        return done.stdout
+
+    def build_and_run(self, compiler, *sources):
+        """What the program prints."""
+        options = self.run("pkg-config", "--cflags", "--libs", "needlework").split()
+        self.run(*compiler, *WARNINGS, *sources, *options, *self.sanitizers, "-o", "program")
+        return self.run("./program")
+
+
+def in_c(installed, root):
+    compiler = ["cc", "-std=c11"]
+    version = re.search(r"project\(Needlework VERSION (\S+)", (root / "CMakeLists.txt").read_text())
+    assert installed.run("pkg-config", "--modversion", "needlework").strip() == version[1]
+
+    out = installed.build_and_run(compiler, root / "examples/c/smallest.c")
+    check("smallest.c", re.search(r", 10000 collisions, .*\nhash [0-9a-f]{32}\n$", out), out)
+    out = installed.build_and_run(compiler, root / "examples/c/own_arrays.c")
+    check("own_arrays.c", out.startswith("9/10 of the energy lost after "), out)
+
+    # What the guide shows, and what it says that it prints.
+    text = (root / "docs/c.md").read_text()
+    programs = re.findall(r"^```c\n(#include.*?)^```\n(?:.*?^```\n(.*?)^```)?", text,
+                          flags=re.M | re.S)
+    assert programs, "docs/c.md: expected programs"
+    for number, (program, expected) in enumerate(programs):
+        source = installed.folder / f"guide{number}.c"
+        source.write_text(program)
+        out = installed.build_and_run(compiler, source)
+        check(source.name, out == expected, out + "expected:\n" + expected)
+
+
+def in_fortran(installed, root):
+    folder = root / "examples/fortran"
+    out = installed.build_and_run(["gfortran", "-std=f2018"], folder / "needlework.f90",
+                                  folder / "cooling.f90")
+    seen = re.search(r"^(\d+) collisions seen", out, re.M)
+    last = re.findall(r", (\d+) collisions$", out, re.M)[-1]
+    check("cooling.f90", seen and seen[1] == last == "2560", out)
+
+
+def main(language, build, root, flags=""):
+    skip_without("pkg-config", "gfortran" if language == "fortran" else "cc")
+    with tempfile.TemporaryDirectory() as folder:
+        installed = Installed(Path(build).resolve(), Path(folder), flags)
+        (in_fortran if language == "fortran" else in_c)(installed, Path(root).resolve())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,312 @@
+// Configurations of DynamO: what is read from them, what is refused, and what is written.
+#include "src/io/formats/dynamo.h"
+
+#include <bzlib.h>
+#include <fmt/format.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <fstream>
+#include <random>
+
+#include "src/io/formats/input_text.h"
+#include "tests/io/dynamo_text.h"
+#include "tests/io/support.h"
+
+namespace needlework::io {
+namespace {
+
+using Vectors = std::vector<std::array<double, 3>>;
+using Many = boost::multiprecision::cpp_bin_float_50;
+
+class Dynamo : public InFolder {
+ protected:
+  std::string put(const std::string& text, const std::string& name = "a.xml") const {
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
+  Configuration read(const std::string& text) const { return read_dynamo(put(text)); }
+
+  // What is said of a text, without the name of the file.
+  std::string complaint(const std::string& text) const {
+    const std::string path = put(text);
+    const std::string message = message_of<InputError>([&] { read_dynamo(path); });
+    EXPECT_TRUE(message.starts_with(path + ": ")) << message;
+    return message.substr(std::min(message.size(), path.size() + 2));
+  }
+};
+
+std::string compressed(std::string text) {
+  std::string out(text.size() + text.size() / 100 + 600, '\0');
+  auto size = static_cast<unsigned>(out.size());
+  EXPECT_EQ(BZ_OK, BZ2_bzBuffToBuffCompress(out.data(), &size, text.data(),
+                                            static_cast<unsigned>(text.size()), 9, 0, 0));
+  out.resize(size);
+  return out;
+}
+
+TEST_F(Dynamo, ConfigurationIsReadWithoutRescaling) {
+  const Configuration read = this->read(dynamo_text);
+  EXPECT_EQ(read.material.name, "Bulk");
+  EXPECT_EQ(read.material.length, 2);
+  EXPECT_EQ(read.material.mass, 2);
+  EXPECT_EQ(read.material.k, 6);  // m L^2 / (2 I) = 2 * 4 / (2 * 2/3)
+  EXPECT_EQ(read.material.epsilon, 0.9);
+  EXPECT_EQ(read.material.beta, -1);
+  EXPECT_EQ(read.state.box, (std::array<double, 3>{8, 9, 10.5}));
+  EXPECT_EQ(read.state.position, (Vectors{{-3.9, 0.1, 5.249999999999999}, {1, 2, -3}}));
+  EXPECT_EQ(read.state.velocity, (Vectors{{0.1, -2, 0.001}, {0.3, 0.2, -0.1}}));
+  EXPECT_EQ(read.state.orientation, (Vectors{{1, 0, 0}, {0, 0, 1}}));
+  EXPECT_EQ(read.state.angular_velocity, (Vectors{{0, 1.5, 0}, {0.1, 0.2, 0}}));
+}
+
+TEST_F(Dynamo, DecimalsBecomeTheNearestDoubles) {
+  for (const auto& [decimal, value] :
+       {std::pair("9007199254740993", 9007199254740992.0),  // half way: to even
+        std::pair("9007199254740993.00000000000000000000001", 9007199254740994.0),
+        std::pair("2.2250738585072011e-308", 0x0.fffffffffffffp-1022),
+        std::pair("4.9406564584124654e-324", 0x1p-1074),
+        std::pair("1.7976931348623157e+308", 0x1.fffffffffffffp1023),
+        std::pair("-1.23456789012345678e-05", -1.23456789012345678e-05), std::pair("+0.1", 0.1)}) {
+    const std::string text = replaced(dynamo_text, "x=\"0.3\"", fmt::format("x=\"{}\"", decimal));
+    EXPECT_EQ(read(text).state.velocity[1][0], value) << decimal;
+  }
+}
+
+// By arithmetic of 50 digits.
+std::array<Many, 3> exact_director(const std::array<double, 4>& q) {
+  const Many w = q[0], x = q[1], y = q[2], z = q[3];
+  const Many square = w * w + x * x + y * y + z * z;
+  return {2 * (x * z + w * y) / square, 2 * (y * z - w * x) / square,
+          (w * w + z * z - x * x - y * y) / square};
+}
+
+TEST_F(Dynamo, DirectorsAreThoseOfTheQuaternionsWithinARounding) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 300; ++i) {
+    // Of any size, and some that nearly turn into a coordinate plane.
+    std::array<double, 4> q;
+    for (double& component : q) component = normal(random) * std::pow(10, i % 7 - 3);
+    if (i % 3 == 0) q[i % 4] = 1e-17;
+    std::string text =
+        replaced(dynamo_text, "x=\"0\" y=\"0\" z=\"0\" w=\"1\"",
+                 fmt::format("x=\"{}\" y=\"{}\" z=\"{}\" w=\"{}\"", q[1], q[2], q[3], q[0]));
+    text = replaced(text, "<O x=\"0.1\" y=\"0.2\" z=\"0\"/>", "<O x=\"0\" y=\"0\" z=\"0\"/>");
+    const auto director = read(text).state.orientation[1];
+    const auto exact = exact_director(q);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(abs(director[axis] - exact[axis]), 4 * Many(0x1p-53)) << "quaternion " << i;
+    }
+  }
+}
+
+TEST_F(Dynamo, FilesOfEarlierProgramsAreRead) {
+  std::string text = replaced(dynamo_text, R"(Type="Lines">
+        <IDRange Type="All"/>
+      </Species>)",
+                              R"(IntName="Bulk" Type="SphericalTop" Range="All"/>)");
+  text = replaced(text, R"(<IDPairRange Type="All"/>)", "");
+  text = replaced(text, R"(Elasticity="0.9")", R"(Elasticity="0.9" Range="2All")");
+  text = replaced(text, R"(x="0" y="0" z="0" w="1")", R"(x="0" y="0" z="2")");
+  text = replaced(text, " w=\"7.07106781186547573e-01\"", "");
+  text = replaced(text, "<O x=\"0\" y=\"1.5\" z=\"0\"/>", "<O x=\"0\" y=\"0\" z=\"3\"/>");
+  const Configuration read = this->read(text);
+  EXPECT_EQ(read.material.k, 6);
+  EXPECT_EQ(read.state.orientation, (Vectors{{0, 1, 0}, {0, 0, 1}}));
+}
+
+TEST_F(Dynamo, WhatNeedlesDoNotHaveIsNamed) {
+  struct Case {
+    const char *from, *to, *message;
+  };
+  for (const auto& [from, to, message] : {
+           Case{"1.5.0", "1.4.0", "line 2: DynamOconfig version = 1.4.0: expected 1.5.0"},
+           Case{"<DynamOconfig", "<!-- --><Dyn",
+                "line 45: not well-formed XML: Start-end tags mismatch"},
+           Case{"\"PBC\"", "\"LE\"", "line 13: BC Type = LE: expected PBC"},
+           Case{"\"PBC\"", "\"None\"", "line 13: BC Type = None: expected PBC"},
+           Case{"Type=\"Newtonian\"", "Type=\"NewtonianGravity\"",
+                "line 28: Dynamics Type = NewtonianGravity: expected Newtonian"},
+           Case{"<SystemEvents/>",
+                "<SystemEvents><System Type=\"Andersen\" Name=\"Thermostat\"/></SystemEvents>",
+                "line 27: System: cannot be carried over: expected none in SystemEvents"},
+           Case{"<Locals/>", "<Locals><Local Type=\"Wall\"/></Locals>",
+                "line 23: Local: cannot be carried over: expected none in Locals"},
+           Case{"\"Cells\"", "\"Waker\"", "line 25: Global Type = Waker: expected Cells"},
+           Case{"<Topology/>", "<Topology><Structure Type=\"Chain\"/></Topology>",
+                "line 14: Structure: cannot be carried over: expected none in Topology"},
+           Case{"Type=\"Lines\" Length", "Type=\"HardSphere\" Length",
+                "line 16: Interaction Type = HardSphere: expected Lines"},
+           Case{"</Interactions>", "<Interaction Type=\"SquareWell\"/></Interactions>",
+                "line 22: Interaction Type = SquareWell: expected Lines"},
+           Case{"</Interactions>", "<Interaction Type=\"Lines\"/></Interactions>",
+                "line 22: Interaction: the second: expected one"},
+           Case{"IDPairRange Type=\"All\"", "IDPairRange Type=\"Self\"",
+                "line 17: IDPairRange Type = Self: expected All"},
+           Case{"IDRange Type=\"All\"", "IDRange Type=\"Ranged\" Start=\"0\" End=\"0\"",
+                "line 10: IDRange Type = Ranged: expected All"},
+           Case{"</Genus>", "<Species Type=\"Point\"/></Genus>",
+                "line 12: Species: a second species cannot be carried over"},
+           Case{"Name=\"Bulk\" Type=\"Lines\">", "Name=\"Bulk\" Type=\"Point\">",
+                "line 9: Species Type = Point: expected SphericalTop or Lines"},
+           Case{"Mass=\"2\"", "Mass=\"M\"",
+                "line 9: Species Mass = M: expected a finite number, the same for all particles"},
+           Case{"Length=\"2\"", "Length=\"L\"",
+                "line 16: Interaction Length = L: expected a finite"},
+           Case{"<Properties/>",
+                "<Properties><Property Type=\"PerParticle\" Name=\"M\"/></Properties>",
+                "line 30: Property: cannot be carried over: expected none in Properties"},
+           Case{"<Pt ID=\"0\"", "<Pt ID=\"0\" M=\"1\"",
+                "line 32: Pt: attribute M cannot be carried over: expected ID"},
+           Case{"<Pt ID=\"0\"", "<Pt ID=\"0\" Static=\"Static\"",
+                "line 32: Pt Static = Static: expected none: all needles move"},
+           Case{" OrientationData=\"Y\"", "",
+                "line 31: ParticleData: OrientationData is missing: expected particles with"},
+           Case{"<Dynamics Type=\"Newtonian\"/>", "<Dynamics Type=\"Newtonian\"/><Umbrella/>",
+                "line 28: Umbrella: cannot be carried over: expected Scheduler"},
+       }) {
+    const std::string found = complaint(replaced(dynamo_text, from, to));
+    EXPECT_TRUE(found.starts_with(message)) << found;
+  }
+}
+
+TEST_F(Dynamo, BadNumbersAndCountsAreNamed) {
+  struct Case {
+    const char *from, *to, *message;
+  };
+  for (const auto& [from, to, message] : {
+           Case{"x=\"0.3\"", "x=\"nan\"", "line 40: V x = nan: expected a finite number"},
+           Case{"x=\"0.3\"", "x=\"-inf\"", "line 40: V x = -inf: expected a finite number"},
+           Case{"x=\"0.3\"", "x=\"1e999\"",
+                "line 40: V x = 1e999: expected a number that a double can hold"},
+           Case{"x=\"0.3\"", "x=\"0.3 \"", "line 40: V x = 0.3 : expected a finite number"},
+           Case{"x=\"0.3\"", "x=\"\"", "line 40: V x = : expected a finite number"},
+           Case{"x=\"0.3\"", "x=\"0x1p3\"", "line 40: V x = 0x1p3: expected a finite number"},
+           Case{"x=\"0.3\" ", "", "line 40: V: x is missing: expected this attribute"},
+           Case{"x=\"0.3\"", "x=\"0.3\" x=\"0.4\"",
+                "line 40: V: x is given twice: expected it once"},
+           Case{"y=\"9\"", "y=\"0\"", "line 7: SimulationSize y = 0: expected a number > 0"},
+           Case{"y=\"9\"", "y=\"-9\"", "line 7: SimulationSize y = -9: expected a number > 0"},
+           Case{"Mass=\"2\"", "Mass=\"0\"", "line 9: Species Mass = 0: expected a number > 0"},
+           Case{"\"3.33333333333333315e-01\"", "\"0\"", "line 9: Species InertiaConstant = 0: "},
+           Case{"Length=\"2\"", "Length=\"-2\"", "line 16: Interaction Length = -2: expected a "},
+           Case{"\"0.9\"", "\"1.1\"",
+                "line 16: Interaction Elasticity = 1.1: expected a number from"},
+           Case{"<Pt ID=\"1\"", "<Pt ID=\"0\"", "line 38: Pt ID = 0: expected 1: particles are "},
+           Case{"OrientationData", "N=\"3\" OrientationData",
+                "line 31: ParticleData N = 3: expected 2, the number of particles"},
+           Case{"<Pt ID=\"1\"", "<Pt ID=\"2\"", "line 38: Pt ID = 2: expected 1: particles are "},
+           Case{"<V x=\"0.3\" y=\"0.2\" z=\"-0.1\"/>", "",
+                "line 38: Pt: V is missing: expected one"},
+           Case{"<V x=\"0.3\"", "<V x=\"1\" y=\"1\" z=\"1\"/><V x=\"0.3\"",
+                "line 40: V: the second: expected one"},
+           Case{"w=\"1\"", "w=\"0\"", "line 42: U: of size 0: expected a direction"},
+           Case{"<O x=\"0.1\" y=\"0.2\" z=\"0\"/>", "<O x=\"0\" y=\"0\" z=\"1\"/>",
+                "line 41: O: 1 of its length is along the director: expected none"},
+           Case{"</Pt>", "2.5</Pt>", "line 32: Pt: text '2.5': expected elements only"},
+           Case{"w=\"1\"/>", "w=\"1\"/><Director x=\"0\" y=\"0.6\" z=\"0.8\"/>",
+                "line 42: Director: (0, 0.6, 0.8): expected (0, 0, 1), to which U turns"},
+       }) {
+    const std::string found = complaint(replaced(dynamo_text, from, to));
+    EXPECT_TRUE(found.starts_with(message)) << found;
+  }
+}
+
+TEST_F(Dynamo, EntitiesOfTheirOwnAreRefused) {
+  const std::string laughs = R"(<!DOCTYPE a [<!ENTITY l "lol"><!ENTITY m "&l;&l;&l;&l;">]>
+<DynamOconfig)";
+  EXPECT_EQ(complaint(replaced(dynamo_text, "<DynamOconfig", laughs)),
+            "a document type (<!DOCTYPE ...>): expected none");
+  EXPECT_EQ(complaint(replaced(dynamo_text, "x=\"0.3\"", "x=\"&m;\"")),
+            "line 40: V x = &m;: expected a finite number");
+}
+
+TEST_F(Dynamo, FilesThatAreCutShortAreRefused) {
+  const std::size_t end = dynamo_text.rfind("</DynamOconfig>") + 15;
+  for (std::size_t size = 0; size < end; size += size < end - 40 ? 17 : 1) {
+    EXPECT_FALSE(complaint(dynamo_text.substr(0, size)).empty()) << size;
+  }
+  const std::string bytes = compressed(dynamo_text);
+  for (std::size_t size = 3; size < bytes.size(); size += 23) {
+    EXPECT_EQ(complaint(bytes.substr(0, size)), "cut short: expected a complete bzip2 file")
+        << size;
+  }
+}
+
+TEST_F(Dynamo, DamagedFilesAreRefused) {
+  std::string bytes = compressed(dynamo_text);
+  bytes[bytes.size() / 2] ^= 1;
+  EXPECT_EQ(complaint(bytes), "damaged: expected a bzip2 file");
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 300; ++i) {
+    // Whatever it is, it is read or refused.
+    std::string text = dynamo_text;
+    for (int j = 0; j < 3; ++j) text[random() % text.size()] = static_cast<char>(random());
+    const std::string path = put(text);
+    try {
+      read_dynamo(path);
+    } catch (const InputError&) {
+    }
+  }
+  EXPECT_TRUE(complaint(std::string(100000, '<')).starts_with("line 1: not well-formed XML"));
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  EXPECT_TRUE(complaint(deep).starts_with("line 1: not well-formed XML"));
+}
+
+TEST_F(Dynamo, CompressedFilesAreReadWhateverTheirName) {
+  const Configuration plain = read(dynamo_text);
+  expect_same(read_dynamo(put(compressed(dynamo_text), "a.xml.bz2")).state, plain.state);
+  expect_same(read_dynamo(put(compressed(dynamo_text), "b")).state, plain.state);
+  // bzip2 files may be joined.
+  const std::string halves =
+      compressed(dynamo_text.substr(0, 700)) + compressed(dynamo_text.substr(700));
+  expect_same(read_dynamo(put(halves, "c.xml.bz2")).state, plain.state);
+}
+
+TEST_F(Dynamo, FilesThatExplodeAreRefused) {
+  const std::string bomb = compressed(std::string(std::size_t{70} << 20, ' '));
+  ASSERT_LT(bomb.size(), 1000u);
+  EXPECT_EQ(complaint(bomb),
+            fmt::format("more than 67108864 bytes when decompressed: expected less, "
+                        "from {} compressed bytes",
+                        bomb.size()));
+  const std::string path = put(std::string(1001, 'x'));
+  EXPECT_EQ(message_of<InputError>([&] { read_text_file(path, 1000); }),
+            path + ": 1001 bytes: expected at most 1000");
+}
+
+TEST_F(Dynamo, WhatIsWrittenIsReadBitForBit) {
+  Frame frame;
+  frame.state = make_state(200, 5);
+  frame.state.orientation[0] = {0, 0, -1};
+  frame.state.orientation[1] = {-0.0, 0x1.fffffffffffffp-1, 1e-9};
+  frame.state.orientation[2] = {0, 0, 1 - 0x1p-53};
+  for (int i : {0, 1, 2}) frame.state.angular_velocity[i] = {3, 0, -0.0};
+  Material material;
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(0.5, 2);
+  for (int i = 0; i < 100; ++i) {
+    material.length = uniform(random);
+    material.mass = uniform(random);
+    material.k = uniform(random) * std::pow(10, i % 9 - 4);
+    material.epsilon = uniform(random) / 2;
+    if (i > 0) frame.state.resize(2);
+    const std::string name = i % 2 ? "a.xml" : "a.xml.bz2";
+    const auto writer = write_dynamo(file(name), true, material);
+    writer->add(frame);
+    writer->publish();
+    const Configuration read = read_dynamo(file(name));
+    EXPECT_EQ(read.material.length, material.length);
+    EXPECT_EQ(read.material.mass, material.mass);
+    EXPECT_EQ(read.material.k, material.k) << i;
+    EXPECT_EQ(read.material.epsilon, material.epsilon);
+    State expected = frame.state;
+    expected.image.clear();
+    expected.id.clear();
+    expect_same(read.state, expected);
+  }
+}
+
+}  // namespace
+}  // namespace needlework::io

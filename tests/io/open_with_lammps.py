@@ -1,0 +1,91 @@
+"""Lets LAMMPS read what `needlework export` made of a run, and `needlework import` what LAMMPS wrote of
+that: the needles are the same, bit for bit."""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+COLUMNS = ("id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz diameter mass")
+SCENE = """
+needles.box = [6, 7, 8]
+until.collisions_per_needle = 5
+[[species]]
+name = "rod"
+count = 50
+length = 1.7
+mass = 2.5
+k = 3.3
+"""
+SCRIPT = f"""
+units lj
+atom_style hybrid sphere dipole
+{{read}}
+pair_style zero 1.0
+pair_coeff * *
+dump d all custom 1 back.dump {COLUMNS}
+dump_modify d format float %.17g
+run 0
+write_data back.data
+"""
+READ_DUMP = """
+region box block 0 6 0 7 0 8
+create_box 1 box
+read_dump run.dump 1 x y z ix iy iz vx vy vz add keep box yes
+"""
+
+
+def run(folder, *command):
+    subprocess.run(command, cwd=folder, check=True, timeout=3600, stdout=subprocess.DEVNULL)
+
+
+def needles(path):
+    """The last frame, in the order of ids."""
+    with h5py.File(path) as file:
+        group = file["particles/needles"]
+        order = np.argsort(group["id"][:])
+        names = ("position", "velocity", "orientation", "angular_velocity", "image")
+        return {name: group[name]["value"][-1][order] for name in names}
+
+
+def lammps(folder, read):
+    with open(os.path.join(folder, "in.lammps"), "w") as file:
+        file.write(SCRIPT.format(read=read))
+    run(folder, "lmp", "-in", "in.lammps", "-log", "none")
+
+
+def main(_writer, program):
+    if not shutil.which("lmp"):
+        print("lammps is not installed")
+        sys.exit(77)  # skipped
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scene.toml"), "w") as file:
+            file.write(SCENE)
+        run(folder, program, "run", "scene.toml", "--out", "run.h5", "--quiet")
+        run(folder, program, "export", "run.h5", "run.data")
+        lammps(folder, "read_data run.data")
+        wanted = needles(os.path.join(folder, "run.h5"))
+        # write_data has 16 digits, which are not enough for all numbers.
+        for name, tolerance in [("back.dump", 0), ("back.data", 1e-14)]:
+            run(folder, program, "import", name, "--out", name + "-folder")
+            found = needles(os.path.join(folder, name + "-folder", "state.h5"))
+            for key, numbers in wanted.items():
+                error = np.max(np.abs(found[key] - numbers))
+                assert error <= tolerance, (name, key, error)
+
+        run(folder, program, "export", "run.h5", "run.dump", "--frame", "last")
+        with open(os.path.join(folder, "run.dump")) as file:
+            step = file.read().split("ITEM: TIMESTEP\n")[1].split()[0]
+        lammps(folder, READ_DUMP.replace("run.dump 1", f"run.dump {step}"))
+        table = np.loadtxt(os.path.join(folder, "back.dump"), skiprows=9)
+        table = table[np.argsort(table[:, 0])]
+        for key, columns in [("position", slice(2, 5)), ("image", slice(5, 8)),
+                             ("velocity", slice(8, 11))]:
+            assert np.array_equal(table[:, columns], wanted[key]), key
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

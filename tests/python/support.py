@@ -1,0 +1,29 @@
+"""Scenes that the tests of the Python package share."""
+
+import copy
+import importlib.util
+import sys
+
+GAS = {
+    "title": "Cooling needles",
+    "needles": {"count": 200, "box": 6.0, "seed": 3},
+    "collisions": {"epsilon": 0.8, "tc_relative": 1e-3},
+    "until": {"collisions_per_needle": 20},
+}
+ELASTIC = {"needles": {"count": 200, "box": 6.0}}
+
+
+def gas(**sections):
+    """GAS with keys replaced: gas(needles={"count": 3}, output={...})."""
+    scene = copy.deepcopy(GAS)
+    for section, keys in sections.items():
+        scene[section] = {**scene.get(section, {}), **keys}
+    return scene
+
+
+def require(*modules):
+    """Ends the test as skipped (77) where one of these modules is missing."""
+    for module in modules:
+        if importlib.util.find_spec(module) is None:
+            print(f"skipped: {module} is missing: expected the packages of packages.txt")
+            sys.exit(77)

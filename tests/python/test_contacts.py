@@ -1,0 +1,85 @@
+"""First contacts: exact cases, shapes, and the same answers as the program."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import needlework
+import numpy as np
+from needlework import InputError, predict
+
+PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
+REST, X, Y, Z = np.zeros(3), *np.eye(3)
+
+
+class Contacts(unittest.TestCase):
+    def test_crossed_needles_meet_when_and_where_they_must(self):
+        # The second needle falls onto the first from height 2 and hits it off its centre.
+        contact = predict(REST, X, REST, REST, [0.25, 0.1, 2], Y, -Z, REST, 10)
+        self.assertIsInstance(contact, needlework.FirstContacts)
+        time, s12, s21 = contact
+        self.assertAlmostEqual(time, 2, places=14)
+        self.assertAlmostEqual(s12, 0.25, places=14)
+        self.assertAlmostEqual(s21, -0.1, places=14)
+        self.assertEqual(np.shape(time), ())
+
+    def test_no_contact_is_infinity_and_nan(self):
+        time, s12, s21 = predict(REST, X, REST, REST, Z, Y, Z, REST, 10)
+        self.assertEqual(time, np.inf)
+        self.assertTrue(np.isnan(s12) and np.isnan(s21))
+        self.assertEqual(predict(REST, X, REST, REST, 2 * Z, Y, -Z, REST, 1.5).time, np.inf)
+
+    def test_a_pair_that_has_just_collided_is_skipped(self):
+        arguments = REST, X, REST, REST, REST, Y, Z, REST, 10
+        self.assertEqual(predict(*arguments, skip=True).time, np.inf)
+
+    def test_arguments_are_broadcast(self):
+        heights = np.arange(1.0, 7).reshape(2, 3)
+        above = np.zeros((2, 3, 3))
+        above[..., 2] = heights
+        contacts = predict(REST, X, REST, REST, above, Y, -Z, REST, 10)
+        np.testing.assert_allclose(contacts.time, heights, rtol=1e-14)
+        self.assertEqual(contacts.s12.shape, (2, 3))
+        horizons = predict(REST, X, REST, REST, 2 * Z, Y, -Z, REST, [1, 3])
+        np.testing.assert_array_equal(horizons.time, [np.inf, 2])
+        self.assertEqual(predict(*[np.zeros((0, 3))] * 8, 1).time.shape, (0,))
+
+    def test_answers_are_those_of_the_program(self):
+        rng = np.random.default_rng(5)
+        columns = [rng.normal(size=(300, 3)) for _ in range(8)]
+        for place in (0, 4):  # near each other, often
+            columns[place] *= 0.2
+        for accuracy in ("fast", "standard", "rigorous"):
+            ours = predict(*columns, 5.0, accuracy=accuracy)
+            with tempfile.TemporaryDirectory() as folder:
+                path = Path(folder, "pairs.csv")
+                path.write_text("".join(
+                    ",".join([str(i), "random", "5.0", *(repr(float(x)) for column in columns
+                                                         for x in column[i]), "0"]) + "\n"
+                    for i in range(300)))
+                printed = subprocess.run([PROGRAM, "predict", path, "--accuracy", accuracy],
+                                         check=True, capture_output=True, text=True).stdout
+            its = np.array([[float(x) for x in line.split(",")[1:]]
+                            for line in printed.splitlines()]).T
+            for column, expected in zip(ours, its):
+                np.testing.assert_array_equal(column, expected)
+            self.assertGreater(np.isfinite(ours.time).sum(), 20)
+
+    def test_wrong_arguments_are_named(self):
+        good = [REST, X, REST, REST, Z, Y, -Z, REST]
+        for place, value, message in ((1, [1, 0], r"^u1: shape \(2,\): expected \(\.\.\., 3\)"),
+                                      (4, "a", "^r2: expected an array of numbers"),
+                                      (5, REST, "^pair 0: .*expected"),
+                                      (2, np.zeros((5, 2, 3)), "expected shapes that can be")):
+            arguments = list(good)
+            arguments[place] = value
+            with self.assertRaisesRegex(InputError, message):
+                predict(*arguments, [1, 2, 3])
+        with self.assertRaisesRegex(InputError, 'accuracy = "perfect": expected "fast"'):
+            predict(*good, 1, accuracy="perfect")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,138 @@
+"""Errors: what is wrong is named as the program names it."""
+
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+import needlework
+import numpy as np
+from needlework import InputError, IoError, Simulation
+
+from support import GAS, gas
+
+COLLAPSE = {"needles": {"count": 50, "box": 2.5}, "collisions": {"epsilon": 0.1}}
+
+
+class Scenes(unittest.TestCase):
+    def rejects(self, scene, message, error=InputError, **arguments):
+        with self.assertRaisesRegex(error, message), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            Simulation(scene, **arguments)
+
+    def test_keys_of_dictionaries_are_named(self):
+        self.rejects(gas(needles={"count": -1}), r"^scene: needles.count = -1: expected a whole number")
+        self.rejects(gas(needles={"cuont": 1}), r"^scene: needles.cuont = 1: expected .*count")
+        self.rejects(gas(collisions={"epsilon": "high"}),
+                     r'^scene: collisions.epsilon = "high": expected a number')
+        self.rejects({"needles": {"count": 5}}, r"^scene: needles.box is missing: expected")
+        self.rejects(gas(engine={"isa": "mmx"}), r'^scene: engine.isa = "mmx": expected')
+        self.rejects(gas(needles={"box": object()}),
+                     r"^scene: needles.box = <object .*>: expected a number")
+        self.rejects({3: {}}, "key 3: expected a string")
+
+    def test_lines_of_text_are_named(self):
+        self.rejects("title = 'x'\nneedles.count = -1\n",
+                     r"^scene: line 2: needles.count = -1: expected")
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "gas.toml")
+            path.write_text("needles = { count = 10, box = 1 }")
+            self.rejects(path, rf"^{path}: line 1: needles.box = 1: expected")
+
+    def test_types_of_scenes_are_checked(self):
+        self.rejects(5, "^scene = 5: expected a dictionary of sections, TOML text or a path")
+        self.rejects("no-such-scene.toml", "^no-such-scene.toml: cannot be read", IoError)
+
+    def test_warnings_are_given(self):
+        with self.assertWarnsRegex(needlework.SceneWarning, "tc_relative"):
+            Simulation(gas(collisions={"tc_relative": None}))
+
+    def test_states_are_checked(self):
+        rows = np.zeros((3, 3))
+        self.rejects(GAS, "^orientation is missing: expected position and orientation",
+                     position=rows)
+        arrays = {"velocity": rows, "orientation": rows + [1, 0, 0], "angular_velocity": rows}
+        positions = np.arange(9.0).reshape(3, 3)
+        scene = {"needles": {"box": 20}}
+        self.rejects(scene, r"^position: shape \(3,\): expected \(N, 3\)", position=rows[0],
+                     **arrays)
+        self.rejects(scene, r"^velocity: shape \(3, 3\): expected \(2, 3\)",
+                     position=positions[:2], **arrays)
+        self.rejects({"needles": {"count": 4, "box": 20}}, r"needles.count = 4: expected 3",
+                     position=positions, **arrays)
+        self.rejects({}, "needles.box is missing", position=positions, **arrays)
+        self.rejects(gas(initial={"t_tr": 2.0}), "initial.t_tr = 2.0: expected none",
+                     position=positions, **arrays)
+        self.rejects(scene, "director|orientation", position=positions,
+                     **{**arrays, "orientation": rows})
+        self.rejects(scene, "^position: expected an array of numbers", position="abc", **arrays)
+
+    def test_classes_are_those_of_python_too(self):
+        self.assertTrue(issubclass(InputError, (needlework.Error, ValueError)))
+        self.assertTrue(issubclass(InputError, ValueError))
+        self.assertTrue(issubclass(IoError, OSError))
+        for error in (InputError, IoError, needlework.InvalidStateError):
+            self.assertTrue(issubclass(error, needlework.Error))
+
+
+class Runs(unittest.TestCase):
+    def test_limits_are_checked(self):
+        sim = Simulation({"needles": {"count": 3, "box": 3}})
+        for call, message in ((lambda: sim.run(time=-1), "time = -1: expected a number >= 0"),
+                              (lambda: sim.run(time=float("nan")), "time = nan: expected"),
+                              (lambda: sim.run(time="soon"), "time = 'soon': expected a number"),
+                              (lambda: sim.advance(collisions=-1), "collisions = -1: expected"),
+                              (lambda: sim.advance(collisions=2.5), "collisions = 2.5: expected"),
+                              (lambda: sim.advance(), "no end condition: expected"),
+                              (lambda: sim.run(), "no end condition: expected")):
+            with self.assertRaisesRegex(InputError, message):
+                call()
+
+    def test_a_collapse_is_an_invalid_state_that_can_be_looked_at(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            sim = Simulation(COLLAPSE)
+        with self.assertRaisesRegex(needlework.InvalidStateError, "collapse of needles"):
+            sim.run(collisions_per_needle=10000)
+        self.assertTrue(np.all(np.isfinite(sim.velocity)))
+        self.assertGreater(sim.totals.collisions, 0)
+
+    def test_velocities_are_checked(self):
+        sim = Simulation(GAS)
+        good = np.zeros((200, 3))
+        with self.assertRaisesRegex(InputError, r"^velocity: shape \(3, 3\): expected \(200, 3\)"):
+            sim.set_velocities(good[:3], good)
+        before = sim.velocity
+        with self.assertRaisesRegex(InputError, "finite"):
+            sim.set_velocities(good + np.nan, good)
+        np.testing.assert_array_equal(sim.velocity, before)
+
+    def test_files_are_kept_unless_forced(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "run.h5")
+            path.write_text("precious")
+            scene = gas(output={"file": str(path)})
+            with self.assertRaisesRegex(
+                    IoError, rf'^scene: output.file = "{path}": exists already: expected a new '
+                             "file, or force=True to replace it"):
+                Simulation(scene)
+            self.assertEqual(path.read_text(), "precious")
+            with Simulation(scene, force=True) as sim:
+                sim.run()
+            with needlework.read(path) as recording:
+                self.assertEqual(recording.series.collisions[-1], 2000)
+            with self.assertRaisesRegex(IoError, "folder that exists"):
+                Simulation(gas(output={"file": str(Path(folder, "none", "run.h5"))}))
+
+    def test_a_closed_simulation_can_be_read_only(self):
+        sim = Simulation(GAS)
+        sim.advance(collisions=10)
+        sim.close()
+        sim.close()
+        self.assertEqual(sim.totals.collisions, 10)
+        with self.assertRaisesRegex(needlework.Error, "is closed"):
+            sim.run()
+
+
+if __name__ == "__main__":
+    unittest.main()

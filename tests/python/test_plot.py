@@ -1,0 +1,65 @@
+"""Pictures show what they should: the measured points, the theory and the needles."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from support import gas, require
+
+require("matplotlib", "h5py")
+import matplotlib  # noqa: E402
+
+matplotlib.use("Agg")
+import needlework  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib import pyplot  # noqa: E402
+from needlework import Simulation, plot, read  # noqa: E402
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(pyplot.close, "all")
+        path = Path(folder.name, "run.h5")
+        self.sim = Simulation(gas(output={"file": str(path)}))
+        samples = [self.sim.totals]
+        for time in np.geomspace(0.1, 10, 10):
+            self.sim.run(time=time)
+            samples.append(self.sim.totals)
+        self.series = needlework.Series.of(samples)
+        self.sim.close()
+        self.recording = read(path)
+        self.addCleanup(self.recording.close)
+
+    def test_cooling_has_the_series_and_the_theory(self):
+        for axes, series in ((plot.cooling(self.recording), self.recording.series),
+                             (plot.cooling(self.series, gas=self.sim.gas), self.series)):
+            theory, measured = axes.lines
+            np.testing.assert_array_equal(measured.get_xdata(), series.time[1:])
+            np.testing.assert_array_equal(measured.get_ydata(),
+                                          series.energy[1:] / series.energy[0])
+            # 200 needles in one box: the theory is not far away.
+            np.testing.assert_allclose(theory.get_ydata(), measured.get_ydata(), rtol=0.3)
+
+    def test_temperature_ratio_starts_with_that_of_the_state(self):
+        _, axes = pyplot.subplots()
+        self.assertIs(plot.temperature_ratio(self.recording, axes=axes), axes)
+        theory, measured = axes.lines
+        self.assertAlmostEqual(measured.get_ydata()[0], 1, places=1)
+        np.testing.assert_allclose(theory.get_ydata(), measured.get_ydata(), rtol=0.5)
+
+    def test_needles_are_lines_of_their_length(self):
+        for state in (self.sim, self.recording.frames[0]):
+            lines, = plot.needles(state).collections
+            ends = np.array(lines._segments3d)
+            self.assertEqual(ends.shape, (200, 2, 3))
+            np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1)
+
+    def test_a_series_alone_needs_the_gas(self):
+        with self.assertRaisesRegex(needlework.InputError, "gas is missing"):
+            plot.cooling(self.series)
+
+
+if __name__ == "__main__":
+    unittest.main()

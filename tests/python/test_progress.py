@@ -1,0 +1,49 @@
+"""Progress: one line on a terminal, or below the cell of a notebook, and only where it is wanted."""
+
+import contextlib
+import io
+import unittest
+
+from needlework import Simulation
+from needlework.progress import NotebookLine, progress_line
+
+from support import ELASTIC
+
+
+def stderr_of(progress):
+    printed = io.StringIO()
+    with contextlib.redirect_stderr(printed):
+        # Longer than the first half of a second, in which nothing is shown.
+        Simulation(ELASTIC).run(time=1e12, wall_s=0.9, progress=progress)
+    return printed.getvalue()
+
+
+class Progress(unittest.TestCase):
+    def test_a_line_is_drawn_and_taken_away(self):
+        printed = stderr_of(True)
+        lines = printed.split("\r")
+        self.assertRegex(lines[1], r"^ *[0-9.]+ % done, .* left: \d+ collisions, time [0-9.e+]+$")
+        self.assertEqual(lines[-1], "")
+        self.assertEqual(lines[-2].strip(), "")
+
+    def test_nothing_is_shown_by_default(self):
+        self.assertEqual(stderr_of(None), "")
+        self.assertEqual(stderr_of(False), "")
+
+    def test_an_exception_of_the_line_ends_the_run(self):
+        class Broken(io.StringIO):
+            def write(self, text):
+                raise OSError("no terminal")
+
+        sim = Simulation(ELASTIC)
+        with contextlib.redirect_stderr(Broken()), self.assertRaisesRegex(OSError, "no terminal"):
+            sim.run(time=1e12, wall_s=600, progress=True)
+        sim.run(time=sim.time + 1)
+
+    def test_outside_of_notebooks_there_is_no_notebook_line(self):
+        self.assertIsNone(progress_line(None))
+        self.assertNotIsInstance(progress_line(True), NotebookLine)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,156 @@
+"""Files of runs: series, frames and events as they were simulated."""
+
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+import needlework
+import numpy as np
+from needlework import InputError, IoError, Simulation, read
+
+from support import GAS, gas, require
+
+require("h5py", "pandas")
+
+
+class Reading(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name, "run.h5")
+        cls.rows = []
+        output = {"file": str(cls.path), "events": True, "frames": [0.5, 1.0]}
+        with Simulation(gas(output=output)) as sim:
+            sim.on_collisions(cls.rows.append)
+            cls.first = sim.position
+            sim.run()
+        cls.sim = sim
+        cls.rows = np.concatenate(cls.rows)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def setUp(self):
+        self.recording = read(self.path)
+        self.addCleanup(self.recording.close)
+
+    def test_series_ends_with_the_totals(self):
+        series = self.recording.series
+        for name, value in self.sim.totals.items():
+            np.testing.assert_array_equal(series[name][-1], value)
+        self.assertEqual(series.time[0], 0)
+        self.assertEqual(series.momentum.shape, (series.rows, 3))
+        self.assertEqual(series.rows, len(series.energy))
+
+    def test_frames_are_read_by_index(self):
+        frames = self.recording.frames
+        self.assertEqual(len(frames), 4)
+        np.testing.assert_array_equal(frames.time, [0, 0.5, 1, self.sim.time])
+        np.testing.assert_array_equal(frames[0].position, self.first)
+        last = frames[-1]
+        for name in ("position", "velocity", "orientation", "angular_velocity", "image", "id",
+                     "box"):
+            np.testing.assert_array_equal(getattr(last, name), getattr(self.sim, name))
+        self.assertEqual(last.collisions, 2000)
+        self.assertEqual([frame.time for frame in frames[1:3]], [0.5, 1.0])
+        self.assertEqual(len(list(frames)), 4)
+        with self.assertRaises(IndexError):
+            frames[4]
+
+    def test_events_are_read_in_parts(self):
+        events = self.recording.events
+        self.assertEqual(len(events), 2000)
+        whole = events[:]
+        for name in events.dtype.names:
+            np.testing.assert_array_equal(events[name], self.rows[name])
+            np.testing.assert_array_equal(whole[name], self.rows[name])
+        np.testing.assert_array_equal(events[10:20], whole[10:20])
+        np.testing.assert_array_equal(events[10:30:7], whole[10:30:7])
+        np.testing.assert_array_equal(events[20:10:-3], whole[20:10:-3])
+        np.testing.assert_array_equal(events[5:1], whole[5:1])
+        self.assertEqual(events[-1], whole[-1])
+        self.assertEqual(sum(1 for _ in events), 2000)
+        with self.assertRaisesRegex(InputError, "expected one of time, epoch"):
+            events["colour"]
+
+    def test_tables_for_pandas(self):
+        series = self.recording.series.to_pandas()
+        self.assertEqual(len(series), self.recording.series.rows)
+        np.testing.assert_array_equal(series["momentum_y"], self.recording.series.momentum[:, 1])
+        events = self.recording.events.to_pandas()
+        np.testing.assert_array_equal(events["pair_2"], self.rows["pair"][:, 1])
+
+    def test_parameters_and_gas(self):
+        self.assertEqual(self.recording.parameters.seed, 3)
+        self.assertIn("tc_relative", self.recording.parameters.scene)
+        for name, value in self.sim.gas.items():
+            np.testing.assert_array_equal(self.recording.gas[name], value)
+
+    def test_the_recorded_scene_runs_again(self):
+        scene = tomllib.loads(self.recording.parameters.scene)
+        del scene["output"]
+        again = Simulation(scene)
+        again.run()
+        self.assertEqual(again.hash, self.sim.hash)
+
+    def test_notebooks_show_tables(self):
+        for shown in (self.recording, self.recording.series, self.sim, self.sim.totals):
+            self.assertIn("<table>", shown._repr_html_())
+
+    def test_arrays_stay_when_the_file_is_closed(self):
+        recording = read(self.path)
+        energy = recording.series.energy
+        recording.close()
+        self.assertGreater(energy[0], energy[-1])
+        with self.assertRaisesRegex(IoError, "is closed"):
+            recording.frames
+
+    def test_a_run_can_be_read_while_it_lasts(self):
+        path = Path(self.folder.name, "long.h5")
+        with Simulation(gas(output={"file": str(path), "frames": [0.1]})) as sim:
+            sim.run(time=1)
+            with read(path) as recording:
+                self.assertEqual(len(recording.frames), 2)
+            sim.run()
+        with read(path) as recording:
+            self.assertEqual(len(recording.frames), 3)
+            with self.assertRaisesRegex(InputError, r"/events is missing: expected a run with"):
+                recording.events
+
+    def test_a_forgotten_simulation_completes_its_file(self):
+        path = Path(self.folder.name, "forgotten.h5")
+        sim = Simulation(gas(output={"file": str(path)}))
+        sim.run()
+        del sim
+        with read(path) as recording:
+            self.assertEqual(recording.series.collisions[-1], 2000)
+            self.assertEqual(recording.frames[-1].collisions, 2000)
+
+    def test_other_files_are_refused(self):
+        import h5py
+        with self.assertRaisesRegex(IoError, "no-such.h5: cannot be read: No such file"):
+            read("no-such.h5")
+        text, other = Path(self.folder.name, "text.h5"), Path(self.folder.name, "other.h5")
+        text.write_text("not HDF5")
+        with self.assertRaisesRegex(IoError, "cannot be read"):
+            read(text)
+        h5py.File(other, "w").close()
+        with self.assertRaisesRegex(InputError, "expected the file of a run"):
+            read(other)
+
+    def test_series_of_totals(self):
+        sim = Simulation(GAS)
+        samples = [sim.totals]
+        for time in (0.5, 1.0):
+            sim.run(time=time)
+            samples.append(sim.totals)
+        series = needlework.Series.of(samples)
+        np.testing.assert_array_equal(series.time, [0, 0.5, 1])
+        self.assertEqual(series.momentum.shape, (3, 3))
+        self.assertEqual(list(series), list(self.recording.series))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,57 @@
+"""Kinetic theory: the same numbers as the program, arrays, and ranges."""
+
+import json
+import os
+import subprocess
+import unittest
+
+import numpy as np
+from needlework import InputError, theory
+
+PROGRAM = os.environ["NEEDLEWORK_PROGRAM"]
+
+
+class Theory(unittest.TestCase):
+    def test_numbers_are_those_of_the_program(self):
+        taus = [0, 0.5, 3, 100]
+        printed = subprocess.run(
+            [PROGRAM, "theory", "--epsilon", "0.8", "--k", "6", "--beta", "0.3", "--t-rot0", "0",
+             "--json", *(part for tau in taus for part in ("--tau", str(tau)))],
+            check=True, capture_output=True, text=True).stdout
+        expected = json.loads(printed)
+        curve = theory.cooling(0.8, 6, beta=0.3, t_rot0=0, tau=taus)
+        for name in ("tau", "t_tr", "t_rot", "energy"):
+            np.testing.assert_array_equal(curve[name], expected[name])
+        self.assertEqual(theory.ratio(0.8, 6, 0.3), expected["c"])
+
+    def test_rate_is_that_of_the_temperatures(self):
+        # Needles that do not rotate: n sqrt(pi)/2 sqrt(T), as the integral is 1.
+        self.assertAlmostEqual(theory.collision_rate(6, 0.7, 4, 0), 0.7 * np.sqrt(np.pi),
+                               places=13)
+        rates = theory.collision_rate(6, np.array([[1.0], [2.0]]), [1.0, 4.0, 9.0], 0)
+        np.testing.assert_allclose(rates, np.sqrt(np.pi) / 2 * np.outer([1, 2], [1, 2, 3]))
+
+    def test_ratio_takes_arrays_and_is_one_at_equipartition(self):
+        ratios = theory.ratio([0.2, 0.9], theory.equipartition_k())
+        np.testing.assert_allclose(ratios, 1, rtol=1e-10)
+        self.assertTrue(np.isnan(theory.ratio(1, 6)))
+
+    def test_a_table_has_columns_as_attributes_and_in_pandas(self):
+        curve = theory.cooling(0.8, 6, tau=np.geomspace(0.1, 10, 5))
+        self.assertEqual(curve.rows, 5)
+        self.assertIs(curve.energy, curve["energy"])
+        np.testing.assert_allclose(curve.energy, 1.5 * curve.t_tr + curve.t_rot)
+        self.assertTrue(np.all(np.diff(curve.collisions_per_needle) > 0))
+        self.assertIn("<table>", curve._repr_html_())
+
+    def test_ranges_are_checked(self):
+        for call, message in ((lambda: theory.cooling(2, 6, tau=[1]), "epsilon = 2: expected"),
+                              (lambda: theory.collision_rate(-1, 1), "k = -1: expected"),
+                              (lambda: theory.cooling(0.5, 6, tau="x"), "tau: expected an array"),
+                              (lambda: theory.cooling(0.5, 6, tau=[-1]), "tau.* = -1: expected")):
+            with self.assertRaisesRegex(InputError, message):
+                call()
+
+
+if __name__ == "__main__":
+    unittest.main()
