@@ -128,7 +128,8 @@ std::vector<Description> run_file_descriptions() {
        "Species of each needle, counted from 0 in the order of the scene", none, "[needles]"},
 
       {"/observables", "Sums over all needles at the times of the frames", none, none},
-      {"/series", "Sums over all needles at the times of the samples", none, none},
+      {"/series", "Sums over all needles, theory and observables at the times of the samples", none,
+       none},
       {"/series/step", "Number of collisions before each sample", none, "[samples]"},
       {"/series/time", "Time of each sample since the start of the run", time, "[samples]"},
 

@@ -23,6 +23,11 @@ double largest_distance(const GasSetting& gas) {
   return std::min(3 * gas.length, half_edge);
 }
 
+struct Needle {
+  Vector position, director;
+};
+using Cell = std::vector<Needle>;
+
 class PairCorrelation : public Observable {
  public:
   explicit PairCorrelation(const GasSetting& gas) : gas_(gas), reach_(largest_distance(gas)) {}
@@ -64,59 +69,61 @@ class PairCorrelation : public Observable {
   }
 
  private:
-  void add(const State& state, std::size_t i, std::size_t j) {
+  void add(const Needle& one, const Needle& other) {
     double square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      double d = state.position[j][axis] - state.position[i][axis];
-      d -= gas_.box[axis] * std::nearbyint(d / gas_.box[axis]);
-      square += d * d;
+      // Both are inside the box, so the nearest image is at most one edge away.
+      const double d = std::abs(other.position[axis] - one.position[axis]);
+      const double nearest = std::min(d, gas_.box[axis] - d);
+      square += nearest * nearest;
     }
     if (!(square < reach_ * reach_)) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(square) / reach_ * bins);
     if (bin >= bins) return;
     ++pairs_[bin];
-    p2_[bin] += second_legendre(dot(state.orientation[i], state.orientation[j]));
+    p2_[bin] += second_legendre(dot(one.director, other.director));
   }
 
-  // With fewer than three cells along an axis, one cell would be on both sides of another.
+  void add_pairs_within(const Cell& cell) {
+    for (std::size_t n = 0; n < cell.size(); ++n)
+      for (std::size_t m = n + 1; m < cell.size(); ++m) add(cell[n], cell[m]);
+  }
+
   void visit_near_pairs(const State& state) {
-    std::array<int, 3> cells{};
+    std::array<int, 3> extent{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      cells[axis] = static_cast<int>(std::min(gas_.box[axis] / reach_, 100.0));
+      extent[axis] = static_cast<int>(std::min(gas_.box[axis] / reach_, 100.0));
     }
-    if (*std::min_element(cells.begin(), cells.end()) < 3) {
-      for (std::size_t i = 0; i < state.size(); ++i)
-        for (std::size_t j = i + 1; j < state.size(); ++j) add(state, i, j);
-      return;
-    }
-    const Grid grid(gas_.box, cells);
-    std::vector<std::vector<std::size_t>> needles(grid.size());
+    // With fewer than three cells along an axis, one cell would be on both sides of another.
+    if (*std::min_element(extent.begin(), extent.end()) < 3) extent = {1, 1, 1};
+    const Grid grid(gas_.box, extent);
+    std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
-      needles[grid.cell_of(state.position[i])].push_back(i);
+      cells[grid.cell_of(state.position[i])].push_back({state.position[i], state.orientation[i]});
     }
-    for (int x = 0; x < cells[0]; ++x)
-      for (int y = 0; y < cells[1]; ++y)
-        for (int z = 0; z < cells[2]; ++z) visit_around(state, needles, cells, {x, y, z});
+    for (const Cell& cell : cells) add_pairs_within(cell);
+    if (cells.size() == 1) return;
+    for (int x = 0; x < extent[0]; ++x)
+      for (int y = 0; y < extent[1]; ++y)
+        for (int z = 0; z < extent[2]; ++z) add_pairs_across(cells, extent, {x, y, z});
   }
 
-  // The pairs within a cell, and those with half of its 26 neighbours: each pair once.
-  void visit_around(const State& state, const std::vector<std::vector<std::size_t>>& needles,
-                    const std::array<int, 3>& cells, const std::array<int, 3>& cell) {
-    const auto at = [&](int dx, int dy, int dz) -> const std::vector<std::size_t>& {
+  // The pairs of a cell with half of its 26 neighbours: each pair once.
+  void add_pairs_across(const std::vector<Cell>& cells, const std::array<int, 3>& extent,
+                        const std::array<int, 3>& cell) {
+    const auto at = [&](int dx, int dy, int dz) -> const Cell& {
       const std::array<int, 3> step{dx, dy, dz};
       std::size_t index = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const int n = (cell[axis] + step[axis] + cells[axis]) % cells[axis];
-        index = index * static_cast<std::size_t>(cells[axis]) + static_cast<std::size_t>(n);
+        const int n = (cell[axis] + step[axis] + extent[axis]) % extent[axis];
+        index = index * static_cast<std::size_t>(extent[axis]) + static_cast<std::size_t>(n);
       }
-      return needles[index];
+      return cells[index];
     };
-    const auto& here = at(0, 0, 0);
-    for (std::size_t n = 0; n < here.size(); ++n)
-      for (std::size_t m = n + 1; m < here.size(); ++m) add(state, here[n], here[m]);
+    const Cell& here = at(0, 0, 0);
     for (int neighbour = 14; neighbour < 27; ++neighbour) {  // 13 is the cell itself
-      for (const std::size_t j : at(neighbour / 9 - 1, neighbour / 3 % 3 - 1, neighbour % 3 - 1))
-        for (const std::size_t i : here) add(state, i, j);
+      for (const Needle& other : at(neighbour / 9 - 1, neighbour / 3 % 3 - 1, neighbour % 3 - 1))
+        for (const Needle& one : here) add(one, other);
     }
   }
 
