@@ -81,7 +81,7 @@ BRIEF = {
     "rigorous, filter float": "the same, behind filters in float",
     "sampling 1/4": "signs at equal steps, coarse steps",
     "sampling 1/32": "signs at equal steps, fine steps",
-    "root 1e-3": "contact times to a coarse tolerance; most dilute cooling runs end in an error",
+    "root 1e-3": "contact times to a coarse tolerance",
 }
 
 

@@ -67,7 +67,9 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
 // as the one before, so that they reach the end on any machine.
 TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
   json whole = run("audit cooling.toml --json").json();
-  const std::string listens = "grep -q '^SigCgt.*[2367abef]$' /proc/$!/status";
+  const std::string listens =
+      "grep -q '^Name:.*needlework' /proc/$!/status && grep -q '^SigCgt.*[2367abef]$' "
+      "/proc/$!/status";
   int pieces = 0;
   double seconds = 0.01;
   Outcome outcome;

@@ -172,7 +172,8 @@ TEST_F(Formats, BadDumpsAreNamed) {
 
 TEST_F(Formats, BadDataFilesAreNamed) {
   const std::string text =
-      "title of kx\n\n2 atoms\n1 atom types\n\n0 8 xlo xhi\n0 9 ylo yhi\n0 10 zlo zhi\n\nMasses\n\n1 "
+      "title of kx\n\n2 atoms\n1 atom types\n\n0 8 xlo xhi\n0 9 ylo yhi\n0 10 zlo "
+      "zhi\n\nMasses\n\n1 "
       "0\n\n"
       "Atoms # hybrid sphere dipole\n\n1 1 1 2 3 1 2 0 1 0 0\n2 1 1 2 3 1 2 0 1 0 0\n\n"
       "Velocities\n\n2 4 5 6 0 7 8\n1 4 5 7 0 7 8\n";
