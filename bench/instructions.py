@@ -80,6 +80,10 @@ EFFECTS = [
     Effect("a file with the first and the last frame", [], [], ("--out", "out.h5")),
     Effect("10 frames per decade in a file", ["output.frames=10"], [], ("--out", "out.h5")),
     Effect("every collision in a file", ["output.events=true"], [], ("--out", "out.h5")),
+    Effect("order of the flow, 10 samples per decade", ["output.observables=['flow_order']"], [],
+           ("--out", "out.h5")),
+    Effect("statistics of collisions", ["output.observables=['collision_statistics']"], [],
+           ("--out", "out.h5")),
 ]
 
 

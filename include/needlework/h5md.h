@@ -9,7 +9,8 @@
 //   /particles/needles    box/edges [F][3][3]; position, velocity, image, orientation and
 //                         angular_velocity, each [F][N][3]; id [N], mass [N]
 //   /observables          t_tr, t_rot, energy, collisions, tc_collisions, each [F]; momentum [F][3]
-//   /series               the same sums, each [S] or [S][3]
+//   /series               the same sums, each [S] or [S][3], and in a group for each observable of
+//                         the scene its fields, each [S][...]
 //   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair, arms, each
 //                         [E][2]; shift, impulse, each [E][3]; see Collision
 //
@@ -26,11 +27,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "needlework/collision.h"
 #include "needlework/scene.h"
+#include "needlework/series.h"
 #include "needlework/state.h"
 #include "needlework/totals.h"
 
@@ -38,10 +41,11 @@ namespace needlework::io {
 
 /// Properties of a run that a file records besides the scene.
 struct RunInfo {
-  std::string isa;                    ///< name of the instruction set in use, never "auto"
-  int threads = 1;                    ///< threads in use
-  double epoch_length = 0;            ///< length of the epochs in /events [time]
-  std::string accuracy = "standard";  ///< level in use, and the settings that differ from it
+  std::string isa;                       ///< name of the instruction set in use, never "auto"
+  int threads = 1;                       ///< threads in use
+  double epoch_length = 0;               ///< length of the epochs in /events [time]
+  std::string accuracy = "standard";     ///< level in use, and the settings that differ from it
+  std::vector<SeriesGroup> series = {};  ///< what /series holds besides the totals
 };
 
 /// Writes one run to one file.
@@ -66,8 +70,9 @@ class Writer {
   Writer& operator=(Writer&&) noexcept;
   ~Writer();
 
-  /// Appends a sample to each element of /series.
-  void write_series(const Totals& totals);
+  /// Appends a sample to each element of /series. `values` are the rows of the fields of
+  /// RunInfo::series, one after the other, without constants.
+  void write_series(const Totals& totals, std::span<const double> values = {});
   /// Appends a frame to /particles/needles, and the totals at its time to /observables. Images are
   /// written as zeros if the state has none. All frames must have the same ids in the same order.
   void write_frame(const Totals& totals, const State& state);

@@ -27,10 +27,11 @@ struct Provided {
 /// Each override reads "section.key=value" or "title=value" with a value in TOML. A value that is
 /// not TOML is read as a string, so that engine.search=all-pairs needs no quotes. An override
 /// replaces or adds its key before anything is checked; the last override of a key wins. Overrides
-/// do not remove other keys, with two exceptions for alternatives in the file: collisions.tc and
-/// collisions.tc_relative replace each other, and initial.file replaces initial.t_tr and
-/// initial.t_rot. Overriding a temperature is an error if the file has initial.file, because it
-/// could mean either to draw velocities or to rescale them.
+/// do not remove other keys, with exceptions for alternatives in the file: collisions.tc and
+/// collisions.tc_relative replace each other, so do output.series_every and
+/// output.series_per_decade, and initial.file replaces initial.t_tr and initial.t_rot. Overriding a
+/// temperature is an error if the file has initial.file, because it could mean either to draw
+/// velocities or to rescale them.
 ///
 /// Without overrides the scene's text is the text as read. Each override is appended to it as a
 /// comment "# --set section.key=value". needles.count and needles.box may be missing only if

@@ -68,9 +68,11 @@ struct Scene {
   struct Output {
     std::string file;                         ///< H5MD file to write, or "" for none
     double series_per_decade = 10.0;          ///< samples of /series per decade of time
+    std::optional<double> series_every;       ///< samples at its multiples instead [time]
     std::vector<double> frame_times;          ///< `frames = [t, ...]`: times of frames
     std::optional<double> frames_per_decade;  ///< `frames = n`: frames per decade of time
-    std::vector<std::string> observables;     ///< names; all observables are always written
+    std::vector<std::string> observables;     ///< names of what /series holds besides Totals
+    std::optional<std::array<int, 3>> grid;   ///< cells along each axis; absent: of 20 needles
     bool events = false;                      ///< whether to record every collision
   };
 

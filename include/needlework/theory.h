@@ -9,6 +9,7 @@
 // std::invalid_argument, "NAME = VALUE: expected ...", for a number out of range or NaN.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -51,6 +52,22 @@ Temperatures cooling_rates(const Gas& gas, Temperatures now);
 /// tau = gamma t with gamma = (2/3) sqrt(pi) n, from the temperatures `initial` at tau = 0.
 std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
                                         std::span<const double> taus);
+
+/// The same curve, followed step by step: cheap where times become known one after the other.
+class CoolingCurve {
+ public:
+  CoolingCurve(const Gas& gas, Temperatures initial);
+  CoolingCurve(CoolingCurve&&) noexcept;
+  CoolingCurve& operator=(CoolingCurve&&) noexcept;
+  ~CoolingCurve();
+
+  /// The temperatures at a time (finite, >= 0) that must not be before that of the last call.
+  Temperatures at(double tau);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 /// Collisions per needle between tau = 0 and each of the times `taus`, along the same cooling
 /// curve.

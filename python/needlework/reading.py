@@ -203,6 +203,14 @@ class Recording:
         columns |= {name: group[name]["value"][:samples] for name in TOTALS}
         return Series(columns)
 
+    def observable(self, name: str) -> Values:
+        """What output.observables named, or "theory": fields of one row per sample of the series,
+        and constants such as the borders of bins."""
+        group = self._group(f"series/{name}", f"a run with {name!r} in output.observables")
+        samples = len(self._group("series", "a file of a run with a series")["step"])
+        return Values({field: item["value"][:samples] if isinstance(item, h5py.Group) else item[:]
+                       for field, item in group.items()})
+
     @property
     def frames(self) -> Frames:
         """States of all needles, read one by one."""

@@ -100,8 +100,12 @@ std::string engine_text(const runs::Explanation& e) {
 
 std::string output_text(const Scene::Output& output) {
   if (output.file.empty()) return "none";
-  std::string text = fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
-                                 output.series_per_decade);
+  std::string text =
+      output.series_every
+          ? fmt::format("{}, a series of samples every {:g}, ", output.file, *output.series_every)
+          : fmt::format("{}, a series of {:g} samples per decade of time, ", output.file,
+                        output.series_per_decade);
+  if (!output.observables.empty()) text += fmt::format("{}, ", fmt::join(output.observables, ", "));
   if (output.frames_per_decade) {
     text += fmt::format("{:g} frames per decade", *output.frames_per_decade);
   } else if (!output.frame_times.empty()) {

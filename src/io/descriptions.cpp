@@ -128,7 +128,8 @@ std::vector<Description> run_file_descriptions() {
        "Species of each needle, counted from 0 in the order of the scene", none, "[needles]"},
 
       {"/observables", "Sums over all needles at the times of the frames", none, none},
-      {"/series", "Sums over all needles at the times of the samples", none, none},
+      {"/series", "Sums over all needles, theory and observables at the times of the samples", none,
+       none},
       {"/series/step", "Number of collisions before each sample", none, "[samples]"},
       {"/series/time", "Time of each sample since the start of the run", time, "[samples]"},
 
@@ -157,6 +158,20 @@ std::vector<Description> run_file_descriptions() {
   };
   append(list, totals("/observables", "[frames]"));
   append(list, totals("/series", "[samples]"));
+  return list;
+}
+
+std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {
+  std::vector<Description> list;
+  for (const SeriesGroup& group : groups) {
+    const std::string path = "/series/" + group.name;
+    list.push_back({path, group.meaning, none, none});
+    for (const SeriesField& field : group.fields) {
+      std::string shape = field.kind == SeriesField::Kind::constant ? "" : "[samples]";
+      for (const auto& extent : field.shape) shape += "[" + extent.name + "]";
+      list.push_back({path + "/" + field.name, field.meaning, field.unit, shape});
+    }
+  }
   return list;
 }
 

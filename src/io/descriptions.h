@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "needlework/series.h"
+
 namespace needlework::io {
 
 /// The meaning of one dataset or group.
@@ -22,7 +24,9 @@ struct Description {
 /// parts that do not apply.
 std::string sentence(const Description& description);
 
-std::vector<Description> run_file_descriptions();       ///< files of a Writer
+std::vector<Description> run_file_descriptions();  ///< files of a Writer
+std::vector<Description> series_descriptions(      ///< and their groups in /series
+    const std::vector<SeriesGroup>& groups);
 std::vector<Description> sweep_summary_descriptions();  ///< files of sweep::write_summary
 std::vector<Description> vtkhdf_descriptions();         ///< files of write_vtkhdf
 

@@ -59,6 +59,30 @@ void make_totals(hid_t group, const StepAndTime& shared, const std::string& plac
   make("tc_collisions", type_of<std::int64_t>(), {});
 }
 
+// Rows of few numbers share a chunk of about 16 kB; a large row has a chunk of its own.
+hsize_t rows_per_chunk(std::size_t width) {
+  return std::clamp<hsize_t>(16384 / (8 * std::max<std::size_t>(width, 1)), 1, samples_per_chunk);
+}
+
+void make_fields(hid_t series, const StepAndTime& shared, const std::vector<SeriesGroup>& groups,
+                 const std::string& place) {
+  for (const SeriesGroup& group : groups) {
+    const Handle parent = create_group(series, group.name, place);
+    for (const SeriesField& field : group.fields) {
+      Shape row;
+      for (const auto& extent : field.shape) row.push_back(extent.size);
+      if (field.kind == SeriesField::Kind::constant) {
+        hdf5::write_array<double>(parent.get(), field.name, row, field.values, place);
+        continue;
+      }
+      const bool counts = field.kind == SeriesField::Kind::count;
+      make_element(parent.get(), field.name, shared,
+                   counts ? type_of<std::int64_t>() : type_of<double>(), row,
+                   rows_per_chunk(field.width()), place);
+    }
+  }
+}
+
 Handle make_box(hid_t needles, const std::string& place) {
   Handle box = create_group(needles, "box", place);
   const std::int32_t dimension = 3;
@@ -150,9 +174,12 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
       make_needles(create_group(particles.get(), "needles", place).get(), scene, place);
   make_totals(create_group(file, "observables", place).get(), frames, place);
   const Handle series = create_group(file, "series", place);
-  make_totals(series.get(), make_step_and_time(series.get(), place), place);
+  const StepAndTime samples = make_step_and_time(series.get(), place);
+  make_totals(series.get(), samples, place);
+  make_fields(series.get(), samples, run.series, place);
   if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
   write_descriptions(file, run_file_descriptions(), place);
+  write_descriptions(file, series_descriptions(run.series), place);
 }
 
 }  // namespace needlework::io

@@ -63,6 +63,33 @@ void TotalsTable::append(std::span<const Totals> samples) {
   append_member<std::int64_t>(tc_collisions_, samples, &Totals::tc_collisions);
 }
 
+FieldsTable::FieldsTable(hid_t file, const std::vector<SeriesGroup>& groups,
+                         const std::string& place) {
+  for (const SeriesGroup& group : groups) {
+    for (const SeriesField& field : group.fields) {
+      if (field.kind == SeriesField::Kind::constant) continue;
+      const std::string path = fmt::format("/series/{}/{}/value", group.name, field.name);
+      fields_.push_back({width_, field.width(), Column(file, path, place)});
+      width_ += field.width();
+    }
+  }
+}
+
+void FieldsTable::append(std::span<const double> samples) {
+  if (samples.empty()) return;
+  const std::size_t count = samples.size() / width_;
+  std::vector<double> rows;
+  for (Field& field : fields_) {
+    rows.clear();
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto row = samples.subspan(n * width_ + field.begin, field.width);
+      rows.insert(rows.end(), row.begin(), row.end());
+    }
+    // HDF5 converts counts, which are exact in double precision, to integers.
+    field.column.append(rows.data(), count);
+  }
+}
+
 Frames::Frames(hid_t file, const std::string& place)
     : place_(place),
       id_(hdf5::open_dataset(file, "/particles/needles/id", place)),

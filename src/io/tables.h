@@ -11,6 +11,7 @@
 
 #include "needlework/collision.h"
 #include "needlework/scene.h"
+#include "needlework/series.h"
 #include "needlework/state.h"
 #include "needlework/totals.h"
 #include "src/io/column.h"
@@ -41,6 +42,25 @@ class TotalsTable {
 
  private:
   Column t_tr_, t_rot_, energy_, momentum_, collisions_, tc_collisions_;
+};
+
+/// The fields of groups in /series, one H5MD element each, apart from constants.
+class FieldsTable {
+ public:
+  FieldsTable(hid_t file, const std::vector<SeriesGroup>& groups, const std::string& place);
+
+  /// Numbers in the rows of all fields.
+  std::size_t width() const { return width_; }
+  /// Writes samples, each of width() numbers, whose steps and times are written by StepsAndTimes.
+  void append(std::span<const double> samples);
+
+ private:
+  struct Field {
+    std::size_t begin, width;  ///< its numbers within a sample
+    Column column;
+  };
+  std::vector<Field> fields_;
+  std::size_t width_ = 0;
 };
 
 /// /particles/needles: the phase-space states of a fixed number of needles.

@@ -25,13 +25,15 @@ namespace {
 // Number of samples or events that are collected in memory before they are written. Events fill
 // one chunk of the file.
 constexpr std::size_t block = 8192;
+// The same for numbers of observables, of which a sample can have millions.
+constexpr std::size_t numbers_block = 131072;
 
 }  // namespace
 
 struct Writer::Implementation {
   Implementation(const std::string& name, bool force, const Scene& scene, const RunInfo& run);
 
-  void open_datasets(bool with_events);
+  void open_datasets(const std::vector<SeriesGroup>& groups, bool with_events);
   void commit();
   void close();
 
@@ -42,12 +44,14 @@ struct Writer::Implementation {
   std::optional<TotalsTable> observables;
   std::optional<StepsAndTimes> frame_times;
   std::optional<TotalsTable> series;
+  std::optional<FieldsTable> fields;
   std::optional<StepsAndTimes> series_times;
   std::optional<Events> events;
 
   // Rows whose steps and times are not in the file yet.
   std::vector<Totals> pending_frames;
   std::vector<Totals> pending_samples;
+  std::vector<double> pending_numbers;
   std::vector<Collision> pending_events;
 };
 
@@ -58,15 +62,17 @@ Writer::Implementation::Implementation(const std::string& name, bool force, cons
   file.emplace(atomic.temporary(), path, OutputFile::Use::growing);
   make_layout(file->get(), scene, run, path);
   file->start_swmr();
-  open_datasets(scene.output.events);
+  open_datasets(run.series, scene.output.events);
   atomic.publish();
 }
 
-void Writer::Implementation::open_datasets(bool with_events) {
+void Writer::Implementation::open_datasets(const std::vector<SeriesGroup>& groups,
+                                           bool with_events) {
   frames.emplace(file->get(), path);
   observables.emplace(file->get(), "/observables", path);
   frame_times.emplace(file->get(), "/particles/needles/position", path);
   series.emplace(file->get(), "/series", path);
+  fields.emplace(file->get(), groups, path);
   series_times.emplace(file->get(), "/series", path);
   if (with_events) events.emplace(file->get(), path);
 }
@@ -76,6 +82,7 @@ void Writer::Implementation::commit() {
   const Session session;
   observables->append(pending_frames);
   series->append(pending_samples);
+  fields->append(pending_numbers);
   if (events) events->append(pending_events);
   file->flush();
   frame_times->append(pending_frames);
@@ -84,6 +91,7 @@ void Writer::Implementation::commit() {
   file->flush();
   pending_frames.clear();
   pending_samples.clear();
+  pending_numbers.clear();
   pending_events.clear();
 }
 
@@ -92,6 +100,7 @@ void Writer::Implementation::close() {
   commit();
   events.reset();
   series_times.reset();
+  fields.reset();
   series.reset();
   frame_times.reset();
   observables.reset();
@@ -138,10 +147,15 @@ Writer::~Writer() {
   }
 }
 
-void Writer::write_series(const Totals& totals) {
+void Writer::write_series(const Totals& totals, std::span<const double> values) {
   use([&](Implementation& out) {
+    if (values.size() != out.fields->width()) {
+      throw std::logic_error("a sample does not have the numbers of the fields of RunInfo::series");
+    }
     out.pending_samples.push_back(totals);
-    if (out.pending_samples.size() >= block) out.commit();
+    out.pending_numbers.insert(out.pending_numbers.end(), values.begin(), values.end());
+    const bool full = out.pending_samples.size() >= block;
+    if (full || out.pending_numbers.size() >= numbers_block) out.commit();
   });
 }
 

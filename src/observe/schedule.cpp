@@ -16,6 +16,14 @@ Schedule Schedule::logarithmic(double per_decade, double start) {
   return schedule;
 }
 
+Schedule Schedule::linear(double step) {
+  Schedule schedule;
+  schedule.step_ = step;
+  schedule.n_ = 1;
+  schedule.next_ = step;
+  return schedule;
+}
+
 Schedule Schedule::at(std::vector<double> times) {
   Schedule schedule;
   schedule.times_ = std::move(times);
@@ -23,11 +31,13 @@ Schedule Schedule::at(std::vector<double> times) {
   return schedule;
 }
 
-double Schedule::grid_time(double n) const { return std::pow(10.0, n / per_decade_); }
+double Schedule::grid_time(double n) const {
+  return step_ > 0 ? n * step_ : std::pow(10.0, n / per_decade_);
+}
 
 void Schedule::pass(double time) {
   while (next_ <= time) {
-    if (per_decade_ > 0) {
+    if (per_decade_ > 0 || step_ > 0) {
       next_ = grid_time(++n_);
     } else {
       ++position_;

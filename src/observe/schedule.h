@@ -19,6 +19,9 @@ class Schedule {
   /// times. Without times if `start` is not finite and positive.
   static Schedule logarithmic(double per_decade, double start);
 
+  /// The times n `step` for n = 1, 2, ...; `step` must be finite and positive.
+  static Schedule linear(double step);
+
   /// The given times, which must increase.
   static Schedule at(std::vector<double> times);
 
@@ -31,8 +34,9 @@ class Schedule {
  private:
   double grid_time(double n) const;
 
-  double per_decade_ = 0;  ///< 0: a list of times
-  double n_ = 0;           ///< index of the next logarithmic time; a double, because it can be any
+  double per_decade_ = 0;  ///< > 0: logarithmic
+  double step_ = 0;        ///< > 0: linear; neither: a list of times
+  double n_ = 0;           ///< index of the next time of a grid; a double, because it can be any
                            ///< size
   std::vector<double> times_;
   std::size_t position_ = 0;

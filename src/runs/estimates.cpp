@@ -20,12 +20,18 @@ namespace {
 constexpr double base_bytes = 12e6;
 constexpr double bytes_per_needle = 580;
 constexpr double bytes_per_needle_of_a_frame = 100;
+constexpr double bytes_per_needle_of_displacement = 500;  // eight references, of 48 each, and more
 
 }  // namespace
 
 double estimated_memory(const Scene& scene) {
-  const double per_needle =
-      bytes_per_needle + (scene.output.file.empty() ? 0 : bytes_per_needle_of_a_frame);
+  double per_needle = bytes_per_needle;
+  if (!scene.output.file.empty()) {
+    per_needle += bytes_per_needle_of_a_frame;
+    const auto& names = scene.output.observables;
+    const bool displaced = std::find(names.begin(), names.end(), "displacement") != names.end();
+    if (displaced) per_needle += bytes_per_needle_of_displacement;
+  }
   return base_bytes + per_needle * static_cast<double>(scene.needles.count);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/observe/cooling_theory.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
 
@@ -22,17 +23,29 @@ void require_events(Simulation& simulation, const Scene& scene, const std::strin
 
 namespace {
 
-io::Writer open_output(const Simulation& simulation, const Scene& scene, bool force) {
-  const std::string& file = scene.output.file;
-  try {
-    return io::Writer(file, force, scene, run_info(simulation, scene));
-  } catch (const IoError& error) {
-    throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene, "output.file", file),
-                              error.what()));
-  }
+// Where kinetic theory has something to say: of a drawn gas that moves.
+observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
+  if (!drawn || !(initial.energy > 0)) return nullptr;
+  return observe::make_cooling_theory(
+      {scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},
+      {initial.t_tr, initial.t_rot}, theory_density_of(scene));
 }
 
 }  // namespace
+
+void PreparedRun::open_output(bool drawn, bool force) {
+  const std::string& file = scene_.output.file;
+  if (file.empty()) return;
+  observation_.emplace(scene_, cooling_theory(scene_, simulation_.totals(), drawn));
+  try {
+    io::RunInfo info = run_info(simulation_, scene_);
+    info.series = observation_->groups();
+    writer_.emplace(file, force, scene_, info);
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene_, "output.file", file),
+                              error.what()));
+  }
+}
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path)
     : PreparedRun(std::move(loaded), force, &path) {}
@@ -42,10 +55,13 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force)
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path)
     : scene_(std::move(loaded.scene)), simulation_(make_simulation(loaded)) {
+  const bool drawn = !loaded.initial;
   loaded.initial.reset();
   if (path) require_events(simulation_, scene_, *path);
-  if (!scene_.output.file.empty()) writer_.emplace(open_output(simulation_, scene_, force));
-  driver_.emplace(simulation_, scene_, writer_ ? &*writer_ : nullptr, path != nullptr);
+  open_output(drawn, force);
+  const Output output{.writer = writer_ ? &*writer_ : nullptr,
+                      .observation = observation_ ? &*observation_ : nullptr};
+  driver_.emplace(simulation_, scene_, output, path != nullptr);
 }
 
 Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {

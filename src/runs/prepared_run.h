@@ -9,6 +9,7 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
+#include "src/observe/observation.h"
 #include "src/runs/collision_batches.h"
 #include "src/runs/limits.h"
 #include "src/runs/loaded_scene.h"
@@ -56,10 +57,12 @@ class PreparedRun {
  private:
   PreparedRun(LoadedScene loaded, bool force, const std::string* path);
   Simulation make_simulation(const LoadedScene& loaded);
+  void open_output(bool drawn, bool force);
 
   Scene scene_;
   Stopwatch setup_;
   Simulation simulation_;
+  std::optional<observe::Observation> observation_;  ///< if there is a writer
   std::optional<io::Writer> writer_;
   std::optional<RunDriver> driver_;
   std::optional<CollisionBatches> batches_;

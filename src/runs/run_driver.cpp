@@ -17,6 +17,11 @@ constexpr double flush_interval = 10;
 /// Series begin at this share of the mean free time.
 constexpr double first_sample = 0.01;
 
+Schedule series_schedule(const Scene::Output& output, double start) {
+  if (output.series_every) return Schedule::linear(*output.series_every);
+  return Schedule::logarithmic(output.series_per_decade, start);
+}
+
 Schedule frame_schedule(const Scene::Output& output, double start) {
   if (output.file.empty()) return {};
   if (output.frames_per_decade) return Schedule::logarithmic(*output.frames_per_decade, start);
@@ -39,12 +44,11 @@ class Timed {
 
 }  // namespace
 
-RunDriver::RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer,
-                     bool keeps_course)
-    : simulation_(simulation), scene_(scene), writer_(writer), keeps_course_(keeps_course) {
+RunDriver::RunDriver(Simulation& simulation, const Scene& scene, Output output, bool keeps_course)
+    : simulation_(simulation), scene_(scene), output_(output), keeps_course_(keeps_course) {
   if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
-  series_ = Schedule::logarithmic(scene.output.series_per_decade, start);
+  series_ = series_schedule(scene.output, start);
   frames_ = frame_schedule(scene.output, start);
 }
 
@@ -74,7 +78,7 @@ Course RunDriver::finish() {
                         last_sample_->collisions != course_.last.collisions;
     sample(series, last_frame_ != course_.last.time);
   }
-  if (writer_) flush();
+  if (output_.writer) flush();
   if (rate_) course_.system_rate = rate_->estimate(course_.last.time);
   return std::move(course_);
 }
@@ -98,14 +102,15 @@ void RunDriver::begin() {
 }
 
 void RunDriver::listen_to_collisions() {
-  const bool events = writer_ && scene_.output.events;
-  if (!rate_ && !events) {
+  const bool events = output_.writer && scene_.output.events;
+  const bool observes = output_.observation && output_.observation->reads_collisions();
+  if (!rate_ && !events && !observes) {
     simulation_.on_collision(callback_);
     return;
   }
-  simulation_.on_collision([this, events](const Collision& collision) {
+  simulation_.on_collision([this, events, observes](const Collision& collision) {
     if (rate_) rate_->add(collision.time);
-    if (events) record(collision);
+    if (events || observes) record(collision);
     if (callback_) callback_(collision);
   });
 }
@@ -114,7 +119,10 @@ void RunDriver::listen_to_collisions() {
 // it.
 void RunDriver::record(const Collision& collision) {
   try {
-    if (!failure_) writer_->write_event(collision);
+    if (!failure_) {
+      if (scene_.output.events) output_.writer->write_event(collision);
+      output_.observation->collision(collision);
+    }
   } catch (...) {
     failure_ = std::current_exception();
   }
@@ -147,25 +155,29 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
 
 void RunDriver::sample(bool series, bool frame) {
   const Totals totals = simulation_.totals();
+  io::Writer* const writer = output_.writer;
+  const bool observes = writer && series && output_.observation->reads_state();
+  State state;
+  if (observes || (writer && frame)) simulation_.copy(state);
   if (series) {
     if (keeps_course_) course_.samples.push_back(totals);
-    if (writer_) writer_->write_series(totals);
+    if (writer) writer->write_series(totals, output_.observation->sample(state, totals));
     last_sample_ = totals;
   }
-  if (frame && writer_) {
-    writer_->write_frame(totals, simulation_.copy());
+  if (frame && writer) {
+    writer->write_frame(totals, state);
     last_frame_ = totals.time;
     flush();
   }
 }
 
 void RunDriver::flush() {
-  writer_->flush();
+  output_.writer->flush();
   last_flush_ = SteadyClock::now();
 }
 
 void RunDriver::flush_if_due() {
-  if (writer_ && seconds_since(last_flush_) >= flush_interval) flush();
+  if (output_.writer && seconds_since(last_flush_) >= flush_interval) flush();
 }
 
 void RunDriver::show_progress(const Scene::Until& until, double elapsed,

@@ -12,6 +12,7 @@
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
 #include "src/observe/batch_rate.h"
+#include "src/observe/observation.h"
 #include "src/observe/schedule.h"
 #include "src/runs/resources.h"
 #include "src/runs/run_monitor.h"
@@ -28,14 +29,20 @@ struct Course {
   BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
+/// Where the samples of a run go. Both are null, or neither.
+struct Output {
+  io::Writer* writer = nullptr;
+  observe::Observation* observation = nullptr;  ///< whose groups the writer was opened with
+};
+
 /// Advances a simulation in steps from sample to sample, and in short steps of wall time between
 /// them. Neither changes the trajectory.
 class RunDriver {
  public:
-  /// `writer` may be null. All must live as long as the driver. `keeps_course` says whether someone
-  /// wants the samples and the rate of the Course; without that and without a writer, the driver
+  /// All must live as long as the driver. `keeps_course` says whether someone
+  /// wants the samples and the rate of the Course; without that and without output, the driver
   /// takes no samples.
-  RunDriver(Simulation& simulation, const Scene& scene, io::Writer* writer, bool keeps_course);
+  RunDriver(Simulation& simulation, const Scene& scene, Output output, bool keeps_course);
 
   /// Advances until the first of the conditions is met or the monitor asks to stop. The conditions
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
@@ -52,7 +59,7 @@ class RunDriver {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  bool samples() const { return writer_ || keeps_course_; }
+  bool samples() const { return output_.writer || keeps_course_; }
   void begin();
   void record(const Collision& collision);
   void listen_to_collisions();
@@ -64,13 +71,13 @@ class RunDriver {
 
   Simulation& simulation_;
   const Scene& scene_;
-  io::Writer* writer_;
+  const Output output_;
   const bool keeps_course_;
   bool begun_ = false;
   Schedule series_, frames_;
   std::optional<BatchRate> rate_;
   std::function<void(const Collision&)> callback_;
-  std::exception_ptr failure_;  ///< of writing a collision
+  std::exception_ptr failure_;  ///< of writing or observing a collision
   Course course_;
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written

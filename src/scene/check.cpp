@@ -54,9 +54,11 @@ std::vector<std::string> output_warnings(const Scene& scene) {
   std::vector<std::string> list;
   const Scene::Output& output = scene.output;
   const bool frames = output.frames_per_decade || !output.frame_times.empty();
-  if (output.file.empty() && (frames || output.events))
+  if (output.file.empty() && (frames || output.events || !output.observables.empty()))
     list.push_back(fmt::format("output.{}: nothing is written without output.file",
-                               frames ? "frames" : "events"));
+                               frames          ? "frames"
+                               : output.events ? "events"
+                                               : "observables"));
   if (scene.until.time && !output.frame_times.empty() &&
       output.frame_times.back() > *scene.until.time)
     list.push_back(fmt::format("output.frames: the frame at {} lies behind until.time = {}",

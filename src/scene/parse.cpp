@@ -31,6 +31,8 @@ bool replaces(const std::string& override_name, const Entry& entry) {
   if (entry.is_override) return false;
   if (override_name == "collisions.tc") return name == "collisions.tc_relative";
   if (override_name == "collisions.tc_relative") return name == "collisions.tc";
+  if (override_name == "output.series_every") return name == "output.series_per_decade";
+  if (override_name == "output.series_per_decade") return name == "output.series_every";
   if (override_name == "initial.file") {
     return name == "initial.t_tr" || name == "initial.t_rot" || name == "species.t_tr" ||
            name == "species.t_rot";
@@ -92,6 +94,9 @@ std::string_view conflict(const std::string& name, const std::set<std::string>& 
   if ((name == "initial.file" && (has("initial.t_tr") || has("initial.t_rot"))) ||
       ((name == "initial.t_tr" || name == "initial.t_rot") && has("initial.file")))
     return "expected either file or temperatures to draw, not both";
+  if ((name == "output.series_every" && has("output.series_per_decade")) ||
+      (name == "output.series_per_decade" && has("output.series_every")))
+    return "expected either series_per_decade or series_every, not both";
   const bool of_species = name.starts_with("species.");
   for (const char* key : {"needles.count", "needles.k", "initial.t_tr", "initial.t_rot"}) {
     const bool species_given =

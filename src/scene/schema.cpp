@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/scene/observable_names.h"
 #include "src/scene/printable.h"
 #include "src/scene/suggest.h"
 
@@ -34,6 +35,8 @@ constexpr double most_per_decade = 1e6;
 constexpr std::uint64_t most_needles = (std::uint64_t{1} << 32) - 2;  // ids are 32 bits wide
 constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t most_threads = 1024;
+constexpr std::uint64_t most_cells_along_an_axis = 10000;  // of output.grid
+constexpr double most_cells = 1e6;
 
 // Stores a value that was read. Returns false if there is none.
 template <typename T, typename U>
@@ -110,23 +113,53 @@ bool read_frames(Scene& scene, const Value& value) {
   return store(scene.output.frame_times, increasing_times(value));
 }
 
+bool is_observable(std::string_view name) {
+  const auto among = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  return among(observable_names) || among(total_names);
+}
+
 std::optional<std::vector<std::string>> observables(const Value& value) {
   const auto* array = value.as<Value::Array>();
   if (!array) return std::nullopt;
   std::vector<std::string> names;
   for (const Value& element : *array) {
-    const auto name =
-        one_of(element, {"t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions"});
-    if (!name) return std::nullopt;
+    const auto name = text(element);
+    if (!name || !is_observable(*name)) return std::nullopt;
     names.push_back(*name);
   }
   return names;
 }
 
+const std::string expected_observables =
+    fmt::format("an array of names among \"{}\", \"{}\"", fmt::join(observable_names, "\", \""),
+                fmt::join(total_names, "\", \""));
+
+std::optional<int> cells_along_an_axis(const Value& value) {
+  int cells = 0;
+  const bool read = store(cells, whole_number(value, 1, most_cells_along_an_axis));
+  return read ? std::optional(cells) : std::nullopt;
+}
+
+std::optional<std::array<int, 3>> grid(const Value& value) {
+  std::array<int, 3> cells{};
+  if (const auto all = cells_along_an_axis(value)) {
+    cells.fill(*all);
+  } else {
+    const auto* array = value.as<Value::Array>();
+    if (!array || array->size() != 3) return std::nullopt;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!store(cells[axis], cells_along_an_axis((*array)[axis]))) return std::nullopt;
+  }
+  const double product = double(cells[0]) * cells[1] * cells[2];
+  return product <= most_cells ? std::optional(cells) : std::nullopt;
+}
+
 using V = const Value&;
 
 // In the order of their documentation, in which messages list them.
-constexpr SceneKey keys[] = {
+const SceneKey keys[] = {
     {"", "title", "a string without control characters",
      [](Scene& s, V v) { return store(s.title, text(v)); }},
 
@@ -233,12 +266,16 @@ constexpr SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.output.file, text(v)); }},
     {"output", "series_per_decade", "a number > 0 (at most 1e6)",
      [](Scene& s, V v) { return store(s.output.series_per_decade, per_decade(v)); }},
+    {"output", "series_every", "a time > 0",
+     [](Scene& s, V v) { return store(s.output.series_every, number(v, smallest_positive)); }},
     {"output", "frames",
      "a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, increasing",
      read_frames},
-    {"output", "observables",
-     R"(an array of "t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")",
+    {"output", "observables", expected_observables,
      [](Scene& s, V v) { return store(s.output.observables, observables(v)); }},
+    {"output", "grid",
+     "a whole number in digits, from 1 to 10000, or an array of three, at most 1e6 cells",
+     [](Scene& s, V v) { return store(s.output.grid, grid(v)); }},
     {"output", "events", "true or false",
      [](Scene& s, V v) {
        const bool* events = v.as<bool>();

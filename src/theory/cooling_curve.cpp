@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <optional>
 
 #include "needlework/theory.h"
 #include "src/theory/cooling_law.h"
@@ -106,6 +108,14 @@ class CoolingGas {
       odeint::make_controlled<Stepper>(absolute_tolerance, relative_tolerance);
 };
 
+/// The temperatures in the units of `initial`. Exactly those at tau = 0.
+Temperatures temperatures(const State& state, Temperatures initial, double tau) {
+  if (tau == 0.0 || initial.energy() == 0.0) return initial;
+  const double energy = initial.energy() * std::exp(state[log_energy]);
+  const Temperatures unit = split(state[rotational_share]);
+  return {.t_tr = energy * unit.t_tr, .t_rot = energy * unit.t_rot};
+}
+
 /// Calls visit(index, state) for each of `taus`, in units where the initial energy is 1.
 template <class Visit>
 void follow(const Gas& gas, Temperatures initial, std::span<const double> taus, Visit visit) {
@@ -130,12 +140,33 @@ std::vector<Temperatures> cooling_curve(const Gas& gas, Temperatures initial,
                                         std::span<const double> taus) {
   std::vector<Temperatures> curve(taus.size(), initial);
   follow(gas, initial, taus, [&](std::size_t i, const State& state) {
-    if (taus[i] == 0.0) return;  // exactly the initial state
-    const double energy = initial.energy() * std::exp(state[log_energy]);
-    const Temperatures unit = split(state[rotational_share]);
-    curve[i] = {.t_tr = energy * unit.t_tr, .t_rot = energy * unit.t_rot};
+    curve[i] = temperatures(state, initial, taus[i]);
   });
   return curve;
+}
+
+struct CoolingCurve::Implementation {
+  Temperatures initial;
+  std::optional<CoolingGas> evolving;  ///< empty without energy
+};
+
+CoolingCurve::CoolingCurve(const Gas& gas, Temperatures initial)
+    : implementation_(std::make_unique<Implementation>(initial)) {
+  require_valid(gas);
+  require_valid(initial);
+  if (initial.energy() > 0.0) implementation_->evolving.emplace(gas, initial);
+}
+
+CoolingCurve::CoolingCurve(CoolingCurve&&) noexcept = default;
+CoolingCurve& CoolingCurve::operator=(CoolingCurve&&) noexcept = default;
+CoolingCurve::~CoolingCurve() = default;
+
+Temperatures CoolingCurve::at(double tau) {
+  require_not_negative("tau", tau);
+  auto& [initial, evolving] = *implementation_;
+  if (!evolving) return initial;
+  evolving->advance(tau * std::sqrt(initial.energy()));
+  return temperatures(evolving->state(), initial, tau);
 }
 
 std::vector<double> collisions_per_needle(const Gas& gas, Temperatures initial,

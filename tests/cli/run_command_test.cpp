@@ -108,7 +108,9 @@ TEST_F(RunCommand, SamplingDoesNotChangeTheTrajectory) {
   for (const char* sampling :
        {"", "--set output.series_per_decade=0.1", "--set output.series_per_decade=1000",
         "--out a.h5 --set output.frames=20 --set output.events=true",
-        "--out b.h5 --set output.frames=[0.5,1,2]"}) {
+        "--out b.h5 --set output.frames=[0.5,1,2]",
+        "--out c.h5 --set output.series_every=0.1 "
+        "--set \"output.observables=['fields','displacement','collision_statistics']\""}) {
     const json object = result(std::string("cooling.toml ") + sampling);
     hashes.insert(object["trajectory_hash"].get<std::string>() + object["time"].dump() +
                   object["energy"].dump());

@@ -22,6 +22,9 @@ energy_ratio = 0.2
 [output]
 frames = 4
 events = true
+observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
+               "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
+               "collision_statistics"]
 """
 
 
@@ -55,6 +58,7 @@ def main():
         one = files[1]
         assert any(name.startswith("events/") for name in one), sorted(one)
         assert any(name.startswith("series/") for name in one), sorted(one)
+        assert any(name.startswith("series/displacement/") for name in one), sorted(one)
         assert len(one["particles/needles/position/value"]) > 400 * 3 * 8, "expected several frames"
         for threads, other in files.items():
             differ = sorted(name for name in one.keys() | other.keys()

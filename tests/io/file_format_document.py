@@ -1,9 +1,9 @@
-"""Compares docs/file-format.md with the files that the program writes.
+"""Compares docs/file-format.md and docs/observables.md with the files that the program writes.
 
     file_format_document.py NEEDLEWORK SOURCE_FOLDER
 
 Each object of a file must have a `description` and a row in a table of the document that says the
-same, with the right shape and type. Each row must fit an object. The commands and the program of the
+same, with the right shape and type. Each row must fit an object. The commands and the program of each
 document are run, and must print what the document says.
 """
 import os
@@ -73,8 +73,10 @@ def type_of(item):
 
 
 class Comparison:
-    def __init__(self, file, rows):
-        self.file, self.rows = file, rows
+    """Of a file with rows that must all fit, and with others of which some may."""
+
+    def __init__(self, file, rows, others=()):
+        self.file, self.rows, self.others = file, rows, others
         self.sizes = {}
         self.problems = []
 
@@ -99,7 +101,8 @@ class Comparison:
                 self.require(row.path, row.type == found, f"has the type {found}, not {row.type}")
 
     def row_of(self, path):
-        return next((row for row in self.rows if row.pattern.fullmatch(path)), None)
+        rows = [*self.rows, *self.others]
+        return next((row for row in rows if row.pattern.fullmatch(path)), None)
 
     def address(self, path):
         return h5py.h5o.get_info(self.file[path].id).addr
@@ -151,31 +154,47 @@ def run(command, folder):
     return result.stdout
 
 
+def read(source, name):
+    with open(os.path.join(source, "docs", name), encoding="utf-8") as file:
+        return file.read()
+
+
+def problems_of_example(document, name, folder):
+    """Those of the only program of the document, which is run after the commands."""
+    for text in blocks(document, "toml"):
+        with open(os.path.join(folder, "observed.toml"), "w", encoding="utf-8") as file:
+            file.write(text)
+    for command in "".join(blocks(document, "sh")).splitlines():
+        run(["sh", "-c", "PATH=.:$PATH; " + command], folder)
+    examples, outputs = blocks(document, "python"), blocks(document, "text")
+    assert len(examples) == len(outputs) == 1, (name, len(examples), len(outputs))
+    printed = run([sys.executable, "-c", examples[0]], folder)
+    return [] if printed == outputs[0] else [f"{name}: prints\n{printed}not\n{outputs[0]}"]
+
+
 def main(program, source):
-    with open(os.path.join(source, "docs/file-format.md"), encoding="utf-8") as file:
-        document = file.read()
+    document, observables = read(source, "file-format.md"), read(source, "observables.md")
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         os.symlink(program, os.path.join(folder, "needlework"))
         os.symlink(os.path.join(source, "profiles"), os.path.join(folder, "profiles"))
-        for command in "".join(blocks(document, "sh")).splitlines():
-            run(["sh", "-c", "PATH=.:$PATH; " + command], folder)
+        problems += problems_of_example(document, "file-format.md", folder)
+        problems += problems_of_example(observables, "observables.md", folder)
         with open(os.path.join(folder, "grid.toml"), "w", encoding="utf-8") as file:
             file.write(SWEEP)
         run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
             folder)
-        for name, heading in [("run.h5", "Files of runs"), ("sweep/summary.h5", "Summaries of sweeps"),
-                              ("run.vtkhdf", "Exports for ParaView and VTK")]:
+        runs = rows_of(document, "Files of runs")
+        for name, rows, others in [
+                ("run.h5", runs, ()),
+                ("observed.h5", rows_of(observables, "Datasets"), runs),
+                ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
+                ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:
-                comparison = Comparison(file, rows_of(document, heading))
+                comparison = Comparison(file, rows, others)
                 comparison.run()
                 problems += comparison.problems
-        examples, outputs = blocks(document, "python"), blocks(document, "text")
-        assert len(examples) == len(outputs) == 1, (len(examples), len(outputs))
-        printed = run([sys.executable, "-c", examples[0]], folder)
-        if printed != outputs[0]:
-            problems.append(f"the example prints\n{printed}not\n{outputs[0]}")
-    print("\n".join(problems) or "the document and the files agree")
+    print("\n".join(problems) or "the documents and the files agree")
     return 1 if problems else 0
 
 

@@ -71,6 +71,37 @@ TEST_F(Writing, AReadStateCanBeWrittenAgain) {
   expect_same(state, read_last_frame(file("a.h5")));
 }
 
+TEST_F(Writing, FieldsOfTheSeriesComeBack) {
+  using enum SeriesField::Kind;
+  RunInfo observed = run;
+  observed.series = {{"a",
+                      "First",
+                      {{"x", "A pair", "length", {{"2", 2}}},
+                       {"borders", "Borders", "", {{"3", 3}}, constant, {1, 2, 3}},
+                       {"n", "A count", "", {}, count}}},
+                     {"b", "Second", {{"grid", "Many", "", {{"cells", 300}, {"3", 3}}}}}};
+  const int samples = 400;  // more numbers than are kept in memory
+  std::vector<double> x, n, grid;
+  Writer writer(file("fields.h5"), false, make_scene(2), observed);
+  for (int i = 0; i < samples; ++i) {
+    std::vector<double> row{i / 8.0, -i / 3.0, 9007199254740991.0 - i};
+    x.insert(x.end(), row.begin(), row.begin() + 2);
+    n.push_back(row.back());
+    for (int cell = 0; cell < 900; ++cell) row.push_back(i + cell / 7.0);
+    grid.insert(grid.end(), row.begin() + 3, row.end());
+    writer.write_series(make_totals(i), row);
+  }
+  EXPECT_THROW(writer.write_series(make_totals(samples)), std::logic_error);
+  writer.close();
+  const auto numbers = [&](const char* name) { return read_numbers(file("fields.h5"), name); };
+  EXPECT_EQ(numbers("/series/a/x/value"), x);
+  EXPECT_EQ(numbers("/series/a/n/value"), n);
+  EXPECT_EQ(numbers("/series/a/borders"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(numbers("/series/b/grid/value"), grid);
+  EXPECT_EQ(numbers("/series/b/grid/time"), numbers("/series/time"));
+  EXPECT_EQ(numbers("/series/b/grid/step"), numbers("/series/step"));
+}
+
 TEST_F(Writing, SumsAndTheirTimesComeBack) {
   const int samples = 5000;  // more than are kept in memory
   Writer writer(file("series.h5"), false, make_scene(2), run);

@@ -30,6 +30,15 @@ TEST(Schedule, HasExactPowersOfTenOnItsGrid) {
   }
 }
 
+TEST(Schedule, HasTheMultiplesOfAStep) {
+  EXPECT_EQ(times_of(Schedule::linear(0.1), 0.45), (std::vector{0.1, 2 * 0.1, 3 * 0.1, 4 * 0.1}));
+  Schedule schedule = Schedule::linear(2);
+  schedule.pass(0);
+  EXPECT_EQ(schedule.next(), 2);
+  schedule.pass(7);
+  EXPECT_EQ(schedule.next(), 8);
+}
+
 TEST(Schedule, TakesEqualStepsOfTheLogarithm) {
   const auto times = times_of(Schedule::logarithmic(8, 1e-3), 1e9);
   EXPECT_EQ(times.size(), 12u * 8 + 1);

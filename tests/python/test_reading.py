@@ -20,7 +20,8 @@ class Reading(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.path = Path(cls.folder.name, "run.h5")
         cls.rows = []
-        output = {"file": str(cls.path), "events": True, "frames": [0.5, 1.0]}
+        output = {"file": str(cls.path), "events": True, "frames": [0.5, 1.0],
+                  "observables": ["flow_order", "alignment"]}
         with Simulation(gas(output=output)) as sim:
             sim.on_collisions(cls.rows.append)
             cls.first = sim.position
@@ -43,6 +44,16 @@ class Reading(unittest.TestCase):
         self.assertEqual(series.time[0], 0)
         self.assertEqual(series.momentum.shape, (series.rows, 3))
         self.assertEqual(series.rows, len(series.energy))
+
+    def test_observables_are_read_by_name(self):
+        rows = self.recording.series.rows
+        self.assertEqual(self.recording.observable("flow_order").translational.shape, (rows,))
+        alignment = self.recording.observable("alignment")
+        self.assertEqual(alignment.along_axes.shape, (rows, 3, len(alignment.borders) - 1))
+        self.assertEqual(self.recording.observable("theory").energy[0],
+                         self.recording.series.energy[0])
+        with self.assertRaisesRegex(InputError, "fields"):
+            self.recording.observable("fields")
 
     def test_frames_are_read_by_index(self):
         frames = self.recording.frames

@@ -45,9 +45,14 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string frames =
       "expected a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, "
       "increasing";
+  const std::string every = "expected a time > 0";
+  const std::string grid =
+      "expected a whole number in digits, from 1 to 10000, or an array of three, at most 1e6 cells";
   const std::string observables =
-      "expected an array of \"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", "
-      "\"tc_collisions\"";
+      "expected an array of names among \"fields\", \"profiles\", \"flow_order\", "
+      "\"distributions\", \"alignment\", \"velocity_moments\", \"temperature_by_axis\", "
+      "\"pair_correlation\", \"structure_factor\", \"displacement\", \"collision_statistics\", "
+      "\"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", \"tc_collisions\"";
   const BadLine table[] = {
       {"needles", "count = -1", count},
       {"needles", "count = 1.5", count},
@@ -156,7 +161,17 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       {"output", "frames = [0, 1, 1]", frames},
       {"output", "frames = [0, nan]", frames},
       {"output", "frames = [0, true]", frames},
-      {"output", "observables = [\"fields\"]", observables},
+      {"output", "series_every = 0", every},
+      {"output", "series_every = -1", every},
+      {"output", "series_every = nan", every},
+      {"output", "grid = 0", grid},
+      {"output", "grid = 2.5", grid},
+      {"output", "grid = 101", grid},
+      {"output", "grid = [10, 10]", grid},
+      {"output", "grid = [10, 10, 0]", grid},
+      {"output", "grid = [10000, 101, 1]", grid},
+      {"output", "observables = [\"field\"]", observables},
+      {"output", "observables = [\"theory\"]", observables},
       {"output", "observables = [\"energy\", \"entropy\"]", observables},
       {"output", "observables = [5]", observables},
       {"output", "observables = \"fields\"", observables},

@@ -82,7 +82,8 @@ wall_s = 3600
 file = "run.h5"
 series_per_decade = 20
 frames = [0, 1.5, 7]
-observables = ["energy", "t_tr", "t_rot", "momentum", "collisions", "tc_collisions"]
+observables = ["energy", "fields", "displacement"]
+grid = [4, 5, 6]
 events = true
 )",
                                   "s.toml");
@@ -117,8 +118,8 @@ events = true
   EXPECT_EQ(scene.output.series_per_decade, 20);
   EXPECT_EQ(scene.output.frame_times, (std::vector<double>{0, 1.5, 7}));
   EXPECT_EQ(scene.output.observables,
-            (std::vector<std::string>{"energy", "t_tr", "t_rot", "momentum", "collisions",
-                                      "tc_collisions"}));
+            (std::vector<std::string>{"energy", "fields", "displacement"}));
+  EXPECT_EQ(scene.output.grid, (std::array{4, 5, 6}));
   EXPECT_TRUE(scene.output.events);
 }
 
@@ -135,7 +136,8 @@ TEST(GoodScene, TakesTheEndsOfRanges) {
         "[initial]\nt_tr = 1e200\nt_rot = 1e-200", "[engine]\nthreads = 1024",
         "[engine]\ncell_side = 0.1\ncapsule_radius = 1e-3",
         "[engine]\ncell_side = 1e9\ncapsule_radius = 10", "[output]\nframes = []",
-        "[output]\nframes = [0]", "[output]\nfile = ''"})
+        "[output]\nframes = [0]", "[output]\nfile = ''", "[output]\nseries_every = 1e-300",
+        "[output]\ngrid = [10000, 1, 100]\nobservables = []"})
     EXPECT_NO_THROW(parse_scene(std::string(least) + line, "s.toml")) << line;
 }
 
@@ -152,6 +154,12 @@ TEST(GoodScene, TakesEveryNamedStrategy) {
     EXPECT_EQ(engine("accuracy = '" + name + "'").accuracy, name);
   for (const std::string name : {"auto", "scalar", "sse4", "avx2", "avx512"})
     EXPECT_EQ(engine("isa = '" + name + "'").isa, name);
+}
+
+TEST(GoodScene, GridIsOneNumberOrThree) {
+  EXPECT_EQ(parse_scene(std::string(least) + "output.grid = 7", "s.toml").output.grid,
+            (std::array{7, 7, 7}));
+  EXPECT_FALSE(parse_scene(least, "s.toml").output.grid);
 }
 
 TEST(GoodScene, FramesAreTimesOrANumberPerDecade) {

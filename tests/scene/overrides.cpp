@@ -63,6 +63,11 @@ TEST(Override, OfAnAlternativeReplacesTheChoiceOfTheFile) {
   const Scene relative = parse({"collisions.tc_relative=0.1"}, "collisions.tc = 1e-3");
   EXPECT_EQ(relative.collisions.tc_relative, 0.1);
   EXPECT_FALSE(relative.collisions.tc);
+  const Scene linear = parse({"output.series_every=2"}, "output.series_per_decade = 5");
+  EXPECT_EQ(linear.output.series_every, 2);
+  const Scene logarithmic = parse({"output.series_per_decade=5"}, "output.series_every = 2");
+  EXPECT_EQ(logarithmic.output.series_per_decade, 5);
+  EXPECT_FALSE(logarithmic.output.series_every);
   const Scene restart = parse({"initial.file=a.h5"}, "initial = {t_tr = 2, t_rot = 0}");
   EXPECT_EQ(restart.initial.file, "a.h5");
   EXPECT_EQ(restart.initial.t_tr, 1);
@@ -71,6 +76,9 @@ TEST(Override, OfAnAlternativeReplacesTheChoiceOfTheFile) {
 TEST(Override, CannotChooseBothAlternatives) {
   EXPECT_EQ(message({"collisions.tc=0.1", "collisions.tc_relative=1"}),
             "--set collisions.tc_relative=1: expected either tc or tc_relative, not both");
+  EXPECT_EQ(message({}, "output.series_every = 1\noutput.series_per_decade = 2"),
+            "s.toml: line 5: output.series_per_decade = 2: expected either series_per_decade or "
+            "series_every, not both");
   EXPECT_EQ(message({"initial.t_tr=1"}, "initial.file = 'a.h5'"),
             "--set initial.t_tr=1: expected either file or temperatures to draw, not both");
   EXPECT_EQ(message({"initial.file=a.h5", "initial.t_rot=1"}),

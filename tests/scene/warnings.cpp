@@ -94,6 +94,8 @@ TEST(Warning, IsGivenForSizesThatASearchHasNot) {
 TEST(Warning, IsGivenForOutputThatIsLost) {
   EXPECT_EQ(warned_of("until.time = 1\noutput.events = true"), Keys{"output.events"});
   EXPECT_EQ(warned_of("until.time = 1\noutput.frames = 2"), Keys{"output.frames"});
+  EXPECT_EQ(warned_of("until.time = 1\noutput.observables = ['fields']"),
+            Keys{"output.observables"});
   EXPECT_EQ(warned_of("until.time = 1\noutput = {file = 'a', frames = [0, 2]}"),
             Keys{"output.frames"});
 }

@@ -1,0 +1,124 @@
+// Displacement and rotation since reference times t0, as means over all needles of
+//
+//   parallel       ((r(t) - r(t0)) . u(t0))^2
+//   perpendicular  |r(t) - r(t0)|^2 less the above: both directions across
+//   p1             u(t) . u(t0)
+//   p2             (3 (u(t) . u(t0))^2 - 1) / 2
+//
+// with r followed across the boundaries. Each row has the lag t - t0 and these means for every
+// reference; places without a reference have NaN. A correlation function is the mean over rows and
+// references of equal lag.
+//
+// References are samples. At most 8 are kept, spread evenly over all samples so far: every
+// `stride_`-th sample becomes one, and when there is no place left every second one is dropped and
+// the stride doubled. So memory is bounded, the first sample is always a reference, and a run of
+// any length has lags from one sample to all of it. Samples at equal steps make lags that repeat
+// and can be averaged; at logarithmic times, references are spread over the decades.
+#include <algorithm>
+#include <limits>
+
+#include "src/observe/registry.h"
+
+namespace needlework::observe {
+namespace {
+
+constexpr std::size_t places = 8;
+
+struct Reference {
+  std::size_t sample;  ///< its number, counted from 0
+  double time;
+  std::vector<Vector> position, orientation;
+};
+
+struct Means {
+  double parallel = 0, perpendicular = 0, p1 = 0, p2 = 0;
+};
+
+class Displacement : public Observable {
+ public:
+  explicit Displacement(const GasSetting& gas) : gas_(gas) {}
+
+  std::vector<SeriesField> fields() const override {
+    const std::vector<SeriesField::Extent> shape{{"references", places}};
+    return {
+        {"lag", "Time since each reference", unit::time, shape},
+        {"parallel", "Mean square displacement along the orientation at each reference", unit::area,
+         shape},
+        {"perpendicular", "Mean square displacement across the orientation at each reference",
+         unit::area, shape},
+        {"p1", "Mean cosine of the angle between the orientation and that at each reference",
+         unit::none, shape},
+        {"p2", "Mean of (3 cos^2 - 1) / 2 of the same angle", unit::none, shape},
+    };
+  }
+
+  void sample(const Snapshot& now, Row& row) override {
+    const std::vector<Vector> position = unwrapped(now.state);
+    keep(now, position);
+    std::vector<Means> means;
+    for (const Reference& reference : references_) {
+      means.push_back(compare(reference, position, now.state.orientation));
+    }
+    put(row, [&](std::size_t n) { return now.totals.time - references_[n].time; });
+    for (double Means::*mean : {&Means::parallel, &Means::perpendicular, &Means::p1, &Means::p2}) {
+      put(row, [&](std::size_t n) { return means[n].*mean; });
+    }
+  }
+
+ private:
+  std::vector<Vector> unwrapped(const State& state) const {
+    std::vector<Vector> out = state.position;
+    for (std::size_t i = 0; i < state.image.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        out[i][axis] += state.image[i][axis] * gas_.box[axis];
+      }
+    return out;
+  }
+
+  void keep(const Snapshot& now, const std::vector<Vector>& position) {
+    const std::size_t sample = samples_++;
+    if (sample % stride_ != 0) return;
+    if (references_.size() == places) {
+      stride_ *= 2;
+      std::erase_if(references_, [&](const Reference& old) { return old.sample % stride_ != 0; });
+    }
+    // With an even number of places, the sample is a multiple of the doubled stride as well.
+    references_.push_back({sample, now.totals.time, position, now.state.orientation});
+  }
+  static_assert(places % 2 == 0);
+
+  static Means compare(const Reference& reference, const std::vector<Vector>& position,
+                       const std::vector<Vector>& orientation) {
+    Means sum;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const Vector way = minus(position[i], reference.position[i]);
+      const double along = dot(way, reference.orientation[i]);
+      const double cosine = dot(orientation[i], reference.orientation[i]);
+      sum.parallel += along * along;
+      sum.perpendicular += std::max(dot(way, way) - along * along, 0.0);
+      sum.p1 += cosine;
+      sum.p2 += second_legendre(cosine);
+    }
+    const double count = static_cast<double>(position.size());
+    return {sum.parallel / count, sum.perpendicular / count, sum.p1 / count, sum.p2 / count};
+  }
+
+  template <class Value>
+  void put(Row& row, Value value) const {
+    for (std::size_t n = 0; n < places; ++n) {
+      row.put(n < references_.size() ? value(n) : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  GasSetting gas_;
+  std::size_t samples_ = 0, stride_ = 1;
+  std::vector<Reference> references_;
+};
+
+}  // namespace
+
+ObservablePointer make_displacement(const GasSetting& gas) {
+  return std::make_unique<Displacement>(gas);
+}
+
+}  // namespace needlework::observe

@@ -1,0 +1,141 @@
+// Correlations of pairs at the distance r of their centres, taken between nearest images:
+//
+//   g   pairs with r in a bin, divided by N (N - 1) / 2 times the bin's share of the box volume;
+//       1 for independent positions
+//   p2  mean of P2(u_i . u_j) = (3 (u_i . u_j)^2 - 1) / 2 over these pairs; 0 for independent
+//       directors, 1 for parallel ones, NaN where there are no pairs
+//
+// r goes up to 3 needle lengths, or to half the shortest edge of the box if that is less. Pairs
+// come from a list of cells at least that wide, in an order that follows from the state alone.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "src/observe/registry.h"
+
+namespace needlework::observe {
+namespace {
+
+constexpr std::size_t bins = 60;
+
+double largest_distance(const GasSetting& gas) {
+  const double half_edge = *std::min_element(gas.box.begin(), gas.box.end()) / 2;
+  return std::min(3 * gas.length, half_edge);
+}
+
+struct Needle {
+  Vector position, director;
+};
+using Cell = std::vector<Needle>;
+
+class PairCorrelation : public Observable {
+ public:
+  explicit PairCorrelation(const GasSetting& gas) : gas_(gas), reach_(largest_distance(gas)) {}
+
+  std::vector<SeriesField> fields() const override {
+    std::vector<double> borders;
+    for (std::size_t n = 0; n <= bins; ++n) borders.push_back(reach_ * double(n) / bins);
+    return {
+        {"g",
+         "Number of pairs by distance, divided by that of independent positions",
+         unit::none,
+         {{"distance bins", bins}}},
+        {"p2",
+         "Mean of (3 cos^2 - 1) / 2 of the angle between the needles of these pairs",
+         unit::none,
+         {{"distance bins", bins}}},
+        {"borders",
+         "Borders of the bins of distance",
+         unit::length,
+         {{"distance bins + 1", bins + 1}},
+         SeriesField::Kind::constant,
+         borders},
+    };
+  }
+
+  void sample(const Snapshot& now, Row& row) override {
+    pairs_.assign(bins, 0.0);
+    p2_.assign(bins, 0.0);
+    visit_near_pairs(now.state);
+    const double count = static_cast<double>(now.state.size());
+    const double all_pairs = count * (count - 1) / 2;
+    for (std::size_t n = 0; n < bins; ++n) {
+      const double low = double(n) / bins, high = double(n + 1) / bins;
+      const double shell = 4 * std::numbers::pi / 3 * reach_ * reach_ * reach_ *
+                           (high * high * high - low * low * low);
+      row.put(pairs_[n] / (all_pairs * (shell / gas_.volume())));
+    }
+    for (std::size_t n = 0; n < bins; ++n) row.put(p2_[n] / pairs_[n]);
+  }
+
+ private:
+  void add(const Needle& one, const Needle& other) {
+    double square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Both are inside the box, so the nearest image is at most one edge away.
+      const double d = std::abs(other.position[axis] - one.position[axis]);
+      const double nearest = std::min(d, gas_.box[axis] - d);
+      square += nearest * nearest;
+    }
+    if (!(square < reach_ * reach_)) return;
+    const auto bin = static_cast<std::size_t>(std::sqrt(square) / reach_ * bins);
+    if (bin >= bins) return;
+    ++pairs_[bin];
+    p2_[bin] += second_legendre(dot(one.director, other.director));
+  }
+
+  void add_pairs_within(const Cell& cell) {
+    for (std::size_t n = 0; n < cell.size(); ++n)
+      for (std::size_t m = n + 1; m < cell.size(); ++m) add(cell[n], cell[m]);
+  }
+
+  void visit_near_pairs(const State& state) {
+    std::array<int, 3> extent{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent[axis] = static_cast<int>(std::min(gas_.box[axis] / reach_, 100.0));
+    }
+    // With fewer than three cells along an axis, one cell would be on both sides of another.
+    if (*std::min_element(extent.begin(), extent.end()) < 3) extent = {1, 1, 1};
+    const Grid grid(gas_.box, extent);
+    std::vector<Cell> cells(grid.size());
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      cells[grid.cell_of(state.position[i])].push_back({state.position[i], state.orientation[i]});
+    }
+    for (const Cell& cell : cells) add_pairs_within(cell);
+    if (cells.size() == 1) return;
+    for (int x = 0; x < extent[0]; ++x)
+      for (int y = 0; y < extent[1]; ++y)
+        for (int z = 0; z < extent[2]; ++z) add_pairs_across(cells, extent, {x, y, z});
+  }
+
+  // The pairs of a cell with half of its 26 neighbours: each pair once.
+  void add_pairs_across(const std::vector<Cell>& cells, const std::array<int, 3>& extent,
+                        const std::array<int, 3>& cell) {
+    const auto at = [&](int dx, int dy, int dz) -> const Cell& {
+      const std::array<int, 3> step{dx, dy, dz};
+      std::size_t index = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const int n = (cell[axis] + step[axis] + extent[axis]) % extent[axis];
+        index = index * static_cast<std::size_t>(extent[axis]) + static_cast<std::size_t>(n);
+      }
+      return cells[index];
+    };
+    const Cell& here = at(0, 0, 0);
+    for (int neighbour = 14; neighbour < 27; ++neighbour) {  // 13 is the cell itself
+      for (const Needle& other : at(neighbour / 9 - 1, neighbour / 3 % 3 - 1, neighbour % 3 - 1))
+        for (const Needle& one : here) add(one, other);
+    }
+  }
+
+  GasSetting gas_;
+  double reach_;
+  std::vector<double> pairs_, p2_;
+};
+
+}  // namespace
+
+ObservablePointer make_pair_correlation(const GasSetting& gas) {
+  return std::make_unique<PairCorrelation>(gas);
+}
+
+}  // namespace needlework::observe

@@ -1,0 +1,40 @@
+#include "src/observe/registry.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "src/scene/observable_names.h"
+
+namespace needlework::observe {
+namespace {
+
+constexpr Entry entries[] = {
+    {"fields", "Density, flow and thermal energy in each cell of the grid", make_fields},
+    {"profiles", "Density, flow and thermal energy in slabs along each axis", make_profiles},
+    {"flow_order", "Order of the flow and inhomogeneity of the density, by cells of the grid",
+     make_flow_order},
+    {"distributions", "Histograms of local density, velocities and energies", make_distributions},
+    {"alignment", "Alignment of the needles with their velocities and with the axes",
+     make_alignment},
+    {"velocity_moments", "Departure of the velocities from independent Gaussian ones",
+     make_velocity_moments},
+    {"temperature_by_axis", "Temperatures of the motion along and about each axis",
+     make_temperature_by_axis},
+    {"pair_correlation", "Correlation of positions and orientations over the distance of a pair",
+     make_pair_correlation},
+    {"structure_factor", "Density fluctuations by wave vector, along each axis",
+     make_structure_factor},
+    {"displacement",
+     "Displacement and rotation since reference times, of which a bounded number is kept",
+     make_displacement},
+    {"collision_statistics", "Collisions since the sample before", make_collision_statistics},
+};
+
+static_assert(std::ranges::equal(entries, observable_names, {}, &Entry::name),
+              "expected the names of src/scene/observable_names.h, in their order");
+
+}  // namespace
+
+std::span<const Entry> registry() { return entries; }
+
+}  // namespace needlework::observe

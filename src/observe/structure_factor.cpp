@@ -1,0 +1,71 @@
+// The structure factor S(k) = |sum over needles of exp(i k . r)|^2 / N for the wave vectors
+// k = 2 pi n / edge, n = 1 to 16, along each axis of the box. For independent positions it is
+// exponentially distributed with mean 1. An n-fold density wave along an axis is a peak of the
+// order of N there.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "src/observe/registry.h"
+
+namespace needlework::observe {
+namespace {
+
+constexpr std::size_t waves = 16;
+
+class StructureFactor : public Observable {
+ public:
+  explicit StructureFactor(const GasSetting& gas) : gas_(gas) {}
+
+  std::vector<SeriesField> fields() const override {
+    std::vector<double> wave_numbers;
+    for (const double edge : gas_.box)
+      for (std::size_t n = 1; n <= waves; ++n) {
+        wave_numbers.push_back(2 * std::numbers::pi * double(n) / edge);
+      }
+    return {
+        {"s",
+         "Structure factor at wave vectors along each axis",
+         unit::none,
+         {{"3", 3}, {"waves", waves}}},
+        {"k",
+         "Wave numbers along each axis",
+         unit::wave_number,
+         {{"3", 3}, {"waves", waves}},
+         SeriesField::Kind::constant,
+         wave_numbers},
+    };
+  }
+
+  void sample(const Snapshot& now, Row& row) override {
+    using Complex = std::complex<double>;
+    std::array<std::array<Complex, waves>, 3> sums{};
+    for (const Vector& r : now.state.position) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box[axis]);
+        const Complex first(std::cos(phase), std::sin(phase));
+        Complex wave = first;
+        for (Complex& sum : sums[axis]) {
+          sum += wave;
+          // Written out, as the operator of the library looks for NaN.
+          wave = {wave.real() * first.real() - wave.imag() * first.imag(),
+                  wave.real() * first.imag() + wave.imag() * first.real()};
+        }
+      }
+    }
+    const double count = static_cast<double>(now.state.size());
+    for (const auto& axis : sums)
+      for (const Complex& sum : axis) row.put(std::norm(sum) / count);
+  }
+
+ private:
+  GasSetting gas_;
+};
+
+}  // namespace
+
+ObservablePointer make_structure_factor(const GasSetting& gas) {
+  return std::make_unique<StructureFactor>(gas);
+}
+
+}  // namespace needlework::observe

@@ -1,0 +1,20 @@
+// The names that output.observables accepts.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace needlework {
+
+/// Sums over all needles, which every file holds whether they are named or not.
+inline constexpr std::array<std::string_view, 6> total_names = {
+    "t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions"};
+
+/// What is computed where a scene names it. src/observe/registry.cpp makes them, and does not
+/// compile if it has others.
+inline constexpr std::array<std::string_view, 11> observable_names = {
+    "fields",           "profiles",         "flow_order",          "distributions",
+    "alignment",        "velocity_moments", "temperature_by_axis", "pair_correlation",
+    "structure_factor", "displacement",     "collision_statistics"};
+
+}  // namespace needlework

@@ -1,0 +1,90 @@
+// What tests of observables share: states made by hand, and the values that come of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/observe/observation.h"
+#include "tests/support/runs.h"
+
+namespace needlework::observe {
+
+/// The fields of one observable, by name: the last row, or the values of a constant.
+using Values = std::map<std::string, std::vector<double>>;
+
+/// A scene of needles of length and mass 1 that calls for one observable.
+inline Scene scene_with(const std::string& observable, std::size_t count, const Vector& box,
+                        const std::array<int, 3>& cells = {1, 1, 1}) {
+  Scene scene;
+  scene.needles.count = count;
+  scene.needles.box = box;
+  scene.output.observables = {observable};
+  scene.output.grid = cells;
+  return scene;
+}
+
+/// `count` needles along z at rest at the origin.
+inline State resting(std::size_t count, const Vector& box) {
+  State state;
+  state.resize(count);
+  state.box = box;
+  for (std::size_t i = 0; i < count; ++i) state.id[i] = static_cast<std::uint32_t>(i);
+  std::fill(state.orientation.begin(), state.orientation.end(), Vector{0, 0, 1});
+  return state;
+}
+
+/// Temperatures of the state, for mass 1 and this moment of inertia.
+inline Totals totals_of(const State& state, double inertia, double time = 0) {
+  Totals totals;
+  totals.time = time;
+  const double count = static_cast<double>(state.size());
+  for (const Vector& v : state.velocity) totals.t_tr += dot(v, v) / (3 * count);
+  for (const Vector& w : state.angular_velocity) {
+    totals.t_rot += inertia * dot(w, w) / (2 * count);
+  }
+  totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  return totals;
+}
+
+/// The observation of one observable.
+class Observed {
+ public:
+  explicit Observed(const Scene& scene) : inertia_(setting_of(scene).inertia), all_(scene) {}
+
+  Values sample(const State& state, double time = 0) {
+    return sample(state, totals_of(state, inertia_, time));
+  }
+  Values sample(const State& state, const Totals& totals) {
+    const auto row = all_.sample(state, totals);
+    Values out;
+    auto next = row.begin();
+    const SeriesGroup group = all_.groups().at(0);
+    for (const SeriesField& field : group.fields) {
+      if (field.kind == SeriesField::Kind::constant) {
+        EXPECT_EQ(field.values.size(), field.width()) << field.name;
+        out[field.name] = field.values;
+      } else {
+        out[field.name].assign(next, next + static_cast<std::ptrdiff_t>(field.width()));
+        next += static_cast<std::ptrdiff_t>(field.width());
+      }
+    }
+    return out;
+  }
+  void collision(const Collision& collision) { all_.collision(collision); }
+
+ private:
+  double inertia_;
+  Observation all_;
+};
+
+inline double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (const double value : values) total += value;
+  return total;
+}
+
+}  // namespace needlework::observe

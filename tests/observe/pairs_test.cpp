@@ -1,0 +1,101 @@
+// Pair correlations and structure factors of states where they are known.
+#include <cmath>
+#include <numbers>
+
+#include "tests/observe/observed.h"
+
+namespace needlework::observe {
+namespace {
+
+const Vector box{8, 9, 10};
+constexpr std::size_t bins = 60;
+
+TEST(PairCorrelation, OfTwoNeedlesIsAtTheirDistance) {
+  State state = resting(2, box);
+  state.position = {{0.5, 1, 1}, {7.5, 1, 2.01}};  // sqrt(1 + 1.01^2) across the border
+  state.orientation[1] = {0, 0.6, 0.8};
+  Values values = Observed(scene_with("pair_correlation", 2, box)).sample(state);
+  const auto& borders = values["borders"];
+  EXPECT_DOUBLE_EQ(borders.back(), 3);
+  const auto bin = static_cast<std::size_t>(std::hypot(1, 1.01) / 3 * bins);
+  for (std::size_t n = 0; n < bins; ++n) {
+    const double shell =
+        4 * std::numbers::pi / 3 * (std::pow(borders[n + 1], 3) - std::pow(borders[n], 3));
+    EXPECT_NEAR(values["g"][n], n == bin ? 8 * 9 * 10 / shell : 0, 1e-9) << n;
+    if (n == bin) {
+      EXPECT_DOUBLE_EQ(values["p2"][n], 1.5 * 0.64 - 0.5);
+    } else {
+      EXPECT_TRUE(std::isnan(values["p2"][n])) << n;
+    }
+  }
+}
+
+TEST(PairCorrelation, EndsAtHalfTheShortestEdge) {
+  Values values = Observed(scene_with("pair_correlation", 0, {5, 4, 9})).sample(resting(0, box));
+  EXPECT_DOUBLE_EQ(values["borders"].back(), 2);
+}
+
+// Independent of how pairs are found: those of each box that has cells, counted one by one.
+TEST(PairCorrelation, CountsEveryPairOnce) {
+  for (const double edge : {8.9, 9.1, 13.0}) {  // two cells along each axis or less, three, four
+    Scene scene = test::scene_of(400, edge, 7);
+    scene.output.observables = {"pair_correlation"};
+    const State state = draw_initial_state(scene);
+    Values values = Observed(scene).sample(state);
+    const double reach = values["borders"].back();
+    std::vector<double> pairs(bins);
+    for (std::size_t i = 0; i < state.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        double square = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double d = std::abs(state.position[i][axis] - state.position[j][axis]);
+          square += std::pow(std::min(d, edge - d), 2);
+        }
+        if (square < reach * reach) {
+          ++pairs[static_cast<std::size_t>(std::sqrt(square) / reach * bins)];
+        }
+      }
+    for (std::size_t n = 0; n < bins; ++n) {
+      const double shell =
+          4 * std::numbers::pi / 3 *
+          (std::pow(values["borders"][n + 1], 3) - std::pow(values["borders"][n], 3));
+      EXPECT_NEAR(values["g"][n] * 400 * 399 / 2 * shell / (edge * edge * edge), pairs[n], 1e-6)
+          << edge << " " << n;
+    }
+  }
+}
+
+TEST(PairCorrelation, OfParallelNeedlesHasFullOrder) {
+  Scene scene = test::scene_of(400, 9.1, 7);
+  scene.output.observables = {"pair_correlation"};
+  State state = draw_initial_state(scene);
+  std::fill(state.orientation.begin(), state.orientation.end(), Vector{0, 0, 1});
+  Values values = Observed(scene).sample(state);
+  for (std::size_t n = 10; n < bins; ++n) EXPECT_EQ(values["p2"][n], 1) << n;
+}
+
+TEST(StructureFactor, OfADensityWaveIsAPeak) {
+  State state = resting(40, box);
+  for (std::size_t i = 0; i < 40; ++i) {
+    // Four planes across x, ten positions along y, one plane across z.
+    state.position[i] = {2.0 * double(i % 4), 0.9 * double(i / 4), 5};
+  }
+  Values values = Observed(scene_with("structure_factor", 40, box)).sample(state);
+  for (std::size_t n = 1; n <= 16; ++n) {
+    EXPECT_NEAR(values["s"][n - 1], n % 4 == 0 ? 40 : 0, 1e-10) << n;
+    EXPECT_NEAR(values["s"][16 + n - 1], n % 10 == 0 ? 40 : 0, 1e-10) << n;
+    EXPECT_NEAR(values["s"][32 + n - 1], 40, 1e-10) << n;
+    EXPECT_DOUBLE_EQ(values["k"][16 + n - 1], 2 * std::numbers::pi * double(n) / 9);
+  }
+}
+
+// Exponentially distributed: the mean of 48 values has the standard error 1 / sqrt(48).
+TEST(StructureFactor, OfRandomPositionsIsOneOnAverage) {
+  Scene scene = test::scene_of(5000, 12, 2);
+  scene.output.observables = {"structure_factor"};
+  Values values = Observed(scene).sample(draw_initial_state(scene));
+  EXPECT_NEAR(sum(values["s"]) / 48, 1, 4 / std::sqrt(48));
+}
+
+}  // namespace
+}  // namespace needlework::observe
