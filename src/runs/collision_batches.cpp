@@ -15,12 +15,12 @@ CollisionBatches::CollisionBatches(Simulation& simulation, std::size_t batch, Ca
 void CollisionBatches::add(const Collision& collision) {
   make_room();
   collected_.push_back(collision);
-  if (!failure_ && collected_.size() >= batch_) pass_on();
+  if (!failure_) pass_on(batch_);
   if (failure_) simulation_.interrupt();
 }
 
 void CollisionBatches::flush() {
-  if (!failure_ && !collected_.empty()) pass_on();
+  if (!failure_) pass_on(1);
   if (failure_) std::rethrow_exception(std::exchange(failure_, {}));
 }
 
@@ -31,17 +31,24 @@ void CollisionBatches::make_room() {
   try {
     collected_.reserve(2 * collected_.capacity());
   } catch (const std::exception&) {
-    pass_on();
+    pass_on(1);
   }
 }
 
-void CollisionBatches::pass_on() {
-  try {
-    callback_(collected_);
-  } catch (...) {
-    if (!failure_) failure_ = std::current_exception();
+void CollisionBatches::pass_on(std::size_t least) {
+  std::size_t passed = 0;
+  bool goes_on = true;
+  while (goes_on && collected_.size() - passed >= least) {
+    const std::size_t count = std::min(batch_, collected_.size() - passed);
+    try {
+      callback_(std::span(collected_).subspan(passed, count));
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+      goes_on = false;
+    }
+    passed += count;
   }
-  collected_.clear();
+  collected_.erase(collected_.begin(), collected_.begin() + static_cast<std::ptrdiff_t>(passed));
 }
 
 }  // namespace needlework::runs

@@ -32,7 +32,9 @@ class CollisionBatches {
 
  private:
   void make_room();
-  void pass_on();
+  /// Calls for one batch after the other while at least so many collisions are left, until the
+  /// function throws. More than a batch is there after it has thrown.
+  void pass_on(std::size_t least);
 
   Simulation& simulation_;
   std::size_t batch_;

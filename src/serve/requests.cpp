@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/runs/limits.h"
 #include "src/runs/state_file.h"
@@ -67,6 +68,17 @@ runs::LoadedScene scene_in(const Json& request) {
   return runs::complete_scene(std::move(scene), std::move(*state));
 }
 
+/// The conditions counted by `count`, from the start or from now. What is wrong with them is a
+/// fault of the request.
+template <class Count>
+Scene::Until counted(const runs::Limits& limits, const runs::PreparedRun& run, Count count) {
+  try {
+    return count(limits, run.simulation());
+  } catch (const InputError& error) {
+    throw RequestError(error.what());
+  }
+}
+
 runs::Limits limits_in(const Json& request) {
   return {.time = number_in(request, "time"),
           .collisions = count_in(request, "collisions"),
@@ -116,13 +128,14 @@ const std::map<std::string, Requests::Handler> Requests::handlers = {
     {"close", &Requests::close}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
-  const std::string name = text_in(request, "do").value_or("");
-  const auto handler = handlers.find(name);
+  const std::optional<std::string> name = text_in(request, "do");
+  const auto handler = handlers.find(name.value_or(""));
   if (handler == handlers.end()) {
     std::string known;
     for (const auto& entry : handlers) known += entry.first + ", ";
-    throw RequestError(
-        fmt::format("do = \"{}\": expected one of {}interrupt, quit", name.substr(0, 60), known));
+    throw RequestError(fmt::format(
+        "{}: expected one of {}interrupt, quit",
+        name ? fmt::format("do = \"{}\"", name->substr(0, 60)) : "do is missing", known));
   }
   return (this->*handler->second)(request, connection);
 }
@@ -157,7 +170,7 @@ Json Requests::advance(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
                          "energy_ratio", "wall_s", "progress_s"});
   runs::PreparedRun& run = run_of(request);
-  return drive(run, runs::from_now(limits_in(request), run.simulation()), request, connection);
+  return drive(run, counted(limits_in(request), run, runs::from_now), request, connection);
 }
 
 Json Requests::run_until(const Json& request, const Connection& connection) {
@@ -169,7 +182,7 @@ Json Requests::run_until(const Json& request, const Connection& connection) {
   const bool scene_ends =
       of_scene.time || of_scene.collisions_per_needle || of_scene.energy_ratio || of_scene.wall_s;
   const bool as_scene_says = limits.empty() && scene_ends;
-  return drive(run, as_scene_says ? of_scene : runs::from_start(limits, run.simulation()), request,
+  return drive(run, as_scene_says ? of_scene : counted(limits, run, runs::from_start), request,
                connection);
 }
 

@@ -43,19 +43,30 @@ struct Line {
   bool asks_for(const char* what) const { return request.value("do", Json()) == what; }
 };
 
+/// Greatest depth of a request; one that is understood has 1, and what `id` has.
+constexpr int most_levels = 100;
+
 Line parse(std::uint64_t number, const std::string& text) {
   Line line{.number = number, .request = Json::object(), .misunderstood = {}};
   const std::string place = "line " + std::to_string(number) + ": ";
-  try {
-    Json parsed = Json::parse(text);
-    if (parsed.is_object()) {
-      line.request = std::move(parsed);
-    } else {
-      line.misunderstood = place + "expected a JSON object";
+  // Deep values would be copied and printed by recursion.
+  const auto within_depth = [](int depth, Json::parse_event_t, const Json&) {
+    if (depth > most_levels) {
+      throw RequestError("expected values in at most " + std::to_string(most_levels) + " levels");
     }
+    return true;
+  };
+  try {
+    Json parsed = Json::parse(text, within_depth);
+    if (!parsed.is_object()) throw RequestError("expected a JSON object");
+    line.request = std::move(parsed);
   } catch (const Json::parse_error& error) {
     line.misunderstood =
         place + "no JSON at byte " + std::to_string(error.byte) + ": expected a JSON object";
+  } catch (const Json::exception&) {
+    line.misunderstood = place + "expected numbers that a double can hold";
+  } catch (const RequestError& error) {
+    line.misunderstood = place + error.what();
   }
   return line;
 }

@@ -71,14 +71,14 @@ TEST(PreparedRun, StopsWhenTheCallerThrowsAndGoesOnWithoutALoss) {
   bool fails = true;
   run.on_collisions(10, [&](std::span<const Collision> batch) {
     if (fails) throw std::runtime_error("of the caller");
+    EXPECT_LE(batch.size(), 10u);
     seen += batch.size();
   });
   Silent monitor;
   EXPECT_THROW(run.advance(from_now({.collisions = 200}, run.simulation()), monitor),
                std::runtime_error);
   const std::uint64_t stopped_at = run.simulation().collisions();
-  EXPECT_GE(stopped_at, 10u);
-  EXPECT_LT(stopped_at, 200u);
+  EXPECT_EQ(stopped_at, 10u);  // before the next event
   fails = false;
   run.advance(from_start({.collisions = 200}, run.simulation()), monitor);
   EXPECT_EQ(seen, 190u);  // all but the batch that was refused
@@ -86,6 +86,23 @@ TEST(PreparedRun, StopsWhenTheCallerThrowsAndGoesOnWithoutALoss) {
   PreparedRun undisturbed(complete_scene(cooling_scene("")), false);
   undisturbed.advance(from_start({.collisions = 200}, undisturbed.simulation()), monitor);
   EXPECT_EQ(run.simulation().trajectory_hash(), undisturbed.simulation().trajectory_hash());
+}
+
+// Several threads report many collisions after the one at which the caller has thrown.
+TEST(CollisionBatches, AreNeverLargerThanAskedForAlsoAfterAFailure) {
+  Simulation simulation(test::scene_of(50, 5));
+  std::vector<std::size_t> sizes;
+  bool fails = true;
+  CollisionBatches batches(simulation, 10, [&](std::span<const Collision> batch) {
+    if (fails) throw std::runtime_error("of the caller");
+    sizes.push_back(batch.size());
+  });
+  for (int n = 0; n < 35; ++n) batches.add({});
+  EXPECT_THROW(batches.flush(), std::runtime_error);
+  fails = false;
+  batches.add({});
+  batches.flush();
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{10, 10, 6}));
 }
 
 TEST(Simulation, IsInterruptedInTheNextCallIfNoneIsRunning) {

@@ -142,16 +142,21 @@ TEST(Serve, ShowsProgressBeforeTheAnswer) {
 
 TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
   const std::string deep(100000, '[');
-  const auto answers = answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep +
-                                       "\n\"\xff\"\n" + create().dump() + "\n");
-  ASSERT_EQ(answers.size(), 8u);
-  for (int n = 0; n < 7; ++n) {
+  const auto answers =
+      answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep + "\n\"\xff\"\n" +
+                      "{\"time\": 1e999}\n1e999\n{\"id\": " + deep + std::string(deep.size(), ']') +
+                      "}\n" + create().dump() + "\n");
+  ASSERT_EQ(answers.size(), 11u);
+  for (int n = 0; n < 10; ++n) {
     EXPECT_EQ(answers[n]["ok"], false);
     EXPECT_EQ(answers[n]["code"], 2) << answers[n];
   }
   EXPECT_EQ(answers[0]["message"], "line 1: no JSON at byte 1: expected a JSON object");
   EXPECT_EQ(answers[1]["message"], "line 3: expected a JSON object");
-  EXPECT_EQ(answers[7]["ok"], true);
+  EXPECT_EQ(answers[4]["message"].get<std::string>().substr(0, 13), "do is missing");
+  EXPECT_EQ(answers[7]["message"], "line 9: expected numbers that a double can hold");
+  EXPECT_EQ(answers[9]["message"], "line 11: expected values in at most 100 levels");
+  EXPECT_EQ(answers[10]["ok"], true);
 }
 
 TEST(Serve, NamesTheFieldThatIsWrong) {
