@@ -43,8 +43,9 @@ class Simulation {
   /// no longer, at that moment.
   void on_collision(std::function<void(const Collision&)> callback);
 
-  /// Stops `advance` soon, with one thread before the next event: the call in progress, or else the next one, which then returns before
-  /// any further event. May be called from a signal handler or another thread.
+  /// Stops `advance` soon, with one thread before the next event: the call in progress, or else the
+  /// next one, which then returns before any further event. May be called from a signal handler or
+  /// another thread.
   void interrupt() noexcept;
 
   Totals totals() const;

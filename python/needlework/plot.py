@@ -59,7 +59,7 @@ def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
     import matplotlib.pyplot as plt
     from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
-    axes = axes or plt.figure(figsize=(6, 6)).add_subplot(projection="3d")
+    axes = axes or plt.figure(figsize=(6, 6), layout="constrained").add_subplot(projection="3d")
     centre, half = state.position[:most], 0.5 * length * state.orientation[:most]
     speed = np.linalg.norm(state.velocity[:most], axis=1)
     lines = Line3DCollection(np.stack([centre - half, centre + half], axis=1), cmap="plasma",
@@ -100,4 +100,4 @@ def _finished(axes: Axes, label: str) -> Axes:
 def _new_axes() -> Axes:
     import matplotlib.pyplot as plt
 
-    return plt.subplots(figsize=(6, 4))[1]
+    return plt.subplots(figsize=(6, 4), layout="constrained")[1]

@@ -18,7 +18,7 @@ std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
   if (c.epsilon < 1 && tc == 0)
     list.push_back(fmt::format(
         "collisions.epsilon = {}: inelastic needles can collide infinitely often in a finite time, "
-        "which ends a run; set collisions.tc_relative, such as 1e-4, to prevent it",
+        "which ends a run; set collisions.tc_relative, such as 1e-3, to prevent it",
         c.epsilon));
   if (c.epsilon == 0 && tc > 0)
     list.push_back(fmt::format(

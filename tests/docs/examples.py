@@ -1,4 +1,4 @@
-"""What the README and the user guide show works: their scenes, the Python and the C++ program.
+"""What the documents show works: scenes, configurations, the Python and the C++ programs.
 
     examples.py NEEDLEWORK README_PROGRAM
 """
@@ -38,6 +38,11 @@ def main(needlework, readme_program):
             path.write_text(script)
             assert run(sys.executable, path).strip(), path.read_text()
         run(needlework, "export", "cooling.h5", "cooling.vtkhdf")
+
+        lines, = blocks("docs/formats.md", "xml")
+        Path(folder, "lines.xml").write_text(lines)
+        run(needlework, "import", "lines.xml", "--out", "lines")
+        run(needlework, "run", "lines/scene.toml", "--set", "until.collisions_per_needle=1")
 
         for document in ("README.md", "docs/scenes.md", "docs/user-guide.md"):
             for text in blocks(document, "toml"):
