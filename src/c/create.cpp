@@ -7,6 +7,7 @@
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
 #include "src/runs/estimates.h"
+#include "src/runs/output_path.h"
 
 namespace needlework::c {
 namespace {
@@ -54,7 +55,10 @@ needlework_simulation* create(unsigned flags, needlework_error* error, Load&& lo
   needlework_simulation* made = nullptr;
   guarded(error, [&] {
     require_flags(flags);
-    made = new needlework_simulation(load(), flags & NEEDLEWORK_REPLACE);
+    const bool replaces = flags & NEEDLEWORK_REPLACE;
+    runs::LoadedScene loaded = load();
+    runs::require_writable_output(loaded.scene, replaces, "NEEDLEWORK_REPLACE");
+    made = new needlework_simulation(std::move(loaded), replaces);
   });
   return made;
 }

@@ -43,13 +43,8 @@ runs::Limits of_scene(const Scene::Until& until) {
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
   const py::gil_scoped_release release;
   runs::LoadedScene loaded = load_scene(source, std::move(state));
-  const Scene& scene = loaded.scene;
-  if (const std::string& file = scene.output.file; !file.empty()) {
-    const auto place = scene.places.find("output.file");
-    runs::require_writable(file, force, place == scene.places.end() ? file : place->second,
-                           "force=True");
-  }
-  warnings_ = runs::all_warnings(scene);
+  runs::require_writable_output(loaded.scene, force, "force=True");
+  warnings_ = runs::all_warnings(loaded.scene);
   run_.emplace(std::move(loaded), force);
 }
 

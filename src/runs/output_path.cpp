@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "needlework/error.h"
+#include "src/scene/check.h"
 
 namespace needlework::runs {
 
@@ -32,6 +33,11 @@ void require_writable(const std::string& file, bool force, const std::string& pl
     throw IoError(fmt::format("{}: cannot be written: expected permission to write in {}", place,
                               folder.string()));
   }
+}
+
+void require_writable_output(const Scene& scene, bool force, const char* option) {
+  const std::string& file = scene.output.file;
+  if (!file.empty()) require_writable(file, force, place_of(scene, "output.file", file), option);
 }
 
 }  // namespace needlework::runs

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "needlework/scene.h"
+
 namespace needlework::runs {
 
 /// Throws IoError, "PLACE: REASON", if `file` could not be made there, or exists already and
@@ -11,5 +13,8 @@ namespace needlework::runs {
 /// replace it.
 void require_writable(const std::string& file, bool force, const std::string& place,
                       const char* option = "--force");
+
+/// The same for the output file of a scene, if it has one.
+void require_writable_output(const Scene& scene, bool force, const char* option = "--force");
 
 }  // namespace needlework::runs

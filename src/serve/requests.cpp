@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/runs/limits.h"
+#include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
 #include "src/serve/arrays.h"
 #include "src/serve/fields.h"
@@ -154,7 +155,10 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
                          "angular_velocity"});
-  auto run = std::make_unique<runs::PreparedRun>(scene_in(request), flag_in(request, "force"));
+  const bool force = flag_in(request, "force");
+  runs::LoadedScene loaded = scene_in(request);
+  runs::require_writable_output(loaded.scene, force, "\"force\": true");
+  auto run = std::make_unique<runs::PreparedRun>(std::move(loaded), force);
   const Simulation& simulation = run->simulation();
   Json answer{{"simulation", next_},
               {"needles", simulation.needles()},

@@ -161,7 +161,7 @@ TEST_F(Dynamo, WhatNeedlesDoNotHaveIsNamed) {
            Case{"<Pt ID=\"0\"", "<Pt ID=\"0\" Static=\"Static\"",
                 "line 32: Pt Static = Static: expected none: all needles move"},
            Case{" OrientationData=\"Y\"", "",
-                "line 31: ParticleData: OrientationData is missing: expected particles with"},
+                "line 31: ParticleData: OrientationData is missing: expected OrientationData="},
            Case{"<Dynamics Type=\"Newtonian\"/>", "<Dynamics Type=\"Newtonian\"/><Umbrella/>",
                 "line 28: Umbrella: cannot be carried over: expected Scheduler"},
        }) {

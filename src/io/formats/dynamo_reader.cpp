@@ -42,6 +42,9 @@ double positive_number(const XmlElement& element, const char* attribute) {
 
 // Mass, length and elasticity can be the names of properties that differ between particles.
 double common_number(const XmlElement& element, const char* attribute) {
+  if (!element.has(attribute)) {
+    element.reject(fmt::format("{} is missing: expected a number", attribute));
+  }
   double value = 0;
   try {
     value = element.number(attribute);
@@ -196,7 +199,8 @@ void read_particles(const XmlElement& root, State& state) {
   const XmlElement data = root.child("ParticleData");
   data.require_only({"OrientationData", "N"}, {"Pt"});
   if (!data.has("OrientationData")) {
-    data.reject("OrientationData is missing: expected particles with orientations");
+    data.reject(
+        "OrientationData is missing: expected OrientationData=\"Y\", and U and O in each Pt");
   }
   for (auto particle = data.first("Pt"); particle; particle = particle->next()) {
     read_particle(*particle, state);
