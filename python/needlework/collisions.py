@@ -26,7 +26,7 @@ COLLISION = np.dtype(_REPORTED, align=True)
 """Type of a collision of the needles ``pair`` (ids, the lower one first).
 
 time             since the start of the run [time]; exactly epoch * epoch_length + offset
-arms             distances of the contact from both centres, along the directors [L]
+arms             places of the contact along both directors, from -L/2 to L/2 [L]
 normal_velocity  before the collision, of the first needle relative to the second [L / time]
 impulse          on the first needle [m L / time]
 shift            boxes added to the recorded centre of the second needle

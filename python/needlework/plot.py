@@ -17,6 +17,7 @@ from .values import Values
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 __all__ = ["cooling", "needles", "temperature_ratio"]
 
@@ -94,7 +95,19 @@ def _finished(axes: Axes, label: str) -> Axes:
     axes.set_xlabel(r"time  [$L\sqrt{m/T}$]")
     axes.set_ylabel(label)
     axes.legend(frameon=False)
+    for axis, (low, high) in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        if high < 10 * low:
+            _label_plainly(axis)
     return axes
+
+
+def _label_plainly(axis: Axis) -> None:
+    """Labels 0.95 and 1.05: powers of ten are hard to read within a decade, and overlap."""
+    from matplotlib.ticker import MaxNLocator, NullLocator, ScalarFormatter
+
+    axis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
+    axis.set_major_formatter(ScalarFormatter(useOffset=False))
+    axis.set_minor_locator(NullLocator())
 
 
 def _new_axes() -> Axes:

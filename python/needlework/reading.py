@@ -126,7 +126,7 @@ class Frames(Sequence):
         return self._count
 
     def __getitem__(self, index: Any) -> Any:
-        places = range(self._count)[index]
+        places = _places("frames", self._count, index)
         if isinstance(places, range):
             return [Frame(self._needles, place) for place in places]
         return Frame(self._needles, places)
@@ -143,8 +143,9 @@ class Frames(Sequence):
 class Events:
     """Collisions in the order of their times.
 
-    ``events[i]`` is one of them and ``events[a:b]`` a structured array, of which nothing else is
-    read; ``events["arms"]`` is one field of all. The fields are those of Simulation.on_collisions
+    ``events[i]`` is one of them and ``events[a:b]`` a structured array, for which nothing else is
+    read; ``events["arms"]`` is one field of all, and ``events[:][mask]`` those that a mask chooses
+    from all of them. The fields are those of Simulation.on_collisions
     without sin_angle and energy_change, which files do not hold.
     """
 
@@ -162,7 +163,7 @@ class Events:
                 raise InputError(f"events[{index!r}]: expected one of "
                                  f"{', '.join(self.dtype.names)}")
             return self._group[index][:self._count].astype(self.dtype[index].base)
-        places = range(self._count)[index]
+        places = _places("events", self._count, index)
         if not isinstance(places, range):
             return self[places:places + 1][0]
         first, last = (min(places), max(places) + 1) if places else (0, 0)
@@ -278,6 +279,18 @@ def _open(path: str) -> h5py.File:
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
         raise IoError(f"{path}: cannot be read: {reason}") from error
+
+
+def _places(name: str, count: int, index: Any) -> int | range:
+    """The place that an index means, or the places of a slice."""
+    try:
+        return range(count)[index]
+    except IndexError:
+        expected = f"an index from {-count} to {count - 1}" if count else "no index, as it is empty"
+        raise IndexError(f"{name}[{index}]: expected {expected}") from None
+    except TypeError:
+        raise InputError(f"{name}: an index of the type {type(index).__name__}: expected a whole "
+                         f"number or a slice; to choose by a mask, read all: {name}[:]") from None
 
 
 def _plain(value: Any) -> Any:

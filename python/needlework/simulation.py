@@ -71,9 +71,9 @@ class Simulation:
         TOML text, or the path of a scene file. docs/scenes.md lists all keys. A scene without
         [until] needs limits in each call of run().
     position, velocity, orientation, angular_velocity : arrays [N, 3], optional
-        The state to start from: centres in the box or not [L], velocities [L / time], unit
-        directors, angular velocities normal to them [1 / time]. Positions and directors need each
-        other; velocities are 0 if they are not given. The scene then needs no needles.count, and
+        The state to start from: centres in the box or not [L], velocities [L / time], directors
+        of any length but 0, which are made unit vectors, and angular velocities, whose part normal
+        to the directors counts [1 / time]. Positions and directors need each other; velocities are 0 if they are not given. The scene then needs no needles.count, and
         temperatures in it are an error.
     force : bool
         Whether output.file may replace an existing file.

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .arrays import numbers
+from .errors import InputError
 from .values import Table
 
 __all__ = ["CoolingCurve", "collision_rate", "cooling", "equilibrium_rate", "equipartition_k",
@@ -50,7 +51,7 @@ def collision_rate(k: ArrayLike, n: ArrayLike, t_tr: ArrayLike = 1.0,
     n : number density [1 / L^3].
     t_tr, t_rot : translational and rotational temperature.
     """
-    return _core.collision_rate(k, n, t_tr, t_rot)
+    return _core.collision_rate(k, _not_negative("n", n), t_tr, t_rot)
 
 
 def equilibrium_rate(k: ArrayLike, count: ArrayLike, volume: ArrayLike,
@@ -60,7 +61,7 @@ def equilibrium_rate(k: ArrayLike, count: ArrayLike, volume: ArrayLike,
     For ``count`` needles (at least 2) without total momentum, of the total energy ``energy``, in a
     box of the volume ``volume`` [L^3]. Arguments are broadcast.
     """
-    return _core.equilibrium_rate(k, count, volume, energy)
+    return _core.equilibrium_rate(k, count, volume, _not_negative("energy", energy))
 
 
 def ratio(epsilon: ArrayLike, k: ArrayLike, beta: ArrayLike = -1.0) -> np.ndarray:
@@ -97,3 +98,12 @@ def cooling(epsilon: float, k: float, beta: float = -1.0, t_rot0: float = 1.0,
 def equipartition_k() -> float:
     """The k at which both temperatures of a smooth cooling gas become equal, for every epsilon."""
     return _core.equipartition_k()
+
+
+def _not_negative(name: str, values: ArrayLike) -> np.ndarray:
+    """Checks what the library calls by another name than the argument here."""
+    array = numbers(name, values)
+    wrong = array[~(np.isfinite(array) & (array >= 0))]
+    if wrong.size:
+        raise InputError(f"{name} = {wrong[0]:g}: expected a finite number, 0 or more")
+    return array

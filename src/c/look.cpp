@@ -8,6 +8,7 @@
 
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
+#include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
 
 using namespace needlework;
@@ -57,7 +58,9 @@ int needlework_write_state(needlework_simulation* simulation, const char* path, 
       throw c::UsageError(std::string(path) +
                           ": is the output file, which is still written: expected another file");
     }
-    runs::write_state(self.run.simulation(), self.run.scene(), path, flags & NEEDLEWORK_REPLACE);
+    const bool replaces = flags & NEEDLEWORK_REPLACE;
+    runs::require_writable(path, replaces, path, "NEEDLEWORK_REPLACE");
+    runs::write_state(self.run.simulation(), self.run.scene(), path, replaces);
   });
 }
 

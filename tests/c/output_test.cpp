@@ -75,7 +75,9 @@ TEST_F(COutput, KeepsAFileThatExistsUnlessItIsToBeReplaced) {
   EXPECT_EQ(refused, nullptr);
   EXPECT_EQ(refused.error.code, NEEDLEWORK_IO);
   EXPECT_TRUE(contains(refused.error.message, "output.file = ")) << refused.error.message;
-  EXPECT_TRUE(contains(refused.error.message, "exists")) << refused.error.message;
+  EXPECT_TRUE(contains(refused.error.message,
+                       "gas.h5\": exists already: expected a new file, or NEEDLEWORK_REPLACE"))
+      << refused.error.message;
   EXPECT_EQ(read("gas.h5"), "precious");
   const CSimulation replaces(scene_with_file(), NEEDLEWORK_REPLACE);
   ASSERT_NE(replaces, nullptr) << replaces.error.message;
@@ -110,7 +112,7 @@ TEST_F(COutput, OfAStateKeepsWhatExistsUnlessItIsToBeReplaced) {
   const std::string file = path("state.h5");
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), 0), NEEDLEWORK_IO);
   EXPECT_TRUE(simulation.message().starts_with(file + ": ")) << simulation.message();
-  EXPECT_TRUE(contains(simulation.message(), "exists")) << simulation.message();
+  EXPECT_TRUE(contains(simulation.message(), "or NEEDLEWORK_REPLACE")) << simulation.message();
   EXPECT_EQ(read("state.h5"), "precious");
   EXPECT_EQ(needlework_write_state(simulation, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_OK);
   EXPECT_TRUE(contains(info("state.h5"), "60 particles"));

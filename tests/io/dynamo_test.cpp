@@ -192,6 +192,8 @@ TEST_F(Dynamo, BadNumbersAndCountsAreNamed) {
            Case{"Length=\"2\"", "Length=\"-2\"", "line 16: Interaction Length = -2: expected a "},
            Case{"\"0.9\"", "\"1.1\"",
                 "line 16: Interaction Elasticity = 1.1: expected a number from"},
+           Case{" Elasticity=\"0.9\"", "",
+                "line 16: Interaction: Elasticity is missing: expected a number"},
            Case{"<Pt ID=\"1\"", "<Pt ID=\"0\"", "line 38: Pt ID = 0: expected 1: particles are "},
            Case{"OrientationData", "N=\"3\" OrientationData",
                 "line 31: ParticleData N = 3: expected 2, the number of particles"},

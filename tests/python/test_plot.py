@@ -49,6 +49,26 @@ class Pictures(unittest.TestCase):
         self.assertAlmostEqual(measured.get_ydata()[0], 1, places=1)
         np.testing.assert_allclose(theory.get_ydata(), measured.get_ydata(), rtol=0.5)
 
+    def test_nothing_is_cut_off_and_labels_within_a_decade_are_plain(self):
+        for picture in (plot.cooling, plot.temperature_ratio):
+            axes = picture(self.recording)
+            axes.figure.canvas.draw()
+            inside, whole = axes.get_tightbbox(), axes.figure.bbox
+            self.assertGreaterEqual(inside.x0, whole.x0)
+            self.assertGreaterEqual(inside.y0, whole.y0)
+            low, high = axes.get_ylim()
+            self.assertLess(high, 10 * low)
+            labels = [label.get_text() for label in axes.get_yticklabels()]
+            self.assertGreater(len(labels), 2)
+            for label in labels:
+                self.assertRegex(label, r"^\d+\.\d+$")
+            self.assertEqual([label.get_text() for label in axes.get_yticklabels(minor=True)], [])
+
+    def test_labels_over_decades_are_powers_of_ten(self):
+        axes = plot.cooling(self.recording)
+        axes.figure.canvas.draw()
+        self.assertIn("10^", axes.get_xticklabels()[0].get_text())
+
     def test_needles_are_lines_of_their_length(self):
         for state in (self.sim, self.recording.frames[0]):
             lines, = plot.needles(state).collections

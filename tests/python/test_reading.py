@@ -67,8 +67,10 @@ class Reading(unittest.TestCase):
         self.assertEqual(last.collisions, 2000)
         self.assertEqual([frame.time for frame in frames[1:3]], [0.5, 1.0])
         self.assertEqual(len(list(frames)), 4)
-        with self.assertRaises(IndexError):
-            frames[4]
+        for index in (4, -5):
+            with self.assertRaisesRegex(IndexError, rf"^frames\[{index}\]: expected an index from "
+                                                    "-4 to 3$"):
+                frames[index]
 
     def test_events_are_read_in_parts(self):
         events = self.recording.events
@@ -85,6 +87,11 @@ class Reading(unittest.TestCase):
         self.assertEqual(sum(1 for _ in events), 2000)
         with self.assertRaisesRegex(InputError, "expected one of time, epoch"):
             events["colour"]
+        with self.assertRaisesRegex(IndexError, r"^events\[2000\]: expected an index from -2000"):
+            events[2000]
+        with self.assertRaisesRegex(InputError, "^events: an index of the type ndarray: expected"):
+            events[events["tc"]]
+        np.testing.assert_array_equal(events[:][events["tc"]], whole[whole["tc"]])
 
     def test_tables_for_pandas(self):
         series = self.recording.series.to_pandas()

@@ -47,6 +47,9 @@ class Theory(unittest.TestCase):
     def test_ranges_are_checked(self):
         for call, message in ((lambda: theory.cooling(2, 6, tau=[1]), "epsilon = 2: expected"),
                               (lambda: theory.collision_rate(-1, 1), "k = -1: expected"),
+                              (lambda: theory.collision_rate(6, -1), "^n = -1: expected"),
+                              (lambda: theory.equilibrium_rate(6, 9, 1, -1),
+                               "^energy = -1: expected"),
                               (lambda: theory.cooling(0.5, 6, tau="x"), "tau: expected an array"),
                               (lambda: theory.cooling(0.5, 6, tau=[-1]), "tau.* = -1: expected")):
             with self.assertRaisesRegex(InputError, message):
