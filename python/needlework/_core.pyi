@@ -23,7 +23,8 @@ def predict(r1: np.ndarray, u1: np.ndarray, v1: np.ndarray, w1: np.ndarray, r2: 
 class Run:
     def __init__(self, text: Optional[str], name: str, has_lines: bool,
                  state: Optional[tuple[np.ndarray, ...]], force: bool) -> None: ...
-    def run(self, time: Optional[float], collisions_per_needle: Optional[float],
+    def run(self, time: Optional[float], collisions: Optional[int],
+            collisions_per_needle: Optional[float],
             energy_ratio: Optional[float], wall_s: Optional[float],
             show: Optional[Callable[[str], None]]) -> str: ...
     def advance(self, time: Optional[float], collisions: Optional[int],

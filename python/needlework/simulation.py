@@ -105,15 +105,17 @@ class Simulation:
 
     # Running
 
-    def run(self, time: float | None = None, collisions_per_needle: float | None = None,
-            energy_ratio: float | None = None, wall_s: float | None = None, *,
-            progress: bool | None = None) -> str:
+    def run(self, time: float | None = None, collisions: int | None = None,
+            collisions_per_needle: float | None = None, energy_ratio: float | None = None,
+            wall_s: float | None = None, *, progress: bool | None = None) -> str:
         """Runs until the first of these limits is met. They count from the start of the run.
 
         Parameters
         ----------
         time : float
             Simulated time [time].
+        collisions : int
+            Number of collisions of all needles together.
         collisions_per_needle : float
             2 collisions / N, because a collision counts for both needles.
         energy_ratio : float
@@ -138,7 +140,7 @@ class Simulation:
         KeyboardInterrupt
             By Ctrl-C. The trajectory is not changed: the run may be continued by another call.
         """
-        return self._drive(self._run.run, progress, {}, time=time,
+        return self._drive(self._run.run, progress, collisions, time=time,
                            collisions_per_needle=collisions_per_needle,
                            energy_ratio=energy_ratio, wall_s=wall_s)
 
@@ -147,11 +149,10 @@ class Simulation:
                 wall_s: float | None = None, *, progress: bool | None = None) -> str:
         """Runs on until the first of these limits is met. They count from the present state.
 
-        ``collisions`` is the number of collisions of all needles together; the others are those
-        of run(), whose return value and errors are the same. At least one limit is required.
+        The limits, the return value and the errors are those of run(). At least one limit is
+        required.
         """
-        return self._drive(self._run.advance, progress,
-                           {"collisions": _whole("collisions", collisions)}, time=time,
+        return self._drive(self._run.advance, progress, collisions, time=time,
                            collisions_per_needle=collisions_per_needle,
                            energy_ratio=energy_ratio, wall_s=wall_s)
 
@@ -341,12 +342,13 @@ class Simulation:
         self._totals: Optional[Totals] = None
 
     def _drive(self, call: Callable[..., str], progress: bool | None,
-               counts: dict[str, int | None], **limits: float | None) -> str:
+               collisions: int | None, **limits: float | None) -> str:
+        count = _whole("collisions", collisions)
         numbers = {name: _number(name, limit) for name, limit in limits.items()}
         line = progress_line(progress)
         self._forget()
         try:
-            return call(**counts, **numbers, show=line.show if line else None)
+            return call(collisions=count, **numbers, show=line.show if line else None)
         finally:
             if line:
                 line.clear()

@@ -36,36 +36,27 @@ std::unique_ptr<Run> make_run(std::optional<std::string> text, std::string name,
                                std::move(state), force);
 }
 
+template <std::string (Run::*call)(const runs::Limits&, const py::object&)>
+std::string limited(Run& run, OptionalNumber time, std::optional<std::uint64_t> collisions,
+                    OptionalNumber collisions_per_needle, OptionalNumber energy_ratio,
+                    OptionalNumber wall_s, const py::object& show) {
+  return (run.*call)({.time = time,
+                      .collisions = collisions,
+                      .collisions_per_needle = collisions_per_needle,
+                      .energy_ratio = energy_ratio,
+                      .wall_s = wall_s},
+                     show);
+}
+
 }  // namespace
 
 void add_run(py::module_& module) {
   py::class_<Run>(module, "Run")
       .def(py::init(&make_run))
-      .def(
-          "run",
-          [](Run& run, OptionalNumber time, OptionalNumber collisions_per_needle,
-             OptionalNumber energy_ratio, OptionalNumber wall_s, const py::object& show) {
-            return run.run({.time = time,
-                            .collisions_per_needle = collisions_per_needle,
-                            .energy_ratio = energy_ratio,
-                            .wall_s = wall_s},
-                           show);
-          },
-          "time"_a, "collisions_per_needle"_a, "energy_ratio"_a, "wall_s"_a, "show"_a)
-      .def(
-          "advance",
-          [](Run& run, OptionalNumber time, std::optional<std::uint64_t> collisions,
-             OptionalNumber collisions_per_needle, OptionalNumber energy_ratio,
-             OptionalNumber wall_s, const py::object& show) {
-            return run.advance({.time = time,
-                                .collisions = collisions,
-                                .collisions_per_needle = collisions_per_needle,
-                                .energy_ratio = energy_ratio,
-                                .wall_s = wall_s},
-                               show);
-          },
-          "time"_a, "collisions"_a, "collisions_per_needle"_a, "energy_ratio"_a, "wall_s"_a,
-          "show"_a)
+      .def("run", limited<&Run::run>, "time"_a, "collisions"_a, "collisions_per_needle"_a,
+           "energy_ratio"_a, "wall_s"_a, "show"_a)
+      .def("advance", limited<&Run::advance>, "time"_a, "collisions"_a, "collisions_per_needle"_a,
+           "energy_ratio"_a, "wall_s"_a, "show"_a)
       .def("interrupt", &Run::interrupt)
       .def("on_collisions", &Run::on_collisions)
       .def("set_velocities",

@@ -83,6 +83,9 @@ class Limits(unittest.TestCase):
         self.assertEqual(sim.time, 2.5)
         self.assertEqual(sim.run(collisions_per_needle=10), "collisions")
         self.assertEqual(sim.totals.collisions, 1000)
+        for limit, expected in ((1010, 1010), (5, 1010)):
+            self.assertEqual(sim.run(collisions=limit), "collisions")
+            self.assertEqual(sim.totals.collisions, expected)
 
     def test_limits_of_advance_count_from_now(self):
         sim = Simulation(GAS)
