@@ -16,6 +16,7 @@ from ._core import version as __version__
 from .collisions import COLLISION, COLLISION_WITH_STATES
 from .contacts import FirstContacts, predict
 from .errors import Error, InputError, InvalidStateError, IoError
+from .gsd_file import to_gsd
 from .reading import Events, Frame, Frames, Recording, Series, read
 from .simulation import Counters, SceneWarning, Simulation, Totals
 from .values import Table, Values
@@ -23,5 +24,5 @@ from .values import Table, Values
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Error", "Events", "FirstContacts",
            "Frame", "Frames", "InputError", "InvalidStateError", "IoError", "Recording",
            "SceneWarning", "Series", "Simulation", "Table", "Totals", "Values", "plot", "predict",
-           "read", "theory", "__version__"]
+           "read", "theory", "to_gsd", "__version__"]
 

@@ -1,0 +1,86 @@
+"""GSD files hold the frames of a run and the state of a simulation."""
+
+import os
+import tempfile
+import unittest
+
+import support
+
+support.require("numpy", "h5py", "gsd")
+
+import gsd.hoomd
+import needlework
+import numpy as np
+from needlework.gsd_file import quaternions
+
+
+def turned(q):
+    """What the quaternions (w, x, y, z) make of (0, 0, 1)."""
+    w, x, y, z = q.T
+    return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x**2 + y**2)], axis=1)
+
+
+class ToGsd(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.run = self.path("run.h5")
+        scene = support.gas(output={"file": self.run, "frames": [0.5, 1.0]})
+        with needlework.Simulation(scene) as sim:
+            sim.run()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def assert_same(self, snapshot, frame):
+        close = np.testing.assert_allclose
+        close(snapshot.configuration.box[:3], frame.box)
+        close(snapshot.particles.position, frame.position - frame.box / 2, atol=1e-6)
+        close(snapshot.particles.velocity, frame.velocity, atol=1e-6)
+        close(turned(snapshot.particles.orientation.astype(float)), frame.orientation, atol=1e-6)
+        np.testing.assert_array_equal(snapshot.particles.image, frame.image)
+        np.testing.assert_array_equal(snapshot.log["particles/angular_velocity"],
+                                      frame.angular_velocity)
+        self.assertEqual(snapshot.log["time"][0], frame.time)
+
+    def test_all_frames_of_a_file(self):
+        out = self.path("run.gsd")
+        with needlework.read(self.run) as run:
+            self.assertEqual(needlework.to_gsd(self.run, out), len(run.frames))
+            with gsd.hoomd.open(out, "rb") as file:
+                self.assertEqual(len(file), len(run.frames))
+                for snapshot, frame in zip(file, run.frames):
+                    self.assert_same(snapshot, frame)
+                    self.assertEqual(snapshot.configuration.step, frame.collisions)
+
+    def test_one_frame(self):
+        out = self.path("last.gsd")
+        with needlework.read(self.run) as run:
+            self.assertEqual(needlework.to_gsd(run, out, frames=-1), 1)
+            with gsd.hoomd.open(out, "rb") as file:
+                self.assert_same(file[0], run.frames[-1])
+
+    def test_state_of_a_simulation(self):
+        sim = needlework.Simulation(support.ELASTIC)
+        sim.advance(collisions=100)
+        out = self.path("now.gsd")
+        needlework.to_gsd(sim, out)
+        with gsd.hoomd.open(out, "rb") as file:
+            self.assert_same(file[0], sim)
+            self.assertEqual(file[0].configuration.step, 100)
+            self.assertAlmostEqual(file[0].particles.moment_inertia[0][0], 1 / 12, places=6)
+
+    def test_existing_files_are_kept(self):
+        out = self.path("run.gsd")
+        needlework.to_gsd(self.run, out)
+        with self.assertRaisesRegex(needlework.IoError, "exists already: .* force=True"):
+            needlework.to_gsd(self.run, out)
+        needlework.to_gsd(self.run, out, force=True)
+
+    def test_quaternions_of_directors_along_the_axis(self):
+        directors = np.array([[0, 0, 1.0], [0, 0, -1.0], [1, 0, 0], [0, -1, 0], [6e-9, 0, -1]])
+        np.testing.assert_allclose(turned(quaternions(directors)), directors, atol=1e-7)
+
+
+if __name__ == "__main__":
+    unittest.main()
