@@ -151,7 +151,7 @@ struct CoolingCurve::Implementation {
 };
 
 CoolingCurve::CoolingCurve(const Gas& gas, Temperatures initial)
-    : implementation_(std::make_unique<Implementation>(initial)) {
+    : implementation_(std::make_unique<Implementation>(Implementation{initial, {}})) {
   require_valid(gas);
   require_valid(initial);
   if (initial.energy() > 0.0) implementation_->evolving.emplace(gas, initial);
