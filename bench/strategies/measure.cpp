@@ -36,7 +36,9 @@ Text text_of(const std::string& words) {
 }
 
 Counters difference(Counters now, const Counters& before) {
-  for (const CounterName& counter : counter_names) now.*counter.member -= before.*counter.member;
+  for (const Counters::Named& counter : Counters::all) {
+    now.*counter.value -= before.*counter.value;
+  }
   return now;
 }
 

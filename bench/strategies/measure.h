@@ -9,21 +9,18 @@
 
 namespace needlework::bench {
 
-struct CounterName {
-  const char* name;
-  std::uint64_t Counters::*member;
-};
-inline constexpr CounterName counter_names[] = {{"events", &Counters::events},
-                                                {"searches", &Counters::searches},
-                                                {"candidates", &Counters::candidates},
-                                                {"filtered", &Counters::filtered},
-                                                {"isolated", &Counters::isolated},
-                                                {"predicted", &Counters::predicted},
-                                                {"evaluated", &Counters::evaluated},
-                                                {"escalated", &Counters::escalated},
-                                                {"rebuilds", &Counters::rebuilds},
-                                                {"crossings", &Counters::crossings},
-                                                {"stale", &Counters::stale}};
+/// The counters of the work that one thread does, which results show for each collision.
+inline constexpr Counters::Named counters_shown[] = {{"events", &Counters::events},
+                                                     {"searches", &Counters::searches},
+                                                     {"candidates", &Counters::candidates},
+                                                     {"filtered", &Counters::filtered},
+                                                     {"isolated", &Counters::isolated},
+                                                     {"predicted", &Counters::predicted},
+                                                     {"evaluated", &Counters::evaluated},
+                                                     {"escalated", &Counters::escalated},
+                                                     {"rebuilds", &Counters::rebuilds},
+                                                     {"crossings", &Counters::crossings},
+                                                     {"stale", &Counters::stale}};
 
 /// One repetition of a case.
 struct Sample {

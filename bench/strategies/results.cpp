@@ -146,9 +146,9 @@ void add_sample(CaseResult& result, const Sample& sample) {
   details["collisions"].push_back(sample.collisions);
   details["bytes_per_needle"].push_back(static_cast<double>(sample.bytes) /
                                         details["needles"].get<double>());
-  for (const CounterName& counter : counter_names) {
+  for (const Counters::Named& counter : counters_shown) {
     details["per_collision"][counter.name] =
-        static_cast<double>(sample.counters.*counter.member) / collisions;
+        static_cast<double>(sample.counters.*counter.value) / collisions;
   }
   details["warm_up_hash"] = sample.warm_up_hash;
 }

@@ -15,6 +15,16 @@ using test::expect_same_start;
 
 const std::string rule = "collisions = { epsilon = 0.9, tc_relative = 1e-3 }\n";
 
+/// The simulation starts from this state, and runs as one that was made of its rows.
+void expect_runs_as(const CSimulation& given, const Arrays& rows) {
+  ASSERT_NE(given, nullptr) << given.error.message;
+  expect_same_start(Arrays(given), rows);
+  const CSimulation of_rows(rule, rows.initial(5));
+  of_rows.run_to(200);
+  given.run_to(200);
+  EXPECT_EQ(given.hash(), of_rows.hash());
+}
+
 TEST(CArrays, StartASimulationAndComeBack) {
   const CSimulation drawn(cooling);
   drawn.run_to(100);
@@ -55,12 +65,7 @@ TEST(CArrays, MayBeColumnMajorAsInFortran) {
   }
   initial.id = nullptr;  // those of a drawn state are 0 to N - 1 as well
   const CSimulation given(rule, initial);
-  ASSERT_NE(given, nullptr) << given.error.message;
-  expect_same_start(Arrays(given), rows);
-  const CSimulation of_rows(rule, rows.initial(5));
-  of_rows.run_to(200);
-  given.run_to(200);
-  EXPECT_EQ(given.hash(), of_rows.hash());
+  expect_runs_as(given, rows);
 }
 
 TEST(CArrays, MayLieInStructuresAndBackwards) {
@@ -83,12 +88,7 @@ TEST(CArrays, MayLieInStructuresAndBackwards) {
       60,     {5, 5, 5}, {last.r, row, 1}, {last.v, row, 1}, {last.u, row, 1}, {last.w, row, 1},
       nullptr};
   const CSimulation given(rule, initial);
-  ASSERT_NE(given, nullptr) << given.error.message;
-  expect_same_start(Arrays(given), rows);
-  const CSimulation of_rows(rule, rows.initial(5));
-  of_rows.run_to(200);
-  given.run_to(200);
-  EXPECT_EQ(given.hash(), of_rows.hash());
+  expect_runs_as(given, rows);
 }
 
 TEST(CArrays, MayLeaveOutVelocitiesIdsAndTheBoxOfTheScene) {

@@ -12,26 +12,7 @@ using test::CSimulation;
 
 /// Calls every function on a simulation that is in use; all refuse, and its message says why.
 void expect_in_use(needlework_simulation* simulation) {
-  const needlework_limits limits{1, 0, 0, 0, 0};
-  const needlework_state into{};
-  const double numbers[180] = {};
-  const needlework_const_vectors vectors{numbers, 0, 0};
-  double box[3];
-  char hash[33];
-  needlework_totals totals;
-  std::uint64_t value;
-  EXPECT_EQ(needlework_run_until(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_advance(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_set_callback(simulation, 1, nullptr, nullptr), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_get_box(simulation, box), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_get_state(simulation, &into), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_write_state(simulation, "busy.h5", 0), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_set_velocities(simulation, &vectors, &vectors), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_get_totals(simulation, &totals), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_get_hash(simulation, hash), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_get_counter(simulation, "events", &value), NEEDLEWORK_USAGE);
-  EXPECT_EQ(needlework_setting(simulation, "isa"), nullptr);
+  test::expect_all_refuse(simulation);
   EXPECT_STREQ(needlework_message(simulation),
                "another call uses the simulation: expected one call at a time");
   EXPECT_EQ(needlework_count(simulation), 60u) << "is for any time";

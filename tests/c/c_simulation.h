@@ -100,4 +100,28 @@ inline void expect_same_start(const Arrays& actual, const Arrays& expected) {
   }
 }
 
+/// Every function that returns a code or a setting refuses this simulation, which may be null.
+inline void expect_all_refuse(needlework_simulation* simulation) {
+  const needlework_limits limits{1, 0, 0, 0, 0};
+  const needlework_state into{};
+  const double numbers[180] = {};
+  const needlework_const_vectors vectors{numbers, 0, 0};
+  double box[3];
+  char hash[33];
+  needlework_totals totals;
+  std::uint64_t value;
+  EXPECT_EQ(needlework_run_until(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_advance(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_set_callback(simulation, 1, nullptr, nullptr), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_box(simulation, box), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_state(simulation, &into), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_write_state(simulation, "refused.h5", 0), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_set_velocities(simulation, &vectors, &vectors), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_totals(simulation, &totals), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_hash(simulation, hash), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_get_counter(simulation, "events", &value), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_setting(simulation, "isa"), nullptr);
+}
+
 }  // namespace needlework::test

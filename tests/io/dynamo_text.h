@@ -55,14 +55,4 @@ inline const std::string dynamo_text = R"(<?xml version="1.0"?>
 </DynamOconfig>
 )";
 
-/// `text` with the first `from` replaced, which must be in it.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  if (at == text.npos) {
-    ADD_FAILURE() << "no " << from;
-    return text;
-  }
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace needlework::io

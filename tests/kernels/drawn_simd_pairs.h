@@ -25,6 +25,15 @@ using test::row_of;
 using test::seeker_of;
 using test::unit_of;
 
+/// Of the random numbers of the tests.
+inline constexpr std::uint64_t seed = 909;
+/// Builds without optimisation draw so many times fewer pairs.
+#ifdef NDEBUG
+inline constexpr std::size_t thin = 1;
+#else
+inline constexpr std::size_t thin = 20;
+#endif
+
 /// Half lengths of two needles, in units of length.
 struct Halves {
   double first = 0.5, second = 0.5;

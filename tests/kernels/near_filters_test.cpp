@@ -15,13 +15,6 @@ namespace {
 
 using test::vec3;
 
-constexpr std::uint64_t seed = 909;
-#ifdef NDEBUG
-constexpr std::size_t thin = 1;
-#else
-constexpr std::size_t thin = 20;
-#endif
-
 // Capsules that just overlap, just do not, and any.
 TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
   Random random(seed);

@@ -21,13 +21,6 @@ namespace {
 using test::bracketed;
 using test::vec3;
 
-constexpr std::uint64_t seed = 909;
-#ifdef NDEBUG
-constexpr std::size_t thin = 1;
-#else
-constexpr std::size_t thin = 20;
-#endif
-
 /// All that are not a number are one.
 template <class Values>
 std::vector<std::uint32_t> bits(const Values& values) {

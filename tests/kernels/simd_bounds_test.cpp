@@ -17,13 +17,6 @@ namespace {
 using test::bracketed;
 using test::vec3;
 
-constexpr std::uint64_t seed = 909;
-#ifdef NDEBUG
-constexpr std::size_t thin = 1;
-#else
-constexpr std::size_t thin = 20;
-#endif
-
 class SimdContactFunction : public testing::TestWithParam<test::PairFamily> {};
 
 // Against double-double, wherever the bounding spheres overlap; with the reserve that the kernels
