@@ -64,16 +64,32 @@ export function slider(label, most, value, textOf, onChange) {
   return made;
 }
 
-/** Calls `draw(width)` now and whenever the width of the element has changed. */
+/** Calls `draw(width)` when the element has a width, and whenever it has changed. Returns what draws
+ * again. Asking for the width of one element after drawing another would lay out the page each time,
+ * so the observer says it. */
 export function onWidth(target, draw) {
   let last = 0;
-  const check = () => {
-    const width = Math.round(target.clientWidth);
-    if (width > 0 && width !== last) {
-      last = width;
-      draw(width);
-    }
+  new ResizeObserver(([{ contentRect }]) => {
+    const width = Math.round(contentRect.width);
+    if (width === 0 || width === last) return;
+    last = width;
+    draw(width);
+  }).observe(target);
+  return () => {
+    if (last > 0) draw(last);
   };
-  new ResizeObserver(check).observe(target);
-  return () => draw(last || 480);
+}
+
+/** Calls `action` once, when the element is about to be seen, or printed. */
+export function whenNear(target, action) {
+  const observer = new IntersectionObserver((entries) => {
+    if (entries.some((entry) => entry.isIntersecting)) start();
+  }, { rootMargin: "300px" });
+  const start = () => {
+    observer.disconnect();
+    window.removeEventListener("beforeprint", start);
+    action();
+  };
+  observer.observe(target);
+  window.addEventListener("beforeprint", start);
 }

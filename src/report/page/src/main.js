@@ -26,12 +26,13 @@ function nameSections(sections) {
   }
 }
 
-function sectionOf(section, id) {
+function sectionOf(section, id, pageTitle) {
   const { word, make, titleOf } = kinds[section.kind];
+  const title = titleOf(section) || section.name;
   return element(
     "section",
     { id, "aria-labelledby": `${id}-title` },
-    element("h2", { id: `${id}-title` }, titleOf(section) || section.name),
+    element("h2", { id: `${id}-title`, class: title === pageTitle ? "spoken" : undefined }, title),
     element("p", { class: "source" }, `${word}, ${section.file}`),
     make(section),
   );
@@ -46,7 +47,7 @@ function build(report) {
   document.querySelector("h1").textContent = title;
   document.getElementById("made-by").textContent = `needlework report, version ${report.version}`;
   document.getElementById("choices").append(themeChoice());
-  const parts = sections.map((section, n) => [section.name, sectionOf(section, `section-${n + 1}`)]);
+  const parts = sections.map((section, n) => [section.name, sectionOf(section, `section-${n + 1}`, title)]);
   const runs = sections.filter(({ kind, groups }) => kind === "run" && groups.totals);
   if (runs.length > 1) {
     const compared = element("section", { id: "compared", "aria-labelledby": "compared-title" }, element("h2", { id: "compared-title" }, "Runs compared"), comparedSection(runs));

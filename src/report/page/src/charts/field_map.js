@@ -1,4 +1,4 @@
-// A slice through a field as a map of colours, with the flow in the slice as arrows.
+// Slices through a field across each axis as maps of colours, with the flow in the slices as arrows.
 import * as Plot from "@observablehq/plot";
 import { choice, element, onWidth, slider, toggle } from "../dom.js";
 import { rowOf } from "../data.js";
@@ -11,175 +11,183 @@ const axes = ["x", "y", "z"];
 /** What can be shown: the dataset, and for vectors how a number is made of one. */
 const quantities = {
   density: { text: "density", dataset: "density", unit: "needles per volume" },
-  flow: { text: "flow |U|", dataset: "flow", size: true, unit: "length / time" },
-  ...component("flow", "flow U", "length / time"),
-  spin: { text: "spin |Ω|", dataset: "spin", size: true, unit: "radians / time" },
-  ...component("spin", "spin Ω", "radians / time"),
+  ...partsOf("flow", "flow", "U", "length / time"),
+  ...partsOf("spin", "spin", "Ω", "radians / time"),
   thermal_tr: { text: "thermal energy of translation", dataset: "thermal_tr", unit: "energy" },
   thermal_rot: { text: "thermal energy of rotation", dataset: "thermal_rot", unit: "energy" },
 };
 
-function component(dataset, text, unit) {
-  return Object.fromEntries(
-    axes.map((axis, n) => [`${dataset}_${axis}`, { text: `${text}_${axis}`, dataset, component: n, unit }]),
-  );
+function partsOf(dataset, word, letter, unit) {
+  const size = [dataset, { text: `${word} |${letter}|`, dataset, size: true, unit }];
+  const components = axes.map((axis, n) => [`${dataset}_${axis}`, { text: `${word} ${letter}_${axis}`, dataset, component: n, unit }]);
+  return Object.fromEntries([size, ...components]);
 }
 
 /** `group`: the group of fields; `box`: its edges. Returns a figure with `show(row)`. */
 export function fieldMap(group, box, notes) {
   const cells = group.datasets.density.shape.slice(1);
-  const state = { row: group.rows - 1, quantity: "density", across: 2, layer: 0, arrows: true };
-  const area = element("div", { class: "plot" });
+  const state = { row: group.rows - 1, quantity: "density", arrows: true, layers: cells.map((n) => Math.floor(n / 2)) };
   const bar = element("div", { class: "colour-bar" });
-  const redraw = onWidth(area, (width) => {
-    const slice = sliceOf(group, cells, box, state);
-    area.replaceChildren(draw(slice, state, width));
-    area.setAttribute("role", "img");
-    area.setAttribute("aria-label", descriptionOf(slice, state));
-    fillBar(bar, slice, quantities[state.quantity]);
-  });
-  const change = (key, parse = (x) => x) => (value) => {
-    state[key] = parse(value);
-    if (key === "across") replaceLayers();
+  const field = () => fieldOf(group, cells, box, state);
+  const maps = axes.map((_, across) => sliceMap(field, across, state));
+  const change = (key) => (value) => {
+    state[key] = value;
     redraw();
-    figure.refreshTable();
   };
-  const layers = element("span");
-  const replaceLayers = () => {
-    state.layer = Math.min(state.layer, cells[state.across] - 1);
-    layers.replaceChildren(layerSlider(cells, box, state, change("layer")));
-  };
-  replaceLayers();
   const available = Object.entries(quantities).filter(([, q]) => group.datasets[q.dataset]);
-  const tools = [
-    choice("Field", available.map(([key, q]) => [key, q.text]), state.quantity, change("quantity")),
-    choice("Slice across", axes.map((axis, n) => [String(n), axis]), "2", change("across", Number)),
-    layers,
-    toggle("arrows of the flow", true, change("arrows")),
-  ];
   const figure = figureOf(
     {
       title: "Fields",
-      caption: "Means over the cells of the grid, in one layer of cells. Arrows show the flow within the layer.",
+      caption: "Means over the cells of the grid, in one layer of cells across each axis. Arrows show the flow within the layer.",
       notes,
       wide: true,
     },
-    { tools, body: element("div", { class: "map" }, area, bar), columns: () => columnsOf(sliceOf(group, cells, box, state)) },
+    {
+      tools: [
+        choice("Field", available.map(([key, q]) => [key, q.text]), state.quantity, change("quantity")),
+        toggle("arrows of the flow", true, change("arrows")),
+      ],
+      body: element("div", {}, element("div", { class: "maps" }, maps.map((map) => map.element)), bar),
+      columns: () => columnsOf(field()),
+    },
   );
-  figure.show = (row) => {
-    state.row = row;
-    redraw();
+  const redraw = () => {
+    for (const map of maps) map.redraw();
+    fillBar(bar, field());
     figure.refreshTable();
   };
+  fillBar(bar, field());
+  figure.show = change("row");
   return figure;
 }
 
-function layerSlider(cells, box, state, onChange) {
-  const axis = state.across;
-  const text = (n) => {
-    const edge = box[axis] / cells[axis];
-    return `${axes[axis]} from ${numberText(n * edge, 3)} to ${numberText((n + 1) * edge, 3)}`;
-  };
-  return slider("Layer", cells[axis] - 1, state.layer, text, onChange);
+// One slice with the slider that moves it.
+function sliceMap(field, across, state) {
+  const area = element("div", { class: "plot", role: "img" });
+  const redraw = onWidth(area, (width) => {
+    const now = field();
+    const slice = sliceOf(now, across, state.layers[across]);
+    area.setAttribute("aria-label", descriptionOf(now, slice, across));
+    area.replaceChildren(draw(now, slice, state.arrows, width));
+  });
+  const { cells, box } = field();
+  const edge = box[across] / cells[across];
+  const text = (n) => `${numberText(n * edge, 3)} to ${numberText((n + 1) * edge, 3)}`;
+  const layer = slider(axes[across], cells[across] - 1, state.layers[across], text, (n) => {
+    state.layers[across] = n;
+    redraw();
+  });
+  return { element: element("div", {}, area, layer), redraw };
 }
 
-// The two axes of the slice, and its values, the first axis running fastest.
-function sliceOf(group, cells, box, { row, quantity, across, layer }) {
-  const { dataset, component: part, size, unit, text } = quantities[quantity];
+// The numbers of the chosen quantity in all cells, z running fastest.
+function fieldOf(group, cells, box, { row, quantity }) {
+  const { dataset, component, size, unit, text } = quantities[quantity];
+  const data = rowOf(group.datasets[dataset], row);
+  const flow = rowOf(group.datasets.flow, row);
+  const count = cells[0] * cells[1] * cells[2];
+  const valueAt = (cell) => {
+    if (size) return Math.hypot(data[3 * cell], data[3 * cell + 1], data[3 * cell + 2]);
+    return component === undefined ? data[cell] : data[3 * cell + component];
+  };
+  const values = Float64Array.from({ length: count }, (_, cell) => valueAt(cell));
+  return { values, flow, cells, box, text, unit, ...rangeOf(values, component !== undefined) };
+}
+
+function rangeOf(values, signed) {
+  const low = values.reduce((a, b) => Math.min(a, b), Infinity);
+  const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
+  if (signed) {
+    const size = Math.max(Math.abs(low), Math.abs(high)) || 1;
+    return { range: [-size, size], scale: scales.diverging };
+  }
+  return { range: [low, high > low ? high : low + (Math.abs(low) || 1)], scale: scales.sequential };
+}
+
+// A layer of cells, the first of its two axes running fastest.
+function sliceOf({ values, flow, cells, box }, across, layer) {
   const [a, b] = [0, 1, 2].filter((axis) => axis !== across);
   const [width, height] = [cells[a], cells[b]];
-  const field = rowOf(group.datasets[dataset], row);
-  const flow = rowOf(group.datasets.flow, row);
-  const values = new Float64Array(width * height);
-  const arrows = [];
-  for (let n = 0; n < values.length; ++n) {
+  const places = Array.from({ length: width * height }, (_, n) => {
     const place = [];
     place[a] = n % width;
     place[b] = Math.floor(n / width);
     place[across] = layer;
-    const cell = (place[0] * cells[1] + place[1]) * cells[2] + place[2];
-    const vector = (from) => from.subarray(3 * cell, 3 * cell + 3);
-    if (size) values[n] = Math.hypot(...vector(field));
-    else if (part !== undefined) values[n] = field[3 * cell + part];
-    else values[n] = field[cell];
-    arrows.push([vector(flow)[a], vector(flow)[b]]);
-  }
-  const edges = [box[a], box[b]];
-  return { axes: [axes[a], axes[b]], width, height, edges, values, arrows, unit, text, signed: part !== undefined };
+    return (place[0] * cells[1] + place[1]) * cells[2] + place[2];
+  });
+  return {
+    width,
+    height,
+    edges: [box[a], box[b]],
+    axes: [axes[a], axes[b]],
+    values: places.map((cell) => values[cell]),
+    arrows: places.map((cell) => [flow[3 * cell + a], flow[3 * cell + b]]),
+  };
 }
 
-function rangeOf({ values, signed }) {
-  const low = Math.min(...values);
-  const high = Math.max(...values);
-  if (!signed) return [Math.min(low, high), high > low ? high : low + (Math.abs(low) || 1)];
-  const size = Math.max(Math.abs(low), Math.abs(high)) || 1;
-  return [-size, size];
-}
-
-function draw(slice, state, width) {
-  const { edges, values } = slice;
-  const [low, high] = rangeOf(slice);
-  const scale = slice.signed ? scales.diverging : scales.sequential;
-  const inner = Math.min(width - 60, 520);
+function draw({ range, scale }, slice, withArrows, width) {
+  const { edges } = slice;
+  const margin = 40;
+  const inner = Math.min(width - margin - 14, 520);
   return Plot.plot({
-    width: inner + 60,
-    height: Math.round((inner * edges[1]) / edges[0]) + 50,
-    marginLeft: 44,
+    width: inner + margin + 14,
+    height: Math.round((inner * edges[1]) / edges[0]) + 54,
+    marginLeft: margin,
+    marginRight: 14,
+    marginTop: 18,
     marginBottom: 36,
-    marginTop: 14,
-    marginRight: 16,
     style: { background: "none", color: "var(--ink)", fontSize: "12px" },
-    x: { domain: [0, edges[0]], label: slice.axes[0], labelAnchor: "center", labelArrow: "none" },
-    y: { domain: [0, edges[1]], label: slice.axes[1], labelAnchor: "top", labelArrow: "none" },
-    color: { type: "linear", domain: [low, high], interpolate: scale, range: [0, 1] },
+    x: { domain: [0, edges[0]], label: slice.axes[0], labelAnchor: "center", labelArrow: "none", ticks: 5 },
+    y: { domain: [0, edges[1]], label: slice.axes[1], labelAnchor: "top", labelArrow: "none", ticks: 5 },
+    color: { type: "linear", domain: range, interpolate: scale, range: [0, 1] },
     marks: [
-      Plot.raster(values, {
+      Plot.raster(slice.values, {
         width: slice.width, height: slice.height, x1: 0, y1: 0, x2: edges[0], y2: edges[1], imageRendering: "pixelated",
       }),
-      state.arrows ? arrowsOf(slice, inner) : null,
+      withArrows ? arrowsOf(slice, inner) : null,
       Plot.frame({ stroke: "var(--ink)" }),
     ],
   });
 }
 
+// White on a dark ground of their own, to be seen on all colours.
 function arrowsOf({ width, height, edges, arrows }, pixels) {
-  const places = arrows.map((_, n) => n);
   const most = Math.max(...arrows.map(([x, y]) => Math.hypot(x, y))) || 1;
   const cell = Math.min(pixels / width, (pixels * edges[1]) / edges[0] / height);
-  return Plot.vector(places, {
-    x: (n) => (((n % width) + 0.5) * edges[0]) / width,
-    y: (n) => ((Math.floor(n / width) + 0.5) * edges[1]) / height,
-    rotate: (n) => (Math.atan2(arrows[n][0], arrows[n][1]) * 180) / Math.PI,
-    length: { value: (n) => (Math.hypot(...arrows[n]) / most) * cell * 1.1, scale: null },
+  const options = {
+    x: (_, n) => (((n % width) + 0.5) * edges[0]) / width,
+    y: (_, n) => ((Math.floor(n / width) + 0.5) * edges[1]) / height,
+    rotate: ([x, y]) => (Math.atan2(x, y) * 180) / Math.PI,
+    length: { value: arrows.map(([x, y]) => (Math.hypot(x, y) / most) * cell * 1.1), scale: null },
     anchor: "middle",
-    stroke: "white",
-    strokeWidth: 1.2,
-  });
+  };
+  return [
+    Plot.vector(arrows, { ...options, stroke: "#000", strokeOpacity: 0.55, strokeWidth: 3 }),
+    Plot.vector(arrows, { ...options, stroke: "#fff", strokeWidth: 1.3 }),
+  ];
 }
 
-function fillBar(bar, slice, { unit, text }) {
-  const [low, high] = rangeOf(slice);
+function fillBar(bar, { range, scale, unit, text }) {
   const gradient = element("span", { class: "gradient" });
-  gradient.style.background = gradientOf(slice.signed ? scales.diverging : scales.sequential);
+  gradient.style.background = gradientOf(scale);
   bar.replaceChildren(
     element("span", {}, `${text} (${unit})`),
-    element("span", { class: "ends" }, element("span", {}, numberText(low, 3)), gradient, element("span", {}, numberText(high, 3))),
+    element("span", { class: "ends" }, element("span", {}, numberText(range[0], 3)), gradient, element("span", {}, numberText(range[1], 3))),
   );
 }
 
-function descriptionOf(slice, state) {
-  const [low, high] = rangeOf(slice);
-  return `Map of the ${slice.text} in layer ${state.layer + 1} across ${axes[state.across]}: ${numberText(low)} to ${numberText(high)} ${slice.unit}`;
+function descriptionOf({ text, unit }, { values }, across) {
+  const [low, high] = [Math.min(...values), Math.max(...values)];
+  return `Map of the ${text} in a layer across ${axes[across]}: ${numberText(low)} to ${numberText(high)} ${unit}`;
 }
 
-function columnsOf(slice) {
-  const places = Array.from(slice.values, (_, n) => n);
-  const middle = (n, count, edge) => ((n + 0.5) * edge) / count;
+// All cells, with the middles of their places.
+function columnsOf({ values, flow, cells, box, text, unit }) {
+  const steps = [cells[1] * cells[2], cells[2], 1];
+  const middle = (axis) => Array.from(values, (_, cell) => (((Math.floor(cell / steps[axis]) % cells[axis]) + 0.5) * box[axis]) / cells[axis]);
   return [
-    { name: slice.axes[0], values: places.map((n) => middle(n % slice.width, slice.width, slice.edges[0])) },
-    { name: slice.axes[1], values: places.map((n) => middle(Math.floor(n / slice.width), slice.height, slice.edges[1])) },
-    { name: `${slice.text} (${slice.unit})`, values: slice.values },
-    { name: `flow along ${slice.axes[0]}`, values: slice.arrows.map(([x]) => x) },
-    { name: `flow along ${slice.axes[1]}`, values: slice.arrows.map(([, y]) => y) },
+    ...axes.map((name, axis) => ({ name, values: middle(axis) })),
+    { name: `${text} (${unit})`, values },
+    ...axes.map((name, axis) => ({ name: `flow U_${name}`, values: Array.from(values, (_, cell) => flow[3 * cell + axis]) })),
   ];
 }

@@ -117,7 +117,7 @@ export class NeedleScene {
   /** Puts the camera where the whole box is seen. */
   lookAtBox() {
     const size = this.box.scale.length();
-    this.distance = (0.5 * size) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    this.distance = (0.5 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     const direction = new three.Vector3(0.62, -0.68, 0.4).normalize();
     this.camera.position.copy(direction.multiplyScalar(this.distance));
     this.camera.near = 0.01 * this.distance;

@@ -1,5 +1,5 @@
 // The three-dimensional view with its controls: turning, frames, colours.
-import { choice, element, freshId, slider, toggle } from "../dom.js";
+import { choice, element, freshId, slider, toggle, whenNear } from "../dom.js";
 import { decode } from "../data.js";
 import { numberText } from "../numbers.js";
 import { gradientOf, scales } from "../charts/colours.js";
@@ -74,7 +74,8 @@ class NeedlesView {
       },
     );
     this.figure.view = this;
-    this.start();
+    this.loadFrame(this.current);
+    whenNear(this.stage, () => this.start());
   }
 
   start() {
@@ -87,13 +88,14 @@ class NeedlesView {
       return;
     }
     this.canvas.addEventListener("keydown", (event) => this.onKey(event));
+    this.resize();
+    this.showFrame(this.current);
     new ResizeObserver(() => this.resize()).observe(this.stage);
     onTheme(() => this.recolour());
     window.addEventListener("beforeprint", () => {
       this.scene.draw();
       this.print.src = this.canvas.toDataURL();
     });
-    this.showFrame(this.current);
   }
 
   makeTools() {
@@ -125,10 +127,14 @@ class NeedlesView {
     return `${number}${text}`;
   }
 
-  showFrame(n) {
+  loadFrame(n) {
     this.current = n;
-    const frame = this.frames.frames[n];
     this.values = Object.fromEntries(Object.keys(colourings).map((key) => [key, null]));
+  }
+
+  showFrame(n) {
+    this.loadFrame(n);
+    const frame = this.frames.frames[n];
     this.scene?.showFrame({
       box: frame.box,
       position: decode(frame.position),

@@ -14,11 +14,18 @@ export function runSection(run) {
   return [
     element("h3", {}, "Results"),
     factList(resultsOfRun(run), "figures"),
-    element("h3", {}, "What was run"),
-    factList(factsOfRun(run), "facts"),
-    textBehind("Scene", run.parameters.scene?.value),
-    element("h3", {}, "Needles"),
-    needlesView(run.frames),
+    element(
+      "div",
+      { class: "beside" },
+      needlesView(run.frames),
+      element(
+        "div",
+        {},
+        element("h3", {}, "What was run"),
+        factList(factsOfRun(run), "facts"),
+        textBehind("Scene", run.parameters.scene?.value),
+      ),
+    ),
     ...withHeading("Over time", timelinesOf(run).map(curvesChart)),
     ...atOneTime(run),
   ];

@@ -118,7 +118,8 @@ function lastFilled(curves) {
 }
 
 function shortened(curve, length) {
-  return { ...curve, x: curve.x.slice(0, length), y: curve.y.slice(0, length) };
+  const borders = curve.borders?.slice(0, length + 1);
+  return { ...curve, x: curve.x.slice(0, length), y: curve.y.slice(0, length), borders };
 }
 
 function curvesOfRow(spec, group, row) {
@@ -130,7 +131,10 @@ function curvesOfRow(spec, group, row) {
     return parts.map((axis, n) => {
       const part = partOf(spec, dataset, values, n, parts.length);
       const x = placesOf(spec, group, part.length, n);
-      return { name: `${text} ${axis}`.trim(), x, y: ordinates(spec, group, part), colour: n, steps: Boolean(spec.histogram), points: spec.places ? true : undefined };
+      return {
+        name: `${text} ${axis}`.trim(), x, y: ordinates(spec, group, part), colour: n,
+        borders: spec.histogram && bordersOf(spec, group, x), points: Boolean(spec.places),
+      };
     });
   });
 }
@@ -156,6 +160,11 @@ function placesOf(spec, group, length, n) {
   return Float64Array.from({ length }, (_, k) => k + spec.first);
 }
 
+function bordersOf(spec, group, x) {
+  if (spec.borders) return numbers(group.datasets[spec.borders]);
+  return Float64Array.from({ length: x.length + 1 }, (_, n) => n + spec.first - 0.5);
+}
+
 function middles(borders) {
   return Float64Array.from({ length: borders.length - 1 }, (_, n) => (borders[n] + borders[n + 1]) / 2);
 }
@@ -169,8 +178,8 @@ function ordinates(spec, group, values) {
 
 function lawOf(spec, group, curves) {
   const { x, y } = curves[0];
-  const line = { x, colour: -1, dashed: true };
-  if (spec.level) return { ...line, name: spec.level[1], y: x.map(() => spec.level[0]) };
+  const line = { x, colour: -1, dashed: true, beside: true };
+  if (spec.level) return { ...line, beside: false, name: spec.level[1], y: x.map(() => spec.level[0]) };
   if (spec.law === "poisson") {
     const mean = y.reduce((sum, share, n) => sum + share * x[n], 0);
     return { ...line, name: "Poisson", y: poisson(mean, x.length) };

@@ -22,7 +22,7 @@ function compact(curves) {
 function withTheory(groups, name, curve) {
   const theory = theoryOf(groups, name);
   const scaled = theory && { ...theory, y: theory.y.map((value) => value * (curve.factor ?? 1)) };
-  return [curve, scaled && { ...curve, ...scaled, name: `${curve.name}, theory`, dashed: true, points: false }];
+  return [curve, scaled && { ...scaled, name: `${curve.name}, theory`, colour: -1, dashed: true }];
 }
 
 function cooling({ groups }) {
@@ -36,7 +36,7 @@ function cooling({ groups }) {
 function temperatures({ groups }) {
   const { t, of } = totals(groups);
   return ["t_tr", "t_rot"].flatMap((name, colour) =>
-    withTheory(groups, name, { name: name === "t_tr" ? "T_tr" : "T_rot", x: t, y: of(name), colour }),
+    withTheory(groups, name, { name: name === "t_tr" ? "T_tr" : "T_rot", x: t, y: of(name), colour, points: true }),
   );
 }
 
@@ -47,8 +47,8 @@ function ratio({ groups, scene }) {
   const late = scene?.ratio_of_theory;
   return [
     { name: "T_tr/T_rot", x: t, y: divided(of("t_tr"), of("t_rot")), colour: 0, points: true },
-    tr && rot && { name: "theory", x: tr.x, y: divided(tr.y, rot.y), colour: 0, dashed: true },
-    late && { name: "theory, late", x: t, y: t.map(() => late), colour: -1, dashed: true, faint: true },
+    tr && rot && { name: "theory", x: tr.x, y: divided(tr.y, rot.y), colour: -1, dashed: true },
+    late && { name: "theory, late", x: t, y: t.map(() => late), colour: 1, faint: true },
   ];
 }
 
@@ -182,25 +182,29 @@ function repeats({ groups }) {
   return [{ name: "share of repeats", x: numbers(time), y, colour: 0, points: true }];
 }
 
-/** The means over all references of equal lag, as far as lags are equal to rounding. */
+// Since the start of the run, which is the first reference; in a steady state, whose samples have one
+// distance, the means over all references of equal lag.
 function overLag(fields) {
   return ({ groups }) => {
-    const { datasets } = groups.displacement;
-    const lags = numbers(datasets.lag);
+    const { datasets, time } = groups.displacement;
+    const steady = !isGeometric(numbers(time));
     return fields.map(([name, text], colour) => {
-      const values = numbers(datasets[name]);
-      const sums = new Map();
-      lags.forEach((lag, n) => {
-        if (!(lag > 0) || Number.isNaN(values[n])) return;
-        const key = lag.toPrecision(9);
-        const entry = sums.get(key) ?? [0, 0];
-        sums.set(key, [entry[0] + values[n], entry[1] + 1]);
-      });
-      const x = [...sums.keys()].map(Number).sort((a, b) => a - b);
-      const y = x.map((lag) => sums.get(lag.toPrecision(9))).map(([sum, count]) => sum / count);
-      return { name: text, x, y, colour, points: "alone" };
+      const pairs = pairsOfLag(numbers(datasets.lag), numbers(datasets[name]), steady ? 1 : datasets.lag.shape[1]);
+      return { name: text, x: pairs.map(([lag]) => lag), y: pairs.map(([, mean]) => mean), colour, points: true };
     });
   };
+}
+
+// Lags are equal to nine digits.
+function pairsOfLag(lags, values, stride) {
+  const sums = new Map();
+  for (let n = 0; n < lags.length; n += stride) {
+    if (!(lags[n] > 0) || Number.isNaN(values[n])) continue;
+    const key = Number(lags[n].toPrecision(9));
+    const [sum, count] = sums.get(key) ?? [0, 0];
+    sums.set(key, [sum + values[n], count + 1]);
+  }
+  return [...sums].map(([lag, [sum, count]]) => [lag, sum / count]).sort((a, b) => a[0] - b[0]);
 }
 
 /** Each: the group that it needs, what it says, its axes, and its curves. `log` names the axes that
@@ -215,7 +219,7 @@ const timelines = [
     caption: "Translational and rotational temperature with kinetic theory.",
   },
   {
-    group: "totals", title: "Ratio of the temperatures", y: "T_tr/T_rot", log: "x", curves: ratio,
+    group: "totals", title: "Ratio of the temperatures", y: "T_tr/T_rot", log: "xy", curves: ratio,
     caption: "Equipartition is 1. A cooling gas tends to the constant ratio of theory.",
   },
   {
@@ -244,6 +248,7 @@ const timelines = [
   },
   {
     group: "velocity_moments", title: "Departure from Gaussian velocities", y: "cumulants and correlations", log: "x",
+    robust: true,
     curves: plain("velocity_moments", [
       ["cumulant_v", "fourth cumulant of v"],
       ["cumulant_w", "fourth cumulant of ω"],
@@ -251,7 +256,7 @@ const timelines = [
       ["velocity_spin", "v along ω"],
       ["velocity_director", "v along the needle"],
     ]),
-    caption: "All vanish for independent Gaussian velocities, up to 1/N.",
+    caption: "All vanish for independent Gaussian velocities, up to 1/N. Rare values far from all others may lie beyond the axis; the table has them.",
   },
   {
     group: "temperature_by_axis", title: "T_tr by axis", y: "T_tr of the axis / T_tr", log: "x",
@@ -272,12 +277,12 @@ const timelines = [
   {
     group: "displacement", title: "Mean square displacement", x: "lag", y: "length²", log: "xy", always: true,
     curves: overLag([["parallel", "along the needle"], ["perpendicular", "across it"]]),
-    caption: "Since the reference times, along the director at that time and across it (two directions).",
+    caption: "Since the start, along the director at that time and across it (two directions); in a steady state the mean over all reference times.",
   },
   {
     group: "displacement", title: "Memory of the orientation", x: "lag", y: "correlation", log: "x", always: true,
     curves: overLag([["p1", "⟨cos⟩"], ["p2", "⟨(3 cos² − 1)/2⟩"]]),
-    caption: "Of the angle between the director and that at the reference times.",
+    caption: "Of the angle between the director and that at the start; in a steady state the mean over all reference times.",
   },
 ];
 
@@ -289,10 +294,11 @@ export function timelinesOf(run) {
   const overDecades = groups.totals ? spansDecades(numbers(groups.totals.time)) : false;
   return timelines
     .filter(({ group }) => groups[group] && (groups.totals || group === "displacement"))
-    .map(({ group, title, caption, x = "time", y, log, always, curves }) => ({
+    .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
       title,
       caption,
       notes: notesOf(groups[group]),
+      robust,
       x: { label: x, log: (always || overDecades) && log.includes("x") },
       y: { label: y, log: (always || overDecades) && log.includes("y") },
       curves: compact(curves(context)),
