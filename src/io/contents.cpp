@@ -1,9 +1,5 @@
 #include "src/io/contents.h"
 
-#include <algorithm>
-#include <functional>
-#include <numeric>
-
 #include "needlework/error.h"
 #include "src/io/source.h"
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "needlework/error.h"
-#include "needlework/parse.h"
-#include "needlework/theory.h"
 #include "src/report/frames.h"
+#include "src/report/scene_facts.h"
 
 namespace needlework::report {
 
@@ -18,11 +17,6 @@ namespace {
 
 // JSON has no NaN and no infinity; both become null.
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-
-template <class Value>
-Json optional(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json parameters_of(const io::Contents& contents) {
   Json out = Json::object();
@@ -38,47 +32,6 @@ Json parameters_of(const io::Contents& contents) {
     out[name] = {{"value", value}, {"description", contents.description(path)}};
   }
   return out;
-}
-
-Json end_of(const Scene::Until& until) {
-  return {{"time", optional(until.time)},
-          {"collisions_per_needle", optional(until.collisions_per_needle)},
-          {"energy_ratio", optional(until.energy_ratio)},
-          {"wall_s", optional(until.wall_s)}};
-}
-
-// The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool.
-Json ratio_of_theory(const Scene& scene) {
-  const theory::Gas gas{scene.one_species().k, scene.collisions.epsilon, scene.collisions.beta};
-  return number(theory::asymptotic_ratio(gas));
-}
-
-// Scenes of other versions may have keys that are not known here, and are shown as text alone.
-Json scene_of(const std::string& text, const std::string& path) {
-  try {
-    const Scene scene = parse_scene(text, path);
-    const Scene::Species needle = scene.one_species();
-    return {{"count", needle.count},
-            {"box", scene.needles.box},
-            {"k", needle.k},
-            {"length", needle.length},
-            {"mass", needle.mass},
-            {"seed", scene.needles.seed},
-            {"t_tr", needle.t_tr},
-            {"t_rot", needle.t_rot},
-            {"initial_file", scene.initial.file},
-            {"epsilon", scene.collisions.epsilon},
-            {"beta", scene.collisions.beta},
-            {"tc", optional(scene.collisions.tc)},
-            {"tc_relative", optional(scene.collisions.tc_relative)},
-            {"search", scene.engine.search},
-            {"queue", scene.engine.queue},
-            {"until", end_of(scene.until)},
-            {"observables", scene.output.observables},
-            {"ratio_of_theory", ratio_of_theory(scene)}};
-  } catch (const InputError&) {
-    return nullptr;
-  }
 }
 
 std::size_t product(const std::vector<std::size_t>& shape) {
@@ -181,7 +134,7 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
                  Arrays& arrays) {
   Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
   const auto text = contents.texts("/parameters/scene");
-  out["scene"] = text && text->size() == 1 ? scene_of(text->front(), path) : Json(nullptr);
+  out["scene"] = text && text->size() == 1 ? scene_facts(text->front(), path) : Json(nullptr);
   out["groups"] = groups_of(contents, limits, arrays);
   const auto length = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
                                                          : std::vector<double>{1.0};

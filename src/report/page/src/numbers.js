@@ -18,7 +18,8 @@ export function numberText(x, digits = 4) {
     const [mantissa, exponent] = x.toExponential(digits - 1).split("e");
     return `${minus(String(Number(mantissa)))}×${powerOfTen(Number(exponent))}`;
   }
-  return minus(String(Number(x.toPrecision(digits))));
+  const rounded = Number(x.toPrecision(digits));
+  return Number.isInteger(rounded) ? grouped(rounded) : minus(String(rounded));
 }
 
 /** A whole number with thin spaces between thousands from 10000 on. */

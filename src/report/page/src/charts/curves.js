@@ -79,16 +79,17 @@ function draw(chart, curves, logs, width) {
   });
 }
 
-// Numbers far from 1 have their power of ten beside the label of the axis.
+// Numbers far from 1 have their power of ten beside the label of the axis. `text` and not `tickFormat`,
+// of which Plot leaves some out on logarithmic axes.
 function ticksOf(name, domain, log, width) {
   const count = name === "x" ? Math.max(3, Math.round(width / 90)) : 5;
   if (log) {
-    return { ticks: logTicks(domain, name === "x" && width < 420 ? 5 : 7), tickFormat: logTickText, factor: "" };
+    return { ticks: logTicks(domain, name === "x" && width < 420 ? 5 : 7), text: logTickText, factor: "" };
   }
   const size = Math.max(Math.abs(domain[0]), Math.abs(domain[1]));
   const exponent = size >= 1e5 || size < 1e-2 ? Math.floor(Math.log10(size)) : 0;
   const factor = exponent ? ` (${powerOfTen(exponent)})` : "";
-  return { ticks: count, tickFormat: (x) => numberText(x / 10 ** exponent, 5), factor };
+  return { ticks: count, text: (x) => numberText(x / 10 ** exponent, 5), factor };
 }
 
 // Logarithms are of positive numbers; others leave gaps.
@@ -140,9 +141,10 @@ function domainOf(curves, axis, log, robust) {
   });
   if (!values.length) return log ? [1, 10] : [0, 1];
   const [low, high] = robust ? withoutRare(values) : rangeOf(values);
-  if (log) return axis === "y" || low === high ? [low / 1.15, high * 1.15] : [low, high];
+  if (log) return axis === "y" || low === high || inside.some((curve) => curve.low) ? [low / 1.15, high * 1.15] : [low, high];
   if (low === high) return [low - Math.abs(low || 1) * 0.1, high + Math.abs(high || 1) * 0.1];
-  const margin = axis === "y" ? 0.04 * (high - low) : 0;
+  const alone = inside.some((curve) => curve.points === "alone");
+  const margin = axis === "y" || alone ? 0.05 * (high - low) : 0;
   return [low - (low >= 0 && low < margin ? low : margin), high + margin];
 }
 

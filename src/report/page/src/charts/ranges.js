@@ -4,10 +4,10 @@ import { element, onWidth, toggle } from "../dom.js";
 import { logTicks, logTickText, numberText } from "../numbers.js";
 import { figureOf } from "./figure.js";
 
-/** `rows`: {name, low, middle, high, baseline}, all above 0. */
+/** `rows`: {name, low, middle, high, baseline}, all above 0. `x`: {label, log}. */
 export function rangesChart(chart) {
   const { rows } = chart;
-  let log = Math.max(...rows.map((row) => row.high)) > 20 * Math.min(...rows.map((row) => row.low));
+  let { log } = chart.x;
   const area = element("div", { class: "plot", role: "img" });
   area.setAttribute("aria-label", `${chart.title}: ${rows.map((row) => `${row.name} ${numberText(row.middle, 3)}`).join("; ")} ${chart.x.label}`);
   const redraw = onWidth(area, (width) => area.replaceChildren(draw(chart, log, width)));
@@ -33,14 +33,14 @@ function draw({ rows, x }, log, width) {
   const low = Math.min(...rows.map((row) => row.low));
   const high = Math.max(...rows.map((row) => row.high));
   const domain = log ? [low / 1.2, high * 1.2] : [0, high * 1.05];
-  const ticks = log ? { ticks: logTicks(domain), tickFormat: logTickText } : { ticks: Math.max(3, Math.round(width / 110)), tickFormat: (v) => numberText(v) };
+  const ticks = log ? { ticks: logTicks(domain), text: logTickText } : { ticks: Math.max(3, Math.round(width / 110)), text: (v) => numberText(v) };
   const longest = Math.max(...rows.map((row) => row.name.length));
   // Names stand above their lines where there is no room beside them.
-  const beside = longest * 6.6 + 16 < width * 0.5;
+  const beside = longest * 6.4 + 16 < width * 0.55;
   return Plot.plot({
     width,
     height: rows.length * (beside ? 24 : 36) + 56,
-    marginLeft: beside ? longest * 6.6 + 16 : 12,
+    marginLeft: beside ? longest * 6.4 + 16 : 12,
     marginRight: 52,
     marginTop: beside ? 8 : 18,
     marginBottom: 40,
@@ -48,7 +48,7 @@ function draw({ rows, x }, log, width) {
     x: { type: log ? "log" : "linear", domain, label: null },
     y: { domain: rows.map((_, n) => n), label: null, axis: null, type: "band" },
     marks: [
-      Plot.gridX({ ...ticks, stroke: "var(--grid)", strokeOpacity: 1 }),
+      Plot.gridX({ ticks: ticks.ticks, stroke: "var(--grid)", strokeOpacity: 1 }),
       Plot.axisX({ ...ticks, label: x.label, labelAnchor: "center", labelArrow: "none" }),
       Plot.ruleY(rows, { y: (_, n) => n, x1: "low", x2: "high", stroke: "var(--curve-0)", strokeWidth: 2 }),
       Plot.dot(rows, { y: (_, n) => n, x: "middle", r: 4, fill: (row) => (row.baseline ? "none" : "var(--curve-0)"), stroke: "var(--curve-0)", symbol: (row) => (row.baseline ? "times" : "circle") }),

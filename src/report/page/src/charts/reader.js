@@ -92,7 +92,7 @@ function valueAt(curve, x) {
 }
 
 function legendItem(curve, x, count) {
-  const key = element("span", { class: ["key", curve.dashed && "dashed", curve.points && "dotted", curve.points === "alone" && "alone"].filter(Boolean).join(" ") });
+  const key = element("span", { class: ["key", curve.dashed && "dashed", (curve.points || curve.borders) && "dotted", curve.points === "alone" && "alone"].filter(Boolean).join(" ") });
   key.style.color = colourOf(curve.colour);
   if (curve.faint) key.style.opacity = 0.5;
   const value = x === null ? [] : [element("b", {}, numberText(valueAt(curve, x)))];

@@ -42,7 +42,7 @@ const fragmentShader = `
     bool defined = share == share;
     vec3 colour = defined ? texture2D(palette, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb : neutral;
     colour *= 1.0 - 1.1 * across * across;
-    gl_FragColor = vec4(mix(colour, background, 0.72 * fog), 1.0);
+    gl_FragColor = vec4(mix(colour, background, 0.6 * fog), 1.0);
   }`;
 
 /** Draws on the canvas. Throws if there is no WebGL. */
@@ -117,7 +117,7 @@ export class NeedleScene {
   /** Puts the camera where the whole box is seen. */
   lookAtBox() {
     const size = this.box.scale.length();
-    this.distance = (0.5 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    this.distance = (0.54 * size) / Math.tan((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     const direction = new three.Vector3(0.62, -0.68, 0.4).normalize();
     this.camera.position.copy(direction.multiplyScalar(this.distance));
     this.camera.near = 0.01 * this.distance;

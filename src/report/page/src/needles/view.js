@@ -267,7 +267,7 @@ class NeedlesView {
 
 // Yellow on white and dark blue on black cannot be told from the ground.
 function paletteRange() {
-  return colourOfTheme("--stage-is-dark").trim() === "1" ? [0.22, 1] : [0, 0.82];
+  return colourOfTheme("--stage-is-dark").trim() === "1" ? [0.3, 1] : [0, 0.82];
 }
 
 function notesOf(frames) {

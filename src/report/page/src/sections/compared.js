@@ -27,7 +27,7 @@ export function comparedSection(runs) {
       }),
       curvesChart({
         title: "Ratios of the temperatures", caption: "Of translation to rotation.",
-        x: axis, y: { label: "T_tr/T_rot" }, curves: ratios,
+        x: axis, y: { label: "T_tr/T_rot", log: true }, curves: ratios,
       }),
     ),
   ];
@@ -41,16 +41,17 @@ function curveOf(run, n, valuesOf) {
 // A column for each run, a row for each fact that differs or is a result.
 function factsTable(runs) {
   const all = runs.map((run) => new Map([...factsOfRun(run), ...resultsOfRun(run)]));
-  const names = [...new Set(all.flatMap((facts) => [...facts.keys()]))];
+  const said = (value) => value !== null && value !== undefined && value !== "";
+  const names = [...new Set(all.flatMap((facts) => [...facts.keys()]))].filter((name) => all.some((facts) => said(facts.get(name))));
   const text = (value) => (typeof value === "number" ? numberText(value) : (value ?? "–"));
   return element(
     "div",
-    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Runs compared" },
+    { class: "scroll whole", tabindex: 0, role: "region", "aria-label": "Runs compared" },
     element(
       "table",
       { class: "facts-table" },
       element("caption", {}, "Settings and last samples"),
-      element("thead", {}, element("tr", {}, element("td"), runs.map((run) => element("th", { scope: "col" }, run.name)))),
+      element("thead", {}, element("tr", {}, element("td", {}), runs.map((run) => element("th", { scope: "col" }, run.name)))),
       element(
         "tbody",
         {},

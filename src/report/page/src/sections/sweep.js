@@ -107,7 +107,7 @@ function seriesCharts(sweep) {
     }),
     curvesChart({
       title: "Ratios of the temperatures", caption: "Mean T_tr divided by mean T_rot at each point.",
-      x: { label: "time", log: true }, y: { label: "T_tr/T_rot" }, curves: curves(ratio),
+      x: { label: "time", log: true }, y: { label: "T_tr/T_rot", log: true }, curves: curves(ratio),
     }),
   ];
 }

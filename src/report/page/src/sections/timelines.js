@@ -113,9 +113,9 @@ function plain(group, fields) {
     }));
 }
 
-function cellsOf(groups, scene) {
+function cellsOf({ groups, count }) {
   const shape = groups.fields?.datasets.density.shape;
-  return shape && scene ? { cells: shape[1] * shape[2] * shape[3], needles: scene.count } : null;
+  return shape ? { cells: shape[1] * shape[2] * shape[3], needles: count } : null;
 }
 
 // With the values that random velocities and positions have, where the grid is known.
@@ -124,7 +124,7 @@ function flowOrder(context) {
     ["translational", "S of translation"],
     ["rotational", "S of rotation"],
   ])(context);
-  const grid = cellsOf(context.groups, context.scene);
+  const grid = cellsOf(context);
   const random = grid && grid.cells / (grid.needles - grid.cells);
   const level = random > 0 && {
     name: "random velocities",
@@ -138,7 +138,7 @@ function flowOrder(context) {
 
 function secondMoment(context) {
   const [moment] = plain("flow_order", [["second_moment", "second moment"]])(context);
-  const grid = cellsOf(context.groups, context.scene);
+  const grid = cellsOf(context);
   const random = grid && (grid.cells - 1) / grid.needles;
   return [
     moment,
