@@ -2,9 +2,11 @@
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
-// A needle is a ribbon that faces the viewer. The GPU places it, so that another frame or another
-// colour is another array and nothing else.
+// A needle is a ribbon of four corners that faces the viewer. The GPU places it, so that another frame
+// or another colour is another array and nothing else. Each corner has the data of its needle: drawing
+// instances of one ribbon would save that, but is ten times slower where a CPU draws.
 const vertexShader = `
+  attribute vec2 corner;       // along and across the needle, -1/2 or 1/2
   attribute vec3 centre;       // of the box, 0 to 1
   attribute vec3 orientation;
   attribute float value;
@@ -20,13 +22,13 @@ const vertexShader = `
   void main() {
     vec4 middle = viewMatrix * vec4((centre - 0.5) * box, 1.0);
     vec3 along = mat3(viewMatrix) * orientation * needleLength;
-    vec3 place = middle.xyz + position.x * along;
+    vec3 place = middle.xyz + corner.x * along;
     vec3 side = cross(along, place);
     float least = 1.1 * pixel.y * -place.z;
     float size = max(width, least);
-    place += position.y * size * side / max(length(side), 1e-6);
+    place += corner.y * size * side / max(length(side), 1e-6);
     share = (value - range.x) / (range.y - range.x);
-    across = position.y;
+    across = corner.y;
     fog = clamp((-middle.z - depth.x) / (depth.y - depth.x), 0.0, 1.0);
     gl_Position = projectionMatrix * vec4(place, 1.0);
   }`;
@@ -45,10 +47,20 @@ const fragmentShader = `
     gl_FragColor = vec4(mix(colour, background, 0.6 * fog), 1.0);
   }`;
 
+// Smoothing edges by several samples of a pixel is free on a GPU and more than doubles the time of a
+// frame where a CPU draws.
+function drawnByCpu() {
+  const context = document.createElement("canvas").getContext("webgl");
+  const names = context?.getExtension("WEBGL_debug_renderer_info");
+  const renderer = names ? context.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(renderer);
+}
+
 /** Draws on the canvas. Throws if there is no WebGL. */
 export class NeedleScene {
   constructor(canvas, { length }) {
-    this.renderer = new three.WebGLRenderer({ canvas, antialias: true, powerPreference: "low-power" });
+    this.renderer = new three.WebGLRenderer({ canvas, antialias: !drawnByCpu(), powerPreference: "low-power" });
     this.camera = new three.PerspectiveCamera(35, 1, 0.1, 1000);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -66,7 +78,8 @@ export class NeedleScene {
       background: { value: new three.Color() },
       neutral: { value: new three.Color(0x888888) },
     };
-    this.geometry = ribbon();
+    this.geometry = new three.BufferGeometry();
+    this.count = 0;
     const material = new three.ShaderMaterial({
       uniforms: this.uniforms, vertexShader, fragmentShader, side: three.DoubleSide,
     });
@@ -84,15 +97,39 @@ export class NeedleScene {
     const sameBox = this.box.scale.equals(new three.Vector3(...box));
     this.uniforms.box.value.set(...box);
     this.box.scale.set(...box);
-    this.geometry.setAttribute("centre", new three.InstancedBufferAttribute(position, 3, true));
-    this.geometry.setAttribute("orientation", new three.InstancedBufferAttribute(orientation, 3, true));
-    this.geometry.instanceCount = position.length / 3;
+    this.setCount(position.length / 3);
+    this.setAttribute("centre", position, 3, true);
+    this.setAttribute("orientation", orientation, 3, true);
     if (!sameBox) this.lookAtBox();
+  }
+
+  // Frames of one file have the same number of needles, so that this is done once.
+  setCount(count) {
+    if (count === this.count) return;
+    this.count = count;
+    this.geometry.dispose();
+    this.geometry.setAttribute("corner", new three.BufferAttribute(repeated([-0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5], count), 2));
+    const corners = [0, 1, 2, 0, 2, 3];
+    const index = Uint32Array.from({ length: 6 * count }, (_, n) => 4 * Math.floor(n / 6) + corners[n % 6]);
+    this.geometry.setIndex(new three.BufferAttribute(index, 1));
+  }
+
+  // Gives the corners of each needle its numbers, in the array of the frame before where there is one.
+  setAttribute(name, values, size, normalized) {
+    const before = this.geometry.getAttribute(name);
+    const fits = before?.array.length === 4 * values.length;
+    const array = fits ? before.array : new values.constructor(4 * values.length);
+    for (let n = 0; n < values.length; n += size) {
+      const one = values.subarray(n, n + size);
+      for (let corner = 0; corner < 4; ++corner) array.set(one, 4 * n + corner * size);
+    }
+    if (fits) before.needsUpdate = true;
+    else this.geometry.setAttribute(name, new three.BufferAttribute(array, size, normalized));
   }
 
   /** A number for each needle, coloured from the first to the second of `range`. */
   showColours(values, range) {
-    this.geometry.setAttribute("value", new three.InstancedBufferAttribute(values, 1));
+    this.setAttribute("value", values, 1, false);
     this.uniforms.range.value.set(...range);
   }
 
@@ -169,15 +206,10 @@ export class NeedleScene {
   /** What the last frame was drawn with. */
   get statistics() {
     const { calls } = this.renderer.info.render;
-    return { drawCalls: calls, needles: this.geometry.instanceCount };
+    return { drawCalls: calls, needles: this.count };
   }
 }
 
-// Two triangles from -1/2 to 1/2 along and across.
-function ribbon() {
-  const geometry = new three.InstancedBufferGeometry();
-  const corners = [-0.5, -0.5, 0, 0.5, -0.5, 0, 0.5, 0.5, 0, -0.5, 0.5, 0];
-  geometry.setAttribute("position", new three.BufferAttribute(new Float32Array(corners), 3));
-  geometry.setIndex([0, 1, 2, 0, 2, 3]);
-  return geometry;
+function repeated(numbers, count) {
+  return Float32Array.from({ length: numbers.length * count }, (_, n) => numbers[n % numbers.length]);
 }
