@@ -84,12 +84,12 @@ class Group {
   };
 
   std::size_t affordable_rows(const Limits& limits) const {
-    std::size_t bytes = 1;
+    std::size_t bytes = 0;
     for (const Dataset& dataset : datasets_) {
       if (!dataset.has_rows) continue;
       bytes += dataset.row_size() * (dataset.is_picture() ? sizeof(float) : sizeof(double));
     }
-    return limits.group_bytes / bytes;
+    return limits.group_bytes / std::max<std::size_t>(bytes, 1);
   }
 
   Json read(const Dataset& dataset, std::span<const std::size_t> chosen, Arrays& arrays) const {

@@ -12,7 +12,7 @@ export function makeReader(area, chart) {
   const spoken = element("div", { class: "spoken", "aria-live": "polite" });
   area.append(spoken);
   area.tabIndex = 0;
-  area.setAttribute("role", "group");
+  area.setAttribute("role", "application");
   area.setAttribute("aria-roledescription", "chart");
   area.setAttribute("aria-label", `${chart.title}. ${chart.y.label} over ${chart.x.label}. Arrow keys read values.`);
 

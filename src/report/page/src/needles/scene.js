@@ -13,38 +13,39 @@ const vertexShader = `
   uniform vec3 box;
   uniform float needleLength;
   uniform vec2 range;
-  uniform vec2 pixel;          // size of a pixel at distance 1
+  uniform float pixel;         // size at distance 1
   uniform float width;
   uniform vec2 depth;
-  varying float share;
+  uniform sampler2D palette;
+  uniform vec3 background;
+  uniform vec3 neutral;
+  varying vec3 lit;            // colour of the needle in the fog of its distance
+  varying vec3 ground;         // what the fog adds
   varying float across;
-  varying float fog;
   void main() {
     vec4 middle = viewMatrix * vec4((centre - 0.5) * box, 1.0);
     vec3 along = mat3(viewMatrix) * orientation * needleLength;
     vec3 place = middle.xyz + corner.x * along;
     vec3 side = cross(along, place);
-    float least = 1.1 * pixel.y * -place.z;
+    float least = 1.1 * pixel * -place.z;
     float size = max(width, least);
     place += corner.y * size * side / max(length(side), 1e-6);
-    share = (value - range.x) / (range.y - range.x);
-    across = corner.y;
-    fog = clamp((-middle.z - depth.x) / (depth.y - depth.x), 0.0, 1.0);
     gl_Position = projectionMatrix * vec4(place, 1.0);
+    float share = (value - range.x) / (range.y - range.x);
+    bool defined = value == value;
+    vec3 colour = defined ? texture2D(palette, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb : neutral;
+    float fog = 0.6 * clamp((-middle.z - depth.x) / (depth.y - depth.x), 0.0, 1.0);
+    lit = colour * (1.0 - fog);
+    ground = background * fog;
+    across = corner.y;
   }`;
 
 const fragmentShader = `
-  uniform sampler2D palette;
-  uniform vec3 background;
-  uniform vec3 neutral;
-  varying float share;
+  varying vec3 lit;
+  varying vec3 ground;
   varying float across;
-  varying float fog;
   void main() {
-    bool defined = share == share;
-    vec3 colour = defined ? texture2D(palette, vec2(clamp(share, 0.002, 0.998), 0.5)).rgb : neutral;
-    colour *= 1.0 - 1.1 * across * across;
-    gl_FragColor = vec4(mix(colour, background, 0.6 * fog), 1.0);
+    gl_FragColor = vec4(lit * (1.0 - 1.1 * across * across) + ground, 1.0);
   }`;
 
 // Smoothing edges by several samples of a pixel is free on a GPU and more than doubles the time of a
@@ -71,7 +72,7 @@ export class NeedleScene {
       box: { value: new three.Vector3(1, 1, 1) },
       needleLength: { value: length },
       range: { value: new three.Vector2(0, 1) },
-      pixel: { value: new three.Vector2() },
+      pixel: { value: 0 },
       width: { value: 0.035 * length },
       depth: { value: new three.Vector2(0, 1) },
       palette: { value: null },
@@ -195,8 +196,7 @@ export class NeedleScene {
 
   draw() {
     const height = this.renderer.domElement.height;
-    const pixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / height;
-    this.uniforms.pixel.value.set(pixel, pixel);
+    this.uniforms.pixel.value = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / height;
     const distance = this.camera.position.length();
     const half = 0.5 * this.box.scale.length();
     this.uniforms.depth.value.set(distance - half, distance + half);

@@ -40,7 +40,7 @@ class NeedlesView {
     this.current = frames.frames.length - 1;
     this.colouring = "speed";
     this.playing = null;
-    this.canvas = element("canvas", { tabindex: 0, role: "img" });
+    this.canvas = element("canvas", { tabindex: 0, role: "application", "aria-roledescription": "view in three dimensions" });
     this.stage = element("div", { class: "stage" }, this.canvas);
     this.print = element("img", { class: "printed", alt: "" });
     this.bar = element("div", { class: "colour-bar" });
@@ -130,6 +130,7 @@ class NeedlesView {
   loadFrame(n) {
     this.current = n;
     this.values = Object.fromEntries(Object.keys(colourings).map((key) => [key, null]));
+    this.describe();
   }
 
   showFrame(n) {
@@ -161,11 +162,12 @@ class NeedlesView {
       element("span", {}, `${text} (${unit})`),
       element("span", { class: "ends" }, element("span", {}, numberText(low, 3)), gradient, element("span", {}, numberText(high, 3))),
     );
-    this.describe(text);
+    this.describe();
   }
 
-  describe(text) {
+  describe() {
     const { needles_shown: shown } = this.frames;
+    const { text } = colourings[this.colouring];
     const description = `${numberText(shown)} needles in a periodic box, frame ${this.textOf(this.current)}, coloured by ${text}`;
     this.canvas.setAttribute("aria-label", description);
     this.print.alt = description;

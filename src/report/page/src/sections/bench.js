@@ -40,7 +40,7 @@ export function benchSection(bench) {
   ];
   const text = element("p", { class: "source" }, origin.filter(Boolean).join(" · "));
   if (bench.families) return [text, missesTable(bench.families)];
-  return [text, element("div", { class: "charts few" }, chartsOf(bench))];
+  return [text, element("h3", {}, "Costs"), element("div", { class: "charts few" }, chartsOf(bench))];
 }
 
 // "n=0.1,N=10000/capsules/auto/standard/avx512/threads:1" as its numbers and its words.

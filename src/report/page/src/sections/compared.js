@@ -18,6 +18,7 @@ export function comparedSection(runs) {
   const axis = { label: "time", log: true };
   return [
     factsTable(runs),
+    element("h3", {}, "Over time"),
     element(
       "div",
       { class: "charts" },
