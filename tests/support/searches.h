@@ -41,7 +41,7 @@ class AnySearch {
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
   virtual void renumber(const std::vector<Needle>& ranks) = 0;
-  virtual void find(Needle i, Needle just_hit, Time now, double ahead, const Visit& visit) = 0;
+  virtual void find(const SearchQuery& query, const Visit& visit) = 0;
   virtual const char* name() const = 0;
   virtual std::size_t cells() const = 0;
   virtual std::uint32_t cell_index(Needle i) const = 0;
