@@ -12,6 +12,7 @@
 #include "needlework/scene.h"
 #include "src/physics/gas.h"
 #include "src/search/cell_grid.h"
+#include "src/search/search.h"
 #include "src/search/setup.h"
 
 namespace needlework::test {
