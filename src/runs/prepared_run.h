@@ -10,6 +10,7 @@
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
 #include "src/observe/observation.h"
+#include "src/runs/checkpoint.h"
 #include "src/runs/collision_batches.h"
 #include "src/runs/limits.h"
 #include "src/runs/loaded_scene.h"
@@ -30,6 +31,9 @@ class PreparedRun {
   PreparedRun(LoadedScene loaded, bool force, const std::string& path);
   /// For advance(): takes samples for the output file only.
   PreparedRun(LoadedScene loaded, bool force);
+  /// Continues a run, with the output file that its scene names. Throws InputError if the file is
+  /// not that of the run, and IoError if it cannot be written.
+  explicit PreparedRun(RunCheckpoint saved);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
@@ -44,9 +48,12 @@ class PreparedRun {
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
   /// of each advance those that are left; see CollisionBatches.
   void on_collisions(std::size_t batch, CollisionBatches::Callback callback);
-  /// Writes the sample and the frame of the end, and closes the file. Then only the simulation may
-  /// be used. Does nothing when called again. Throws IoError. Without it, the file ends with the
-  /// last sample that was due.
+  /// Saves the run beside its output file, if it has one and checkpoints are on, so that it can be
+  /// continued from here. Throws IoError.
+  void save_checkpoint();
+  /// Saves a checkpoint, writes the sample and the frame of the end, and closes the file. Then only
+  /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, the
+  /// file ends with the last sample that was due.
   void close();
 
   const Scene& scene() const { return scene_; }
@@ -57,11 +64,16 @@ class PreparedRun {
  private:
   PreparedRun(LoadedScene loaded, bool force, const std::string* path);
   Simulation make_simulation(const LoadedScene& loaded);
-  void open_output(bool drawn, bool force);
+  Simulation continue_simulation(const Checkpoint& saved);
+  template <class Open>
+  void open_output(Open&& open);
+  Output output();
 
   Scene scene_;
+  bool drawn_;  ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
+  Totals initial_;                                   ///< at the start of the run
   std::optional<observe::Observation> observation_;  ///< if there is a writer
   std::optional<io::Writer> writer_;
   std::optional<RunDriver> driver_;

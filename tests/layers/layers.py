@@ -28,7 +28,7 @@ LAYERS = [
           ["collision.h", "totals.h", "series.h", "counters.h", "stop.h"],
           ["base", "kernels"]),
     Layer("scene", ["src/scene"], ["scene.h", "parse.h", "state.h", "initial_state.h"],
-          ["base"], ["kernels"]),
+          ["base", "archive"], ["kernels"]),
     Layer("physics", ["src/physics"], ["predict.h"], ["base", "memory", "kernels"]),
     Layer("search", ["src/search"], [], ["base", "memory", "kernels", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
