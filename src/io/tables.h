@@ -66,7 +66,8 @@ class FieldsTable {
 /// /particles/needles: the phase-space states of a fixed number of needles.
 class Frames {
  public:
-  Frames(hid_t file, const std::string& place);
+  /// `rows` is the number of frames in the file.
+  Frames(hid_t file, const std::string& place, std::uint64_t rows);
 
   /// Writes a frame. Its step and time are written by StepsAndTimes. Throws std::invalid_argument
   /// if an array does not have one entry for each needle, or if the ids differ from those of the
@@ -80,7 +81,7 @@ class Frames {
   hdf5::Handle id_;
   std::size_t needles_;
   std::vector<std::uint32_t> ids_;
-  bool ids_written_ = false;
+  bool ids_written_;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
 };
 
