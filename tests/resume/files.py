@@ -28,15 +28,18 @@ PROVENANCE = {"parameters/threads", "parameters/isa"}
 
 
 def contents(path):
-    """All datasets as arrays, by name."""
+    """All datasets as arrays, by name; those with several names by each."""
     found = {}
 
-    def keep(name, item):
-        if isinstance(item, h5py.Dataset) and name not in PROVENANCE:
-            found[name] = item[()]
+    def visit(group, prefix):
+        for name, item in group.items():
+            if isinstance(item, h5py.Group):
+                visit(item, f"{prefix}{name}/")
+            elif f"{prefix}{name}" not in PROVENANCE:
+                found[f"{prefix}{name}"] = item[()]
 
     with h5py.File(path) as file:
-        file.visititems(keep)
+        visit(file, "")
     return found
 
 
