@@ -254,7 +254,8 @@ TEST_F(Continuing, AKillInAnyWriteLosesNothing) {
     const Contents full = read_contents(file("full.h5"));
     int again_at = 0;
     int kills = 0;
-    const int stride = plan.needles == large.needles ? 37 : 3;
+    // Not each write of the large file, for time.
+    const int stride = plan.needles == large.needles ? 23 : 1;
     for (int at = 0;; at += stride) {
       SCOPED_TRACE(testing::Message() << "killed in write " << at << ", then in " << again_at);
       std::filesystem::remove(path);
@@ -279,7 +280,7 @@ TEST_F(Continuing, AKillInAnyWriteLosesNothing) {
       expect_same(full, read_contents(path));
       if (HasFailure()) return;
     }
-    EXPECT_GT(kills, 50);
+    EXPECT_GT(kills, 40);
   }
 }
 
