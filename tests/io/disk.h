@@ -11,7 +11,7 @@ struct Disk {
   enum class Event {
     full,       ///< the write `at` and all after it find the disk full
     full_once,  ///< only that one does
-    kill        ///< the program is killed in that write, of which at most some pages are on the disk
+    kill  ///< the program is killed in that write, of which at most some pages are on the disk
   };
 
   std::string folder;
@@ -19,9 +19,9 @@ struct Disk {
   Event event = Event::full;
   bool sync_fails = false;
 
-  int writes = 0;                ///< so far
-  int torn = 0;                  ///< writes over a page boundary that need not have been
-  std::string operations = {};   ///< 'w' for each write, 'f' and 'd' for fsync of a file and folder
+  int writes = 0;               ///< so far
+  int torn = 0;                 ///< writes over a page boundary that need not have been
+  std::string operations = {};  ///< 'w' for each write, 'f' and 'd' for fsync of a file and folder
 };
 
 /// The disk of this process. Forked processes begin with a copy.
