@@ -13,12 +13,12 @@ namespace needlework::runs {
 
 /// A run at one instant.
 struct RunCheckpoint {
-  Scene scene;              ///< complete: engine chosen, count and box filled in
-  bool drawn = false;       ///< whether the initial state was drawn
-  Totals initial;           ///< at the start of the run
-  Checkpoint simulation;    ///< the state of the gas
-  io::Writer::Position output;      ///< the rows that the output file had
-  std::string observation;  ///< what observables and schedules remember
+  Scene scene;                  ///< complete: engine chosen, count and box filled in
+  bool drawn = false;           ///< whether the initial state was drawn
+  Totals initial;               ///< at the start of the run
+  Checkpoint simulation;        ///< the state of the gas
+  io::Writer::Position output;  ///< the rows that the output file had
+  std::string observation;      ///< what observables and schedules remember
 };
 
 /// The checkpoints of one output file, in files beside it: the newest, "FILE.checkpoint", and the

@@ -55,17 +55,19 @@ Output PreparedRun::output() {
   out.writer = &*writer_;
   out.observation = &*observation_;
   if (scene_.output.checkpoint_every > 0) out.save_checkpoint = [this] { save_checkpoint(); };
+  out.saves_start = saves_ == Saves::start_and_end;
   return out;
 }
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path)
-    : PreparedRun(std::move(loaded), force, &path) {}
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path, Saves saves)
+    : PreparedRun(std::move(loaded), force, &path, saves) {}
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force)
-    : PreparedRun(std::move(loaded), force, nullptr) {}
+    : PreparedRun(std::move(loaded), force, nullptr, Saves::start_and_end) {}
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path)
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves)
     : scene_(std::move(loaded.scene)),
+      saves_(saves),
       drawn_(!loaded.initial),
       simulation_(make_simulation(loaded)),
       initial_(simulation_.totals()) {
@@ -78,8 +80,9 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path
   driver_.emplace(simulation_, scene_, output(), path != nullptr);
 }
 
-PreparedRun::PreparedRun(RunCheckpoint saved)
+PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
     : scene_(std::move(saved.scene)),
+      saves_(saves),
       drawn_(saved.drawn),
       simulation_(continue_simulation(saved.simulation)),
       initial_(saved.initial) {
@@ -132,7 +135,8 @@ Course PreparedRun::drive(RunMonitor& monitor) {
   }
   monitor.clear();
   // Before the sample and the frame of this end, which the continued run does not have.
-  save_checkpoint();
+  const bool stopped = driver_->stop() == Stop::interrupted || driver_->stop() == Stop::wall_time;
+  if (stopped || saves_ == Saves::start_and_end) save_checkpoint();
   Course course = driver_->finish();
   course.failure = std::move(failure);
   if (writer_) writer_->close();

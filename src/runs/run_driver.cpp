@@ -100,7 +100,7 @@ void RunDriver::begin() {
     frames_.pass(0);
   }
   begun_ = true;
-  save_checkpoint();
+  if (output_.saves_start) save_checkpoint();
 }
 
 void RunDriver::transfer(Archive& archive) {

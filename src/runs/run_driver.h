@@ -35,6 +35,7 @@ struct Output {
   io::Writer* writer = nullptr;
   observe::Observation* observation = nullptr;  ///< whose groups the writer was opened with
   std::function<void()> save_checkpoint = {};   ///< flushes the writer and saves the run
+  bool saves_start = true;                      ///< whether before the first event, too
 };
 
 /// Advances a simulation in steps from sample to sample, and in short steps of wall time between
@@ -50,6 +51,9 @@ class RunDriver {
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
   /// throws, and IoError if the output cannot be written.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
+
+  /// Why the last advance ended.
+  Stop stop() const { return course_.stop; }
 
   /// Saves or restores how far samples and frames have come, and the Course up to now.
   void transfer(Archive& archive);
