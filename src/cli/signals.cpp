@@ -56,8 +56,10 @@ SignalGuard::SignalGuard() {
   signal_received = 0;
   for (std::size_t n = 0; n < handled.size(); ++n) {
     sigaction(handled[n], nullptr, &before[n]);
-    // `nohup` and shells have a program ignore what is not meant for it.
-    if (before[n].sa_handler != SIG_IGN) set_handler(handled[n], handle);
+    // `nohup` has a program go on when its terminal is closed. (Shells have background jobs ignore
+    // SIGINT in the same way, but who sends it to such a job by `kill` means it.)
+    const bool unwanted = handled[n] == SIGHUP && before[n].sa_handler == SIG_IGN;
+    if (!unwanted) set_handler(handled[n], handle);
   }
 }
 
