@@ -11,7 +11,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -42,11 +41,11 @@ struct DriverSettings {
 };
 
 // An open file. `kept` holds what HDF5 has written but the disk does not have: metadata between two
-// flushes, of a file that is shortened its data too, and everything after a failed write.
+// flushes, everything after a failed write, and what a file that is shortened does not get.
 struct DriverFile : H5FD_t {
   struct Kept {
     haddr_t address;
-    int rank;  // what has a lower rank is written first
+    H5FD_mem_t type;
     std::vector<std::byte> bytes;
   };
 
@@ -100,8 +99,7 @@ herr_t driver_query(const H5FD_t* file, unsigned long* flags) {
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
            H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE |
            H5FD_FEAT_SUPPORTS_SWMR_IO | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
-  // Without the accumulator each write is one block of metadata, of which write_rank() sees the
-  // kind.
+  // Without the accumulator each write is one block of metadata, whose kind can be seen.
   if (file && driver_file(file).shortening) *flags &= ~H5FD_FEAT_ACCUMULATE_METADATA;
   return 0;
 }
@@ -175,27 +173,17 @@ void write_to_disk(DriverFile& file, haddr_t address, const std::byte* bytes, st
   file.size_on_disk = std::max(file.size_on_disk, address + size);
 }
 
-// The place of a write in the order of writing, for which see write_kept().
-int write_rank(const DriverFile& file, H5FD_mem_t type, haddr_t address,
-               std::span<const std::byte> bytes) {
-  const bool superblock = address == 0;
-  if (!file.shortening) return superblock ? 0 : 1;
-  const auto begins_with = [&](const char* signature) {
-    return bytes.size() >= 4 && std::memcmp(bytes.data(), signature, 4) == 0;
-  };
-  if (superblock) return 3;
-  if (type == H5FD_MEM_DRAW) return 2;
-  const bool object_header = begins_with("OHDR") || begins_with("OCHK");
-  return object_header ? 0 : 1;
-}
-
 // What there is no memory to keep goes to the disk at once: the order of writing then protects the
 // file no more, should the program be killed, but the file itself is right.
-void keep(DriverFile& file, int rank, haddr_t address, const std::byte* bytes,
+void keep(DriverFile& file, H5FD_mem_t type, haddr_t address, const std::byte* bytes,
           std::size_t size) noexcept {
   try {
-    file.kept.push_back({address, rank, {bytes, bytes + size}});
+    file.kept.push_back({address, type, {bytes, bytes + size}});
   } catch (const std::bad_alloc&) {
+    if (file.shortening) {
+      *file.error = ENOMEM;
+      return;
+    }
     for (DriverFile::Kept& kept : file.kept) replace_kept(kept, address, size, bytes);
     if (*file.error == 0) write_to_disk(file, address, bytes, size);
   }
@@ -207,9 +195,7 @@ herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::
   const auto* const bytes = static_cast<const std::byte*>(buffer);
   const bool at_once = type == H5FD_MEM_DRAW && !file.shortening;
   if (at_once && *file.error == 0) write_to_disk(file, address, bytes, size);
-  if (!at_once || *file.error != 0) {
-    keep(file, write_rank(file, type, address, {bytes, size}), address, bytes, size);
-  }
+  if (!at_once || *file.error != 0) keep(file, type, address, bytes, size);
   file.end_of_file = std::max(file.end_of_file, address + size);
   return 0;
 }
@@ -220,19 +206,40 @@ void set_size_on_disk(DriverFile& file, haddr_t size) {
   file.size_on_disk = size;
 }
 
+// HDF5 has the same type for the headers of chunk indexes.
+bool is_object_header(const DriverFile::Kept& kept) {
+  const auto begins_with = [&](const char* signature) {
+    return kept.bytes.size() >= 4 && std::memcmp(kept.bytes.data(), signature, 4) == 0;
+  };
+  return kept.type == H5FD_MEM_OHDR && (begins_with("OHDR") || begins_with("OCHK"));
+}
+
+// When datasets are shortened, only the object headers are written, which contain the numbers of
+// rows. HDF5 also clears the entries of removed chunks in chunk indexes, fills removed rows of the
+// last chunk that stays with zeros, and makes the file smaller. None of this could be done in one
+// step with the header. Without it the chunks stay where they are, as those do that a killed
+// program has added to a chunk index but not yet to the number of rows, and are used again when
+// the dataset grows.
+void write_object_headers(DriverFile& file) {
+  for (const DriverFile::Kept& kept : file.kept) {
+    if (*file.error != 0) return;
+    if (!is_object_header(kept)) continue;
+    write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
+  }
+  std::erase_if(file.kept, is_object_header);
+}
+
 // The superblock, at address 0, contains the size of the file. Readers refuse a file that is
 // shorter, and metadata that point beyond it. Therefore the size of the file is set first, then the
 // superblock is written, then the other metadata.
-//
-// When datasets are shortened, the order is reversed. Object headers contain the numbers of rows
-// and are written first. Then nothing refers any more to the entries of chunk indexes that HDF5
-// clears, nor to the rows that it overwrites with zeros in the last chunk that stays. The
-// superblock, with the size without the chunks that were removed, comes last, and the end of the
-// file is cut off when it is closed.
 void write_kept(DriverFile& file) {
+  if (file.shortening) {
+    write_object_headers(file);
+    return;
+  }
   set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
-  std::stable_sort(file.kept.begin(), file.kept.end(),
-                   [](const auto& one, const auto& other) { return one.rank < other.rank; });
+  std::stable_partition(file.kept.begin(), file.kept.end(),
+                        [](const DriverFile::Kept& kept) { return kept.address == 0; });
   for (const DriverFile::Kept& kept : file.kept) {
     if (*file.error != 0) return;
     write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
@@ -253,7 +260,7 @@ herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t) {
 herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
   guarded([&] { write_kept(file); });
-  set_size_on_disk(file, file.end_of_allocation);
+  if (!file.shortening) set_size_on_disk(file, file.end_of_allocation);
   // Some file systems report a full disk only when a file is closed.
   if (close(file.descriptor) != 0 && *file.error == 0) *file.error = errno;
   delete &file;

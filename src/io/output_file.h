@@ -47,8 +47,9 @@ class OutputFile {
   void require_written() const;
   /// Opens the file, or opens it again, such that rows can be removed from the ends of datasets,
   /// and nothing else changed. At any moment, also between the writes of a flush, a dataset on disk
-  /// has its old or its new number of rows, and these rows are unharmed. A flush brings the
-  /// datasets to the disk in any order.
+  /// has its old or its new number of rows, and these rows are unharmed. A flush changes the
+  /// datasets on disk in any order. The file keeps its size, and the space of the removed rows is
+  /// for later rows of the same dataset. The file has to be closed before rows are written.
   void start_shortening();
   /// Opens the file, or opens it again, in SWMR mode. No object of the file may be open. Datasets
   /// can grow then, but neither can they shrink nor objects be created.

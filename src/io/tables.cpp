@@ -40,8 +40,11 @@ void append_member(Column& column, std::span<const Row> rows,
 StepsAndTimes::StepsAndTimes(hid_t file, const std::string& group, const std::string& place)
     : step_(file, group + "/step", place), time_(file, group + "/time", place) {}
 
-void StepsAndTimes::append(std::span<const Totals> samples) {
+void StepsAndTimes::append_times(std::span<const Totals> samples) {
   append_member<double>(time_, samples, &Totals::time);
+}
+
+void StepsAndTimes::append_steps(std::span<const Totals> samples) {
   append_member<std::int64_t>(step_, samples, &Totals::collisions);
 }
 

@@ -1,7 +1,7 @@
 // The tables of an H5MD file that a run fills: frames, sums over all needles, collisions.
 //
-// The datasets of a table grow one after the other. The times are written last, by a function of
-// their own, and a row is complete when its time is in the file.
+// The datasets of a table grow one after the other. The steps are written last, of events the
+// times, by a function of their own, and a row is complete when that is in the file.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class StepsAndTimes {
   /// Opens the datasets in `group`.
   StepsAndTimes(hid_t file, const std::string& group, const std::string& place);
 
-  void append(std::span<const Totals> samples);
+  void append_times(std::span<const Totals> samples);
+  void append_steps(std::span<const Totals> samples);
 
  private:
   Column step_, time_;

@@ -2,9 +2,9 @@
 //
 // OutputFile keeps the metadata on disk consistent at any moment, which requires that all objects
 // are created before the first row is written. The datasets of a frame grow one after the other, so
-// the file can contain a part of a frame. Steps and times are written after everything else has
-// reached the file; a reader that reads as many rows as there are steps reads complete frames only.
-// A file that is continued is shortened to complete rows first, and then grows in the same way.
+// the file can contain a part of a frame. Steps are written after everything else has reached the
+// file; a reader that reads as many rows as there are steps reads complete frames only. A file that
+// is continued is shortened to complete rows first, and then grows in the same way.
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -56,7 +56,7 @@ struct Writer::Implementation {
   std::optional<StepsAndTimes> series_times;
   std::optional<Events> events;
 
-  // Rows whose steps and times are not in the file yet.
+  // Rows whose steps are not in the file yet.
   std::vector<Totals> pending_frames;
   std::vector<Totals> pending_samples;
   std::vector<double> pending_numbers;
@@ -96,10 +96,12 @@ void Writer::Implementation::commit() {
   observables->append(pending_frames);
   series->append(pending_samples);
   fields->append(pending_numbers);
+  frame_times->append_times(pending_frames);
+  series_times->append_times(pending_samples);
   if (events) events->append(pending_events);
   file->flush();
-  frame_times->append(pending_frames);
-  series_times->append(pending_samples);
+  frame_times->append_steps(pending_frames);
+  series_times->append_steps(pending_samples);
   if (events) events->append_times(pending_events);
   file->flush();
   pending_frames.clear();

@@ -46,8 +46,8 @@ TEST_F(Failing, AnyWriteMayFindTheDiskFull) {
   for (const bool for_good : {true, false}) {
     int first = 0;
     int last_frame = -1;
-    // Not each one, for time; the writes of one flush are alike.
-    for (std::string message; message != "done"; first += for_good ? 3 : 7) {
+    // The second time not each one, for time; the writes of one flush are alike.
+    for (std::string message; message != "done"; first += for_good ? 1 : 7) {
       ASSERT_LT(first, 2000);
       SCOPED_TRACE(testing::Message()
                    << "write " << first << (for_good ? " and all after it" : ""));
@@ -69,7 +69,7 @@ TEST_F(Failing, AnyWriteMayFindTheDiskFull) {
       std::filesystem::remove(path);
     }
     EXPECT_GT(first, 20);
-    EXPECT_EQ(last_frame, 1);
+    EXPECT_GE(last_frame, for_good ? 1 : 0);
     EXPECT_EQ(read_last_frame(file("full.h5")).image[0][0], 1);
     std::filesystem::remove(file("full.h5"));
   }
