@@ -24,6 +24,7 @@
 #include "src/cli/predict_command.h"
 #include "src/cli/ranks.h"
 #include "src/cli/reference.h"
+#include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
 #include "src/cli/theory_command.h"
@@ -100,12 +101,16 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa) {
       ->option_text("auto|scalar|sse4|avx2|avx512");
 }
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  add_scene(command, arguments.path, arguments.overrides, true);
-  command.add_option("--threads", arguments.engine.threads, "number of threads")
+void add_engine_options(CLI::App& command, EngineOptions& engine) {
+  command.add_option("--threads", engine.threads, "number of threads")
       ->option_text("N")
       ->check(number_in(1, 1024));
-  add_isa(command, arguments.engine.isa);
+  add_isa(command, engine.isa);
+}
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  add_scene(command, arguments.path, arguments.overrides, true);
+  add_engine_options(command, arguments.engine);
 }
 
 void add_run_command(CLI::App& app, int& exit_code) {
@@ -124,6 +129,28 @@ scene, no file is written.
 Examples:
   needlework run profiles/quickstart.toml
   needlework run scene.toml --set collisions.epsilon=0.9 --out cooling.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_resume_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("resume", "continue a run that has ended or was stopped");
+  const auto arguments = std::make_shared<ResumeArguments>();
+  command->add_option("FILE.h5", arguments->file, "output file of the run")->required();
+  command
+      ->add_option("--set", arguments->overrides,
+                   "replace an end of the run, such as until.time=100; may be repeated")
+      ->option_text("until.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_engine_options(*command, arguments->engine);
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  command->footer(R"(The run continues from its last checkpoint, FILE.h5.checkpoint, and appends to
+FILE.h5, with the same collisions as if it had never been stopped. The ends in
+[until] count from the start of the run, except wall_s, which counts from now.
+
+Examples:
+  needlework resume cooling.h5
+  needlework resume cooling.h5 --set until.time=1e6 --threads 2)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -503,6 +530,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
   add_run_command(app, exit_code);
+  add_resume_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_check_command(app, exit_code);
   add_theory_command(app, exit_code);

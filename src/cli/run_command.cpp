@@ -24,7 +24,9 @@ namespace {
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
-  return file.empty() ? "nothing is saved, as no output file is named" : "saved in " + file;
+  if (file.empty()) return "nothing is saved, as no output file is named";
+  if (scene.output.checkpoint_every == 0) return "saved in " + file;
+  return fmt::format("saved in {}; needlework resume {} continues", file, shell_word(file));
 }
 
 int exit_code_of(const runs::Course& course, const Scene& scene) {
@@ -59,14 +61,18 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  return drive(prepared, {.json = arguments.json, .quiet = arguments.quiet});
+}
+
+int drive(runs::PreparedRun& prepared, Printing printing) {
   const SignalGuard guard(prepared.simulation());
-  RunProgress progress(arguments.quiet);
+  RunProgress progress(printing.quiet);
   const runs::Course course = prepared.drive(progress);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
-  if (arguments.json) {
+  if (printing.json) {
     fmt::print("{}\n", json_of(report));
-  } else if (!arguments.quiet) {
+  } else if (!printing.quiet) {
     fmt::print("{}", summary_of(report));
   }
   return exit_code_of(course, prepared.scene());
