@@ -215,21 +215,17 @@ void draw_map(pugi::xml_node parent, const Map& map, const Area& area,
 }
 
 void draw_contours(pugi::xml_node parent, const Map& map, const std::vector<Tick>& levels,
-                   const Area& area) {
-  std::string path;
+                   const Area& area, const ColouredRange& colours) {
+  pugi::xml_node group = add(parent, "g", {{"fill", "none"}, {"stroke-opacity", "0.7"}});
   for (const Tick& level : levels) {
     if (level.label.empty()) continue;
+    std::string path;
     for (const auto& [from, to] : contour(map, level.value, area)) {
       if (const auto part = clipped(from, to, area)) path += path_of({part->first, part->second});
     }
+    const Colour on = is_light(colours(level.value)) ? ink : Colour{0xff, 0xff, 0xff};
+    if (!path.empty()) add(group, "path", {{"d", path}, {"stroke", on}});
   }
-  if (path.empty()) return;
-  add(parent, "path",
-      {{"d", path},
-       {"fill", "none"},
-       {"stroke", ink},
-       {"stroke-width", 0.8},
-       {"stroke-opacity", "0.6"}});
 }
 
 double longest_arrow(const Arrows& arrows) {

@@ -199,10 +199,11 @@ Margins PanelLayout::margins() const {
   return margins;
 }
 
-void PanelLayout::draw(pugi::xml_node group, const std::string& id) const {
+void PanelLayout::draw(pugi::xml_node group) const {
   draw_axes(group);
   if (panel_.map) draw_map(group, *panel_.map, area_, colours_);
-  if (panel_.map && panel_.map->contours) draw_contours(group, *panel_.map, colour_ticks_, area_);
+  if (panel_.map && panel_.map->contours)
+    draw_contours(group, *panel_.map, colour_ticks_, area_, colours_);
   for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
     draw_curve(group, panel_.curves[i], colour_of(i), area_, colours_);
   }
@@ -213,7 +214,7 @@ void PanelLayout::draw(pugi::xml_node group, const std::string& id) const {
     add_text(group, area_.x.end / 2, -12, panel_.title,
              {.size = title_size, .anchor = "middle", .bold = true});
   }
-  if (has_bar_) draw_bar(group, id);
+  if (has_bar_) draw_bar(group);
   if (!entries_.empty()) draw_legend(group);
 }
 
@@ -249,20 +250,26 @@ void PanelLayout::draw_axes(pugi::xml_node group) const {
   }
 }
 
-void PanelLayout::draw_bar(pugi::xml_node group, const std::string& id) const {
+void PanelLayout::draw_bar(pugi::xml_node group) const {
   const double left = area_.x.end + bar_gap, height = area_.y.begin;
-  pugi::xml_node gradient = add(group, "linearGradient",
-                                {{"id", id}, {"x1", 0.0}, {"x2", 0.0}, {"y1", 1.0}, {"y2", 0.0}});
-  const Gradient colours = colours_.gradient;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(colours.size() - 1);
-    add(gradient, "stop", {{"offset", fmt::format("{:.4g}", share)}, {"stop-color", colours[i]}});
+  // Of strips rather than a gradient, which would need a name that is unique where several pictures
+  // are part of one page.
+  constexpr int strips = 96;
+  pugi::xml_node bar = add(group, "g", {{"shape-rendering", "crispEdges"}});
+  for (int i = 0; i < strips; ++i) {
+    const Colour colour = colour_at(colours_.gradient, (i + 0.5) / strips);
+    add(bar, "rect",
+        {{"x", left},
+         {"y", height * (strips - 1 - i) / strips},
+         {"width", bar_thickness},
+         {"height", height / strips + 0.5},
+         {"fill", colour}});
   }
   add(group, "rect",
       {{"x", left},
        {"width", bar_thickness},
        {"height", height},
-       {"fill", fmt::format("url(#{})", id)},
+       {"fill", "none"},
        {"stroke", ink}});
   Scale scale = colours_.share;
   scale.begin = height;

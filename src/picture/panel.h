@@ -24,9 +24,8 @@ class PanelLayout {
 
   Margins margins() const;
   double height() const { return area_.y.begin; }
-  /// Draws into a group whose origin is the upper left corner of the axes. `id` is a name for what
-  /// the panel defines, unique in the document.
-  void draw(pugi::xml_node group, const std::string& id) const;
+  /// Draws into a group whose origin is the upper left corner of the axes.
+  void draw(pugi::xml_node group) const;
 
  private:
   struct LegendEntry {
@@ -43,7 +42,7 @@ class PanelLayout {
   double covered(Point corner) const;
   std::size_t colour_of(std::size_t curve) const;
   void draw_axes(pugi::xml_node group) const;
-  void draw_bar(pugi::xml_node group, const std::string& id) const;
+  void draw_bar(pugi::xml_node group) const;
   void draw_legend(pugi::xml_node group) const;
   double height_below() const;
   double bar_width() const;
