@@ -57,6 +57,7 @@ LIBRARIES = [
     (r"toml\+\+/.*", ["scene"]),
     (r"bzlib\.h", ["io"]),
     (r"pugixml\.hpp", ["io", "picture"]),
+    (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
