@@ -25,6 +25,10 @@ Theme theme_of(bool dark) {
   return {{255, 255, 255}, {34, 34, 34}, {150, 156, 170}, {40, 80, 150}};
 }
 
+std::string count_text(const State& state) {
+  return state.size() == 1 ? "1 needle" : fmt::format("{} needles", state.size());
+}
+
 class Painter {
  public:
   Painter(const State& state, const NeedlePicture& settings)
@@ -133,14 +137,13 @@ class Painter {
     if (settings_.time) {
       write(fmt::format("time {:.6g}", *settings_.time), {edge, y}, Words::Anchor::start);
     }
-    write(fmt::format("{} needles", state_.size()), {settings_.width - edge, y},
-          Words::Anchor::end);
+    write(count_text(state_), {settings_.width - edge, y}, Words::Anchor::end);
   }
 
   void describe(const NeedleValues& values) {
-    drawing_.title = fmt::format("{} needles", state_.size());
+    drawing_.title = count_text(state_);
     drawing_.description = fmt::format(
-        "{} needles of length {:g} in a periodic box of {:g} by {:g} by {:g}", state_.size(),
+        "{} of length {:g} in a periodic box of {:g} by {:g} by {:g}", count_text(state_),
         settings_.needle_length, state_.box[0], state_.box[1], state_.box[2]);
     if (settings_.time) drawing_.description += fmt::format(" at time {:.6g}", *settings_.time);
     if (!values.label.empty()) {
