@@ -118,11 +118,15 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
       ->option_text("FILE.h5");
   command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  CLI::Option* quiet = command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  command
+      ->add_flag("--watch", arguments->watch,
+                 "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
+      ->excludes(quiet);
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
-scene, no file is written.
+scene, no file is written. --watch needs a terminal.
 
 Examples:
   needlework run profiles/quickstart.toml
@@ -593,6 +597,7 @@ Exit codes:
 
 Environment:
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
+  NO_COLOR         if set and not empty, run --watch draws without colours
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
 }
 

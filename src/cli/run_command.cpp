@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "src/cli/report.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
+#include "src/cli/watch.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -41,9 +43,21 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   return ok;
 }
 
+std::unique_ptr<runs::RunMonitor> make_monitor(const RunArguments& arguments,
+                                               const runs::PreparedRun& run) {
+  if (arguments.watch) return std::make_unique<RunWatch>(run.scene(), run.simulation().totals());
+  return std::make_unique<RunProgress>(arguments.quiet);
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  if (arguments.watch && !can_watch()) {
+    print_error(
+        "--watch: the charts are drawn on standard error: expected a terminal there, and its name "
+        "in TERM, or no --watch, for a line of progress every 10 s");
+    return bad_usage;
+  }
   runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
@@ -60,8 +74,8 @@ int run(const RunArguments& arguments) {
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
   const SignalGuard guard(prepared.simulation());
-  RunProgress progress(arguments.quiet);
-  const runs::Course course = prepared.drive(progress);
+  const auto monitor = make_monitor(arguments, prepared);
+  const runs::Course course = prepared.drive(*monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (arguments.json) {

@@ -11,7 +11,7 @@ namespace needlework::cli {
 struct RunArguments {
   SceneArguments scene;
   std::optional<std::string> out;
-  bool json = false, quiet = false, force = false;
+  bool json = false, quiet = false, watch = false, force = false;
 };
 
 /// Returns the exit code.
