@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "needlework/h5md.h"
-#include "src/report/local_density.h"
+#include "src/picture/needle_values.h"
 
 namespace needlework::report {
 
@@ -17,26 +16,26 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-float length_of(const Vector& a) { return static_cast<float>(std::sqrt(dot(a, a))); }
+float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
 
 std::uint16_t place_in_box(double x, double edge) {
   const double share = x / edge - std::floor(x / edge);
   return static_cast<std::uint16_t>(std::min(65535.0, std::floor(share * 65536)));
 }
 
-float alignment_of(const Vector& u, const Vector& v) {
-  const double v2 = dot(v, v);
-  if (!(v2 > 0)) return std::numeric_limits<float>::quiet_NaN();
-  return static_cast<float>(3 * dot(u, v) * dot(u, v) / v2 - 1);
+// The values that needlework view draws, of the needles chosen.
+std::vector<float> chosen_values(const char* quantity, const State& state,
+                                 std::span<const std::size_t> chosen) {
+  const std::vector<double> all = picture::values_of(quantity, state, true).values;
+  std::vector<float> values;
+  for (const std::size_t i : chosen) values.push_back(static_cast<float>(all[i]));
+  return values;
 }
 
-Json frame_of(const State& state, double length, std::span<const std::size_t> chosen,
-              Arrays& arrays) {
+Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& arrays) {
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
-  std::vector<float> speed, spin, alignment;
+  std::vector<float> speed, spin;
   for (const std::size_t i : chosen) {
     for (int a = 0; a < 3; ++a) {
       position.push_back(place_in_box(state.position[i][a], state.box[a]));
@@ -45,9 +44,7 @@ Json frame_of(const State& state, double length, std::span<const std::size_t> ch
     }
     speed.push_back(length_of(state.velocity[i]));
     spin.push_back(length_of(state.angular_velocity[i]));
-    alignment.push_back(alignment_of(state.orientation[i], state.velocity[i]));
   }
-  const double radius = std::min(length, *std::min_element(state.box.begin(), state.box.end()) / 2);
   const std::size_t n = chosen.size();
   const auto add = [&](const std::vector<float>& values) {
     return arrays.add(std::span<const float>(values), {n});
@@ -57,8 +54,8 @@ Json frame_of(const State& state, double length, std::span<const std::size_t> ch
           {"orientation", arrays.add(std::span<const std::int16_t>(orientation), {n, 3})},
           {"speed", add(speed)},
           {"spin", add(spin)},
-          {"alignment", add(alignment)},
-          {"density", add(local_density(state, radius, chosen))}};
+          {"alignment", add(chosen_values("alignment", state, chosen))},
+          {"density", add(chosen_values("density", state, chosen))}};
 }
 
 }  // namespace
@@ -70,7 +67,6 @@ Json frames_of(const std::string& path, double length, const Limits& limits, Arr
   const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
   const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
   Json out = {{"length", length},
-              {"density_radius", length},
               {"needles_in_file", needles},
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
@@ -78,7 +74,7 @@ Json frames_of(const std::string& path, double length, const Limits& limits, Arr
   for (const std::size_t frame : frames) {
     Json one = {{"number", frame}, {"time", nullptr}};
     if (const auto time = file.time(frame)) one["time"] = *time;
-    one.update(frame_of(file.read(frame), length, chosen, arrays));
+    one.update(frame_of(file.read(frame), chosen, arrays));
     out["frames"].push_back(std::move(one));
   }
   return out;

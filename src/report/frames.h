@@ -12,8 +12,8 @@ namespace needlework::report {
 /// Reads the frames of an H5MD file: box, numbers of needles and frames in the file and of those
 /// shown, and for each frame its time with arrays of the needles shown [n]. `position` [n][3] is
 /// the centre wrapped into the box in units of edge / 65536, `orientation` [n][3] the director in
-/// units of 1 / 32767, `speed` |v|, `spin` |w|, `alignment` 3 (u.v)^2 / v^2 - 1, NaN for a needle
-/// at rest, and `density` the local density within one needle length. `length` is that of a needle.
+/// units of 1 / 32767, `speed` |v|, `spin` |w|, and `alignment` and `density` are those of
+/// needlework view, see picture::values_of. `length` is that of a needle.
 ///
 /// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
 nlohmann::ordered_json frames_of(const std::string& path, double length, const Limits& limits,

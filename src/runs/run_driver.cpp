@@ -6,6 +6,7 @@
 
 #include "src/observe/completion.h"
 #include "src/runs/loaded_scene.h"
+#include "src/runs/saved_totals.h"
 
 namespace needlework::runs {
 namespace {
@@ -62,6 +63,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
     }
     if (const auto stop = step(until, start)) return course_.stop = *stop;
     flush_if_due();
+    save_checkpoint_if_due();
     if (const double elapsed = seconds_since(start); monitor.is_due(elapsed)) {
       show_progress(until, elapsed, monitor);
     }
@@ -89,7 +91,6 @@ void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
 }
 
 void RunDriver::begin() {
-  last_flush_ = SteadyClock::now();
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
   course_.initial = simulation_.totals();
@@ -99,6 +100,19 @@ void RunDriver::begin() {
     frames_.pass(0);
   }
   begun_ = true;
+  if (output_.saves_start) save_checkpoint();
+}
+
+void RunDriver::transfer(Archive& archive) {
+  bool has_rate = rate_.has_value();
+  archive(begun_, series_, frames_, last_sample_, last_frame_, course_.initial, course_.samples,
+          has_rate);
+  if (archive.reads()) {
+    rate_.reset();
+    if (has_rate) rate_.emplace(simulation_.mean_free_time());
+  }
+  if (rate_) rate_->transfer(archive);
+  if (archive.reads() && begun_) listen_to_collisions();
 }
 
 void RunDriver::listen_to_collisions() {
@@ -178,6 +192,16 @@ void RunDriver::flush() {
 
 void RunDriver::flush_if_due() {
   if (output_.writer && seconds_since(last_flush_) >= flush_interval) flush();
+}
+
+void RunDriver::save_checkpoint() {
+  if (!output_.save_checkpoint) return;
+  output_.save_checkpoint();
+  last_checkpoint_ = last_flush_ = SteadyClock::now();
+}
+
+void RunDriver::save_checkpoint_if_due() {
+  if (seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every) save_checkpoint();
 }
 
 void RunDriver::show_progress(const Scene::Until& until, double elapsed,

@@ -12,19 +12,12 @@ const colourings = {
   speed: { text: "speed", unit: "length / time", range: (values) => [0, 2.5 * rootMeanSquare(values)] },
   spin: { text: "spin", unit: "radians / time", range: (values) => [0, 2.5 * rootMeanSquare(values)] },
   alignment: { text: "alignment with the velocity", unit: "Q = 3 cos² − 1", range: () => [-1, 2] },
-  density: { text: "local density", unit: "needles per volume", range: (values) => middleOf(values) },
+  density: { text: "local density", unit: "of the mean", range: () => [0, 2] },
 };
 
 function rootMeanSquare(values) {
   const sum = values.reduce((total, value) => total + value * value, 0);
   return Math.sqrt(sum / values.length) || 1;
-}
-
-// From the 1st to the 99th percentile.
-function middleOf(values) {
-  const sorted = Float32Array.from(values).sort();
-  const [low, high] = [0.01, 0.99].map((share) => sorted[Math.round(share * (sorted.length - 1))]);
-  return high > low ? [low, high] : [low - 0.5, low + 0.5];
 }
 
 const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
@@ -280,6 +273,6 @@ function notesOf(frames) {
   if (frames.frames.length < frames.frames_in_file) {
     notes.push(`Shown are ${frames.frames.length} of ${frames.frames_in_file} frames, evenly chosen.`);
   }
-  notes.push("Local density counts the centres within one needle length.");
+  notes.push("Local density counts the centres in a ball around each that holds 30 others in the mean.");
   return notes;
 }
