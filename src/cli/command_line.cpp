@@ -414,7 +414,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("FILES", request->files,
                    "H5MD files of runs, summary.h5 of sweeps, results of benchmarks in JSON")
-      ->option_text("FILES...")
+      ->option_text("FILE...")
       ->required();
   command->add_option("-o,--out", request->out, "page to write")
       ->option_text("FILE.html")
