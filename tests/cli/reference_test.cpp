@@ -57,6 +57,7 @@ constexpr Completion completions[] = {
     {"run sm", "small.toml"},
     {"info st", "state.h5"},
     {"sweep --out fol", "folder"},
+    {"report small.h5 state.t", "state.toml"},
     {"help ch", "check"},
     {"bench qui", "quick"},
 };

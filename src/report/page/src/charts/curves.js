@@ -9,9 +9,9 @@ import { makeReader } from "./reader.js";
 /**
  * `chart`: title, caption, x and y {label, log}, and curves {name, x, y, colour}: numbers of equal
  * lengths. Also of a curve: `low` and `high`, its errors; `dashed` or `faint`; `points`: true, or
- * "alone" without a line; `borders`: those of the bins whose middles are x; `beside`: the axes do not
- * have to show all of it. With `robust`, the y axis leaves out rare values that are far from all
- * others. Returns a figure with `update(curves)`.
+ * "alone" without a line; `borders`: those of the bins whose middles are x; `beside`: a logarithmic
+ * axis does not have to show all of it. With `robust`, the y axis leaves out rare values that are far
+ * from all others. Returns a figure with `update(curves)`.
  */
 export function curvesChart(chart) {
   let curves = chart.curves;
@@ -134,7 +134,7 @@ function marksOf(curve, logs) {
 
 function domainOf(curves, axis, log, robust) {
   const usable = (value) => Number.isFinite(value) && (!log || value > 0);
-  const inside = curves.filter((curve) => !curve.beside || curves.every((other) => other.beside));
+  const inside = curves.filter((curve) => !(log && curve.beside));
   const values = inside.flatMap((curve) => {
     const parts = axis === "x" ? [curve.borders ?? curve.x] : [curve.y, curve.low ?? [], curve.high ?? []];
     return parts.flatMap((part) => Array.from(part).filter(usable));
