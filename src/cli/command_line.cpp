@@ -25,12 +25,14 @@
 #include "src/cli/predict_command.h"
 #include "src/cli/ranks.h"
 #include "src/cli/reference.h"
+#include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
 #include "src/cli/theory_command.h"
 #include "src/cli/usage.h"
 #include "src/cli/version.h"
 #include "src/cli/view_command.h"
+#include "src/cli/watch.h"
 #include "src/picture/needle_values.h"
 #include "src/runs/exit_codes.h"
 #include "src/serve/server.h"
@@ -103,12 +105,34 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa) {
       ->option_text("auto|scalar|sse4|avx2|avx512");
 }
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  add_scene(command, arguments.path, arguments.overrides, true);
-  command.add_option("--threads", arguments.engine.threads, "number of threads")
+void add_engine_options(CLI::App& command, EngineOptions& engine) {
+  command.add_option("--threads", engine.threads, "number of threads")
       ->option_text("N")
       ->check(number_in(1, 1024));
-  add_isa(command, arguments.engine.isa);
+  add_isa(command, engine.isa);
+}
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  add_scene(command, arguments.path, arguments.overrides, true);
+  add_engine_options(command, arguments.engine);
+}
+
+CLI::Validator terminal_on_stderr() {
+  return {[](const std::string&) -> std::string {
+            return can_watch() ? ""
+                               : "expected a terminal on standard error, and its name in TERM; "
+                                 "without --watch, a line is printed every 10 s";
+          },
+          "TERMINAL"};
+}
+
+void add_what_to_show(CLI::App& command, bool& quiet, bool& watch) {
+  CLI::Option* nothing = command.add_flag("--quiet", quiet, "no progress, no summary");
+  command
+      .add_flag("--watch", watch,
+                "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
+      ->excludes(nothing)
+      ->check(terminal_on_stderr());
 }
 
 void add_run_command(CLI::App& app, int& exit_code) {
@@ -118,11 +142,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
       ->option_text("FILE.h5");
   command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  CLI::Option* quiet = command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
-  command
-      ->add_flag("--watch", arguments->watch,
-                 "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
-      ->excludes(quiet);
+  add_what_to_show(*command, arguments->quiet, arguments->watch);
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
@@ -131,6 +151,28 @@ scene, no file is written. --watch needs a terminal.
 Examples:
   needlework run profiles/quickstart.toml
   needlework run scene.toml --set collisions.epsilon=0.9 --out cooling.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_resume_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("resume", "continue a run that has ended or was stopped");
+  const auto arguments = std::make_shared<ResumeArguments>();
+  command->add_option("FILE.h5", arguments->file, "output file of the run")->required();
+  command
+      ->add_option("--set", arguments->overrides,
+                   "replace an end of the run, such as until.time=100; may be repeated")
+      ->option_text("until.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_engine_options(*command, arguments->engine);
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  add_what_to_show(*command, arguments->quiet, arguments->watch);
+  command->footer(R"(The run continues from its last checkpoint, FILE.h5.checkpoint, and appends to
+FILE.h5, with the same collisions as if it had never been stopped. The ends in
+[until] count from the start of the run, except wall_s, which counts from now.
+
+Examples:
+  needlework resume cooling.h5
+  needlework resume cooling.h5 --set until.time=1e6 --threads 2)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -569,6 +611,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
   add_run_command(app, exit_code);
+  add_resume_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_check_command(app, exit_code);
   add_theory_command(app, exit_code);

@@ -26,7 +26,9 @@ namespace {
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
-  return file.empty() ? "nothing is saved, as no output file is named" : "saved in " + file;
+  if (file.empty()) return "nothing is saved, as no output file is named";
+  if (scene.output.checkpoint_every == 0) return "saved in " + file;
+  return fmt::format("saved in {}; needlework resume {} continues", file, shell_word(file));
 }
 
 int exit_code_of(const runs::Course& course, const Scene& scene) {
@@ -43,21 +45,14 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   return ok;
 }
 
-std::unique_ptr<runs::RunMonitor> make_monitor(const RunArguments& arguments,
-                                               const runs::PreparedRun& run) {
-  if (arguments.watch) return std::make_unique<RunWatch>(run.scene(), run.simulation().totals());
-  return std::make_unique<RunProgress>(arguments.quiet);
+std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, Printing printing) {
+  if (printing.watch) return std::make_unique<RunWatch>(scene);
+  return std::make_unique<RunProgress>(printing.quiet);
 }
 
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  if (arguments.watch && !can_watch()) {
-    print_error(
-        "--watch: the charts are drawn on standard error: expected a terminal there, and its name "
-        "in TERM, or no --watch, for a line of progress every 10 s");
-    return bad_usage;
-  }
   runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
@@ -73,14 +68,19 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  return drive(prepared,
+               {.json = arguments.json, .quiet = arguments.quiet, .watch = arguments.watch});
+}
+
+int drive(runs::PreparedRun& prepared, Printing printing) {
   const SignalGuard guard(prepared.simulation());
-  const auto monitor = make_monitor(arguments, prepared);
+  const auto monitor = make_monitor(prepared.scene(), printing);
   const runs::Course course = prepared.drive(*monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
-  if (arguments.json) {
+  if (printing.json) {
     fmt::print("{}\n", json_of(report));
-  } else if (!arguments.quiet) {
+  } else if (!printing.quiet) {
     fmt::print("{}", summary_of(report));
   }
   return exit_code_of(course, prepared.scene());

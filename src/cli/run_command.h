@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/cli/scene_arguments.h"
+#include "src/runs/prepared_run.h"
 
 namespace needlework::cli {
 
@@ -16,5 +17,14 @@ struct RunArguments {
 
 /// Returns the exit code.
 int run(const RunArguments& arguments);
+
+/// What to print of a run.
+struct Printing {
+  bool json = false, quiet = false, watch = false;
+};
+
+/// Drives a run to its end, unless a signal ends it before, and prints the result. Returns the exit
+/// code.
+int drive(runs::PreparedRun& prepared, Printing printing);
 
 }  // namespace needlework::cli

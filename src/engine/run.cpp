@@ -129,14 +129,18 @@ Gas make_gas(const Scene& scene, const State& initial) {
   return gas;
 }
 
-Run::Run(const Scene& scene, Gas initial)
-    : gas(std::move(initial)),
-      restitution{scene.collisions.epsilon, scene.collisions.beta},
+Run::Run(const Scene& scene)
+    : restitution{scene.collisions.epsilon, scene.collisions.beta},
       accuracy(accuracy_of(scene.engine)),
       effects(effects_of(scene)),
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
+  gas.set_species({species_of(scene)});
+}
+
+Run::Run(const Scene& scene, Gas initial) : Run(scene) {
+  gas = std::move(initial);
   open_window();
   gas.clock = Clock(mean_free_time);
   for (Needle i{0}; i < gas.size(); ++i) {

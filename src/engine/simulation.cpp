@@ -75,8 +75,10 @@ std::string name_effects(const Scene::Collisions& collisions) {
 }  // namespace
 
 struct Simulation::Implementation {
-  Implementation(const Scene& its_scene, Gas initial)
-      : scene(its_scene), run(scene, std::move(initial)), isa(isa_of(scene.engine.isa)) {
+  /// `start` is a gas or a checkpoint.
+  template <class Start>
+  Implementation(const Scene& its_scene, Start&& start)
+      : scene(its_scene), run(scene, std::forward<Start>(start)), isa(isa_of(scene.engine.isa)) {
     if (has_sizes(scene.engine.search) && !scene.engine.cell_side && !scene.engine.capsule_radius) {
       sizing.emplace(run.gas, run.now);
     }
@@ -160,6 +162,9 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::Simulation(const Scene& scene, const State& initial)
     : implementation_(std::make_unique<Implementation>(scene, make_gas(scene, initial))) {}
 
+Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint)
+    : implementation_(std::make_unique<Implementation>(scene, checkpoint)) {}
+
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -196,6 +201,9 @@ FreeNeedle Simulation::needle(std::uint32_t id) const { return implementation_->
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {
   implementation_->set_velocities(velocity, angular_velocity);
+}
+Checkpoint Simulation::checkpoint() const {
+  return implementation_->run.save(implementation_->scene, implementation_->by_id());
 }
 std::string Simulation::search() const { return implementation_->search; }
 std::string Simulation::queue() const { return implementation_->calendar; }
