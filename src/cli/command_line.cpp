@@ -126,12 +126,13 @@ CLI::Validator terminal_on_stderr() {
           "TERMINAL"};
 }
 
-void add_what_to_show(CLI::App& command, bool& quiet, bool& watch) {
-  CLI::Option* nothing = command.add_flag("--quiet", quiet, "no progress, no summary");
+void add_printing(CLI::App& command, Printing& printing) {
+  command.add_flag("--json", printing.json, "print the result as one JSON object");
+  CLI::Option* quiet = command.add_flag("--quiet", printing.quiet, "no progress, no summary");
   command
-      .add_flag("--watch", watch,
+      .add_flag("--watch", printing.watch,
                 "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
-      ->excludes(nothing)
+      ->excludes(quiet)
       ->check(terminal_on_stderr());
 }
 
@@ -141,8 +142,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_scene_arguments(*command, arguments->scene);
   command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
       ->option_text("FILE.h5");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  add_what_to_show(*command, arguments->quiet, arguments->watch);
+  add_printing(*command, arguments->printing);
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
@@ -164,8 +164,7 @@ void add_resume_command(CLI::App& app, int& exit_code) {
       ->option_text("until.KEY=VALUE")
       ->allow_extra_args(false);
   add_engine_options(*command, arguments->engine);
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  add_what_to_show(*command, arguments->quiet, arguments->watch);
+  add_printing(*command, arguments->printing);
   command->footer(R"(The run continues from its last checkpoint, FILE.h5.checkpoint, and appends to
 FILE.h5, with the same collisions as if it had never been stopped. The ends in
 [until] count from the start of the run, except wall_s, which counts from now.

@@ -24,8 +24,7 @@ int run(const ResumeArguments& arguments) {
   runs::choose_engine(scene);
 
   runs::PreparedRun prepared(std::move(saved));
-  return drive(prepared,
-               {.json = arguments.json, .quiet = arguments.quiet, .watch = arguments.watch});
+  return drive(prepared, arguments.printing);
 }
 
 }  // namespace needlework::cli

@@ -45,7 +45,7 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   return ok;
 }
 
-std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, Printing printing) {
+std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printing& printing) {
   if (printing.watch) return std::make_unique<RunWatch>(scene);
   return std::make_unique<RunProgress>(printing.quiet);
 }
@@ -68,11 +68,10 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
-  return drive(prepared,
-               {.json = arguments.json, .quiet = arguments.quiet, .watch = arguments.watch});
+  return drive(prepared, arguments.printing);
 }
 
-int drive(runs::PreparedRun& prepared, Printing printing) {
+int drive(runs::PreparedRun& prepared, const Printing& printing) {
   const SignalGuard guard(prepared.simulation());
   const auto monitor = make_monitor(prepared.scene(), printing);
   const runs::Course course = prepared.drive(*monitor);
