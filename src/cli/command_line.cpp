@@ -33,6 +33,7 @@
 #include "src/cli/usage.h"
 #include "src/cli/version.h"
 #include "src/cli/view_command.h"
+#include "src/cli/watch.h"
 #include "src/picture/needle_values.h"
 #include "src/runs/exit_codes.h"
 #include "src/serve/server.h"
@@ -117,19 +118,32 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   add_engine_options(command, arguments.engine);
 }
 
+CLI::Validator terminal_on_stderr() {
+  return {[](const std::string&) -> std::string {
+            return can_watch() ? ""
+                               : "expected a terminal on standard error, and its name in TERM; "
+                                 "without --watch, a line is printed every 10 s";
+          },
+          "TERMINAL"};
+}
+
+void add_printing(CLI::App& command, Printing& printing) {
+  command.add_flag("--json", printing.json, "print the result as one JSON object");
+  CLI::Option* quiet = command.add_flag("--quiet", printing.quiet, "no progress, no summary");
+  command
+      .add_flag("--watch", printing.watch,
+                "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
+      ->excludes(quiet)
+      ->check(terminal_on_stderr());
+}
+
 void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "simulate a scene");
   const auto arguments = std::make_shared<RunArguments>();
   add_scene_arguments(*command, arguments->scene);
   command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
       ->option_text("FILE.h5");
-  command->add_flag("--json", arguments->printing.json, "print the result as one JSON object");
-  CLI::Option* quiet =
-      command->add_flag("--quiet", arguments->printing.quiet, "no progress, no summary");
-  command
-      ->add_flag("--watch", arguments->printing.watch,
-                 "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
-      ->excludes(quiet);
+  add_printing(*command, arguments->printing);
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
@@ -151,8 +165,7 @@ void add_resume_command(CLI::App& app, int& exit_code) {
       ->option_text("until.KEY=VALUE")
       ->allow_extra_args(false);
   add_engine_options(*command, arguments->engine);
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  add_printing(*command, arguments->printing);
   command->footer(R"(The run continues from its last checkpoint, FILE.h5.checkpoint, and appends to
 FILE.h5, with the same collisions as if it had never been stopped. The ends in
 [until] count from the start of the run, except wall_s, which counts from now.

@@ -24,7 +24,7 @@ int run(const ResumeArguments& arguments) {
   runs::choose_engine(scene);
 
   runs::PreparedRun prepared(std::move(saved));
-  return drive(prepared, {.json = arguments.json, .quiet = arguments.quiet});
+  return drive(prepared, arguments.printing);
 }
 
 }  // namespace needlework::cli

@@ -45,21 +45,14 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   return ok;
 }
 
-std::unique_ptr<runs::RunMonitor> make_monitor(const Printing& printing,
-                                               const runs::PreparedRun& run) {
-  if (printing.watch) return std::make_unique<RunWatch>(run.scene(), run.simulation().totals());
+std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printing& printing) {
+  if (printing.watch) return std::make_unique<RunWatch>(scene);
   return std::make_unique<RunProgress>(printing.quiet);
 }
 
 }  // namespace
 
 int run(const RunArguments& arguments) {
-  if (arguments.printing.watch && !can_watch()) {
-    print_error(
-        "--watch: the charts are drawn on standard error: expected a terminal there, and its name "
-        "in TERM, or no --watch, for a line of progress every 10 s");
-    return bad_usage;
-  }
   runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
@@ -80,7 +73,7 @@ int run(const RunArguments& arguments) {
 
 int drive(runs::PreparedRun& prepared, const Printing& printing) {
   const SignalGuard guard(prepared.simulation());
-  const auto monitor = make_monitor(printing, prepared);
+  const auto monitor = make_monitor(prepared.scene(), printing);
   const runs::Course course = prepared.drive(*monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};

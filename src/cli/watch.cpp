@@ -57,12 +57,16 @@ std::vector<std::string> watch_lines(const std::vector<picture::Panel>& panels,
   return lines;
 }
 
-RunWatch::RunWatch(const Scene& scene, const Totals& initial)
-    : run_(scene, initial), colours_(environment("NO_COLOR").empty()) {}
+RunWatch::RunWatch(const Scene& scene) : scene_(scene), colours_(environment("NO_COLOR").empty()) {}
+
+void RunWatch::begin(const Totals& initial, std::span<const Totals> samples) {
+  run_.emplace(scene_, initial);
+  for (const Totals& sample : samples) run_->add(sample);
+}
 
 void RunWatch::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
   next_record_ = elapsed + record_interval;
-  run_.add(now);
+  run_->add(now);
   if (elapsed < next_drawing_) return;
   next_drawing_ = elapsed + drawing_interval;
   progress_ = runs::progress_text(elapsed, fraction, runs::progress_of_run(now, initial_energy));
@@ -74,7 +78,7 @@ void RunWatch::draw() {
   // A row for the line of progress, one for the cursor.
   const std::size_t rows = terminal.rows - std::min<std::size_t>(terminal.rows, 2);
   std::vector<std::string> lines =
-      watch_lines(run_.panels(), {terminal.columns - 1, rows}, colours_);
+      watch_lines(run_->panels(), {terminal.columns - 1, rows}, colours_);
   if (!progress_.empty()) lines.push_back(progress_.substr(0, terminal.columns - 1));
   // Lines of another width may have been broken: then new ones begin below them.
   const bool in_place = drawn_ > 0 && columns_ == terminal.columns;
@@ -89,7 +93,7 @@ void RunWatch::draw() {
 
 void RunWatch::clear() {
   progress_.clear();
-  draw();
+  if (run_) draw();
 }
 
 bool RunWatch::stop_requested() const { return SignalGuard::received() != 0; }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +25,9 @@ std::vector<std::string> watch_lines(const std::vector<picture::Panel>& panels,
 /// out if NO_COLOR is set.
 class RunWatch : public runs::RunMonitor {
  public:
-  RunWatch(const Scene& scene, const Totals& initial);
+  /// The scene must outlive it.
+  explicit RunWatch(const Scene& scene);
+  void begin(const Totals& initial, std::span<const Totals> samples) override;
   bool is_due(double elapsed) const override { return elapsed >= next_record_; }
   void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
   void clear() override;
@@ -32,7 +36,8 @@ class RunWatch : public runs::RunMonitor {
  private:
   void draw();
 
-  WatchedRun run_;
+  const Scene& scene_;
+  std::optional<WatchedRun> run_;
   bool colours_;
   double next_record_ = 0, next_drawing_ = 0;  ///< [s]
   std::string progress_;

@@ -366,7 +366,7 @@ TEST_F(RunCommand, WatchesOnATerminalOnly) {
   for (const char* before : {"TERM=xterm", "TERM=dumb", "TERM="}) {
     const Outcome refused = run("run small.toml --watch --out a.h5", before);
     EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_TRUE(refused.complains("--watch: the charts are drawn on standard error: expected a"));
+    EXPECT_TRUE(refused.complains("--watch expected a terminal on standard error"));
   }
   EXPECT_FALSE(exists("a.h5"));
   const Outcome both = run("run small.toml --watch --quiet");

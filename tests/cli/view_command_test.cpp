@@ -12,7 +12,7 @@ class ViewCommand : public ProgramTest {
   void make_frames() const {
     write("frames.toml",
           "needles = { count = 20, box = 7 }\nuntil.time = 2\n"
-          "output = { file = \"a.h5\", frames = [1] }\n");
+          "output = { file = \"a.h5\", frames = [1], checkpoint_every = 0 }\n");
     ASSERT_EQ(run("run frames.toml --quiet").exit_code, 0);
   }
   bool is_png(const std::string& name) const { return read(name).starts_with("\x89PNG\r\n"); }
