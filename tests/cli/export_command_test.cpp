@@ -12,7 +12,8 @@ class ExportCommand : public ProgramTest {
   // Runs a scene of needles of length 1.5 that writes frames at three times to a.h5.
   void make_frames() const {
     write("frames.toml",
-          "needles.box = 7\nuntil.time = 2\noutput = { file = \"a.h5\", frames = [1] }\n"
+          "needles.box = 7\nuntil.time = 2\noutput = { file = \"a.h5\", frames = [1], "
+          "checkpoint_every = 0 }\n"
           "collisions.epsilon = 0.5\ncollisions.tc = 1e-3\n"
           "[[species]]\nname = \"a\"\ncount = 20\nlength = 1.5\nmass = 3\nk = 2.3\n");
     ASSERT_EQ(run("run frames.toml --quiet").exit_code, 0);
@@ -23,7 +24,7 @@ class ExportCommand : public ProgramTest {
 };
 
 TEST_F(ExportCommand, KeepsAnExistingFileUnlessForced) {
-  ASSERT_EQ(run("run small.toml --quiet --out a.h5").exit_code, 0);
+  ASSERT_EQ(run("run small.toml --quiet --out a.h5 --set output.checkpoint_every=0").exit_code, 0);
   const std::string before = read("a.h5");
   const Outcome exported = run("export a.h5 a.vtkhdf");
   EXPECT_EQ(exported.exit_code, 0);

@@ -346,20 +346,26 @@ TEST_F(RunCommand, DrawsOneLineOfProgressOnATerminal) {
 TEST_F(RunCommand, DrawsChartsOnATerminalIfWatched) {
   if (shell("script -qec true screen").exit_code != 0)
     GTEST_SKIP() << "no terminal can be had here";
-  const auto screen_of = [&](const std::string& variables) {
+  const auto screen_of = [&](const std::string& arguments, const std::string& variables) {
     const std::string command =
-        "stty cols 100 rows 30; '" NEEDLEWORK_PROGRAM "' run cooling.toml --watch";
-    EXPECT_EQ(
-        shell("TERM=xterm " + variables + " script -qec \"" + command + "\" screen").exit_code, 0);
+        "stty cols 100 rows 30; '" NEEDLEWORK_PROGRAM "' " + arguments + " --watch";
+    const std::string terminal = "TERM=xterm " + variables + " script -qec \"" + command;
+    EXPECT_EQ(shell(terminal + "\" screen").exit_code, 0);
     return read("screen");
   };
-  const std::string screen = screen_of("NO_COLOR=");
+  const std::string charts = "run cooling.toml --out c.h5 --force";
+  const std::string screen = screen_of(charts, "NO_COLOR=");
   for (const char* part : {"E/E(0)", "T_tr/T_rot", "┤", "\033[33mo\033[0m", "measured/theory"}) {
     EXPECT_NE(screen.find(part), std::string::npos) << part << " in\n" << screen;
   }
-  const std::string plain = screen_of("NO_COLOR=1");
+  const std::string plain = screen_of(charts, "NO_COLOR=1");
   EXPECT_NE(plain.find("┤"), std::string::npos) << plain;
   EXPECT_EQ(plain.find("\033[3"), std::string::npos) << plain;
+
+  // A run that is continued brings its samples along: the energy starts from E(0) nevertheless.
+  const std::string more = "resume c.h5 --set until.energy_ratio=1e-3";
+  const std::string continued = screen_of(more, "NO_COLOR=1");
+  EXPECT_NE(continued.find("1┤o"), std::string::npos) << continued;
 }
 
 TEST_F(RunCommand, WatchesOnATerminalOnly) {

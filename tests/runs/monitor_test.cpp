@@ -16,6 +16,10 @@ namespace {
 /// Wants to be shown everything, and stops the run at a number of collisions.
 struct Watcher : RunMonitor {
   explicit Watcher(std::uint64_t limit) : stop_at(limit) {}
+  void begin(const Totals& initial, std::span<const Totals> samples) override {
+    EXPECT_DOUBLE_EQ(initial.energy, 2.5);
+    begun_with.push_back(samples.size());
+  }
   bool is_due(double) const override { return true; }
   void show(double, double fraction, const Totals& now, double initial_energy) override {
     EXPECT_GE(fraction, last_fraction);
@@ -30,6 +34,7 @@ struct Watcher : RunMonitor {
   std::uint64_t stop_at, collisions = 0;
   double last_fraction = 0;
   int shown = 0, cleared = 0;
+  std::vector<std::size_t> begun_with;  // numbers of samples
 };
 
 // Samples divide the run into steps, after each of which the monitor is asked.
@@ -48,6 +53,7 @@ TEST(RunMonitor, IsShownTheProgressOfARunToItsEnd) {
   EXPECT_GT(watcher.shown, 5);
   EXPECT_GT(watcher.last_fraction, 0.3);
   EXPECT_EQ(watcher.cleared, 1);
+  EXPECT_EQ(watcher.begun_with, std::vector<std::size_t>{1});  // the start
 }
 
 TEST(RunMonitor, StopsARun) {
