@@ -141,6 +141,8 @@ class FrameFile {
 
   /// Number of frames, at least 1.
   std::size_t count() const;
+  /// Number of needles, of which none has been read yet.
+  std::size_t needles() const;
   /// Time of a frame [time], or nothing if the file does not have it.
   std::optional<double> time(std::size_t frame) const;
   /// Reads a frame. Frames are counted from 0; throws std::invalid_argument beyond the last.

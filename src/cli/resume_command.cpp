@@ -17,7 +17,7 @@ int run(const ResumeArguments& arguments) {
   });
   if (!warning.empty()) print_warning(warning);
   runs::PreparedRun prepared(std::move(saved));
-  return drive(prepared, {.json = arguments.json, .quiet = arguments.quiet});
+  return drive(prepared, arguments.printing);
 }
 
 }  // namespace needlework::cli

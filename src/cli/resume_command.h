@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "src/cli/run_command.h"
 #include "src/cli/scene_arguments.h"
 
 namespace needlework::cli {
@@ -12,7 +13,7 @@ struct ResumeArguments {
   std::string file;
   std::vector<std::string> overrides;  ///< of keys in [until]
   EngineOptions engine;
-  bool json = false, quiet = false;
+  Printing printing;
 };
 
 /// Returns the exit code.

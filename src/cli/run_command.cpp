@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "src/cli/report.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
+#include "src/cli/watch.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -43,6 +45,11 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   return ok;
 }
 
+std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printing& printing) {
+  if (printing.watch) return std::make_unique<RunWatch>(scene);
+  return std::make_unique<RunProgress>(printing.quiet);
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -61,13 +68,13 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
-  return drive(prepared, {.json = arguments.json, .quiet = arguments.quiet});
+  return drive(prepared, arguments.printing);
 }
 
-int drive(runs::PreparedRun& prepared, Printing printing) {
+int drive(runs::PreparedRun& prepared, const Printing& printing) {
   const SignalGuard guard(prepared.simulation());
-  RunProgress progress(printing.quiet);
-  const runs::Course course = prepared.drive(progress);
+  const auto monitor = make_monitor(prepared.scene(), printing);
+  const runs::Course course = prepared.drive(*monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (printing.json) {

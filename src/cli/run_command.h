@@ -9,22 +9,23 @@
 
 namespace needlework::cli {
 
+/// What to print of a run.
+struct Printing {
+  bool json = false, quiet = false, watch = false;
+};
+
 struct RunArguments {
   SceneArguments scene;
   std::optional<std::string> out;
-  bool json = false, quiet = false, force = false;
+  Printing printing;
+  bool force = false;
 };
 
 /// Returns the exit code.
 int run(const RunArguments& arguments);
 
-/// What to print of a run.
-struct Printing {
-  bool json = false, quiet = false;
-};
-
 /// Drives a run to its end, unless a signal ends it before, and prints the result. Returns the exit
 /// code.
-int drive(runs::PreparedRun& prepared, Printing printing);
+int drive(runs::PreparedRun& prepared, const Printing& printing);
 
 }  // namespace needlework::cli

@@ -48,8 +48,9 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
 
 Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-bool is_finite(const std::array<double, 3>& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+// Its square enters the energy.
+bool has_finite_square(const std::array<double, 3>& a) {
+  return std::isfinite(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
 void check_velocities(std::span<const std::array<double, 3>> values, std::size_t count,
@@ -58,9 +59,9 @@ void check_velocities(std::span<const std::array<double, 3>> values, std::size_t
     throw InputError(
         fmt::format("set_velocities: {} rows of {}: expected {}", values.size(), what, count));
   }
-  const auto bad = std::find_if_not(values.begin(), values.end(), is_finite);
+  const auto bad = std::find_if_not(values.begin(), values.end(), has_finite_square);
   if (bad != values.end()) {
-    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers",
+    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers, their squares too",
                                  bad - values.begin(), what));
   }
 }

@@ -56,6 +56,7 @@ RunDriver::RunDriver(Simulation& simulation, const Scene& scene, Output output, 
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   const auto start = SteadyClock::now();
   if (!begun_) begin();
+  monitor.begin(course_.initial, course_.samples);
   for (;;) {
     if (monitor.stop_requested()) return course_.stop = Stop::interrupted;
     if (until.wall_s && seconds_since(start) >= *until.wall_s) {
