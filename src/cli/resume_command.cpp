@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/cli/messages.h"
 #include "src/cli/run_command.h"
@@ -9,10 +10,22 @@
 #include "src/runs/prepared_run.h"
 
 namespace needlework::cli {
+namespace {
+
+// Other front ends name the end in each call.
+void require_end(const Scene::Until& until, const std::string& file) {
+  if (until.time || until.collisions_per_needle || until.energy_ratio || until.wall_s) return;
+  throw InputError(file +
+                   ": the run has no end: expected --set until.KEY=VALUE with one of time, "
+                   "collisions_per_needle, energy_ratio, wall_s");
+}
+
+}  // namespace
 
 int run(const ResumeArguments& arguments) {
   auto [saved, warning] = runs::load_checkpoint(arguments.file, [&](Scene& scene) {
     override_until(scene, arguments.overrides);
+    require_end(scene.until, arguments.file);
     apply(arguments.engine, scene);
   });
   if (!warning.empty()) print_warning(warning);

@@ -145,7 +145,8 @@ Json Requests::answer(const Json& request, const Connection& connection) {
 
 runs::PreparedRun& Requests::run_of(const Json& request) {
   const auto number = count_in(request, "simulation");
-  if (!number) throw RequestError("simulation: expected the number that create has returned");
+  if (!number)
+    throw RequestError("simulation: expected the number that create or resume has returned");
   const auto found = runs_.find(static_cast<std::int64_t>(*number));
   if (found == runs_.end()) {
     throw RequestError(fmt::format(

@@ -131,6 +131,21 @@ TEST_F(CResume, SharesRunsWithTheProgram) {
   EXPECT_EQ(third.json()["trajectory_hash"], hash_at(150));
 }
 
+TEST_F(CResume, LeavesTheEndToTheProgramWhereTheSceneHasNone) {
+  {
+    const CSimulation first(scene_with_file());
+    first.run_to(100);
+    EXPECT_EQ(needlework_close(first), NEEDLEWORK_OK);
+  }
+  const Outcome endless = run("resume gas.h5 --quiet");
+  EXPECT_EQ(endless.exit_code, 3) << endless.err;
+  EXPECT_TRUE(endless.complains("the run has no end: expected --set until.KEY=VALUE"))
+      << endless.err;
+  const Outcome second = run("resume gas.h5 --set until.collisions_per_needle=5 --json --quiet");
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.json()["trajectory_hash"], hash_at(150));
+}
+
 TEST_F(CResume, UsesTheCheckpointBeforeADamagedOneAndWarns) {
   {
     const CSimulation first(scene_with_file());
