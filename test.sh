@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source cmake/setup.sh
 
-install_packages build mpi python tests benchmarks
+install_packages build mpi python tests benchmarks browser
 configure_release ON
 cmake --build --preset release
 ctest --preset release --parallel "$(nproc)"

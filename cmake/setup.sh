@@ -1,17 +1,24 @@
 # What quickstart.sh, test.sh and .ci/run share: they install what is missing and configure the
 # release build. Sourced with bash, in the root of the project.
 
+# Prints the names of all installed packages, and of those that they provide: nodejs of other sources
+# than Debian provides npm, which cannot be installed beside it.
+installed_packages() {
+  dpkg-query --show --showformat='${db:Status-Status} ${Package}, ${Provides}\n' 2>/dev/null |
+    sed -n 's/^installed //p' | tr ',' '\n' | awk '{ print $1 }'
+}
+
 # Prints the packages that packages.txt names in these sections and that are not installed.
 missing_packages() {
-  local section line
+  local section line installed
+  installed=$(installed_packages)
   while read -r line; do
     case $line in
       '' | '#'*) ;;
       '['*']') section=${line:1:-1} ;;
       *)
         [[ " $* " == *" $section "* ]] || continue
-        dpkg-query --show --showformat='${db:Status-Status}' "$line" 2>/dev/null |
-          grep -qx installed || echo "$line"
+        grep -qxF -- "$line" <<<"$installed" || echo "$line"
         ;;
     esac
   done <packages.txt

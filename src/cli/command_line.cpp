@@ -25,6 +25,7 @@
 #include "src/cli/predict_command.h"
 #include "src/cli/ranks.h"
 #include "src/cli/reference.h"
+#include "src/cli/report_command.h"
 #include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
@@ -419,6 +420,39 @@ Examples:
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
+void add_report_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("report", "write runs, sweeps and benchmarks as one page for a browser");
+  const auto request = std::make_shared<report::Request>();
+  command
+      ->add_option("FILES", request->files,
+                   "H5MD files of runs, summary.h5 of sweeps, results of benchmarks in JSON")
+      ->option_text("FILE...")
+      ->required();
+  command->add_option("-o,--out", request->out, "page to write")
+      ->option_text("FILE.html")
+      ->required();
+  command->add_option("--title", request->title, "title of the page, by default that of the run")
+      ->option_text("TEXT");
+  command->add_option("--needles", request->limits.needles, "most needles shown of a frame")
+      ->option_text("N")
+      ->check(number_in(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--frames", request->limits.frames, "most frames shown of a run")
+      ->option_text("N")
+      ->check(number_in(1, 100000))
+      ->capture_default_str();
+  command->add_flag("--force", request->force, "replace an existing page");
+  command->footer(R"(The page holds its data and needs no network: charts with a table behind each,
+and the needles of the frames in three dimensions. Of long runs it shows a part,
+and says so: at most 600000 needles in all frames together.
+
+Examples:
+  needlework report run.h5 -o run.html
+  needlework report sweep/summary.h5 bench.json -o results.html --title Results)");
+  command->callback([request, &exit_code] { exit_code = run(*request); });
+}
+
 void add_view_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("view", "draw the needles of an H5MD file, without a display");
@@ -619,6 +653,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_info_command(app, exit_code);
   add_import_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_report_command(app, exit_code);
   add_view_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "src/cli/reference.h"
@@ -30,10 +31,16 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
+constexpr std::string_view repetition = "...";
+
+// Whether several values may follow, such as "FILE...".
+bool is_repeated(const OptionHelp& option) { return option.value.ends_with(repetition); }
+
 // By the text that stands for the value, such as "fast|standard" or "[FILE.json]".
 Values values_of(const OptionHelp& option) {
   std::string text = option.value;
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+  if (is_repeated(option)) text.resize(text.size() - repetition.size());
   if (text.find('|') != text.npos) return {Values::Kind::words, split(text, '|'), {}};
   if (text == "SECTION.KEY=VALUE") return {Values::Kind::keys, {}, {}};
   if (text == "DIR") return {Values::Kind::folders, {}, {}};
@@ -146,9 +153,8 @@ std::string zsh_specifications(const OptionHelp& option) {
   const std::string what = zsh_description(option.names.back());
   const Values values = values_of(option);
   if (option.is_positional) {
-    return "      " +
-           quoted(fmt::format("{}{}:{}", option.is_required ? ":" : "::", what, zsh_action(values)),
-                  "'\\''") +
+    const char* const place = is_repeated(option) ? "*:" : option.is_required ? ":" : "::";
+    return "      " + quoted(fmt::format("{}{}:{}", place, what, zsh_action(values)), "'\\''") +
            " \\\n";
   }
   std::string out;

@@ -47,9 +47,12 @@ LAYERS = [
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
           ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
+    # Pages for browsers; their arrays are in base64, as those over a pipe are.
+    Layer("report", ["src/report"], [], ["base", "scene", "io", "picture", "bindings"], ["theory"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "bindings"],
+          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "bindings",
+           "report"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -62,7 +65,7 @@ LIBRARIES = [
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["program", "bindings"]),
+    (r"nlohmann/.*", ["program", "bindings", "report"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),

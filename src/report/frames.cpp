@@ -1,0 +1,83 @@
+#include "src/report/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "needlework/h5md.h"
+#include "src/picture/needle_values.h"
+
+namespace needlework::report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
+
+std::uint16_t place_in_box(double x, double edge) {
+  const double share = x / edge - std::floor(x / edge);
+  return static_cast<std::uint16_t>(std::min(65535.0, std::floor(share * 65536)));
+}
+
+// The values that needlework view draws, of the needles chosen.
+std::vector<float> chosen_values(const char* quantity, const State& state,
+                                 std::span<const std::size_t> chosen) {
+  const std::vector<double> all = picture::values_of(quantity, state, true).values;
+  std::vector<float> values;
+  for (const std::size_t i : chosen) values.push_back(static_cast<float>(all[i]));
+  return values;
+}
+
+Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& arrays) {
+  std::vector<std::uint16_t> position;
+  std::vector<std::int16_t> orientation;
+  std::vector<float> speed, spin;
+  for (const std::size_t i : chosen) {
+    for (int a = 0; a < 3; ++a) {
+      position.push_back(place_in_box(state.position[i][a], state.box[a]));
+      orientation.push_back(
+          static_cast<std::int16_t>(std::lround(32767 * state.orientation[i][a])));
+    }
+    speed.push_back(length_of(state.velocity[i]));
+    spin.push_back(length_of(state.angular_velocity[i]));
+  }
+  const std::size_t n = chosen.size();
+  const auto add = [&](const std::vector<float>& values) {
+    return arrays.add(std::span<const float>(values), {n});
+  };
+  return {{"box", state.box},
+          {"position", arrays.add(std::span<const std::uint16_t>(position), {n, 3})},
+          {"orientation", arrays.add(std::span<const std::int16_t>(orientation), {n, 3})},
+          {"speed", add(speed)},
+          {"spin", add(spin)},
+          {"alignment", add(chosen_values("alignment", state, chosen))},
+          {"density", add(chosen_values("density", state, chosen))}};
+}
+
+}  // namespace
+
+Json frames_of(const std::string& path, double length, const Limits& limits, Arrays& arrays) {
+  const io::FrameFile file(path);
+  const std::size_t needles = file.read(0).size();
+  const auto chosen = evenly(needles, limits.needles);
+  const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
+  const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
+  Json out = {{"length", length},
+              {"needles_in_file", needles},
+              {"needles_shown", chosen.size()},
+              {"frames_in_file", file.count()},
+              {"frames", Json::array()}};
+  for (const std::size_t frame : frames) {
+    Json one = {{"number", frame}, {"time", nullptr}};
+    if (const auto time = file.time(frame)) one["time"] = *time;
+    one.update(frame_of(file.read(frame), chosen, arrays));
+    out["frames"].push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace needlework::report

@@ -1,0 +1,22 @@
+// The needles of a file's frames, as the page draws them.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "src/report/arrays.h"
+#include "src/report/thinning.h"
+
+namespace needlework::report {
+
+/// Reads the frames of an H5MD file: box, numbers of needles and frames in the file and of those
+/// shown, and for each frame its time with arrays of the needles shown [n]. `position` [n][3] is
+/// the centre wrapped into the box in units of edge / 65536, `orientation` [n][3] the director in
+/// units of 1 / 32767, `speed` |v|, `spin` |w|, and `alignment` and `density` are those of
+/// needlework view, see picture::values_of. `length` is that of a needle.
+///
+/// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
+nlohmann::ordered_json frames_of(const std::string& path, double length, const Limits& limits,
+                                 Arrays& arrays);
+
+}  // namespace needlework::report

@@ -1,0 +1,92 @@
+// What was run, and what came out, as lists of facts.
+import { element } from "../dom.js";
+import { column, numbers } from "../data.js";
+import { numberText } from "../numbers.js";
+
+/** A list of [name, value, remark] as large figures or as lines. */
+export function factList(facts, kind) {
+  return element(
+    "dl",
+    { class: kind },
+    facts
+      .filter(([, value]) => value !== null && value !== undefined && value !== "")
+      .map(([name, value, remark]) =>
+        element(
+          "div",
+          {},
+          element("dt", {}, name),
+          element("dd", {}, typeof value === "number" ? numberText(value) : value, remark ? element("small", {}, ` ${remark}`) : null),
+        ),
+      ),
+  );
+}
+
+function endText({ time, collisions_per_needle, energy_ratio, wall_s }) {
+  const ends = [
+    time !== null && `time ${numberText(time)}`,
+    collisions_per_needle !== null && `${numberText(collisions_per_needle)} collisions per needle`,
+    energy_ratio !== null && `E/E(0) = ${numberText(energy_ratio)}`,
+    wall_s !== null && `${numberText(wall_s)} s of wall-clock time`,
+  ];
+  return ends.filter(Boolean).join(", or ");
+}
+
+function contactTime({ tc, tc_relative }) {
+  if (tc !== null) return `t_c = ${numberText(tc)}`;
+  return tc_relative === null ? "none" : `t_c = ${numberText(tc_relative)} mean free times`;
+}
+
+/** The scene and the settings of a run. */
+export function factsOfRun({ scene, parameters, frames }) {
+  const value = (name) => parameters[name]?.value;
+  const facts = [["Needles", frames.needles_in_file]];
+  if (scene) {
+    const volume = frames.frames[0].box.reduce((a, b) => a * b, 1);
+    facts.push(
+      ["Box", frames.frames[0].box.map((edge) => numberText(edge)).join(" × ")],
+      ["Density n L³", (frames.needles_in_file * scene.length ** 3) / volume],
+      ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
+      ["Shape k", scene.k],
+      ["Length, mass", scene.length === 1 && scene.mass === 1 ? null : `${numberText(scene.length)}, ${numberText(scene.mass)}`],
+      ["Initial state", scene.initial_file || `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`],
+      ["Contact-time rule", contactTime(scene)],
+      ["Runs until", endText(scene.until)],
+      ["Search, calendar", `${scene.search}, ${scene.queue}`],
+    );
+  }
+  facts.push(
+    ["Seed", value("seed")],
+    ["Accuracy", value("accuracy")],
+    ["Instruction set", value("isa")],
+    ["Threads", value("threads")],
+    ["Version", value("version")],
+  );
+  return facts;
+}
+
+/** The last sample of a run. */
+export function resultsOfRun({ groups, scene, frames }) {
+  if (!groups.totals) return [];
+  const { datasets, time } = groups.totals;
+  const last = (name) => column(datasets[name]).at(-1);
+  const theory = (name) => groups.theory && column(groups.theory.datasets[name]).at(-1);
+  const energy = last("energy") / column(datasets.energy)[0];
+  const beside = (measured, expected) => (expected ? `${numberText(measured / expected)} × theory` : "");
+  const collisions = last("collisions");
+  const order = groups.flow_order && column(groups.flow_order.datasets.translational).at(-1);
+  return [
+    ["Time", numbers(time).at(-1)],
+    ["E/E(0)", energy, beside(last("energy"), theory("energy"))],
+    ["T_tr", last("t_tr"), beside(last("t_tr"), theory("t_tr"))],
+    ["T_rot", last("t_rot"), beside(last("t_rot"), theory("t_rot"))],
+    ["T_tr/T_rot", last("t_tr") / last("t_rot"), scene?.ratio_of_theory ? `theory, late: ${numberText(scene.ratio_of_theory)}` : ""],
+    ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
+    ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
+    ["S", order],
+  ];
+}
+
+/** A text of several lines that is opened. */
+export function textBehind(title, text) {
+  return text ? element("details", { class: "behind" }, element("summary", {}, title), element("pre", { tabindex: 0 }, text)) : null;
+}

@@ -1,0 +1,324 @@
+// Charts of a run over time, as a table: what each shows of which datasets.
+import { column, numbers } from "../data.js";
+
+// Where a run has needles, each of these is a function of its groups. A chart is shown if the group
+// it is about is in the file.
+const divided = (a, b) => a.map((value, n) => value / b[n]);
+
+function totals(groups) {
+  const { datasets, time } = groups.totals;
+  return { t: numbers(time), of: (name, component) => column(datasets[name], component) };
+}
+
+function theoryOf(groups, name) {
+  const dataset = groups.theory?.datasets[name];
+  return dataset && { x: numbers(groups.theory.time), y: column(dataset) };
+}
+
+function compact(curves) {
+  return curves.filter((curve) => curve && curve.x && curve.y);
+}
+
+function withTheory(groups, name, curve) {
+  const theory = theoryOf(groups, name);
+  const scaled = theory && { ...theory, y: theory.y.map((value) => value * (curve.factor ?? 1)) };
+  return [curve, scaled && { ...scaled, name: `${curve.name}, theory`, colour: -1, dashed: true }];
+}
+
+function cooling({ groups }) {
+  const { t, of } = totals(groups);
+  const energy = of("energy");
+  const factor = 1 / energy[0];
+  const curve = { name: "E/E(0)", x: t, y: energy.map((e) => e * factor), colour: 0, points: true, factor };
+  return withTheory(groups, "energy", curve);
+}
+
+function temperatures({ groups }) {
+  const { t, of } = totals(groups);
+  return ["t_tr", "t_rot"].flatMap((name, colour) =>
+    withTheory(groups, name, { name: name === "t_tr" ? "T_tr" : "T_rot", x: t, y: of(name), colour, points: true }),
+  );
+}
+
+function ratio({ groups, scene }) {
+  const { t, of } = totals(groups);
+  const tr = theoryOf(groups, "t_tr");
+  const rot = theoryOf(groups, "t_rot");
+  const late = scene?.ratio_of_theory;
+  return [
+    { name: "T_tr/T_rot", x: t, y: divided(of("t_tr"), of("t_rot")), colour: 0, points: true },
+    tr && rot && { name: "theory", x: tr.x, y: divided(tr.y, rot.y), colour: -1, dashed: true },
+    late && { name: "theory, late", x: t, y: t.map(() => late), colour: 1, faint: true },
+  ];
+}
+
+function deviation({ groups }) {
+  if (!groups.theory) return [];
+  const { t, of } = totals(groups);
+  return [
+    ["energy", "E"],
+    ["t_tr", "T_tr"],
+    ["t_rot", "T_rot"],
+  ].map(([name, text], n) => {
+    const theory = theoryOf(groups, name);
+    return theory && { name: text, x: t, y: divided(of(name), theory.y), colour: n };
+  });
+}
+
+function collisions({ groups, count }) {
+  const { t, of } = totals(groups);
+  return [
+    { name: "all", x: t, y: of("collisions").map((c) => (2 * c) / count), colour: 0, points: true },
+    of("tc_collisions").at(-1) > 0 && {
+      name: "elastic by the t_c rule",
+      x: t,
+      y: of("tc_collisions").map((c) => (2 * c) / count),
+      colour: 1,
+    },
+  ];
+}
+
+// Between a sample and the one before it.
+function rateOfCollisions({ groups, count }) {
+  const { t, of } = totals(groups);
+  const made = of("collisions");
+  const t_tr = of("t_tr");
+  const rate = t.map((time, n) =>
+    n ? ((2 / count) * (made[n] - made[n - 1])) / (time - t[n - 1]) / Math.sqrt((t_tr[n] + t_tr[n - 1]) / 2) : NaN,
+  );
+  return [{ name: "rate / √T_tr", x: t, y: rate, colour: 0, points: true }];
+}
+
+function momentum({ groups, count, scene }) {
+  const { t, of } = totals(groups);
+  const mass = scene?.mass ?? 1;
+  const first = [0, 1, 2].map((axis) => of("momentum", axis)[0]);
+  const thermal = of("t_tr").map((temperature) => Math.sqrt(count * mass * temperature));
+  const drift = t.map((_, n) => {
+    const d = first.map((value, axis) => of("momentum", axis)[n] - value);
+    return Math.hypot(...d) / thermal[0];
+  });
+  return [{ name: "|P − P(0)| / √(N m T_tr(0))", x: t, y: drift, colour: 0 }];
+}
+
+/** Curves of datasets [samples] of one group. */
+function plain(group, fields) {
+  return ({ groups }) =>
+    fields.map(([name, text], n) => ({
+      name: text,
+      x: numbers(groups[group].time),
+      y: column(groups[group].datasets[name]),
+      colour: n,
+      points: true,
+    }));
+}
+
+function cellsOf({ groups, count }) {
+  const shape = groups.fields?.datasets.density.shape;
+  return shape ? { cells: shape[1] * shape[2] * shape[3], needles: count } : null;
+}
+
+// With the values that random velocities and positions have, where the grid is known.
+function flowOrder(context) {
+  const [translational, rotational] = plain("flow_order", [
+    ["translational", "S of translation"],
+    ["rotational", "S of rotation"],
+  ])(context);
+  const grid = cellsOf(context);
+  const random = grid && grid.cells / (grid.needles - grid.cells);
+  const level = random > 0 && {
+    name: "random velocities",
+    x: translational.x,
+    y: translational.x.map(() => random),
+    colour: -1,
+    dashed: true,
+  };
+  return [translational, rotational, level];
+}
+
+function secondMoment(context) {
+  const [moment] = plain("flow_order", [["second_moment", "second moment"]])(context);
+  const grid = cellsOf(context);
+  const random = grid && (grid.cells - 1) / grid.needles;
+  return [
+    moment,
+    random && { name: "random positions", x: moment.x, y: moment.x.map(() => random), colour: -1, dashed: true },
+  ];
+}
+
+function byAxis(name, total) {
+  return ({ groups }) => {
+    const { datasets, time } = groups.temperature_by_axis;
+    const of = totals(groups).of(total);
+    return ["x", "y", "z"].map((axis, n) => {
+      const values = column(datasets[name], n);
+      const x = numbers(time);
+      const y = values.length === of.length ? divided(values, of) : values;
+      return { name: axis, x, y, colour: n };
+    });
+  };
+}
+
+/** The largest eigenvalue of a symmetric matrix of trace 0, in nine numbers. */
+export function largestEigenvalue([a, b, c, , d, e, , , f]) {
+  const half = (a * a + d * d + f * f) / 2 + b * b + c * c + e * e;
+  if (half === 0) return 0;
+  const determinant = a * (d * f - e * e) - b * (b * f - e * c) + c * (b * e - d * c);
+  const cosine = (determinant / 2) * (3 / half) ** 1.5;
+  return 2 * Math.sqrt(half / 3) * Math.cos(Math.acos(Math.min(1, Math.max(-1, cosine))) / 3);
+}
+
+function nematic({ groups }) {
+  const { datasets, time } = groups.alignment;
+  const tensor = numbers(datasets.order_tensor);
+  const x = numbers(time);
+  const y = Float64Array.from(x, (_, n) => largestEigenvalue(tensor.subarray(9 * n, 9 * n + 9)));
+  return [{ name: "largest eigenvalue", x, y, colour: 0, points: true }];
+}
+
+function repeats({ groups }) {
+  const { datasets, time } = groups.collision_statistics;
+  const y = divided(column(datasets.repeats), column(datasets.collisions));
+  return [{ name: "share of repeats", x: numbers(time), y, colour: 0, points: true }];
+}
+
+// Since the start of the run, which is the first reference; in a steady state, whose samples have one
+// distance, the means over all references of equal lag.
+function overLag(fields) {
+  return ({ groups }) => {
+    const { datasets, time } = groups.displacement;
+    const steady = !isGeometric(numbers(time));
+    return fields.map(([name, text], colour) => {
+      const pairs = pairsOfLag(numbers(datasets.lag), numbers(datasets[name]), steady ? 1 : datasets.lag.shape[1]);
+      return { name: text, x: pairs.map(([lag]) => lag), y: pairs.map(([, mean]) => mean), colour, points: true };
+    });
+  };
+}
+
+// Lags are equal to nine digits.
+function pairsOfLag(lags, values, stride) {
+  const sums = new Map();
+  for (let n = 0; n < lags.length; n += stride) {
+    if (!(lags[n] > 0) || Number.isNaN(values[n])) continue;
+    const key = Number(lags[n].toPrecision(9));
+    const [sum, count] = sums.get(key) ?? [0, 0];
+    sums.set(key, [sum + values[n], count + 1]);
+  }
+  return [...sums].map(([lag, [sum, count]]) => [lag, sum / count]).sort((a, b) => a[0] - b[0]);
+}
+
+/** Each: the group that it needs, what it says, its axes, and its curves. `log` names the axes that
+ * are logarithmic where time spans decades, `always` those that are so in any case. */
+const timelines = [
+  {
+    group: "totals", title: "Cooling curve", y: "E/E(0)", log: "xy", curves: cooling,
+    caption: "Kinetic energy per needle, divided by that at the start, and kinetic theory of a gas that stays homogeneous.",
+  },
+  {
+    group: "totals", title: "Temperatures", y: "energy", log: "xy", curves: temperatures,
+    caption: "Translational and rotational temperature with kinetic theory.",
+  },
+  {
+    group: "totals", title: "Ratio of the temperatures", y: "T_tr/T_rot", log: "xy", curves: ratio,
+    caption: "Equipartition is 1. A cooling gas tends to the constant ratio of theory.",
+  },
+  {
+    group: "theory", title: "Measured over theory", y: "measured / theory", log: "x", curves: deviation,
+    caption: "1 where the run follows kinetic theory. Correlations show as a departure from it.",
+  },
+  {
+    group: "totals", title: "Collisions per needle", y: "collisions per needle", log: "xy", curves: collisions,
+    caption: "Twice the number of collisions since the start, per needle.",
+  },
+  {
+    group: "totals", title: "Collision rate", y: "1 / (time √energy)", log: "x", curves: rateOfCollisions,
+    caption: "Collisions per needle and unit of time since the sample before, divided by √T_tr: constant while the gas stays homogeneous with a fixed ratio of temperatures.",
+  },
+  {
+    group: "totals", title: "Conservation of momentum", y: "thermal momenta", log: "x", curves: momentum,
+    caption: "Change of the total momentum since the start, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
+  },
+  {
+    group: "flow_order", title: "Order of the flow, S", y: "S", log: "xy", curves: flowOrder,
+    caption: "Energy of the flow of the cells, divided by that of the motion relative to it.",
+  },
+  {
+    group: "flow_order", title: "Inhomogeneity of the density", y: "variance / mean²", log: "xy", curves: secondMoment,
+    caption: "Variance of the density over the cells of the grid, divided by its squared mean.",
+  },
+  {
+    group: "velocity_moments", title: "Departure from Gaussian velocities", y: "cumulants and correlations", log: "x",
+    robust: true,
+    curves: plain("velocity_moments", [
+      ["cumulant_v", "fourth cumulant of v"],
+      ["cumulant_w", "fourth cumulant of ω"],
+      ["speeds", "|v| with |ω|"],
+      ["velocity_spin", "v along ω"],
+      ["velocity_director", "v along the needle"],
+    ]),
+    caption: "All vanish for independent Gaussian velocities, up to 1/N. Rare values far from all others may lie beyond the axis; the table has them.",
+  },
+  {
+    group: "temperature_by_axis", title: "T_tr by axis", y: "T_tr of the axis / T_tr", log: "x",
+    curves: byAxis("t_tr", "t_tr"), caption: "Translational temperature along each axis. 1 in an isotropic gas.",
+  },
+  {
+    group: "temperature_by_axis", title: "T_rot by axis", y: "T_rot of the axis / T_rot", log: "x",
+    curves: byAxis("t_rot", "t_rot"), caption: "Rotational temperature about each axis. 1 in an isotropic gas.",
+  },
+  {
+    group: "alignment", title: "Nematic order", y: "order parameter", log: "x", curves: nematic,
+    caption: "Largest eigenvalue of ⟨(3 u u − 1)/2⟩: of the order 1/√N for random directors, 1 for parallel ones.",
+  },
+  {
+    group: "collision_statistics", title: "Repeated collisions", y: "share of the collisions", log: "x", curves: repeats,
+    caption: "Collisions whose pair was also the last to collide for both needles.",
+  },
+  {
+    group: "displacement", title: "Mean square displacement", x: "lag", y: "length²", log: "xy", always: true,
+    curves: overLag([["parallel", "along the needle"], ["perpendicular", "across it"]]),
+    caption: "Since the start, along the director at that time and across it (two directions); in a steady state the mean over all reference times.",
+  },
+  {
+    group: "displacement", title: "Memory of the orientation", x: "lag", y: "correlation", log: "x", always: true,
+    curves: overLag([["p1", "⟨cos⟩"], ["p2", "⟨(3 cos² − 1)/2⟩"]]),
+    caption: "Of the angle between the director and that at the start; in a steady state the mean over all reference times.",
+  },
+];
+
+/** The charts that a run has: descriptions for curvesChart, without a range of time. */
+export function timelinesOf(run) {
+  const { groups } = run;
+  const count = run.frames.needles_in_file;
+  const context = { ...run, count };
+  const overDecades = groups.totals ? spansDecades(numbers(groups.totals.time)) : false;
+  return timelines
+    .filter(({ group }) => groups[group] && (groups.totals || group === "displacement"))
+    .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
+      title,
+      caption,
+      notes: notesOf(groups[group]),
+      robust,
+      x: { label: x, log: (always || overDecades) && log.includes("x") },
+      y: { label: y, log: (always || overDecades) && log.includes("y") },
+      curves: compact(curves(context)),
+    }))
+    .filter((chart) => chart.curves.length > 0);
+}
+
+export function notesOf(group) {
+  return group.rows < group.rows_in_file
+    ? [`Shown are ${group.rows} of ${group.rows_in_file} samples, evenly chosen.`]
+    : [];
+}
+
+function spansDecades(times) {
+  const first = times.find((t) => t > 0);
+  return first !== undefined && times.at(-1) / first > 30 && times.length > 3 && isGeometric(times);
+}
+
+// Samples at multiples of one interval belong to a steady state, which is shown on a linear axis.
+function isGeometric(times) {
+  const middle = times[Math.floor(times.length / 2)];
+  return middle < 0.3 * times.at(-1);
+}

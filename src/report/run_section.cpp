@@ -1,0 +1,145 @@
+#include "src/report/run_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "src/report/frames.h"
+#include "src/report/scene_facts.h"
+
+namespace needlework::report {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// JSON has no NaN and no infinity; both become null.
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json parameters_of(const io::Contents& contents) {
+  Json out = Json::object();
+  for (const std::string& name : contents.names("/parameters")) {
+    const std::string path = "/parameters/" + name;
+    Json value;
+    if (const auto texts = contents.texts(path)) {
+      value = texts->size() == 1 ? Json(texts->front()) : Json(*texts);
+    } else {
+      const std::vector<double> numbers = contents.numbers(path);
+      value = numbers.size() == 1 ? number(numbers.front()) : Json(numbers);
+    }
+    out[name] = {{"value", value}, {"description", contents.description(path)}};
+  }
+  return out;
+}
+
+std::size_t product(const std::vector<std::size_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+// A group of /series whose datasets have one row for each sample, or are constants.
+class Group {
+ public:
+  Group(const io::Contents& contents, std::string path) : contents_(contents), path_(path) {
+    for (const std::string& name : contents.names(path)) {
+      const std::string dataset = path + "/" + name;
+      if (name == "step" || name == "time" || !contents.is_dataset(dataset)) continue;
+      if (contents.texts(dataset)) continue;
+      const bool has_rows = contents.has(dataset + "/value");
+      datasets_.push_back({name, dataset, contents.shape(dataset), has_rows});
+      if (has_rows && !timed_) timed_ = dataset;
+    }
+  }
+
+  bool empty() const { return datasets_.empty(); }
+
+  Json read(const Limits& limits, Arrays& arrays) const {
+    Json out = {{"description", contents_.description(path_)}};
+    const std::size_t rows = timed_ ? contents_.shape(*timed_).at(0) : 0;
+    const auto chosen = evenly(rows, std::min(limits.samples, affordable_rows(limits)));
+    out["rows_in_file"] = rows;
+    out["rows"] = chosen.size();
+    if (timed_ && contents_.is_dataset(*timed_ + "/time")) {
+      const auto times = contents_.rows(*timed_ + "/time", chosen);
+      out["time"] = arrays.add(std::span<const double>(times), {times.size()});
+    }
+    out["datasets"] = Json::object();
+    for (const Dataset& dataset : datasets_) {
+      out["datasets"][dataset.name] = read(dataset, chosen, arrays);
+    }
+    return out;
+  }
+
+ private:
+  struct Dataset {
+    std::string name, path;
+    std::vector<std::size_t> shape;
+    bool has_rows;
+    std::size_t row_size() const {
+      return product(std::vector<std::size_t>(shape.begin() + 1, shape.end()));
+    }
+    // Rows as large as fields are for pictures, which single precision is enough for.
+    bool is_picture() const { return has_rows && row_size() > 1000; }
+  };
+
+  std::size_t affordable_rows(const Limits& limits) const {
+    std::size_t bytes = 0;
+    for (const Dataset& dataset : datasets_) {
+      if (!dataset.has_rows) continue;
+      bytes += dataset.row_size() * (dataset.is_picture() ? sizeof(float) : sizeof(double));
+    }
+    return limits.group_bytes / std::max<std::size_t>(bytes, 1);
+  }
+
+  Json read(const Dataset& dataset, std::span<const std::size_t> chosen, Arrays& arrays) const {
+    std::vector<double> values =
+        dataset.has_rows ? contents_.rows(dataset.path, chosen) : contents_.numbers(dataset.path);
+    std::vector<std::size_t> shape = dataset.shape;
+    if (dataset.has_rows) shape[0] = chosen.size();
+    Json out = {{"description", contents_.description(dataset.path)},
+                {"has_rows", dataset.has_rows}};
+    if (dataset.is_picture()) {
+      const std::vector<float> single(values.begin(), values.end());
+      out.update(arrays.add(std::span<const float>(single), shape));
+    } else {
+      out.update(arrays.add(std::span<const double>(values), shape));
+    }
+    return out;
+  }
+
+  const io::Contents& contents_;
+  std::string path_;
+  std::vector<Dataset> datasets_;
+  std::optional<std::string> timed_;
+};
+
+// The totals under "totals", and each group of /series under its name.
+Json groups_of(const io::Contents& contents, const Limits& limits, Arrays& arrays) {
+  Json out = Json::object();
+  const auto add = [&](const std::string& name, const std::string& path) {
+    const Group group(contents, path);
+    if (!group.empty()) out[name] = group.read(limits, arrays);
+  };
+  add("totals", "/series");
+  for (const std::string& name : contents.names("/series")) {
+    if (!contents.is_dataset("/series/" + name)) add(name, "/series/" + name);
+  }
+  return out;
+}
+
+}  // namespace
+
+Json run_section(const std::string& path, const io::Contents& contents, const Limits& limits,
+                 Arrays& arrays) {
+  Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
+  const auto text = contents.texts("/parameters/scene");
+  out["scene"] = text && text->size() == 1 ? scene_facts(text->front(), path) : Json(nullptr);
+  out["groups"] = groups_of(contents, limits, arrays);
+  const auto length = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
+                                                         : std::vector<double>{1.0};
+  out["frames"] = frames_of(path, length.size() == 1 ? length[0] : 1.0, limits, arrays);
+  return out;
+}
+
+}  // namespace needlework::report

@@ -1,0 +1,14 @@
+// The keys of a recorded scene that a page names.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace needlework::report {
+
+/// `text` as a file of a run holds it: the scene as read, and then a line "# --set key=value" for
+/// each key that was set over it, which is set again here. `name` is used nowhere but in errors.
+/// Null for a text that this version cannot parse, such as a scene with keys of a later one.
+nlohmann::ordered_json scene_facts(const std::string& text, const std::string& name);
+
+}  // namespace needlework::report

@@ -1,0 +1,50 @@
+// What a page holds, read back from its text.
+#pragma once
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "src/serve/arrays.h"
+
+namespace needlework::test {
+
+/// A page that `needlework report` has written.
+class PageData {
+ public:
+  explicit PageData(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    text_ = text.str();
+    json = nlohmann::json::parse(block("data"));
+  }
+
+  nlohmann::json json;
+  const std::string& text() const { return text_; }
+
+  /// What stands in the script block of this id, up to where a parser of HTML ends it.
+  std::string block(const std::string& id) const {
+    const auto head = text_.find("id=\"" + id + "\">");
+    if (head == text_.npos) throw std::runtime_error("no block " + id);
+    const auto begin = text_.find('>', head) + 1;
+    return text_.substr(begin, text_.find("</script", begin) - begin);
+  }
+
+  /// The numbers of an array that JSON refers to.
+  template <class Number>
+  std::vector<Number> numbers(const nlohmann::json& reference) const {
+    const auto bytes = serve::bytes_of(block("array-" + reference.at("array").dump()));
+    std::vector<Number> values(bytes.size() / sizeof(Number));
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace needlework::test

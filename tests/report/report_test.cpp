@@ -1,0 +1,269 @@
+// What pages hold of files with known numbers.
+#include "src/report/report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "needlework/error.h"
+#include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "src/picture/needle_values.h"
+#include "src/report/page.h"
+#include "tests/report/page_data.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework {
+namespace {
+
+using nlohmann::json;
+
+constexpr int samples = 7;
+
+class Report : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name)) << text;
+  }
+
+  // A run of `needles` needles with samples and frames whose numbers follow from their places.
+  void write_run(const std::string& name, const std::string& title = "known numbers",
+                 std::uint64_t needles = 3, int frames = 2) const {
+    Scene scene = parse_scene("title = " + nlohmann::json(title).dump() + "\nneedles = { count = " +
+                                  std::to_string(needles) + ", box = [4, 5, 6] }\nuntil.time = 1\n",
+                              "scene", std::vector<std::string>{"collisions.epsilon=0.75"});
+    scene.needles.count = needles;
+    io::RunInfo info{"scalar", 2, 1.0};
+    info.series = {{"pairs", "Pairs of numbers", {{"pair", "Pair", "", {{"numbers", 2}}}}}};
+    io::Writer writer(path(name), true, scene, info);
+    for (int n = 0; n < samples; ++n)
+      writer.write_series(totals(n), std::vector{1.0 * n, -1.0 * n});
+    for (int n = 0; n < frames; ++n) writer.write_frame(totals(n), state(needles, n));
+    writer.close();
+  }
+
+  static Totals totals(int n) {
+    Totals out;
+    out.time = 0.1 * n;
+    out.t_tr = 1.0 / (3 + n);
+    out.t_rot = 1.0 / (7 + n);
+    out.energy = 1.5 * out.t_tr + out.t_rot;
+    out.momentum = {0.1 * n, -0.2 * n, 1e-17};
+    out.collisions = (std::uint64_t{1} << 40) + n;
+    return out;
+  }
+
+  static State state(std::uint64_t needles, int frame) {
+    State state;
+    state.box = {4, 5, 6};
+    state.resize(needles);
+    for (std::uint32_t i = 0; i < needles; ++i) {
+      state.id[i] = i;
+      state.position[i] = {-1.0, 2.5, 6.0 * i / static_cast<double>(needles)};
+      state.orientation[i] = {0, 0.6, -0.8};
+      state.velocity[i] = {0, 3.0 * frame, -4.0 * frame};
+      state.angular_velocity[i] = {2.0, 0, 0};
+    }
+    return state;
+  }
+
+  test::PageData page_of(std::vector<std::string> files, report::Limits limits = {}) const {
+    for (std::string& file : files) file = path(file);
+    report::write_report({files, path("page.html"), "", true, limits});
+    return test::PageData(path("page.html"));
+  }
+
+  // The message of the InputError that this file leads to.
+  std::string complaint(const std::string& file) const {
+    try {
+      report::write_report({{path(file)}, path("page.html"), "", false, {}});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Report, HoldsSeriesBitForBit) {
+  write_run("run.h5");
+  const test::PageData page = page_of({"run.h5"});
+  const json& group = page.json["sections"][0]["groups"]["totals"];
+  EXPECT_EQ(group["rows"], samples);
+  const auto times = page.numbers<double>(group["time"]);
+  const auto t_tr = page.numbers<double>(group["datasets"]["t_tr"]);
+  const auto momentum = page.numbers<double>(group["datasets"]["momentum"]);
+  const auto collisions = page.numbers<double>(group["datasets"]["collisions"]);
+  EXPECT_EQ(group["datasets"]["momentum"]["shape"], json({samples, 3}));
+  ASSERT_EQ(times.size(), samples);
+  ASSERT_EQ(momentum.size(), 3 * samples);
+  for (int n = 0; n < samples; ++n) {
+    EXPECT_EQ(times[n], totals(n).time);
+    EXPECT_EQ(t_tr[n], totals(n).t_tr);
+    EXPECT_EQ(momentum[3 * n + 1], totals(n).momentum[1]);
+    EXPECT_EQ(collisions[n], static_cast<double>(totals(n).collisions));
+  }
+}
+
+TEST_F(Report, HoldsObservablesWithTheirDescriptions) {
+  write_run("run.h5");
+  const test::PageData page = page_of({"run.h5"});
+  const json& pair = page.json["sections"][0]["groups"]["pairs"]["datasets"]["pair"];
+  EXPECT_TRUE(pair["description"].get<std::string>().starts_with("Pair"));
+  EXPECT_EQ(pair["has_rows"], true);
+  const auto values = page.numbers<double>(pair);
+  ASSERT_EQ(values.size(), 2 * samples);
+  EXPECT_EQ(values[4], 2);
+  EXPECT_EQ(values[5], -2);
+}
+
+TEST_F(Report, NamesWhatWasRunWithTheKeysSetOverTheScene) {
+  write_run("run.h5");
+  const test::PageData page = page_of({"run.h5"});
+  const json& run = page.json["sections"][0];
+  EXPECT_EQ(run["scene"]["epsilon"], 0.75);
+  EXPECT_EQ(run["scene"]["until"]["time"], 1);
+  EXPECT_EQ(run["parameters"]["isa"]["value"], "scalar");
+  EXPECT_EQ(run["parameters"]["threads"]["value"], 2);
+  EXPECT_EQ(run["parameters"]["title"]["value"], "known numbers");
+}
+
+TEST_F(Report, DrawsNeedlesWhereTheyAre) {
+  write_run("run.h5");
+  const test::PageData page = page_of({"run.h5"});
+  const json& frames = page.json["sections"][0]["frames"];
+  ASSERT_EQ(frames["frames"].size(), 2);
+  const json& frame = frames["frames"][1];
+  EXPECT_EQ(frame["time"], 0.1);
+  EXPECT_EQ(frame["box"], json({4.0, 5.0, 6.0}));
+  const auto position = page.numbers<std::uint16_t>(frame["position"]);
+  ASSERT_EQ(position.size(), 9);
+  EXPECT_EQ(position[0], 3 * 65536 / 4);  // -1 is 3 in a box of 4
+  EXPECT_EQ(position[1], 65536 / 2);
+  EXPECT_EQ(position[8], 65536 * 2 / 3);
+  const auto orientation = page.numbers<std::int16_t>(frame["orientation"]);
+  EXPECT_EQ(orientation[1], std::lround(0.6 * 32767));
+  EXPECT_EQ(orientation[2], std::lround(-0.8 * 32767));
+  EXPECT_EQ(page.numbers<float>(frame["speed"])[0], 5);
+  EXPECT_EQ(page.numbers<float>(frame["spin"])[0], 2);
+  EXPECT_FLOAT_EQ(page.numbers<float>(frame["alignment"])[0], 2);  // flies along itself
+  EXPECT_NEAR(page.numbers<float>(frames["frames"][0]["alignment"])[0], 0, 1e-6);  // at rest
+}
+
+TEST_F(Report, ThinsFramesNeedlesAndSamplesAndSaysSo) {
+  write_run("run.h5", "many", 100, 9);
+  report::Limits limits;
+  limits.needles = 10;
+  limits.drawn = 40;
+  limits.samples = 3;
+  const test::PageData page = page_of({"run.h5"}, limits);
+  const json& run = page.json["sections"][0];
+  EXPECT_EQ(run["frames"]["needles_in_file"], 100);
+  EXPECT_EQ(run["frames"]["needles_shown"], 10);
+  EXPECT_EQ(run["frames"]["frames_in_file"], 9);
+  std::vector<int> shown;
+  for (const json& frame : run["frames"]["frames"]) shown.push_back(frame["number"]);
+  EXPECT_EQ(shown, (std::vector{0, 2, 5, 8}));  // 40 / 10, with the first and the last
+  EXPECT_EQ(page.numbers<float>(run["frames"]["frames"][0]["speed"]).size(), 10);
+  const auto all = picture::values_of("density", state(100, 0), true).values;
+  const auto density = page.numbers<float>(run["frames"]["frames"][0]["density"]);
+  const auto chosen = report::evenly(100, 10);
+  ASSERT_EQ(density.size(), 10);
+  for (std::size_t n = 0; n < 10; ++n) EXPECT_EQ(density[n], static_cast<float>(all[chosen[n]]));
+  const json& totals_group = run["groups"]["totals"];
+  EXPECT_EQ(totals_group["rows_in_file"], samples);
+  EXPECT_EQ(totals_group["rows"], 3);
+  EXPECT_EQ(page.numbers<double>(totals_group["time"]),
+            (std::vector{0.0, totals(3).time, totals(6).time}));
+}
+
+TEST_F(Report, KeepsLargeGroupsWithinTheirBytes) {
+  write_run("run.h5");
+  report::Limits limits;
+  limits.group_bytes = 2 * 2 * sizeof(double) + 1;  // two rows of a pair
+  const test::PageData page = page_of({"run.h5"}, limits);
+  EXPECT_EQ(page.json["sections"][0]["groups"]["pairs"]["rows"], 2);
+}
+
+TEST_F(Report, IsNotEndedByWhatATitleHolds) {
+  const std::string title = "</script><script>alert(1)</script><!-- & \"é\"";
+  write_run("run.h5", title);
+  const test::PageData page = page_of({"run.h5"});
+  EXPECT_EQ(page.json["sections"][0]["parameters"]["title"]["value"], title);
+  EXPECT_EQ(page.text().find("alert(1)</script>"), page.text().npos);
+}
+
+TEST_F(Report, IsTheSameForTheSameFiles) {
+  write_run("run.h5");
+  const std::string once = page_of({"run.h5"}).text();
+  EXPECT_EQ(page_of({"run.h5"}).text(), once);
+}
+
+TEST_F(Report, HasASectionForEachFileInTheOrderGiven) {
+  write_run("a.h5");
+  write("b.json", R"({"machine": "m", "cases": [{"name": "x/y", "ns_per_item": [3, 1.5]}]})");
+  write_run("c.h5");
+  const test::PageData page = page_of({"a.h5", "b.json", "c.h5"});
+  ASSERT_EQ(page.json["sections"].size(), 3);
+  const json& bench = page.json["sections"][1];
+  EXPECT_EQ(bench["kind"], "bench");
+  EXPECT_EQ(bench["unit"], "ns_per_item");
+  EXPECT_EQ(bench["about"]["machine"], "m");
+  EXPECT_EQ(bench["cases"],
+            json::parse(R"([{"name": "x/y", "baseline": false, "values": [3, 1.5]}])"));
+  EXPECT_EQ(page.json["sections"][2]["file"], path("c.h5"));
+}
+
+TEST_F(Report, NamesFilesThatItCannotUseAndWritesNoPage) {
+  write("scene.toml", "needles.count = 3\n");
+  write("empty.h5", "");
+  write("list.json", "[1]");
+  write("none.json", R"({"cases": []})");
+  write("negative.json", R"({"cases": [{"name": "a/b", "us_per_collision": [1, -2]}]})");
+  write("other.json", R"({"cases": [{"name": "a/b", "seconds": [1]}]})");
+  write("cut.json", R"({"cases": [{"name": )");
+  for (const auto& [file, part] :
+       {std::pair{"scene.toml", "expected a run (.h5), the summary.h5 of a sweep, or results"},
+        {"empty.h5", "expected a run (.h5)"},
+        {"list.json", "expected a run (.h5)"},
+        {"none.json", "`cases` is empty"},
+        {"negative.json", "a/b: us_per_collision -2: expected a number above 0"},
+        {"other.json", "a/b: expected us_per_collision or ns_per_item"},
+        {"cut.json", "expected results in JSON that needlework bench --json FILE has written"},
+        {".", "is a folder"}}) {
+    const std::string message = complaint(file);
+    EXPECT_TRUE(message.starts_with(path(file))) << file << ": " << message;
+    EXPECT_NE(message.find(part), message.npos) << message;
+    EXPECT_FALSE(std::filesystem::exists(path("page.html"))) << file;
+  }
+  EXPECT_THROW(report::write_report({{path("absent.h5")}, path("page.html"), "", false, {}}),
+               IoError);
+}
+
+TEST_F(Report, KeepsAPageThatExists) {
+  write_run("run.h5");
+  write("page.html", "mine");
+  EXPECT_THROW(report::write_report({{path("run.h5")}, path("page.html"), "", false, {}}), IoError);
+  std::string text;
+  std::getline(std::ifstream(path("page.html")), text);
+  EXPECT_EQ(text, "mine");
+}
+
+TEST(ReportPage, HasOnePlaceForTheDataAndAsksForNothing) {
+  const std::string_view page = report::page_text();
+  const auto mark = page.find(report::data_mark);
+  ASSERT_NE(mark, page.npos);
+  EXPECT_EQ(page.find(report::data_mark, mark + 1), page.npos);
+  EXPECT_NE(page.find("default-src 'none'"), page.npos);
+  for (const char* library : {"three", "@observablehq/plot", "d3-scale"}) {
+    EXPECT_NE(page.find(std::string("<h2>") + library), page.npos) << "licence of " << library;
+  }
+}
+
+}  // namespace
+}  // namespace needlework
