@@ -53,7 +53,8 @@ enum needlework_code {
 
 typedef struct needlework_error {
   int code;           /* of needlework_code */
-  char message[1024]; /* one line, cut off if it is longer; empty if the code is NEEDLEWORK_OK */
+  char message[1024]; /* one line, cut off if it is longer; empty if the code is NEEDLEWORK_OK, but
+                         for a warning of needlework_resume() */
 } needlework_error;
 
 /* ---- Version and capabilities ---------------------------------------------------------------- */
@@ -116,9 +117,19 @@ NEEDLEWORK_API needlework_simulation* needlework_create_from(const char* scene,
                                                              unsigned flags,
                                                              needlework_error* error);
 
-/* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due; call
- * needlework_close() first for one at the end. No other call may use the simulation, nor may this
- * be called from its callback. */
+/* Makes a simulation that continues the run of an output file from its last checkpoint, beside it:
+ * the same collisions, to the last bit, as if the run had never ended, and the same file goes on.
+ * Time, counts and limits go on from the start of the run. The engine is chosen for this machine as
+ * by needlework_create(), with the threads of before; a function for collisions has to be set
+ * again. If the newest checkpoint is damaged, the one before is used, and `error` has a warning
+ * with the code NEEDLEWORK_OK. Returns NULL on failure: NEEDLEWORK_INPUT if there is no checkpoint
+ * to continue from or it is not that of the file, NEEDLEWORK_IO if the file is missing, cannot be
+ * written, or is written by another simulation. The caller destroys the simulation. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_resume(const char* file, needlework_error* error);
+
+/* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due, and
+ * no checkpoint is saved; call needlework_close() first for both at the end. No other call may use
+ * the simulation, nor may this be called from its callback. */
 NEEDLEWORK_API void needlework_destroy(needlework_simulation* simulation);
 
 /* The message of the last call on this simulation that failed, or ""; while another call uses the
@@ -162,9 +173,17 @@ NEEDLEWORK_API int needlework_advance(needlework_simulation* simulation,
  * with NEEDLEWORK_STOP_INTERRUPTED. NULL is allowed. [signal] */
 NEEDLEWORK_API void needlework_interrupt(needlework_simulation* simulation);
 
-/* Adds a sample and a frame at the present time to the output file and closes it. Then, and also
- * if this fails, the simulation can be looked at, but not run. Without an output file, and when
- * called again, it does nothing. [handle] */
+/* Saves the simulation now beside its output file, so that needlework_resume() continues it from
+ * here, whatever happens to the process; that happens by itself every output.checkpoint_every
+ * seconds. All collisions up to now count as handed over to the function for collisions.
+ * NEEDLEWORK_USAGE if the simulation has no output file, is closed, or output.checkpoint_every is
+ * 0. [handle] */
+NEEDLEWORK_API int needlework_checkpoint(needlework_simulation* simulation);
+
+/* Saves the simulation as needlework_checkpoint() does, where that is allowed, adds a sample and a
+ * frame at the present time to the output file and closes it. Then, and also if this fails, the
+ * simulation can be looked at, but not run. Without an output file, and when called again, it does
+ * nothing. [handle] */
 NEEDLEWORK_API int needlework_close(needlework_simulation* simulation);
 
 /* ---- Collisions ------------------------------------------------------------------------------ */

@@ -103,6 +103,27 @@ class Simulation:
         self._facts = Values(self._run.facts())
         self._forget()
 
+    @classmethod
+    def resume(cls, path: str | os.PathLike[str]) -> Simulation:
+        """Continues the run of an output file from its last checkpoint, which is beside it.
+
+        The collisions are the same, to the last bit, as if the run had never ended, and the same
+        file goes on. Time, counts and the limits of run() go on from the start of the run;
+        on_collisions() has to be called again. A run that the program, C or a pipe began can be
+        continued as well.
+
+        If the newest checkpoint is damaged, the one before is used, with a RuntimeWarning. Raises
+        InputError if there is no checkpoint, and IoError if the file is missing or is being
+        written.
+        """
+        self = cls.__new__(cls)
+        self._run = _core.Run.resume(os.fspath(path))
+        for message in self._run.warnings():
+            warnings.warn(message, RuntimeWarning, stacklevel=2)
+        self._facts = Values(self._run.facts())
+        self._forget()
+        return self
+
     # Running
 
     def run(self, time: float | None = None, collisions: int | None = None,
@@ -205,8 +226,19 @@ class Simulation:
         """
         self._run.save(os.fspath(path), force)
 
+    def checkpoint(self) -> None:
+        """Saves the simulation beside its output.file, so that resume() continues it from here.
+
+        That happens by itself every output.checkpoint_every seconds, and in close(). All
+        collisions up to now count as passed on to the function of on_collisions(). Raises Error
+        without an output file, if output.checkpoint_every is 0, and after close(); IoError if it
+        cannot be written.
+        """
+        self._run.checkpoint()
+
     def close(self) -> None:
-        """Completes output.file, if there is one. The state can be read, but not advanced."""
+        """Completes output.file, if there is one, and saves it for resume(). The state can be
+        read, but not advanced."""
         self._run.close()
 
     def __enter__(self) -> Simulation:

@@ -7,6 +7,7 @@
 #include "src/c/handle.h"
 #include "src/c/vectors.h"
 #include "src/runs/estimates.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 
 namespace needlework::c {
@@ -93,6 +94,17 @@ needlework_simulation* needlework_create_from(const char* scene, const needlewor
     State state = c::state_of(*initial, parsed.needles.box);
     return runs::complete_scene(std::move(parsed), std::move(state));
   });
+}
+
+needlework_simulation* needlework_resume(const char* file, needlework_error* error) {
+  needlework_simulation* made = nullptr;
+  c::guarded(error, [&] {
+    c::require(file, "file");
+    auto [saved, warning] = runs::load_checkpoint(file);
+    made = new needlework_simulation(std::move(saved));
+    c::report_warning(warning, error);
+  });
+  return made;
 }
 
 void needlework_destroy(needlework_simulation* simulation) { delete simulation; }

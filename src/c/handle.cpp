@@ -64,4 +64,8 @@ int report_failure(needlework_error* error) noexcept {
   }
 }
 
+void report_warning(const std::string& warning, needlework_error* error) noexcept {
+  put(NEEDLEWORK_OK, warning, error);
+}
+
 }  // namespace needlework::c

@@ -14,6 +14,7 @@
 struct needlework_simulation {
   needlework_simulation(needlework::runs::LoadedScene loaded, bool force)
       : run(std::move(loaded), force) {}
+  explicit needlework_simulation(needlework::runs::RunCheckpoint saved) : run(std::move(saved)) {}
 
   needlework::runs::PreparedRun run;
   bool closed = false;
@@ -41,6 +42,9 @@ void require_flags(unsigned flags);
 /// catch block. `error` may be null. Needs no memory: a message for which there is none is
 /// replaced.
 int report_failure(needlework_error* error) noexcept;
+
+/// Writes the code 0 and a warning. `error` may be null.
+void report_warning(const std::string& warning, needlework_error* error) noexcept;
 
 /// Calls action(), and turns its exceptions into a code and a message. No exception leaves it, not
 /// even one for want of memory.

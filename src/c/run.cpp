@@ -45,6 +45,12 @@ runs::Limits limits_of(const needlework_limits& limits) {
 /// callback, so that a request after the last event does not stop the next call.
 struct StopRequested : std::exception {};
 
+void require_open(const needlework_simulation& simulation) {
+  if (simulation.closed) {
+    throw UsageError("the simulation is closed: expected one that can be run");
+  }
+}
+
 /// The limits of a call, by from_start() or from_now(). What is wrong with them is an argument.
 template <class Count>
 Scene::Until until_of(const needlework_limits& limits, const needlework_simulation& simulation,
@@ -59,7 +65,7 @@ Scene::Until until_of(const needlework_limits& limits, const needlework_simulati
 template <class Until>
 int run(needlework_simulation* simulation, int* stop, Until&& until) noexcept {
   return guarded(simulation, [&](needlework_simulation& self) {
-    if (self.closed) throw UsageError("the simulation is closed: expected one that can be run");
+    require_open(self);
     const Scene::Until end = until(self);
     NoMonitor monitor;
     Stop reason = Stop::interrupted;
@@ -124,6 +130,14 @@ int needlework_advance(needlework_simulation* simulation, const needlework_limit
 
 void needlework_interrupt(needlework_simulation* simulation) {
   if (simulation) simulation->run.simulation().interrupt();
+}
+
+int needlework_checkpoint(needlework_simulation* simulation) {
+  return c::guarded(simulation, [](needlework_simulation& self) {
+    c::require_open(self);
+    if (const std::string why = self.run.why_not_saved(); !why.empty()) throw c::UsageError(why);
+    self.run.save_checkpoint();
+  });
 }
 
 int needlework_close(needlework_simulation* simulation) {

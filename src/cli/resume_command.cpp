@@ -2,27 +2,33 @@
 
 #include <utility>
 
+#include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/cli/messages.h"
 #include "src/cli/run_command.h"
-#include "src/runs/checkpoint.h"
-#include "src/runs/engine_choice.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
 
 namespace needlework::cli {
+namespace {
+
+// Other front ends name the end in each call.
+void require_end(const Scene::Until& until, const std::string& file) {
+  if (until.time || until.collisions_per_needle || until.energy_ratio || until.wall_s) return;
+  throw InputError(file +
+                   ": the run has no end: expected --set until.KEY=VALUE with one of time, "
+                   "collisions_per_needle, energy_ratio, wall_s");
+}
+
+}  // namespace
 
 int run(const ResumeArguments& arguments) {
-  auto [saved, warning] = runs::CheckpointFiles(arguments.file).read();
+  auto [saved, warning] = runs::load_checkpoint(arguments.file, [&](Scene& scene) {
+    override_until(scene, arguments.overrides);
+    require_end(scene.until, arguments.file);
+    apply(arguments.engine, scene);
+  });
   if (!warning.empty()) print_warning(warning);
-  Scene& scene = saved.scene;
-  // The file may have been moved since.
-  scene.output.file = scene.places["output.file"] = arguments.file;
-  override_until(scene, arguments.overrides);
-  // This may be another machine.
-  scene.engine.isa = "auto";
-  apply(arguments.engine, scene);
-  runs::choose_engine(scene);
-
   runs::PreparedRun prepared(std::move(saved));
   return drive(prepared, arguments.printing);
 }

@@ -53,6 +53,7 @@ std::string limited(Run& run, OptionalNumber time, std::optional<std::uint64_t> 
 void add_run(py::module_& module) {
   py::class_<Run>(module, "Run")
       .def(py::init(&make_run))
+      .def_static("resume", [](const std::string& file) { return std::make_unique<Run>(file); })
       .def("run", limited<&Run::run>, "time"_a, "collisions"_a, "collisions_per_needle"_a,
            "energy_ratio"_a, "wall_s"_a, "show"_a)
       .def("advance", limited<&Run::advance>, "time"_a, "collisions"_a, "collisions_per_needle"_a,
@@ -64,6 +65,7 @@ void add_run(py::module_& module) {
              run.set_velocities(vectors(velocity), vectors(angular_velocity));
            })
       .def("save", &Run::save)
+      .def("checkpoint", &Run::checkpoint)
       .def("close", &Run::close)
       .def("state", &Run::state)
       .def("totals", &Run::totals)

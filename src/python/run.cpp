@@ -14,6 +14,7 @@
 #include "src/python/monitor.h"
 #include "src/python/scene_source.h"
 #include "src/runs/engine_choice.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
 
@@ -46,6 +47,13 @@ Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
   runs::require_writable_output(loaded.scene, force, "force=True");
   warnings_ = runs::all_warnings(loaded.scene);
   run_.emplace(std::move(loaded), force);
+}
+
+Run::Run(const std::string& file) {
+  const py::gil_scoped_release release;
+  auto [saved, warning] = runs::load_checkpoint(file);
+  if (!warning.empty()) warnings_ = {warning};
+  run_.emplace(std::move(saved));
 }
 
 // A file that was not closed has all its frames nevertheless; there is no one to hear of errors.
@@ -126,6 +134,13 @@ void Run::save(const std::string& path, bool force) {
     runs::require_writable(path, force, path, "force=True");
     runs::write_state(run_->simulation(), run_->scene(), path, force);
   });
+}
+
+void Run::checkpoint() {
+  require_idle();
+  require_open();
+  if (const std::string why = run_->why_not_saved(); !why.empty()) throw UseError(why);
+  work([&] { run_->save_checkpoint(); });
 }
 
 void Run::close() {

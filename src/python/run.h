@@ -24,6 +24,8 @@ class Run {
  public:
   /// Without a state, that of the scene. Throws what the program would report.
   Run(const SceneSource& source, std::optional<State> state, bool force);
+  /// Continues the run of an output file from its last checkpoint.
+  explicit Run(const std::string& file);
   ~Run();
 
   /// Runs until one of the conditions is met, which count from the start of the run, or those of
@@ -41,6 +43,8 @@ class Run {
                       std::vector<std::array<double, 3>> angular_velocity);
   /// Writes the present state to a file of its own; see write_state().
   void save(const std::string& path, bool force);
+  /// Saves the run beside its output file, so that it can be continued from here.
+  void checkpoint();
   void close();
 
   /// A copy of the present state: read-only arrays position, velocity, orientation,

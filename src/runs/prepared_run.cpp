@@ -110,8 +110,21 @@ Simulation PreparedRun::continue_simulation(const Checkpoint& saved) {
   return simulation;
 }
 
+std::string PreparedRun::why_not_saved() const {
+  if (scene_.output.file.empty()) {
+    return "the simulation has no output file, beside which checkpoints are written: expected "
+           "output.file in its scene";
+  }
+  if (scene_.output.checkpoint_every == 0) {
+    return place_of(scene_, "output.checkpoint_every", "0") +
+           ": turns checkpoints off: expected a number > 0";
+  }
+  if (!writer_) return "the simulation is closed: expected one that can be run";
+  return {};
+}
+
 void PreparedRun::save_checkpoint() {
-  if (!writer_ || scene_.output.checkpoint_every == 0) return;
+  if (!why_not_saved().empty()) return;
   // First the rows that the checkpoint counts.
   writer_->sync();
   RunCheckpoint saved{.scene = scene_,

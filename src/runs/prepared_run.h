@@ -58,6 +58,8 @@ class PreparedRun {
   /// Saves the run beside its output file, if it has one and checkpoints are on, so that it can be
   /// continued from here. Throws IoError.
   void save_checkpoint();
+  /// Why save_checkpoint() does nothing, and what was expected; empty if it saves.
+  std::string why_not_saved() const;
   /// Saves the run, writes the sample and the frame of the end, and closes the file. Then only
   /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, the
   /// file ends with the last sample that was due.

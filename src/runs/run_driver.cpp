@@ -105,6 +105,7 @@ void RunDriver::begin() {
 }
 
 void RunDriver::transfer(Archive& archive) {
+  if (failure_) std::rethrow_exception(failure_);  // what was lost must not count as saved
   bool has_rate = rate_.has_value();
   archive(begun_, series_, frames_, last_sample_, last_frame_, course_.initial, course_.samples,
           has_rate);

@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/runs/limits.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
 #include "src/serve/arrays.h"
@@ -123,10 +124,11 @@ Json drive(runs::PreparedRun& run, const Scene::Until& until, const Json& reques
 }  // namespace
 
 const std::map<std::string, Requests::Handler> Requests::handlers = {
-    {"create", &Requests::create},       {"advance", &Requests::advance},
-    {"run_until", &Requests::run_until}, {"totals", &Requests::totals},
-    {"state", &Requests::state},         {"velocities", &Requests::velocities},
-    {"close", &Requests::close}};
+    {"create", &Requests::create},        {"advance", &Requests::advance},
+    {"run_until", &Requests::run_until},  {"totals", &Requests::totals},
+    {"state", &Requests::state},          {"velocities", &Requests::velocities},
+    {"close", &Requests::close},          {"resume", &Requests::resume},
+    {"checkpoint", &Requests::checkpoint}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
   const std::optional<std::string> name = text_in(request, "do");
@@ -143,7 +145,8 @@ Json Requests::answer(const Json& request, const Connection& connection) {
 
 runs::PreparedRun& Requests::run_of(const Json& request) {
   const auto number = count_in(request, "simulation");
-  if (!number) throw RequestError("simulation: expected the number that create has returned");
+  if (!number)
+    throw RequestError("simulation: expected the number that create or resume has returned");
   const auto found = runs_.find(static_cast<std::int64_t>(*number));
   if (found == runs_.end()) {
     throw RequestError(fmt::format(
@@ -158,7 +161,21 @@ Json Requests::create(const Json& request, const Connection&) {
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, "\"force\": true");
-  auto run = std::make_unique<runs::PreparedRun>(std::move(loaded), force);
+  return add(std::make_unique<runs::PreparedRun>(std::move(loaded), force));
+}
+
+Json Requests::resume(const Json& request, const Connection&) {
+  require_only(request, {"file"});
+  const auto file = text_in(request, "file");
+  if (!file) throw RequestError("file: expected the output file of a run");
+  auto [saved, warning] = runs::load_checkpoint(*file);
+  Json answer = add(std::make_unique<runs::PreparedRun>(std::move(saved)));
+  if (!warning.empty()) answer["warning"] = warning;
+  return answer;
+}
+
+/// Takes a run in, and returns what there is to say of it.
+Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
   const Simulation& simulation = run->simulation();
   Json answer{{"simulation", next_},
               {"needles", simulation.needles()},
@@ -223,6 +240,14 @@ Json Requests::velocities(const Json& request, const Connection&) {
   }
   run.simulation().set_velocities(*velocity, *angular_velocity);
   return summary_of(run);
+}
+
+Json Requests::checkpoint(const Json& request, const Connection&) {
+  require_only(request, {"simulation"});
+  runs::PreparedRun& run = run_of(request);
+  if (const std::string why = run.why_not_saved(); !why.empty()) throw RequestError(why);
+  run.save_checkpoint();
+  return Json::object();
 }
 
 Json Requests::close(const Json& request, const Connection&) {

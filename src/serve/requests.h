@@ -39,6 +39,8 @@ class Requests {
   static const std::map<std::string, Handler> handlers;
 
   Json create(const Json& request, const Connection&);
+  Json resume(const Json& request, const Connection&);
+  Json checkpoint(const Json& request, const Connection&);
   Json advance(const Json& request, const Connection& connection);
   Json run_until(const Json& request, const Connection& connection);
   Json totals(const Json& request, const Connection&);
@@ -47,6 +49,7 @@ class Requests {
   Json close(const Json& request, const Connection&);
 
   runs::PreparedRun& run_of(const Json& request);
+  Json add(std::unique_ptr<runs::PreparedRun> run);
 
   std::map<std::int64_t, std::unique_ptr<runs::PreparedRun>> runs_;
   std::int64_t next_ = 1;

@@ -53,6 +53,9 @@ TEST(CArguments, OfCreationMayNotBeNull) {
   EXPECT_STREQ(error.message, "scene is NULL: expected a pointer");
   EXPECT_EQ(needlework_open(nullptr, 0, &error), nullptr);
   EXPECT_STREQ(error.message, "path is NULL: expected a pointer");
+  EXPECT_EQ(needlework_resume(nullptr, &error), nullptr);
+  EXPECT_EQ(error.code, NEEDLEWORK_USAGE);
+  EXPECT_STREQ(error.message, "file is NULL: expected a pointer");
   EXPECT_EQ(needlework_create_from("", nullptr, 0, &error), nullptr);
   EXPECT_STREQ(error.message, "initial is NULL: expected a pointer");
   EXPECT_EQ(needlework_create_from(nullptr, nullptr, 0, nullptr), nullptr);

@@ -22,6 +22,8 @@ class CSimulation {
       : handle_(needlework_create(scene.c_str(), flags, &error)) {}
   CSimulation(const std::string& scene, const needlework_initial& initial)
       : handle_(needlework_create_from(scene.c_str(), &initial, 0, &error)) {}
+  /// Continues the run of a file.
+  static CSimulation resumed(const std::string& file) { return CSimulation(File{file}); }
   ~CSimulation() { needlework_destroy(handle_); }
   CSimulation(const CSimulation&) = delete;
   CSimulation& operator=(const CSimulation&) = delete;
@@ -50,6 +52,11 @@ class CSimulation {
   needlework_error error{};
 
  private:
+  struct File {
+    const std::string& name;
+  };
+  explicit CSimulation(File file) : handle_(needlework_resume(file.name.c_str(), &error)) {}
+
   needlework_simulation* handle_;
 };
 
@@ -112,6 +119,7 @@ inline void expect_all_refuse(needlework_simulation* simulation) {
   std::uint64_t value;
   EXPECT_EQ(needlework_run_until(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_advance(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
+  EXPECT_EQ(needlework_checkpoint(simulation), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_set_callback(simulation, 1, nullptr, nullptr), NEEDLEWORK_USAGE);
   EXPECT_EQ(needlework_get_box(simulation, box), NEEDLEWORK_USAGE);

@@ -30,6 +30,8 @@ int main(void) {
   code |= needlework_get_hash(simulation, hash);
   code |= needlework_get_counter(simulation, needlework_counter_name(0), &events);
   code |= needlework_ratio(&gas, &ratio, &error);
+  if (needlework_checkpoint(simulation) != NEEDLEWORK_USAGE) code |= 1; /* it has no file */
+  if (needlework_resume("", &error)) code |= 1;
   code |= needlework_close(simulation);
   if (stop != NEEDLEWORK_STOP_COLLISIONS || needlework_count(simulation) != 20) code |= 1;
   needlework_destroy(simulation);

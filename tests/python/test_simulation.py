@@ -260,7 +260,7 @@ class Threads(unittest.TestCase):
                 break
         for use in (lambda: sim.position, lambda: sim.totals, lambda: sim.time, lambda: sim.hash,
                     lambda: sim.counters, lambda: sim.run(time=1), lambda: sim.advance(time=1),
-                    sim.close, lambda: sim.on_collisions(print),
+                    sim.close, sim.checkpoint, lambda: sim.on_collisions(print),
                     lambda: sim.set_velocities(np.zeros((200, 3)), np.zeros((200, 3)))):
             with self.assertRaisesRegex(needlework.Error, "is running"):
                 use()

@@ -1,6 +1,7 @@
 // What a front end over a pipe gets: the runs of the program, and an answer to every line.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -113,6 +114,55 @@ TEST(Serve, WritesStatesAndOutput) {
   EXPECT_EQ(answers[6]["code"], 2);
   EXPECT_EQ(io::read_last_frame(state).size(), 60u);
   EXPECT_EQ(io::read_run(output).series.back().collisions, 120u);
+}
+
+TEST(Serve, ContinuesTheRunOfAFile) {
+  const test::TemporaryFolder folder;
+  const std::string output = folder.path() / "run.h5";
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  const auto first = answers_to({run,
+                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 50}},
+                                 {{"do", "checkpoint"}, {"simulation", 1}},
+                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 20}},
+                                 {{"do", "resume"}, {"file", output}}});
+  EXPECT_EQ(first[2]["ok"], true) << first[2];
+  EXPECT_EQ(first[4]["code"], 5) << "it is being written: " << first[4];
+  // The simulation was not closed, so that the 20 collisions are computed again.
+  const auto second = answers_to({{{"do", "resume"}, {"file", output}},
+                                  {{"do", "totals"}, {"simulation", 1}},
+                                  {{"do", "run_until"}, {"simulation", 1}},
+                                  {{"do", "close"}, {"simulation", 1}}});
+  EXPECT_EQ(second[0]["simulation"], 1) << second[0];
+  EXPECT_EQ(second[0]["needles"], 60);
+  EXPECT_FALSE(second[0].contains("warning"));
+  EXPECT_EQ(second[1]["collisions"], 50);
+  EXPECT_EQ(second[2]["trajectory_hash"], hash_of_whole_run());
+  EXPECT_EQ(io::read_run(output).series.back().collisions, 120u);
+
+  std::filesystem::resize_file(output + ".checkpoint", 1000);
+  const auto third =
+      answers_to({{{"do", "resume"}, {"file", output}}, {{"do", "run_until"}, {"simulation", 1}}});
+  EXPECT_NE(third[0].value("warning", "").find("damaged"), std::string::npos) << third[0];
+  EXPECT_EQ(third[1]["trajectory_hash"], hash_of_whole_run());
+}
+
+TEST(Serve, SaysWhyARunCannotBeSavedOrContinued) {
+  const auto answers = answers_to({create(),
+                                   {{"do", "checkpoint"}, {"simulation", 1}},
+                                   {{"do", "checkpoint"}, {"simulation", 2}},
+                                   {{"do", "resume"}},
+                                   {{"do", "resume"}, {"file", "none.h5"}},
+                                   {{"do", "resume"}, {"path", "none.h5"}}});
+  const auto expect = [&](int n, int code, const std::string& begin) {
+    EXPECT_EQ(answers[n]["code"], code) << answers[n];
+    EXPECT_EQ(answers[n].value("message", "").substr(0, begin.size()), begin);
+  };
+  expect(1, 2, "the simulation has no output file");
+  expect(2, 2, "simulation = 2: expected ");
+  expect(3, 2, "file: expected the output file of a run");
+  expect(4, 3, "none.h5.checkpoint: missing: expected the checkpoint of a run");
+  expect(5, 2, "path = \"none.h5\": expected one of the fields do, ");
 }
 
 // The reader sees the interruption at once, so the advance that waits before it does not last.
