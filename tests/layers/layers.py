@@ -40,12 +40,13 @@ LAYERS = [
     Layer("runs", ["src/runs"], [],
           ["base", "kernels", "trajectory", "scene", "search", "calendar", "observe", "io"],
           ["theory", "engine"]),
+    Layer("picture", ["src/picture"], [], ["base", "scene"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
           ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "scene", "search", "observe", "io", "audit", "runs", "bindings"],
+          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "bindings"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -54,7 +55,8 @@ FREE = ["bench", "tests"]  # may use anything; nothing else may use them
 LIBRARIES = [
     (r"hdf5\.h|H5.*", ["io", "runs"]),
     (r"toml\+\+/.*", ["scene"]),
-    (r"bzlib\.h|pugixml\.hpp", ["io"]),
+    (r"bzlib\.h", ["io"]),
+    (r"pugixml\.hpp", ["io", "picture"]),
     (r"CLI/.*", ["program"]),
     (r"nlohmann/.*", ["program", "bindings"]),
     (r"mpi\.h", ["program"]),
