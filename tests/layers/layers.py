@@ -41,12 +41,16 @@ LAYERS = [
           ["base", "kernels", "trajectory", "scene", "search", "calendar", "observe", "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
+    # The figures and claims of the paper: a client of the library.
+    Layer("reproduce", ["src/reproduce"], [],
+          ["base", "scene", "observe", "io", "runs", "picture"], ["theory", "trajectory"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
           ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "bindings"],
+          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "reproduce",
+           "bindings"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -58,7 +62,7 @@ LIBRARIES = [
     (r"bzlib\.h", ["io"]),
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["program", "bindings"]),
+    (r"nlohmann/.*", ["program", "bindings", "reproduce"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),

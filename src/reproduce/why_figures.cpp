@@ -1,0 +1,137 @@
+// Whether what the paper leaves open explains differences: the contact time t_c and the cells.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "needlework/theory.h"
+#include "src/reproduce/all_figures.h"
+#include "src/reproduce/cells.h"
+#include "src/reproduce/course.h"
+
+namespace needlework::reproduce {
+namespace {
+
+using picture::Curve;
+
+constexpr double standard_energy = 1e-9;  // E/E(0) at which dilute gases are compared
+
+// E / E_theory at the scaled time at which theory has lost all but `standard_energy`.
+double energy_over_theory(const FinishedRun& run) {
+  const Scene& scene = *run.scene;
+  const std::vector<double> taus = taus_of(run);
+  const auto theory = theory::cooling_curve({scene.needles.k, scene.collisions.epsilon},
+                                            {scene.initial.t_tr, scene.initial.t_rot}, taus);
+  std::size_t n = 0;
+  while (n + 1 < taus.size() && theory[n].energy() > standard_energy * theory[0].energy()) ++n;
+  return run.series[n].energy / theory[n].energy();
+}
+
+double tc_share(const FinishedRun& run) {
+  const Totals& last = run.series.back();
+  return static_cast<double>(last.tc_collisions) / static_cast<double>(last.collisions);
+}
+
+double flow_order_at(const FinishedRun& run, const char* name, double collisions) {
+  return interpolated(collisions_of(run), run.field(std::string("flow_order/") + name).values,
+                      collisions);
+}
+
+// A point with those of its runs whose seeds another one has too, so that means are over the same
+// initial states.
+Point with_seeds_of(Point point, const Point& other) {
+  std::erase_if(point.runs, [&](const FinishedRun& run) {
+    return std::none_of(other.runs.begin(), other.runs.end(),
+                        [&](const FinishedRun& its) { return its.seed == run.seed; });
+  });
+  return point;
+}
+
+struct Case {
+  std::string name;
+  Point point;
+  double cells;
+};
+
+Case case_of(Point point, const std::string& what) {
+  const Scene& scene = *point.scene;
+  const double cells = scene.output.grid ? (*scene.output.grid)[0] : 0;
+  const std::string name =
+      what == "cells" ? fmt::format("{:g} cells along each axis", cells)
+                      : fmt::format("t_c = {:g} mean free times", *scene.collisions.tc_relative);
+  return {name, std::move(point), cells};
+}
+
+}  // namespace
+
+FigureResult make_tests_of_why(const PaperRuns& runs) {
+  FigureResult result;
+  result.table.columns = {"tc_relative", "cells",  "collisions",  "s",
+                          "s_error",     "moment", "moment_error"};
+  const Point reference = runs.points("dense").front(), dilute = runs.points("dilute").front();
+
+  std::vector<Case> cases, dilute_cases;
+  for (Point& point : runs.points("dense-tc")) cases.push_back(case_of(point, "tc"));
+  for (Point& point : runs.points("dense-grid")) cases.push_back(case_of(point, "cells"));
+  cases.push_back(case_of(with_seeds_of(reference, cases.front().point), "tc"));
+  cases.back().name += fmt::format(", {:g} cells", cases.back().cells);
+  for (Point& point : runs.points("dilute-tc")) dilute_cases.push_back(case_of(point, "tc"));
+  dilute_cases.push_back(case_of(with_seeds_of(dilute, dilute_cases.front().point), "tc"));
+
+  picture::Panel s{
+      .title = "Order of the flow", .x = {"collisions per needle"}, .y = {"S / start"}};
+  picture::Panel moment{.title = "Second moment of the density",
+                        .x = {"collisions per needle"},
+                        .y = {"second moment / start"}};
+  const std::vector<double> places = steps(0, 640, 64);
+  for (const Case& one : cases) {
+    const auto growth = [&](const char* name) {
+      return mean_curve(one.point, places, [&](const FinishedRun& run) {
+        std::vector<double> values = run.field(std::string("flow_order/") + name).values;
+        const double start = values.front();
+        for (double& value : values) value /= start;
+        return std::pair{collisions_of(run), values};
+      });
+    };
+    const MeanCurve s_curve = growth("translational"), moment_curve = growth("second_moment");
+    Curve line{one.name, Curve::Style::line, s_curve.x, s_curve.mean};
+    s.curves.push_back(line);
+    line.y = moment_curve.mean;
+    moment.curves.push_back(line);
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      result.table.rows.push_back({*one.point.scene->collisions.tc_relative, one.cells, places[n],
+                                   s_curve.mean[n], s_curve.error[n], moment_curve.mean[n],
+                                   moment_curve.error[n]});
+    }
+    const auto add = [&](const char* claim, const std::function<double(const FinishedRun&)>& f) {
+      result.measurements.push_back({claim, "test, dense, " + one.name, measure(one.point, f)});
+    };
+    add("flow-order", [](const FinishedRun& run) {
+      return flow_order_at(run, "translational", shown_collisions);
+    });
+    add("flow-order-growth", [](const FinishedRun& run) {
+      return flow_order_at(run, "translational", shown_collisions) /
+             run.field("flow_order/translational").values.front();
+    });
+    add("moment-growth", [](const FinishedRun& run) {
+      return flow_order_at(run, "second_moment", 400) /
+             run.field("flow_order/second_moment").values.front();
+    });
+    add("tc-share", tc_share);
+  }
+  for (const Case& one : dilute_cases) {
+    result.measurements.push_back(
+        {"energy-theory", "test, dilute, " + one.name, measure(one.point, energy_over_theory)});
+    result.measurements.push_back(
+        {"tc-share", "test, dilute, " + one.name, measure(one.point, tc_share)});
+  }
+  result.chart = {.title = "Do contact time and cells matter?",
+                  .description =
+                      "Growth of the order of the flow and of the second moment of the "
+                      "density, for three contact times and three sizes of cells; k = 6, "
+                      "T_rot(0) = 1.",
+                  .panels = {s, moment}};
+  return result;
+}
+
+}  // namespace needlework::reproduce
