@@ -22,8 +22,9 @@ struct Axis {
 struct ColourScale {
   std::string label = {};  ///< beside the bar that explains the colours
   bool logarithmic = false;
-  bool diverging = false;      ///< two hues that meet in the middle of the range, by default at 0
-  std::optional<Range> range = {};  ///< values beyond it get the colour of its end; default: all values
+  bool diverging = false;  ///< two hues that meet in the middle of the range, by default at 0
+  std::optional<Range> range =
+      {};  ///< values beyond it get the colour of its end; default: all values
 };
 
 /// A family of values of y at values of x, of the same number. What cannot be placed (NaN,

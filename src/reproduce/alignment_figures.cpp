@@ -160,18 +160,6 @@ ClusterAlignment alignment_in_clusters(const State& state, const std::array<int,
   return result;
 }
 
-// The frame nearest to so many collisions per needle, among those of a file.
-std::size_t frame_near(const FinishedRun& run, const io::FrameFile& frames, double collisions) {
-  const double time = run.series[sample_near(run, collisions)].time;
-  std::size_t nearest = 0;
-  for (std::size_t frame = 1; frame < frames.count(); ++frame) {
-    if (std::abs(*frames.time(frame) - time) < std::abs(*frames.time(nearest) - time)) {
-      nearest = frame;
-    }
-  }
-  return nearest;
-}
-
 }  // namespace
 
 FigureResult make_clusters(const PaperRuns& runs) {

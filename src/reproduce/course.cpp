@@ -57,6 +57,17 @@ std::size_t sample_near(const FinishedRun& run, double collisions) {
   return static_cast<std::size_t>(nearest - all.begin());
 }
 
+std::size_t frame_near(const FinishedRun& run, const io::FrameFile& frames, double collisions) {
+  const double time = run.series[sample_near(run, collisions)].time;
+  std::size_t nearest = 0;
+  for (std::size_t frame = 1; frame < frames.count(); ++frame) {
+    if (std::abs(*frames.time(frame) - time) < std::abs(*frames.time(nearest) - time)) {
+      nearest = frame;
+    }
+  }
+  return nearest;
+}
+
 Measured mean_of(std::span<const double> values) {
   const runs::sweep::Estimate estimate = runs::sweep::estimate(values);
   return {estimate.mean, estimate.standard_error, values.size()};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/h5md.h"
 #include "src/reproduce/figure.h"
 #include "src/reproduce/paper_runs.h"
 
@@ -25,6 +26,9 @@ double interpolated(std::span<const double> x, std::span<const double> y, double
 
 /// The sample nearest to so many collisions per needle.
 std::size_t sample_near(const FinishedRun& run, double collisions);
+
+/// The frame of the file of a run nearest to so many collisions per needle.
+std::size_t frame_near(const FinishedRun& run, const io::FrameFile& frames, double collisions);
 
 /// The mean over seeds, with its standard error.
 Measured mean_of(std::span<const double> values);

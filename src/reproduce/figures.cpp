@@ -25,12 +25,12 @@ const Figure all[] = {
     {"rough", "Beyond the paper: long-time ratio of rough needles", {"rough"}, make_rough_ratio},
     {"sizes",
      "Beyond the paper: the dense gas in boxes of several sizes",
-     {"box-small", "box-middle", "dense", "box-large"},
+     {"box-small", "box-middle", "box-large"},
      make_box_sizes},
     {"clusters", "Beyond the paper: alignment inside clusters", {"dense"}, make_clusters},
     {"why",
      "Tests of why: contact time and cells",
-     {"dilute", "dense", "dilute-tc", "dense-tc", "dense-grid"},
+     {"dilute", "dense", "dilute-tc", "dense-tc"},
      make_tests_of_why},
 };
 

@@ -20,7 +20,7 @@ struct Stated {
 /// A number that was measured, with its standard error over independent runs.
 struct Measured {
   double value = 0;
-  double error = 0;                  ///< standard error; 0 for what is computed without chance
+  double error = 0;                       ///< standard error; 0 for what is computed without chance
   std::optional<std::size_t> seeds = {};  ///< independent runs; none for what is computed
 };
 
