@@ -119,7 +119,7 @@ class Grid {
         const Column& column = columns_[i - first];
         const std::string place =
             fmt::format("translate({} {})", pixels(x + column.left), pixels(y + row.top));
-        layouts_[i].draw(add(root, "g", {{"transform", place}}), fmt::format("colours{}", i));
+        layouts_[i].draw(add(root, "g", {{"transform", place}}));
         x += column.left + column.inside + column.right;
       }
       y += row.top + row.inside + row.bottom;

@@ -51,7 +51,8 @@ struct Curve {
 /// Values on a grid of rectangles, shown as colours. A value that is not finite leaves a gap.
 struct Map {
   std::vector<double> x_edges, y_edges;  ///< one more than there are columns and rows
-  std::vector<double> values;            ///< row after row, from the least y
+  std::vector<double> values;            ///< row after row, from the first y
+  bool contours = false;                 ///< draws lines at the labelled values of the bar
 };
 
 /// A field of vectors (u, v) on a grid of points (x, y). The longest arrow is as long as a cell.

@@ -57,6 +57,11 @@ Colour mixed(Colour first, Colour second, double share) {
           mixed_part(first.blue, second.blue, share)};
 }
 
+bool is_light(Colour colour) {
+  // The brightness of a colour by ITU-R BT.601.
+  return 0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue > 150;
+}
+
 Colour curve_colour(std::size_t number) { return curves[number % curves.size()]; }
 
 Gradient sequential_gradient() { return viridis; }

@@ -19,6 +19,9 @@ std::string hex(Colour colour);
 /// `share` of the first and the rest of the second.
 Colour mixed(Colour first, Colour second, double share);
 
+/// Whether dark lines are seen better on this colour than light ones.
+bool is_light(Colour colour);
+
 /// The colour of the curve of this number, of the palette of Okabe and Ito without its yellow,
 /// which is lost on white. The numbers start again after the last colour.
 Colour curve_colour(std::size_t number);

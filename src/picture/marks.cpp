@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/picture/contours.h"
 #include "src/picture/svg_document.h"
 
 namespace needlework::picture {
@@ -29,7 +30,7 @@ std::optional<std::pair<Point, Point>> clipped(Point a, Point b, const Area& are
       if (from < low || from > high) return std::nullopt;
       continue;
     }
-    const auto [enter, leave] = std::minmax((low - from) / along, (high - from) / along);
+    const auto [enter, leave] = std::minmax({(low - from) / along, (high - from) / along});
     begin = std::max(begin, enter);
     end = std::min(end, leave);
   }
@@ -60,12 +61,18 @@ std::string path_of(const std::vector<Point>& line) {
   return path;
 }
 
+std::string circle(Point at, double radius) {
+  const std::string r = pixels(radius), d = pixels(2 * radius);
+  return fmt::format("M{} {}m-{} 0a{} {} 0 1 0 {} 0a{} {} 0 1 0 -{} 0z", pixels(at.x), pixels(at.y),
+                     r, r, r, d, r, r, d);
+}
+
 // Shapes of points: circle, square, triangle, diamond.
 std::string marker(std::size_t shape, Point at) {
   const std::string x = pixels(at.x), y = pixels(at.y);
   switch (shape % 4) {
     case 0:
-      return fmt::format("M{} {}m-3 0a3 3 0 1 0 6 0a3 3 0 1 0 -6 0z", x, y);
+      return circle(at, 3);
     case 1:
       return fmt::format("M{} {}m-2.7 -2.7h5.4v5.4h-5.4z", x, y);
     case 2:
@@ -90,15 +97,18 @@ void draw_points(pugi::xml_node parent, const Curve& curve, std::size_t number, 
   const bool by_value = !curve.values.empty();
   pugi::xml_node group =
       by_value
-          ? add(parent, "g", {{"stroke", ink}, {"stroke-width", 0.8}})
+          ? add(parent, "g", {{"stroke", "#ffffff"}, {"stroke-width", 1.4}})
           : add(parent, "g",
                 {{"fill", curve_colour(number)}, {"stroke", "#ffffff"}, {"stroke-width", 0.6}});
   for (std::size_t i = 0; i < curve.y.size(); ++i) {
     const Point at = area(curve.x[i], curve.y[i]);
     if (!is_finite(at) || !area.holds(at)) continue;
     if (by_value && std::isnan(colours.share(curve.values[i]))) continue;
-    pugi::xml_node point = add(group, "path", {{"d", marker(number, at)}});
-    if (by_value) set(point, {"fill", colours(curve.values[i])});
+    if (by_value) {
+      add(group, "path", {{"d", circle(at, 5)}, {"fill", colours(curve.values[i])}});
+    } else {
+      add(group, "path", {{"d", marker(number, at)}});
+    }
   }
 }
 
@@ -202,6 +212,20 @@ void draw_map(pugi::xml_node parent, const Map& map, const Area& area,
   }
   pugi::xml_node group = add(parent, "g", {{"shape-rendering", "crispEdges"}});
   for (const auto& [colour, path] : paths) add(group, "path", {{"d", path}, {"fill", colour}});
+}
+
+void draw_contours(pugi::xml_node parent, const Map& map, const std::vector<Tick>& levels,
+                   const Area& area, const ColouredRange& colours) {
+  pugi::xml_node group = add(parent, "g", {{"fill", "none"}, {"stroke-opacity", "0.7"}});
+  for (const Tick& level : levels) {
+    if (level.label.empty()) continue;
+    std::string path;
+    for (const auto& [from, to] : contour(map, level.value, area)) {
+      if (const auto part = clipped(from, to, area)) path += path_of({part->first, part->second});
+    }
+    const Colour on = is_light(colours(level.value)) ? ink : Colour{0xff, 0xff, 0xff};
+    if (!path.empty()) add(group, "path", {{"d", path}, {"stroke", on}});
+  }
 }
 
 double longest_arrow(const Arrows& arrows) {

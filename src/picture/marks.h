@@ -38,6 +38,9 @@ void draw_curve(pugi::xml_node parent, const Curve& curve, std::size_t colour, c
                 const ColouredRange& colours);
 void draw_map(pugi::xml_node parent, const Map& map, const Area& area,
               const ColouredRange& colours);
+/// Lines at the levels that have a label.
+void draw_contours(pugi::xml_node parent, const Map& map, const std::vector<Tick>& levels,
+                   const Area& area, const ColouredRange& colours);
 void draw_arrows(pugi::xml_node parent, const Arrows& arrows, const Area& area);
 
 /// A sample of the marks of a curve from (x, y) on, for the legend, and its width.

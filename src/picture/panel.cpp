@@ -23,6 +23,10 @@ double widest(const std::vector<Tick>& ticks) {
   return width;
 }
 
+double width_of_entry(const std::string& text) {
+  return sample_width + 7 + text_width(text, tick_size) + 7;
+}
+
 // Data fill the axes of maps to their edges; others have a margin.
 Range range_of(const Axis& axis, const RangeOfValues& data, bool to_the_edges) {
   if (axis.range) return usable_range(*axis.range, axis.logarithmic);
@@ -65,8 +69,8 @@ void PanelLayout::choose_scales(double width, double height) {
   }
   area_.x = {x_range, panel_.x.logarithmic, 0, width};
   area_.y = {y_range, panel_.y.logarithmic, height, 0};
-  x_ticks_ = ticks(x_range, panel_.x.logarithmic, std::max(2, static_cast<int>(width / 65)));
-  y_ticks_ = ticks(y_range, panel_.y.logarithmic, std::max(2, static_cast<int>(height / 45)));
+  x_ticks_ = ticks(x_range, panel_.x.logarithmic, std::max(2, static_cast<int>(width / 50)));
+  y_ticks_ = ticks(y_range, panel_.y.logarithmic, std::max(2, static_cast<int>(height / 35)));
 }
 
 void PanelLayout::choose_colours() {
@@ -87,15 +91,14 @@ void PanelLayout::choose_colours() {
   range = usable_range(range, scale.logarithmic);
   colours_ = {{range, scale.logarithmic, 0, 1},
               scale.diverging ? diverging_gradient() : sequential_gradient()};
-  if (has_bar_) colour_ticks_ = ticks(range, scale.logarithmic, 6);
+  if (has_bar_) colour_ticks_ = ticks(range, scale.logarithmic, 8);
 }
 
 std::size_t PanelLayout::colour_of(std::size_t curve) const {
   return panel_.curves[curve].colour.value_or(curve);
 }
 
-// In the corner where it hides least; outside if it would hide something everywhere.
-void PanelLayout::place_legend() {
+void PanelLayout::choose_legend_entries() {
   for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
     if (!panel_.curves[i].name.empty()) entries_.push_back({i, panel_.curves[i].name});
   }
@@ -103,25 +106,50 @@ void PanelLayout::place_legend() {
     entries_.push_back({panel_.curves.size(), fmt::format("{}: {:.3g}", panel_.arrows->name,
                                                           longest_arrow(*panel_.arrows))});
   }
+}
+
+// In the corner where it hides nothing, or else below the axis.
+void PanelLayout::place_legend() {
+  choose_legend_entries();
   if (entries_.empty()) return;
   for (const LegendEntry& entry : entries_) {
-    legend_width_ = std::max(legend_width_, text_width(entry.text, tick_size));
+    legend_width_ = std::max(legend_width_, width_of_entry(entry.text));
   }
-  legend_width_ += sample_width + 20;
+  legend_width_ += 6;
   legend_height_ = static_cast<double>(entries_.size()) * row_height + 8;
 
   constexpr double gap = 8;
   const double right = area_.x.end - legend_width_ - gap;
   const double bottom = area_.y.begin - legend_height_ - gap;
-  legend_outside_ = panel_.map || panel_.arrows || right < gap || bottom < gap;
-  if (!legend_outside_) {
+  legend_below_ = panel_.map || panel_.arrows || right < gap || bottom < gap;
+  if (!legend_below_) {
     const std::array corners{Point{right, gap}, Point{gap, bottom}, Point{right, bottom},
                              Point{gap, gap}};
     legend_ = *std::min_element(corners.begin(), corners.end(),
                                 [&](Point a, Point b) { return covered(a) < covered(b); });
-    legend_outside_ = covered(legend_) > 0;
+    legend_below_ = covered(legend_) > 0;
   }
-  if (legend_outside_) legend_ = {area_.x.end + bar_width() + 6, 0};
+  if (legend_below_) return place_below();
+  double y = legend_.y + 4 + row_height / 2;
+  for (LegendEntry& entry : entries_) {
+    entry.place = {legend_.x + 6, y};
+    y += row_height;
+  }
+}
+
+// In rows as long as the axis.
+void PanelLayout::place_below() {
+  legend_ = {0, area_.y.begin + height_below()};
+  double x = 0, y = legend_.y + row_height / 2;
+  for (LegendEntry& entry : entries_) {
+    if (x > 0 && x + width_of_entry(entry.text) > area_.x.end) {
+      x = 0;
+      y += row_height;
+    }
+    entry.place = {x, y};
+    x += width_of_entry(entry.text) + 6;
+  }
+  legend_height_ = y + row_height / 2 - legend_.y;
 }
 
 // How much of the curves a legend in this place would hide [points and pixels of lines].
@@ -157,18 +185,25 @@ double PanelLayout::bar_width() const {
   return bar_gap + bar_thickness + 7 + widest(colour_ticks_) + label;
 }
 
+// Of the ticks and the label of the x axis.
+double PanelLayout::height_below() const {
+  return 30 + (panel_.x.label.empty() ? 0 : 1.4 * label_size);
+}
+
 Margins PanelLayout::margins() const {
   Margins margins;
   margins.left = 18 + widest(y_ticks_) + (panel_.y.label.empty() ? 0 : 1.5 * label_size);
-  margins.bottom = 30 + (panel_.x.label.empty() ? 0 : 1.4 * label_size);
+  margins.bottom = height_below() + (legend_below_ ? legend_height_ + 4 : 0);
   margins.top = panel_.title.empty() ? 12 : 32;
-  margins.right = 16 + bar_width() + (legend_outside_ ? legend_width_ + 6 : 0);
+  margins.right = 16 + bar_width();
   return margins;
 }
 
-void PanelLayout::draw(pugi::xml_node group, const std::string& id) const {
+void PanelLayout::draw(pugi::xml_node group) const {
   draw_axes(group);
   if (panel_.map) draw_map(group, *panel_.map, area_, colours_);
+  if (panel_.map && panel_.map->contours)
+    draw_contours(group, *panel_.map, colour_ticks_, area_, colours_);
   for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
     draw_curve(group, panel_.curves[i], colour_of(i), area_, colours_);
   }
@@ -179,7 +214,7 @@ void PanelLayout::draw(pugi::xml_node group, const std::string& id) const {
     add_text(group, area_.x.end / 2, -12, panel_.title,
              {.size = title_size, .anchor = "middle", .bold = true});
   }
-  if (has_bar_) draw_bar(group, id);
+  if (has_bar_) draw_bar(group);
   if (!entries_.empty()) draw_legend(group);
 }
 
@@ -215,20 +250,26 @@ void PanelLayout::draw_axes(pugi::xml_node group) const {
   }
 }
 
-void PanelLayout::draw_bar(pugi::xml_node group, const std::string& id) const {
+void PanelLayout::draw_bar(pugi::xml_node group) const {
   const double left = area_.x.end + bar_gap, height = area_.y.begin;
-  pugi::xml_node gradient = add(group, "linearGradient",
-                                {{"id", id}, {"x1", 0.0}, {"x2", 0.0}, {"y1", 1.0}, {"y2", 0.0}});
-  const Gradient colours = colours_.gradient;
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(colours.size() - 1);
-    add(gradient, "stop", {{"offset", fmt::format("{:.4g}", share)}, {"stop-color", colours[i]}});
+  // Of strips rather than a gradient, which would need a name that is unique where several pictures
+  // are part of one page.
+  constexpr int strips = 96;
+  pugi::xml_node bar = add(group, "g", {{"shape-rendering", "crispEdges"}});
+  for (int i = 0; i < strips; ++i) {
+    const Colour colour = colour_at(colours_.gradient, (i + 0.5) / strips);
+    add(bar, "rect",
+        {{"x", left},
+         {"y", height * (strips - 1 - i) / strips},
+         {"width", bar_thickness},
+         {"height", height / strips + 0.5},
+         {"fill", colour}});
   }
   add(group, "rect",
       {{"x", left},
        {"width", bar_thickness},
        {"height", height},
-       {"fill", fmt::format("url(#{})", id)},
+       {"fill", "none"},
        {"stroke", ink}});
   Scale scale = colours_.share;
   scale.begin = height;
@@ -250,7 +291,7 @@ void PanelLayout::draw_bar(pugi::xml_node group, const std::string& id) const {
 
 void PanelLayout::draw_legend(pugi::xml_node group) const {
   pugi::xml_node legend = add(group, "g");
-  if (!legend_outside_) {
+  if (!legend_below_) {
     add(legend, "rect",
         {{"x", legend_.x},
          {"y", legend_.y},
@@ -260,17 +301,14 @@ void PanelLayout::draw_legend(pugi::xml_node group) const {
          {"stroke", grey},
          {"rx", 3.0}});
   }
-  double y = legend_.y + 4 + row_height / 2;
-  for (const LegendEntry& entry : entries_) {
-    const Point place{legend_.x + 6, y};
-    if (entry.curve < panel_.curves.size()) {
-      draw_sample(legend, panel_.curves[entry.curve], colour_of(entry.curve), place);
+  for (const auto& [curve, text, place] : entries_) {
+    if (curve < panel_.curves.size()) {
+      draw_sample(legend, panel_.curves[curve], colour_of(curve), place);
     } else {
       draw_arrow_sample(legend, place);
     }
-    add_text(legend, place.x + sample_width + 7, y + 0.35 * tick_size, entry.text,
+    add_text(legend, place.x + sample_width + 7, place.y + 0.35 * tick_size, text,
              {.size = tick_size});
-    y += row_height;
   }
 }
 

@@ -24,24 +24,27 @@ class PanelLayout {
 
   Margins margins() const;
   double height() const { return area_.y.begin; }
-  /// Draws into a group whose origin is the upper left corner of the axes. `id` is a name for what
-  /// the panel defines, unique in the document.
-  void draw(pugi::xml_node group, const std::string& id) const;
+  /// Draws into a group whose origin is the upper left corner of the axes.
+  void draw(pugi::xml_node group) const;
 
  private:
   struct LegendEntry {
     std::size_t curve;  ///< number of the curve; that of the arrows is the number of curves
     std::string text;
+    Point place{};  ///< of the middle of its left end
   };
 
   void choose_scales(double width, double height);
   void choose_colours();
+  void choose_legend_entries();
   void place_legend();
+  void place_below();
   double covered(Point corner) const;
   std::size_t colour_of(std::size_t curve) const;
   void draw_axes(pugi::xml_node group) const;
-  void draw_bar(pugi::xml_node group, const std::string& id) const;
+  void draw_bar(pugi::xml_node group) const;
   void draw_legend(pugi::xml_node group) const;
+  double height_below() const;
   double bar_width() const;
 
   const Panel& panel_;
@@ -51,8 +54,8 @@ class PanelLayout {
   ColouredRange colours_;
   std::vector<LegendEntry> entries_;
   double legend_width_ = 0, legend_height_ = 0;
-  Point legend_{};
-  bool legend_outside_ = false;
+  Point legend_{};  ///< its upper left corner
+  bool legend_below_ = false;
 };
 
 }  // namespace needlework::picture

@@ -113,10 +113,9 @@ SvgDocument::SvgDocument(double width, double height, const std::string& title,
                             {"height", height},
                             {"viewBox", fmt::format("0 0 {} {}", pixels(width), pixels(height))},
                             {"font-family", "Helvetica, Arial, 'DejaVu Sans', sans-serif"},
-                            {"role", "img"},
-                            {"aria-labelledby", "title description"}});
-  set_text(add(svg, "title", {{"id", "title"}}), plain_text(title));
-  set_text(add(svg, "desc", {{"id", "description"}}), plain_text(description));
+                            {"role", "img"}});
+  set_text(add(svg, "title"), plain_text(title));
+  set_text(add(svg, "desc"), plain_text(description));
 }
 
 std::string SvgDocument::text() const {

@@ -28,6 +28,13 @@ double step_of(double length, int count) {
   return 10 * decade;
 }
 
+// With the sign that typesetters use for a minus.
+std::string with_minus(const std::string& number) {
+  std::string text;
+  for (const char c : number) text += c == '-' ? "−" : std::string(1, c);
+  return text;
+}
+
 std::string with_power(double factor, int decimals, int exponent) {
   if (decimals == 0 && factor == 1) return fmt::format("10^{{{}}}", exponent);
   return fmt::format("{:.{}f}·10^{{{}}}", factor, decimals, exponent);
@@ -46,9 +53,10 @@ std::vector<Tick> linear_ticks(Range range, int count) {
     if (n == 0) {
       all.push_back({0, "0"});
     } else {
-      all.push_back({n * step, plain ? fmt::format("{:.{}f}", n * step, decimals)
-                                     : with_power(n * step / power_of_ten(first_digit), decimals,
-                                                  first_digit)});
+      const std::string label =
+          plain ? fmt::format("{:.{}f}", n * step, decimals)
+                : with_power(n * step / power_of_ten(first_digit), decimals, first_digit);
+      all.push_back({n * step, with_minus(label)});
     }
   }
   return all;
@@ -58,7 +66,7 @@ std::string label_of(double factor, int exponent, bool plain) {
   if (plain || exponent == 0) {
     return fmt::format("{:.{}f}", factor * power_of_ten(exponent), std::max(0, -exponent));
   }
-  return with_power(factor, 0, exponent);
+  return with_minus(with_power(factor, 0, exponent));
 }
 
 std::vector<Tick> logarithmic_ticks(Range range, int count) {
