@@ -7,6 +7,7 @@ namespace needlework::reproduce {
 
 // dilute_figures.cpp
 FigureResult make_cooling(const PaperRuns& runs);
+// fluctuations_figure.cpp
 FigureResult make_fluctuations(const PaperRuns& runs);
 // ratio_figures.cpp
 FigureResult make_ratio(const PaperRuns& runs);
