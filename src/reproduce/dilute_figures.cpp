@@ -73,13 +73,13 @@ double late_ratio(const FinishedRun& run, double c) {
   return std::exp(sum / count) / c;
 }
 
-/// Curves of figure 2, and where the energy is farthest from theory.
+/// Curves of figure 2, and where they are farthest from theory.
 struct Cooling {
   Curve energy{"simulation", Curve::Style::points}, energy_theory{"theory"};
   Curve ratio{"simulation", Curve::Style::points}, ratio_theory{"theory"};
   Curve energy_over_theory{"E", Curve::Style::points},
       ratio_over_theory{"T_{tr} / T_{rot}", Curve::Style::points};
-  Measured farthest{1, 0, {}};
+  Measured farthest{1, 0, {}}, farthest_ratio{1, 0, {}};
 };
 
 void add(Curve& curve, double x, const Measured& y) {
@@ -90,6 +90,10 @@ void add(Curve& curve, double x, double y) { curve.x.push_back(x), curve.y.push_
 
 Measured operator/(const Measured& measured, double number) {
   return {measured.value / number, measured.error / number, measured.seeds};
+}
+
+void keep_farthest(Measured& farthest, const Measured& now) {
+  if (std::abs(now.value - 1) >= std::abs(farthest.value - 1)) farthest = now;
 }
 
 Cooling cooling_of(const Point& point, Table& table) {
@@ -105,10 +109,10 @@ Cooling cooling_of(const Point& point, Table& table) {
     add(curves.energy, taus[n], e), add(curves.energy_theory, taus[n], e_theory);
     add(curves.ratio, taus[n], q), add(curves.ratio_theory, taus[n], q_theory);
     if (taus[n] < first_tau) continue;
-    const Measured off = e / e_theory;
-    add(curves.energy_over_theory, taus[n], off);
+    add(curves.energy_over_theory, taus[n], e / e_theory);
     add(curves.ratio_over_theory, taus[n], q / q_theory);
-    if (std::abs(off.value - 1) >= std::abs(curves.farthest.value - 1)) curves.farthest = off;
+    keep_farthest(curves.farthest, e / e_theory);
+    keep_farthest(curves.farthest_ratio, q / q_theory);
   }
   return curves;
 }
@@ -150,6 +154,7 @@ FigureResult make_cooling(const PaperRuns& runs) {
   });
   result.measurements = {{"energy-theory", "", curves.farthest},
                          {"ratio-theory", "", over_seeds(late_ratio)},
+                         {"ratio-theory-start", "", curves.farthest_ratio},
                          {"ratio-time", "", over_seeds(time_to_share)},
                          {"haff-dilute", "", haff},
                          {"tc-instances", "dilute", measure(point, log_tc_collisions)}};
