@@ -63,7 +63,7 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
   processor_.set_now(run.now);
   processor_.take(std::move(replaced));
   std::vector<Time> placed_until(count);
-  for (Needle i{0}; i < count; ++i) placed_until[i] = search_.place(i, run.now);
+  for (Needle i{0}; i < count; ++i) placed_until[i] = processor_.place(i);
   for (Needle i{0}; i < count; ++i) processor_.schedule(i, placed_until[i]);
 }
 

@@ -47,6 +47,8 @@ class EventProcessor {
   }
   /// Processes the event.
   void process(const Event& event, bool stale);
+  /// Enters needle i into the search where it is now. Returns until when it is found there.
+  Time place(Needle i) { return search_.place(i, now(), model_.half_length(i)); }
   /// Searches the next contact of needle i from now on and puts its next event into the calendar.
   /// `just_hit` is the needle with which it has just collided, if any.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, Needle just_hit = no_needle);
@@ -106,7 +108,7 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
     case EventKind::contact:
       if (stale) {
         ++tally_.counters.stale;
-        return schedule(event.owner, search_.place(event.owner, now()));
+        return schedule(event.owner, place(event.owner));
       }
       return collide(event);
   }
@@ -120,7 +122,7 @@ void EventProcessor<S, M>::horizon(Needle i) {
     ++tally_.counters.renewals;
     replace_record(i, [&] { return model_.renew_in_flight(i, now()); });
   }
-  schedule(i, search_.place(i, now()));
+  schedule(i, place(i));
 }
 
 template <Search S, Model M>
@@ -184,7 +186,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   ++tally_.collisions;
   tally_.tc_collisions += elastic;
   tally_.hash.add(report);
-  const Time placed_a = search_.place(a, now()), placed_b = search_.place(b, now());
+  const Time placed_a = place(a), placed_b = place(b);
   schedule(a, placed_a, b);
   schedule(b, placed_b, a);
   if (reports || run_.callback) run_.report(report, a, b, reports);
@@ -200,7 +202,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit
   best.lower_id = best.higher_id = gas_.ids[i];
   best.time =
       std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.search_span)});
-  search_.find(i, just_hit, time, gas_.clock.difference(best.time, time),
+  search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,
                [&](Needle j, const Shift& shift, double from, double to) {
                  consider(i, j, shift, from, to, best);
                  return gas_.clock.difference(best.time, time);

@@ -244,7 +244,7 @@ void ParallelLoop<S, M>::undo() {
   processor_.set_now(run_.now);
   processor_.forget();
   std::vector<Time> placed_until;
-  for (const Needle i : needles) placed_until.push_back(search_.place(i, run_.now));
+  for (const Needle i : needles) placed_until.push_back(processor_.place(i));
   for (std::size_t n = 0; n < needles.size(); ++n) {
     processor_.schedule(needles[n], placed_until[n]);
   }

@@ -44,6 +44,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.restitution() } -> std::convertible_to<const Restitution&>;
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.centre(record, time) } -> std::same_as<Vec3d>;
+  { model.half_length(i) } -> std::same_as<double>;
   { model.reach(record, record) } -> std::convertible_to<double>;
   { model.pair(i, record, i, record, shift) } -> std::same_as<kernels::Pair>;
   { model.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;

@@ -24,6 +24,11 @@ class NeedleModel {
   Vec3d centre(const Record& record, double elapsed) const {
     return centre_after(record.flight, elapsed);
   }
+  /// Half the length of needle i. [L]
+  double half_length(Needle i) const {
+    if constexpr (effects.table) return gas_.bodies[gas_.records[i].species].half_length;
+    return 0.5;
+  }
   /// Centres farther apart than this cannot be in contact. [L]
   double reach(const Record& a, const Record& b) const {
     return body(a).half_length + body(b).half_length;
@@ -57,7 +62,7 @@ class NeedleModel {
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
               const Vec3d& angular_velocity) const {
-    return renew_record(gas_, i, now, {director, velocity, angular_velocity, length_of(i)});
+    return renew_record(gas_, i, now, {director, velocity, angular_velocity, 2 * half_length(i)});
   }
   Shift renew_in_flight(Needle i, Time now) const {
     const Record& record = gas_.records[i];
@@ -69,10 +74,6 @@ class NeedleModel {
   Body body(const Record& record) const {
     if constexpr (effects.table) return gas_.bodies[record.species];
     return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.species[0].k};
-  }
-  double length_of(Needle i) const {
-    if constexpr (effects.table) return gas_.bodies[gas_.records[i].species].length();
-    return 1;
   }
 
   Gas& gas_;

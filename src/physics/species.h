@@ -16,7 +16,6 @@ struct Body {
 };
 
 /// One species, in the units of the scene, in which the default species has length 1 and mass 1.
-/// The searches read half lengths by species with and without the table (src/search/lengths.h).
 struct Species {
   double length = 1;  ///< [L]
   double mass = 1;    ///< [m]

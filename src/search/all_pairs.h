@@ -22,19 +22,21 @@ class AllPairs {
   std::size_t cells() const { return 1; }
   std::uint32_t cell_index(Needle) const { return 0; }
   void prefetch(Needle) const {}
-  Time place(Needle, Time) { return Time::never(); }
+  Time place(Needle, Time, double /*half_length*/) { return Time::never(); }
   void renumber(const std::vector<Needle>&) {}
 
   template <class Visit>
-  void find(Needle i, Needle /*just_hit*/, Time now, double ahead, Visit&& visit) const {
+  void find(const SearchQuery& query, const Lengths auto& lengths, Visit&& visit) const {
+    const Needle i = query.needle;
     const Vec3d& v_i = gas_.records[i].flight.v;
-    BoundingFilter filter(gas_, counters_, i, now, ahead);
+    BoundingFilter filter(gas_, counters_, query, lengths);
     for (Needle j{0}; j < gas_.size(); ++j) {
       if (j == i) continue;
       const Record& b = gas_.records[j];
-      const Vec3d r = filter.centre() - centre_after(b.flight, gas_.clock.difference(now, b.time));
+      const Vec3d r =
+          filter.centre() - centre_after(b.flight, gas_.clock.difference(query.now, b.time));
       const Vec3d v = v_i - b.flight.v;
-      const double reach = half_length_of(gas_, i) + half_length_of(gas_, j);
+      const double reach = lengths.half_length(i) + lengths.half_length(j);
       const Range x = images(r.x, v.x, reach, filter.ahead(), gas_.box[0]);
       const Range y = images(r.y, v.y, reach, filter.ahead(), gas_.box[1]);
       const Range z = images(r.z, v.z, reach, filter.ahead(), gas_.box[2]);

@@ -6,22 +6,24 @@
 #include "kernels/bounding_spheres.h"
 #include "needlework/counters.h"
 #include "src/physics/gas.h"
-#include "src/search/lengths.h"
+#include "src/search/search.h"
 
 namespace needlework {
 
-/// Passes the candidates of needle i on whose bounding spheres may meet in the time ahead.
+/// Passes the candidates of a needle on whose bounding spheres may meet in the time ahead.
+template <Lengths L>
 class BoundingFilter {
  public:
-  BoundingFilter(const Gas& gas, Counters& counters, Needle i, Time now, double ahead)
+  BoundingFilter(const Gas& gas, Counters& counters, const SearchQuery& query, const L& lengths)
       : gas_(gas),
         counters_(counters),
-        now_(now),
-        ahead_(ahead),
-        half_(half_length_of(gas, i)),
-        v_(gas.records[i].flight.v) {
-    const Record& record = gas.records[i];
-    centre_ = centre_after(record.flight, gas.clock.difference(now, record.time));
+        lengths_(lengths),
+        now_(query.now),
+        ahead_(query.ahead),
+        half_(lengths.half_length(query.needle)),
+        v_(gas.records[query.needle].flight.v) {
+    const Record& record = gas.records[query.needle];
+    centre_ = centre_after(record.flight, gas.clock.difference(now_, record.time));
   }
 
   template <class Visit>
@@ -31,7 +33,7 @@ class BoundingFilter {
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
     const Vec3d r =
         (centre_ - centre_after(other.flight, gas_.clock.difference(now_, other.time))) - image;
-    const double reach = half_ + half_length_of(gas_, j);
+    const double reach = half_ + lengths_.half_length(j);
     if (kernels::spheres_stay_apart(r, v_ - other.flight.v, reach, ahead_)) {
       ++counters_.filtered;
     } else {
@@ -45,6 +47,7 @@ class BoundingFilter {
  private:
   const Gas& gas_;
   Counters& counters_;
+  const L& lengths_;
   Time now_;
   double ahead_, half_;
   Vec3d centre_, v_;

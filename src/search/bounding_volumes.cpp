@@ -62,7 +62,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   margin = static_cast<float>(0x1p-16 + widest * per_length * 0x1p-19);
 }
 
-bool BoundingVolumes::place(Needle i, Time now) {
+bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now);
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
@@ -75,7 +75,7 @@ bool BoundingVolumes::place(Needle i, Time now) {
   } else {
     // The capsule is around where the needle will be in half of its time there, so that it may
     // move by the radius before that and after.
-    const double speed = std::sqrt(dot(flight.v, flight.v)) + half_length_of(gas, i) * flight.omega;
+    const double speed = std::sqrt(dot(flight.v, flight.v)) + half_length * flight.omega;
     const double half = radius / speed;
     stay = 2 * half;
     const double middle = std::isfinite(half) ? elapsed + half : elapsed;
@@ -84,6 +84,7 @@ bool BoundingVolumes::place(Needle i, Time now) {
   }
   const bool crosses = enter(i, grid.cell_of(r));
   places[i].until = gas.clock.add(now, stay);
+  motions[i].half = static_cast<float>(half_length * per_length);
   write_entry(i, r, a, now);
   set_motion(i, now);
   return crosses;
@@ -127,6 +128,7 @@ void BoundingVolumes::rebase(Time now) {
   }
 }
 
+// All but the half length, which does not depend on the units of time.
 void BoundingVolumes::set_motion(Needle i, Time now) {
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
@@ -141,7 +143,6 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   out.omega = static_cast<float>(flight.omega * unit_of_time);
   out.time = static_cast<float>(since_base(now));
   out.until = static_cast<float>(since_base(places[i].until) * roundup);
-  out.half = static_cast<float>(half_length_of(gas, i) * per_length);
 }
 
 // Writes the needle's entry into its slot.

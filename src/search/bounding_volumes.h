@@ -37,8 +37,9 @@ struct BoundingVolumes {
 
   BoundingVolumes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
 
-  /// Enters needle i where it is now. Returns whether it has come from another cell.
-  bool place(Needle i, Time now);
+  /// Enters needle i, of this half length [L], where it is now. Returns whether it has come from
+  /// another cell.
+  bool place(Needle i, Time now, double half_length);
   /// Makes times from now on fit for place(), if they are not.
   void prepare(Time now);
   /// Until when they are.

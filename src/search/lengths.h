@@ -2,20 +2,26 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 
 #include "src/physics/gas.h"
 
 namespace needlework {
 
-/// Half the length of needle i. [L]
-///
-/// It is read from the table of species even if all needles have length 1, because a search is
-/// compiled once for all effects. A constant in its place changes the instructions per collision
-/// by less than 0.1 % with the SIMD searches, which read it when a needle is placed. It would save
-/// 0.6 % (dilute) to 1.4 % (dense) with `linked-lists`, which reads it for each candidate.
-inline double half_length_of(const Gas& gas, Needle i) {
-  return gas.bodies[gas.records[i].species].half_length;
-}
+/// What tells a search half the length of each needle [L]: in the event loop the model, for which
+/// it is a constant where all needles have length 1.
+template <class L>
+concept Lengths = requires(const L& lengths, Needle i) {
+  { lengths.half_length(i) } -> std::same_as<double>;
+};
+
+/// Half lengths from the table of species, which is right for any gas.
+struct SpeciesLengths {
+  const Gas& gas;
+  double half_length(Needle i) const { return gas.bodies[gas.records[i].species].half_length; }
+};
+
+static_assert(Lengths<SpeciesLengths>);
 
 /// The least power of two that no needle is longer than: the unit of length of the SIMD kernels.
 /// [L]

@@ -24,7 +24,7 @@ LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& 
   head_.assign(grid_.size(), no_needle);
 }
 
-Time LinkedLists::place(Needle i, Time now) {
+Time LinkedLists::place(Needle i, Time now, double /*half_length*/) {
   const kernels::Flight& flight = gas_.records[i].flight;
   const Vec3d r = centre_after(flight, gas_.clock.difference(now, gas_.records[i].time));
   Place& place = place_[i];

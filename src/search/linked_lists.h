@@ -28,12 +28,13 @@ class LinkedLists {
     return static_cast<std::uint32_t>(grid_.index_of(place_[i].cell));
   }
   void prefetch(Needle i) const { needlework::prefetch(&place_[i]); }
-  Time place(Needle i, Time now);
+  Time place(Needle i, Time now, double half_length);
   void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>
-  void find(Needle i, Needle /*just_hit*/, Time now, double ahead, Visit&& visit) const {
-    BoundingFilter filter(gas_, counters_, i, now, ahead);
+  void find(const SearchQuery& query, const Lengths auto& lengths, Visit&& visit) const {
+    const Needle i = query.needle;
+    BoundingFilter filter(gas_, counters_, query, lengths);
     grid_.for_each_around(place_[i].cell, [&](const Cell& cell, std::size_t index) {
       for (Needle j = head_[index]; j != no_needle; j = place_[j].next) {
         // An image of i itself is at least two needle lengths away.

@@ -32,9 +32,9 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       kernels_(other.kernels_),
       follows_(other.follows_) {}
 
-Time NearSearch::place(Needle i, Time now) {
+Time NearSearch::place(Needle i, Time now, double half_length) {
   counters_.rebuilds += volumes_->places[i].until <= now;
-  counters_.crossings += volumes_->place(i, now);
+  counters_.crossings += volumes_->place(i, now, half_length);
   return volumes_->places[i].until;
 }
 

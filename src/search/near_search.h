@@ -42,12 +42,13 @@ class NearSearch {
     return std::nullopt;
   }
 
-  Time place(Needle i, Time now);
+  Time place(Needle i, Time now, double half_length);
   void renumber(const std::vector<Needle>& ranks) { volumes_->renumber(ranks); }
   /// Candidates come in the order of the times from which on they may meet.
   template <class Visit>
-  void find(Needle i, Needle just_hit, Time, double ahead, Visit&& visit) {
-    for (const Candidate& candidate : candidates(i, just_hit, ahead)) {
+  void find(const SearchQuery& query, const Lengths auto&, Visit&& visit) {
+    double ahead = query.ahead;
+    for (const Candidate& candidate : candidates(query.needle, query.just_hit, ahead)) {
       if (candidate.from > ahead) break;
       ahead = visit(candidate.needle, candidate.shift, candidate.from, candidate.to);
     }

@@ -2,6 +2,7 @@
 #include "needlework/h5md.h"
 #include "needlework/parse.h"
 #include "tests/cli/program.h"
+#include "tests/io/complaints.h"
 #include "tests/io/dynamo_text.h"
 
 namespace needlework {

@@ -94,7 +94,7 @@ struct Moving {
         gas(random_gas(draws, setting.needles, setting.box, setting.speeds)),
         search(gas, counters, setting.setup, volume),
         until(gas.size()) {
-    for (Needle i{0}; i < gas.size(); ++i) until[i] = search.place(i, now);
+    for (Needle i{0}; i < gas.size(); ++i) place(i);
   }
 
   void advance(double dt) {
@@ -107,7 +107,7 @@ struct Moving {
     }
     now = end;
   }
-  void place(Needle i) { until[i] = search.place(i, now); }
+  void place(Needle i) { until[i] = search.place(i, now, lengths.half_length(i)); }
   Needle any() { return Needle(random.below(static_cast<int>(gas.size()))); }
   double left(Needle i) const { return std::min(gas.clock.difference(until[i], now), 1e3); }
 
@@ -124,10 +124,11 @@ struct Moving {
 
   std::set<Candidate> found(Needle i, double ahead) {
     std::set<Candidate> out;
-    search.find(i, no_needle, now, ahead, [&](Needle j, const Shift& shift, double, double) {
-      EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
-      return ahead;
-    });
+    search.find({i, no_needle, now, ahead}, lengths,
+                [&](Needle j, const Shift& shift, double, double) {
+                  EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
+                  return ahead;
+                });
     return out;
   }
 
@@ -154,6 +155,7 @@ struct Moving {
 
   Random& random;
   Gas gas;
+  SpeciesLengths lengths{gas};
   Counters counters;
   NearSearch search;
   std::vector<Time> until;

@@ -58,14 +58,16 @@ std::string describe(Needle i, Needle j, const Shift& shift) {
          std::to_string(shift[0]) + " " + std::to_string(shift[1]) + " " + std::to_string(shift[2]);
 }
 
+double length_of(const Gas& gas, Needle i) { return 2 * SpeciesLengths{gas}.half_length(i); }
+
 double reach_of(const Gas& gas, Needle i, Needle j) {
-  return half_length_of(gas, i) + half_length_of(gas, j);
+  return 0.5 * (length_of(gas, i) + length_of(gas, j));
 }
 
 kernels::Pair pair_in_order(const Gas& gas, Needle a, Needle b, const Shift& shift) {
   kernels::Pair pair = make_pair(gas, a, gas.records[a], b, gas.records[b], shift);
-  pair.half_first = half_length_of(gas, a);
-  pair.half_second = half_length_of(gas, b);
+  pair.half_first = SpeciesLengths{gas}.half_length(a);
+  pair.half_second = SpeciesLengths{gas}.half_length(b);
   return pair;
 }
 
@@ -97,7 +99,7 @@ Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<doubl
 void put(Gas& gas, Needle i, const Vec3d& r, const Vec3d& u, const Vec3d& v, const Vec3d& w) {
   gas.records[i].flight.r = r;
   gas.records[i].flight.v = {};
-  renew_record(gas, i, gas.records[i].time, {u, v, w, 2 * half_length_of(gas, i)});
+  renew_record(gas, i, gas.records[i].time, {u, v, w, length_of(gas, i)});
 }
 
 Velocities draw_velocities(Random& random, const Speeds& speeds) {
@@ -219,7 +221,7 @@ void GasDrive::advance(double dt) {
 void GasDrive::strike(Needle i, const Velocities& velocities) {
   const Record& record = gas_.records[i];
   const Vec3d u = director_after(record.flight, gas_.clock.difference(now_, record.time));
-  renew_record(gas_, i, now_, {u, velocities.v, velocities.w, 2 * half_length_of(gas_, i)});
+  renew_record(gas_, i, now_, {u, velocities.v, velocities.w, length_of(gas_, i)});
   place_everywhere(i);
 }
 
@@ -237,7 +239,7 @@ Needle GasDrive::hint(Needle i) {
 
 std::vector<GasDrive::Proposal> GasDrive::proposals(Followed& followed, Needle i, double ahead) {
   std::vector<Proposal> out;
-  followed.search->find(i, hint(i), now_, ahead,
+  followed.search->find({i, hint(i), now_, ahead},
                         [&](Needle j, const Shift& shift, double from, double to) {
                           out.push_back({j, shift, from, to});
                           return ahead;
@@ -272,7 +274,7 @@ void GasDrive::expect_proposed(std::size_t n, Needle i, double ahead,
   }
   // An event loop wants the earliest and shortens the time ahead by what it finds.
   double shortened = ahead;
-  followed.search->find(i, hint(i), now_, ahead,
+  followed.search->find({i, hint(i), now_, ahead},
                         [&](Needle j, const Shift& shift, double from, double) {
                           EXPECT_LE(from, shortened);
                           const auto it = known.find({j, shift});
@@ -339,10 +341,10 @@ void GasDrive::bounce(Needle i, double epsilon) {
   const Impact impact = collide<true>({first.flight, second.flight, gas_.bodies[first.species],
                                        gas_.bodies[second.species], at, next->contact.side},
                                       {.epsilon = epsilon, .beta = -1});
-  const Shift wraps_a = renew_record(
-      gas_, a, now_, {at.u_first, impact.v_first, impact.w_first, 2 * half_length_of(gas_, a)});
+  const Shift wraps_a =
+      renew_record(gas_, a, now_, {at.u_first, impact.v_first, impact.w_first, length_of(gas_, a)});
   const Shift wraps_b = renew_record(
-      gas_, b, now_, {at.u_second, impact.v_second, impact.w_second, 2 * half_length_of(gas_, b)});
+      gas_, b, now_, {at.u_second, impact.v_second, impact.w_second, length_of(gas_, b)});
   const Shift wrapped = shift + wraps_b - wraps_a;
   const kernels::Touch touch{
       .touching = true, .collided = true, .side = next->contact.side, .gap = 0};

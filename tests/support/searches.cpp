@@ -20,12 +20,13 @@ template <Search S>
 class Wrapped final : public AnySearch {
  public:
   template <class... Arguments>
-  explicit Wrapped(Arguments&&... arguments) : search_(arguments...) {}
+  explicit Wrapped(const Gas& gas, Arguments&&... arguments)
+      : lengths_{gas}, search_(gas, arguments...) {}
 
-  Time place(Needle i, Time now) override { return search_.place(i, now); }
+  Time place(Needle i, Time now) override { return search_.place(i, now, lengths_.half_length(i)); }
   void renumber(const std::vector<Needle>& ranks) override { search_.renumber(ranks); }
-  void find(Needle i, Needle just_hit, Time now, double ahead, const Visit& visit) override {
-    search_.find(i, just_hit, now, ahead, visit);
+  void find(const SearchQuery& query, const Visit& visit) override {
+    search_.find(query, lengths_, visit);
   }
   const char* name() const override { return search_.name(); }
   std::size_t cells() const override { return search_.cells(); }
@@ -33,6 +34,7 @@ class Wrapped final : public AnySearch {
   const CellGrid* grid() const override { return grid_of(search_); }
 
  private:
+  SpeciesLengths lengths_;
   S search_;
 };
 

@@ -12,6 +12,7 @@
 #include "needlework/scene.h"
 #include "src/physics/gas.h"
 #include "src/search/cell_grid.h"
+#include "src/search/search.h"
 #include "src/search/setup.h"
 
 namespace needlework::test {
@@ -41,7 +42,7 @@ class AnySearch {
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
   virtual void renumber(const std::vector<Needle>& ranks) = 0;
-  virtual void find(Needle i, Needle just_hit, Time now, double ahead, const Visit& visit) = 0;
+  virtual void find(const SearchQuery& query, const Visit& visit) = 0;
   virtual const char* name() const = 0;
   virtual std::size_t cells() const = 0;
   virtual std::uint32_t cell_index(Needle i) const = 0;
