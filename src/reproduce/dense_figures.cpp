@@ -35,19 +35,36 @@ struct NamedPoint {
   const Point* point;
 };
 
-// The mean over seeds of a number of flow_order over collisions, divided by its start if
-// `relative`; with its rows in the table, after the numbers in `key`.
-Curve order_curve(const NamedPoint& named, const std::string& name, bool relative,
+/// What a number of flow_order is divided by.
+enum class Unit { one, start, random };
+
+// That of random velocities, for C cells and N needles: C / (N - C). A gas that starts without
+// rotation has no order of it at the start.
+double random_order(const Scene& scene) {
+  double cells = 1;
+  for (const int along : *scene.output.grid) cells *= along;
+  return cells / (static_cast<double>(scene.needles.count) - cells);
+}
+
+std::vector<double> order_in(Unit unit, const FinishedRun& run, const std::string& name) {
+  std::vector<double> values = order_of(run, name);
+  const double divisor = unit == Unit::start    ? values.front()
+                         : unit == Unit::random ? random_order(*run.scene)
+                                                : 1;
+  for (double& value : values) value /= divisor;
+  return values;
+}
+
+// The mean over seeds of a number of flow_order over collisions, with its rows in the table, after
+// the numbers in `key`.
+Curve order_curve(const NamedPoint& named, const std::string& name, Unit unit,
                   const std::vector<double>& key, Table& table) {
   const Point& point = *named.point;
   const double last = last_collisions(point);
-  const MeanCurve mean = mean_curve(point, steps(0, last, static_cast<std::size_t>(last / 10)),
-                                    [&](const FinishedRun& run) {
-                                      std::vector<double> values = order_of(run, name);
-                                      const double start = values.front();
-                                      for (double& value : values) value /= relative ? start : 1;
-                                      return std::pair{collisions_of(run), values};
-                                    });
+  const MeanCurve mean = mean_curve(
+      point, steps(0, last, static_cast<std::size_t>(last / 10)), [&](const FinishedRun& run) {
+        return std::pair{collisions_of(run), order_in(unit, run, name)};
+      });
   Curve curve{named.name};
   curve.x = mean.x, curve.y = mean.mean;
   for (std::size_t n = 0; n < mean.x.size(); ++n) {
@@ -62,13 +79,13 @@ std::vector<double> key_of(const Scene& scene) { return {scene.needles.k, scene.
 
 // A chart of one number of flow_order for all starts, of which the figures of it differ in their
 // measurements.
-FigureResult order_figure(const std::vector<Point>& points, const std::string& name, bool relative,
+FigureResult order_figure(const std::vector<Point>& points, const std::string& name, Unit unit,
                           const std::string& title, const std::string& label) {
   FigureResult result;
   result.table.columns = {"k", "t_rot0", "collisions", "value", "error"};
   picture::Panel panel{.x = {"collisions per needle"}, .y = {label}};
   for (const Point& point : points) {
-    panel.curves.push_back(order_curve({start_in_chart(*point.scene), &point}, name, relative,
+    panel.curves.push_back(order_curve({start_in_chart(*point.scene), &point}, name, unit,
                                        key_of(*point.scene), result.table));
   }
   result.chart = {.title = title,
@@ -88,7 +105,8 @@ std::string at(const std::string& start, double collisions) {
 
 FigureResult make_flow_order(const PaperRuns& runs) {
   const std::vector<Point> points = runs.points("dense");
-  FigureResult result = order_figure(points, "translational", false, "Order of the flow S", "S");
+  FigureResult result =
+      order_figure(points, "translational", Unit::one, "Order of the flow S", "S");
   for (const Point& point : points) {
     const std::string start = start_of(*point.scene);
     result.measurements.push_back(
@@ -116,8 +134,8 @@ FigureResult make_flow_order(const PaperRuns& runs) {
 FigureResult make_second_moment(const PaperRuns& runs) {
   const std::vector<Point> points = runs.points("dense");
   FigureResult result =
-      order_figure(points, "second_moment", true, "Second moment of the density over its start",
-                   "second moment / start");
+      order_figure(points, "second_moment", Unit::start,
+                   "Second moment of the density over its start", "second moment / start");
   for (const Point& point : points) {
     const std::string start = start_of(*point.scene);
     for (const double reading : {1.0, 2.0}) {
@@ -131,7 +149,9 @@ FigureResult make_second_moment(const PaperRuns& runs) {
     result.measurements.push_back(
         {"moment-peak", start, measure(point, [](const FinishedRun& run) {
            const std::vector<double> moment = order_of(run, "second_moment");
-           const auto peak = std::max_element(moment.begin(), moment.end()) - moment.begin();
+           const auto last =
+               moment.begin() + static_cast<std::ptrdiff_t>(sample_near(run, shown_collisions));
+           const auto peak = std::max_element(moment.begin(), last + 1) - moment.begin();
            return collisions_of(run)[static_cast<std::size_t>(peak)];
          })});
   }
@@ -140,16 +160,16 @@ FigureResult make_second_moment(const PaperRuns& runs) {
 
 FigureResult make_rotation(const PaperRuns& runs) {
   const std::vector<Point> points = runs.points("dense");
-  FigureResult result = order_figure(points, "rotational", true,
-                                     "Order of the rotation over its start", "order / start");
+  FigureResult result =
+      order_figure(points, "rotational", Unit::random,
+                   "Order of the rotation over that of random velocities", "order / random order");
   for (const Point& point : points) {
     for (const double collisions : {shown_collisions, shown_collisions_once}) {
-      result.measurements.push_back({"rotation-growth", at(start_of(*point.scene), collisions),
-                                     measure(point, [&](const FinishedRun& run) {
-                                       return order_at(run, "rotational", collisions) /
-                                                  order_of(run, "rotational").front() -
-                                              1;
-                                     })});
+      result.measurements.push_back(
+          {"rotation-growth", at(start_of(*point.scene), collisions),
+           measure(point, [&](const FinishedRun& run) {
+             return order_at(run, "rotational", collisions) / random_order(*run.scene) - 1;
+           })});
     }
   }
   return result;
@@ -250,9 +270,10 @@ FigureResult make_box_sizes(const PaperRuns& runs) {
     const double box = scene.needles.box[0];
     const NamedPoint named{fmt::format("box {:g}", box), &point};
     const double count = static_cast<double>(scene.needles.count);
-    s.curves.push_back(order_curve(named, "translational", false, {box, count, 0}, result.table));
+    s.curves.push_back(
+        order_curve(named, "translational", Unit::one, {box, count, 0}, result.table));
     moment.curves.push_back(
-        order_curve(named, "second_moment", true, {box, count, 1}, result.table));
+        order_curve(named, "second_moment", Unit::start, {box, count, 1}, result.table));
     const double last = last_collisions(point);
     for (const double collisions : {shown_collisions, shown_collisions_once, 1500.0}) {
       if (collisions > last) continue;
