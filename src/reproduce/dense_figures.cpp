@@ -256,7 +256,7 @@ FigureResult make_dense_cooling(const PaperRuns& runs) {
 
 FigureResult make_box_sizes(const PaperRuns& runs) {
   std::vector<Point> points;
-  for (const char* set : {"box-small", "box-middle", "box-large"}) {
+  for (const char* set : {"box-small", "box-middle", "box-large", "dense"}) {
     points.push_back(runs.points(set).front());
   }
   FigureResult result;

@@ -25,7 +25,7 @@ const Figure all[] = {
     {"rough", "Beyond the paper: long-time ratio of rough needles", {"rough"}, make_rough_ratio},
     {"sizes",
      "Beyond the paper: the dense gas in boxes of several sizes",
-     {"box-small", "box-middle", "box-large"},
+     {"box-small", "box-middle", "box-large", "dense"},
      make_box_sizes},
     {"clusters", "Beyond the paper: alignment inside clusters", {"dense"}, make_clusters},
     {"why",

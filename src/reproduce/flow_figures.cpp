@@ -93,7 +93,7 @@ FigureResult make_flow_field(const PaperRuns& runs) {
 
 FigureResult make_density_map(const PaperRuns& runs) {
   FigureResult result;
-  result.table.columns = {"k", "t_rot0", "seed", "collisions", "x", "y", "z", "excess"};
+  result.table.columns = {"k", "t_rot0", "seed", "x", "y", "z", "excess_start", "excess_after"};
   result.chart = {.title = "Cells with more than 1.5 times the mean density",
                   .description =
                       "How many of the cells along z are that dense, at the start and "
@@ -103,14 +103,16 @@ FigureResult make_density_map(const PaperRuns& runs) {
   for (const Point& point : runs.points("dense")) {
     const Scene& scene = *point.scene;
     const FinishedRun& first = point.runs.front();
+    const CellFields start = shown(first, 0), after = shown(first);
+    for_each_cell(start.cells, [&](const std::array<std::size_t, 3>& place) {
+      const std::size_t cell = start.index(place);
+      result.table.rows.push_back({scene.needles.k, scene.initial.t_rot,
+                                   static_cast<double>(first.seed), start.middle(0, place[0]),
+                                   start.middle(1, place[1]), start.middle(2, place[2]),
+                                   start.excess[cell], after.excess[cell]});
+    });
     for (const double collisions : {0.0, shown_collisions}) {
-      const CellFields fields = shown(first, collisions);
-      for_each_cell(fields.cells, [&](const std::array<std::size_t, 3>& place) {
-        result.table.rows.push_back(
-            {scene.needles.k, scene.initial.t_rot, static_cast<double>(first.seed),
-             fields.collisions, fields.middle(0, place[0]), fields.middle(1, place[1]),
-             fields.middle(2, place[2]), fields.excess[fields.index(place)]});
-      });
+      const CellFields& fields = collisions == 0 ? start : after;
       const double depth = static_cast<double>(fields.cells[2]);
       picture::Map map{fields.edges(0), fields.edges(1),
                        seen_along(fields, 0, 1, [&](std::size_t cell) {

@@ -88,7 +88,7 @@ std::string csv_of(const Table& table) {
   for (const std::vector<double>& row : table.rows) {
     for (std::size_t column = 0; column < row.size(); ++column) {
       if (column > 0) text += ',';
-      if (!std::isnan(row[column])) text += fmt::format("{:.8g}", row[column]);
+      if (!std::isnan(row[column])) text += fmt::format("{:.7g}", row[column]);
     }
     text += '\n';
   }
