@@ -19,7 +19,10 @@ inline std::string small_text(const std::string& path) {
   if (begins("dense") || begins("box")) {
     scene = "../dense.toml";
     parameters = begins("box") ? "\"needles.count\" = 16\n" : parameters;
-    const char* const box = begins("box-small") ? "2.1" : begins("box-large") ? "2.3" : "2.2";
+    const char* const box = begins("box-small")    ? "2.1"
+                            : begins("box-large")  ? "2.3"
+                            : begins("box-middle") ? "2.4"
+                                                   : "2.2";
     parameters += std::string("\"needles.box\" = ") + box + "\n\"output.grid\" = 2\n";
     parameters += begins("box") ? "\"until.collisions_per_needle\" = 605\n"
                                 : "\"until.collisions_per_needle\" = 30\n";
