@@ -166,8 +166,8 @@ FigureResult make_clusters(const PaperRuns& runs) {
   FigureResult result;
   result.table.columns = {"k",       "t_rot0",  "seed",     "frame_time", "dense_share",
                           "dense_q", "other_q", "dense_p2", "other_p2"};
-  picture::Panel q{.title = "Along the velocity", .x = {"start"}, .y = {"⟨Q⟩"}};
-  picture::Panel p2{.title = "Among needles of a cell", .x = {"start"}, .y = {"⟨P_{2}⟩"}};
+  picture::Panel q{.title = "Along the velocity", .y = {"⟨Q⟩"}};
+  picture::Panel p2{.title = "Among needles of a cell", .y = {"⟨P_{2}⟩"}};
   Curve dense{"cells of more than 1.5 times the mean", Curve::Style::points},
       other{"other cells", Curve::Style::points};
   q.curves = p2.curves = {dense, other};
@@ -210,18 +210,19 @@ FigureResult make_clusters(const PaperRuns& runs) {
          })});
   }
   std::string starts;
-  double number = 0;
   for (const Point& point : runs.points("dense")) {
-    starts += fmt::format("{}{:g}: {}", number ? "; " : "", number + 1, start_of(*point.scene));
-    ++number;
+    starts += fmt::format("{}{:g}, {:g}", starts.empty() ? "" : " | ", point.scene->needles.k,
+                          point.scene->initial.t_rot);
   }
-  for (picture::Panel* panel : {&q, &p2}) panel->x.range = picture::Range{0.5, number + 0.6};
+  for (picture::Panel* panel : {&q, &p2}) {
+    panel->x = {.label = "start: k, T_{rot}(0) = " + starts,
+                .range = picture::Range{0.5, place + 0.6}};
+  }
   result.chart = {.title = "Alignment inside clusters",
                   .description =
                       "Means of Q along the velocity, and of P2 over pairs of needles of "
                       "one cell, after about 600 collisions per needle, inside dense "
-                      "cells and elsewhere. Starts: " +
-                      starts + ".",
+                      "cells and elsewhere, for each start.",
                   .panels = {q, p2}};
   return result;
 }

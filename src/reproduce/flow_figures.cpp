@@ -98,7 +98,7 @@ FigureResult make_density_map(const PaperRuns& runs) {
                   .description =
                       "How many of the cells along z are that dense, at the start and "
                       "after 600 collisions per needle, for each start.",
-                  .columns = 2,
+                  .columns = 4,
                   .panel_width = 260};
   for (const Point& point : runs.points("dense")) {
     const Scene& scene = *point.scene;

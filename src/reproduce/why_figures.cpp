@@ -148,7 +148,7 @@ FigureResult make_tests_of_why(const PaperRuns& runs) {
   result.chart = {.title = "Does the contact time matter?",
                   .description =
                       "Growth of the order of the flow and of the second moment of the "
-                      "density, for two contact times and three sizes of cells; k = 6, "
+                      "density, for two contact times; k = 6, "
                       "T_rot(0) = 1.",
                   .panels = {s, moment}};
   return result;
