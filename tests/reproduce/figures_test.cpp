@@ -198,7 +198,8 @@ class KnownRuns : public SmallPaper {
       totals.collisions = static_cast<std::uint64_t>(collisions * needles / 2);
       totals.tc_collisions = 10 * totals.collisions / 100;
       const double moment = 0.05 * (1 + 5 * (collisions <= 500 ? collisions / 400 : 0));
-      const double values[] = {s(seed, collisions), 0.25 * (1 + collisions / 1200), moment};  // 8 cells
+      const double values[] = {s(seed, collisions), 0.25 * (1 + collisions / 1200),
+                               moment};  // 8 cells
       writer.write_series(totals, values);
     }
     State state;
