@@ -13,7 +13,6 @@ using picture::Curve;
 
 constexpr double first_tau = 1;   // what is earlier is the start
 constexpr double late_tau = 100;  // both temperatures fall as one from here on
-constexpr double cold = 1e-5;     // E/E(0) of the late part of the cooling gas
 
 std::vector<theory::Temperatures> theory_of(const Scene& scene, std::span<const double> taus) {
   return theory::cooling_curve({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},

@@ -14,7 +14,6 @@ namespace {
 using picture::Curve;
 
 constexpr double settled = 0.1;  // E/E(0) below which the ratio of temperatures is constant
-constexpr double few_percent = 0.05;
 
 theory::Gas gas_of(const Scene& scene) {
   return {scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
