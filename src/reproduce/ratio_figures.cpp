@@ -196,10 +196,14 @@ double theory_rate(const Point& point, std::vector<double>& differences) {
   return relaxation_rate(taus, differences, point.runs.front().series.front().energy);
 }
 
-// T_tr / T_rot over the last quarter of the run, in which the gas is in equilibrium.
-double final_ratio(const FinishedRun& run) {
+// T_tr / T_rot over the samples from the first on at which theory has so little left of the
+// difference of temperatures; NaN if the run is too short.
+constexpr double relaxed = 1e-3;
+
+double final_ratio(const FinishedRun& run, std::span<const double> theory) {
   double sum = 0, count = 0;
-  for (std::size_t n = run.series.size() * 3 / 4; n < run.series.size(); ++n) {
+  for (std::size_t n = 0; n < run.series.size(); ++n) {
+    if (theory[n] > relaxed * theory[0]) continue;
     sum += run.series[n].t_tr / run.series[n].t_rot;
     ++count;
   }
@@ -242,7 +246,11 @@ FigureResult make_relaxation(const PaperRuns& runs) {
     result.measurements.push_back({"relaxation-rate", variant, rate});
     result.measurements.push_back(
         {"relaxation-theory", variant, {rate.value / expected, rate.error / expected, rate.seeds}});
-    result.measurements.push_back({"elastic-equipartition", variant, measure(point, final_ratio)});
+    if (theory.back() <= relaxed * theory[0]) {
+      result.measurements.push_back(
+          {"elastic-equipartition", variant,
+           measure(point, [&](const FinishedRun& run) { return final_ratio(run, theory); })});
+    }
     const auto [full, is_first] = at_full_density.try_emplace(scene.needles.k, rate);
     if (is_first) continue;
     const double ratio = rate.value / full->second.value;
