@@ -27,7 +27,7 @@ inline std::string small_text(const std::string& path) {
     parameters += begins("box") ? "\"until.collisions_per_needle\" = 605\n"
                                 : "\"until.collisions_per_needle\" = 30\n";
   } else if (begins("relaxation")) {
-    parameters += "\"needles.box\" = [3, 4]\n\"until.time\" = 4\n";
+    parameters += "\"needles.box\" = [3, 4]\n\"until.time\" = 20\n";
   } else if (begins("ratio")) {
     parameters += "\"collisions.epsilon\" = [0.8]\n\"needles.k\" = [2, 4.3607]\n";
     parameters += "\"needles.box\" = 3\n\"until.energy_ratio\" = 1e-2\n";
