@@ -168,8 +168,7 @@ FigureResult make_clusters(const PaperRuns& runs) {
                           "dense_q", "other_q", "dense_p2", "other_p2"};
   picture::Panel q{.title = "Along the velocity", .y = {"⟨Q⟩"}};
   picture::Panel p2{.title = "Among needles of a cell", .y = {"⟨P_{2}⟩"}};
-  Curve dense{"cells of more than 1.5 times the mean", Curve::Style::points},
-      other{"other cells", Curve::Style::points};
+  Curve dense{"dense cells", Curve::Style::points}, other{"other cells", Curve::Style::points};
   q.curves = p2.curves = {dense, other};
   double place = 0;
   for (const Point& point : runs.points("dense")) {
