@@ -3,7 +3,7 @@
 
     docs/pictures/draw.py [--program build/release/needlework]
 
-needles.png shows the last frame of profiles/quickstart.toml in perspective, coloured by speed.
+needles.png is what `needlework view` makes of the last frame of profiles/quickstart.toml.
 cooling.png shows the series of profiles/cooling-dilute.toml beside kinetic theory. The runs take
 less than a minute. Needs python3-h5py and python3-matplotlib.
 """
@@ -20,89 +20,20 @@ import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
 from matplotlib.ticker import NullFormatter  # noqa: E402
 from PIL import Image  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 PROFILES = HERE.parents[1] / "profiles"
-NIGHT = "#0b1020"
-# Colours of speeds, without those that are lost on a dark ground.
-SPEEDS = matplotlib.colors.ListedColormap(plt.get_cmap("plasma")(np.linspace(0.22, 1, 256)))
 
 
 def run(program, scene, file):
     subprocess.run([program, "run", PROFILES / scene, "--out", file, "--quiet"], check=True)
 
 
-class Camera:
-    """Looks at the middle of a box from above one of its corners."""
-
-    def __init__(self, box, distance=2.4, azimuth=0.58, height=0.42):
-        self.middle = box / 2
-        across = np.array([-np.sin(azimuth), np.cos(azimuth), 0])
-        outwards = np.array([np.cos(height) * np.cos(azimuth), np.cos(height) * np.sin(azimuth),
-                             np.sin(height)])
-        self.axes = np.array([across, np.cross(outwards, across), outwards])
-        self.distance = distance * box.max()
-
-    def project(self, points):
-        """Points in the picture, and how much larger than in the middle of the box they look."""
-        seen = (points - self.middle) @ self.axes.T
-        scale = self.distance / (self.distance - seen[..., 2])
-        return seen[..., :2] * scale[..., None], scale
-
-
-def save(figure, picture):
+def make_small(picture):
     """With 256 colours, which make the file a third as large."""
-    figure.savefig(picture, dpi=130, facecolor=figure.get_facecolor())
     Image.open(picture).convert("RGB").quantize(256, kmeans=4).save(picture, optimize=True)
-
-
-def box_edges(box):
-    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).T.reshape(-1, 3)
-    return np.array([[a, b] for a in corners for b in corners
-                     if np.sum(b - a) == 1 and np.abs(b - a).sum() == 1]) * box
-
-
-def draw_needles(file, picture):
-    with h5py.File(file) as f:
-        needles = f["particles/needles"]
-        box = np.diagonal(needles["box/edges/value"][-1])
-        centre = needles["position/value"][-1]
-        director = needles["orientation/value"][-1]
-        speed = np.linalg.norm(needles["velocity/value"][-1], axis=1)
-    speed /= np.sqrt(np.mean(speed**2))
-
-    camera = Camera(box)
-    ends, scale = camera.project(np.stack([centre - director / 2, centre + director / 2], axis=1))
-    depth = scale.mean(axis=1)
-    order = np.argsort(depth)
-    near = (depth - depth.min()) / (depth.max() - depth.min())
-    colours = SPEEDS(np.clip(speed / 2, 0, 1))
-    fog = np.array(matplotlib.colors.to_rgba(NIGHT))
-    share = (0.4 + 0.6 * near)[:, None]
-    colours = share * colours + (1 - share) * fog
-
-    figure = plt.figure(figsize=(6.4, 6.4), facecolor=NIGHT)
-    axes = figure.add_axes([0, 0.07, 1, 0.93])
-    edges, _ = camera.project(box_edges(box))
-    axes.add_collection(LineCollection(edges, colors="#4a5680", linewidths=0.8))
-    axes.add_collection(LineCollection(ends[order], colors=colours[order], capstyle="round",
-                                       linewidths=0.9 + 2.0 * near[order]))
-    axes.autoscale()
-    axes.set_aspect("equal")
-    axes.axis("off")
-
-    bar_axes = figure.add_axes([0.28, 0.055, 0.44, 0.014])
-    bar = figure.colorbar(plt.cm.ScalarMappable(plt.Normalize(0, 2), SPEEDS), cax=bar_axes,
-                          orientation="horizontal", ticks=[0, 1, 2])
-    bar.outline.set_visible(False)
-    bar.ax.set_xticklabels(["0", "1", "2"], color="white", fontsize=11)
-    bar.ax.tick_params(length=0, pad=4)
-    figure.text(0.5, 0.085, "speed / root mean square speed", color="white", fontsize=11,
-                ha="center")
-    save(figure, picture)
 
 
 def theory(program, tau):
@@ -155,7 +86,8 @@ def draw_cooling(program, file, picture):
         axes.set_xlim(0.1, 3e7)
     figure.align_ylabels()
     figure.tight_layout(h_pad=0.6)
-    save(figure, picture)
+    figure.savefig(picture, dpi=130)
+    make_small(picture)
 
 
 def main():
@@ -166,7 +98,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         quickstart, cooling = Path(folder, "quickstart.h5"), Path(folder, "cooling.h5")
         run(program, "quickstart.toml", quickstart)
-        draw_needles(quickstart, HERE / "needles.png")
+        subprocess.run([program, "view", quickstart, "-o", HERE / "needles.png", "--force"],
+                       check=True)
+        make_small(HERE / "needles.png")
         run(program, "cooling-dilute.toml", cooling)
         draw_cooling(program, cooling, HERE / "cooling.png")
 

@@ -51,21 +51,40 @@ struct RunInfo {
 /// Writes one run to one file.
 ///
 /// Everything written before the last flush() stays readable when the program ends at any moment,
-/// by kill -9 or because the disk is full. It need not survive a power failure, which depends on
-/// the file system. HDF5 1.10 and later can open the file at any time: while it is written, after
-/// the program was killed, and after it was closed. In the first two cases a dataset may have rows
-/// that are not complete yet; the complete rows are those for which `step` has an entry.
+/// by kill -9 or because the disk is full, and everything before the last sync() is on the disk.
+/// What a power failure leaves of a file to which more was written since then depends on the file
+/// system. HDF5 1.10 and later can open the file for reading at any time: while it is written, also
+/// by resume(), after the program was killed, and after it was closed. In the first two cases a
+/// dataset may have rows that are not complete yet; the complete rows are those for which `step`
+/// has an entry. No other program can open the file for writing, on file systems with locks.
 ///
 /// All members throw IoError, "PATH: reason" in one line, when the file cannot be written, and on
 /// every later use. They throw std::logic_error when they are used wrongly.
 class Writer {
  public:
+  /// How much of a run is in a file.
+  struct Position {
+    std::uint64_t frames = 0, samples = 0, events = 0;  ///< complete rows
+    friend bool operator==(const Position&, const Position&) = default;
+  };
+
   /// Creates the file under a temporary name in the same folder, and renames it when it has all
   /// groups and datasets. An existing file is replaced if `force` is true and is an IoError
   /// otherwise; a directory or a device is always an IoError. scene.needles.count must be the
   /// number of needles of all frames, also when the scene takes its initial state from a file.
   /// /events exists if scene.output.events is true.
   Writer(const std::string& path, bool force, const Scene& scene, const RunInfo& run);
+  /// Continues a file that a Writer of the same scene and run wrote, whether that was closed, was
+  /// killed or failed, and also in this way itself. Rows from `position` on are removed, after
+  /// which the file is what the Writer had written at that position. At any moment of the removal
+  /// the file can be read, and the rows before `position` are complete.
+  ///
+  /// `isa` and `threads` of the run may be other ones; the file keeps those it has. Throws IoError
+  /// if the file cannot be opened for writing, or is open for writing in another program, and
+  /// InputError, "PATH: /DATASET...: expected ...", if it is not a file of this scene and run or
+  /// has fewer rows than `position`. In both cases the file is as it was.
+  static Writer resume(const std::string& path, const Scene& scene, const RunInfo& run,
+                       const Position& position);
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
   ~Writer();
@@ -79,13 +98,21 @@ class Writer {
   /// Appends a collision to /events. Collisions are kept in memory and written in blocks of a few
   /// thousand.
   void write_event(const Collision& collision);
-  /// Writes everything that is still in memory to the file.
+  /// Writes everything that is still in memory to the file. The operating system may keep that in
+  /// its own memory for a while, which a killed program does not lose, but a power failure does.
   void flush();
+  /// Flushes, and returns when the file and its name are on the disk. What is written afterwards
+  /// to another file may therefore refer to position().
+  void sync();
+  /// The rows given to this writer, with those that were in a resumed file. They are complete in
+  /// the file after a flush().
+  Position position() const;
   /// Flushes and closes the file. The destructor does the same, but ignores errors.
   void close();
 
  private:
   struct Implementation;
+  explicit Writer(std::unique_ptr<Implementation> implementation);
   template <class Action>
   void use(Action action);
 
@@ -114,6 +141,8 @@ class FrameFile {
 
   /// Number of frames, at least 1.
   std::size_t count() const;
+  /// Number of needles, of which none has been read yet.
+  std::size_t needles() const;
   /// Time of a frame [time], or nothing if the file does not have it.
   std::optional<double> time(std::size_t frame) const;
   /// Reads a frame. Frames are counted from 0; throws std::invalid_argument beyond the last.

@@ -74,6 +74,8 @@ struct Scene {
     std::vector<std::string> observables;     ///< names of what /series holds besides Totals
     std::optional<std::array<int, 3>> grid;   ///< cells along each axis; absent: of 20 needles
     bool events = false;                      ///< whether to record every collision
+    double checkpoint_every = 300;            ///< wall time between two checkpoints beside the
+                                              ///< file [s]; 0: none
   };
 
   std::string title;

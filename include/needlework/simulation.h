@@ -19,6 +19,12 @@
 
 namespace needlework {
 
+/// What Simulation::checkpoint() saves: the state of a run to its last bit, as bytes for this
+/// version of the library. It holds no checksum.
+struct Checkpoint {
+  std::string bytes;
+};
+
 /// A running simulation. Only one thread at a time may use a simulation, except for interrupt();
 /// any number of simulations may exist side by side.
 class Simulation {
@@ -28,6 +34,10 @@ class Simulation {
   explicit Simulation(const Scene& scene);
   /// Starts from the given state; box, count and temperatures of the scene are ignored.
   Simulation(const Scene& scene, const State& initial);
+  /// Continues a run from a checkpoint of it, with the same collisions to the last bit. Needles,
+  /// collisions and accuracy of the scene must be those of the run; its search, calendar, threads
+  /// and instruction set may be others. Throws InputError if they are not, or for damaged bytes.
+  Simulation(const Scene& scene, const Checkpoint& checkpoint);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
@@ -78,6 +88,10 @@ class Simulation {
   /// for a wrong number of rows or for numbers that are not finite, and then changes nothing.
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity);
+
+  /// All that is needed to continue from the present time. Conditions of advance() then count from
+  /// the original start, and totals, counters and hash go on. Must not be called by the callback.
+  Checkpoint checkpoint() const;
 
   std::string search() const;  ///< the search in use, after `auto` is resolved
   std::string queue() const;

@@ -64,6 +64,12 @@ class CoolingCurve {
   /// The temperatures at a time (finite, >= 0) that must not be before that of the last call.
   Temperatures at(double tau);
 
+  /// Where the curve has come to: what another curve of the same gas needs to give the same next
+  /// values, to the last bit.
+  using Place = std::array<double, 5>;
+  Place place() const;
+  void go_to(const Place& place);
+
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;

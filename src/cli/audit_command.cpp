@@ -171,6 +171,10 @@ int exit_code_of(const audit::Findings& findings, const Outcome& outcome,
 }  // namespace
 
 int run(const AuditArguments& arguments) {
+  if (arguments.share == 0) {
+    print_error("--share 0: checks no pair: expected a share > 0");
+    return bad_usage;
+  }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
   require_unit_needles(scene);

@@ -18,6 +18,7 @@
 #include "src/cli/bench_command.h"
 #include "src/cli/check_command.h"
 #include "src/cli/export_command.h"
+#include "src/cli/frame_choice.h"
 #include "src/cli/import_command.h"
 #include "src/cli/info_command.h"
 #include "src/cli/messages.h"
@@ -25,11 +26,15 @@
 #include "src/cli/ranks.h"
 #include "src/cli/reference.h"
 #include "src/cli/reproduce_command.h"
+#include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
 #include "src/cli/theory_command.h"
 #include "src/cli/usage.h"
 #include "src/cli/version.h"
+#include "src/cli/view_command.h"
+#include "src/cli/watch.h"
+#include "src/picture/needle_values.h"
 #include "src/runs/exit_codes.h"
 #include "src/serve/server.h"
 
@@ -101,12 +106,35 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa) {
       ->option_text("auto|scalar|sse4|avx2|avx512");
 }
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  add_scene(command, arguments.path, arguments.overrides, true);
-  command.add_option("--threads", arguments.engine.threads, "number of threads")
+void add_engine_options(CLI::App& command, EngineOptions& engine) {
+  command.add_option("--threads", engine.threads, "number of threads")
       ->option_text("N")
       ->check(number_in(1, 1024));
-  add_isa(command, arguments.engine.isa);
+  add_isa(command, engine.isa);
+}
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
+  add_scene(command, arguments.path, arguments.overrides, true);
+  add_engine_options(command, arguments.engine);
+}
+
+CLI::Validator terminal_on_stderr() {
+  return {[](const std::string&) -> std::string {
+            return can_watch() ? ""
+                               : "expected a terminal on standard error, and its name in TERM; "
+                                 "without --watch, a line is printed every 10 s";
+          },
+          "TERMINAL"};
+}
+
+void add_printing(CLI::App& command, Printing& printing) {
+  command.add_flag("--json", printing.json, "print the result as one JSON object");
+  CLI::Option* quiet = command.add_flag("--quiet", printing.quiet, "no progress, no summary");
+  command
+      .add_flag("--watch", printing.watch,
+                "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
+      ->excludes(quiet)
+      ->check(terminal_on_stderr());
 }
 
 void add_run_command(CLI::App& app, int& exit_code) {
@@ -115,16 +143,36 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_scene_arguments(*command, arguments->scene);
   command->add_option("--out", arguments->out, "HDF5 file (H5MD) to write the run to")
       ->option_text("FILE.h5");
-  command->add_flag("--json", arguments->json, "print the result as one JSON object");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no summary");
+  add_printing(*command, arguments->printing);
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
-scene, no file is written.
+scene, no file is written. --watch needs a terminal.
 
 Examples:
   needlework run profiles/quickstart.toml
   needlework run scene.toml --set collisions.epsilon=0.9 --out cooling.h5)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_resume_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("resume", "continue a run that has ended or was stopped");
+  const auto arguments = std::make_shared<ResumeArguments>();
+  command->add_option("FILE.h5", arguments->file, "output file of the run")->required();
+  command
+      ->add_option("--set", arguments->overrides,
+                   "replace an end of the run, such as until.time=100; may be repeated")
+      ->option_text("until.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_engine_options(*command, arguments->engine);
+  add_printing(*command, arguments->printing);
+  command->footer(R"(The run continues from its last checkpoint, FILE.h5.checkpoint, and appends to
+FILE.h5, with the same collisions as if it had never been stopped. The ends in
+[until] count from the start of the run, except wall_s, which counts from now.
+
+Examples:
+  needlework resume cooling.h5
+  needlework resume cooling.h5 --set until.time=1e6 --threads 2)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -367,14 +415,11 @@ Examples:
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
-// A number of a frame, or one of three words.
 CLI::Validator frame_choice() {
   return {[](const std::string& text) -> std::string {
-            const bool is_number =
-                !text.empty() && text.size() < 19 &&
-                std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-            if (is_number || text == "first" || text == "last" || text == "all") return "";
-            return fmt::format("{}: expected a number from 0, first, last or all", text);
+            return is_frame_choice(text)
+                       ? ""
+                       : fmt::format("{}: expected a number from 0, first, last or all", text);
           },
           "FRAME"};
 }
@@ -407,6 +452,68 @@ void add_export_command(CLI::App& app, int& exit_code) {
 Examples:
   needlework export run.h5 run.pvd
   needlework export run.h5 start.xml.bz2 --frame first)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_view_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("view", "draw the needles of an H5MD file, without a display");
+  const auto arguments = std::make_shared<ViewArguments>();
+  picture::NeedlePicture& picture = arguments->picture;
+  command->add_option("FILE.h5", arguments->from, "H5MD file to read")->required();
+  command->add_option("-o,--out", arguments->to, "picture to write, PNG or SVG by its ending")
+      ->option_text("FILE.png|FILE.svg")
+      ->required();
+  command
+      ->add_option("--frame,--frames", arguments->frame,
+                   "which frame, counted from 0; all writes FILE-00000.png and so on")
+      ->option_text("N|first|last|all")
+      ->check(frame_choice())
+      ->capture_default_str();
+  add_choice(
+      command->add_option("--colour,--color", picture.colour, "what the colours of needles show")
+          ->capture_default_str(),
+      picture::quantities());
+  add_choice(command->add_option("--projection", arguments->projection, "how distance is shown")
+                 ->capture_default_str(),
+             {"perspective", "orthographic"});
+  command
+      ->add_option("--azimuth", picture.camera.azimuth,
+                   "where one looks from: degrees from the x axis towards the y axis")
+      ->option_text("DEGREES")
+      ->check(number_in(-360.0, 360.0))
+      ->capture_default_str();
+  command
+      ->add_option("--elevation", picture.camera.elevation,
+                   "degrees above the plane of x and y, from -90 to 90")
+      ->option_text("DEGREES")
+      ->check(number_in(-90.0, 90.0))
+      ->capture_default_str();
+  for (const auto& [name, size] :
+       {std::pair{"--width", &picture.width}, {"--height", &picture.height}}) {
+    command->add_option(name, *size, "size of the picture in pixels, from 300 to 8000")
+        ->option_text("PIXELS")
+        ->check(number_in(300, 8000))
+        ->capture_default_str();
+  }
+  add_choice(command->add_option("--background", arguments->background, "colour of the ground")
+                 ->capture_default_str(),
+             {"dark", "light"});
+  command->add_flag("--force", arguments->force, "replace existing files");
+  command->footer(R"(Needles are drawn whole where they reach across a side of the periodic box,
+with their centres inside. Far ones are thinner and closer to the ground.
+
+Colours:
+  speed, spin  speed and angular speed, as multiples of the root mean square
+  vx, vy, vz   a component of the velocity, as a multiple of its root mean square
+  alignment    3 cos^2 - 1 of the angle between needle and velocity
+  density      centres in a ball around the centre that holds 30 others in the
+               mean, as a multiple of that mean
+  none         all needles alike
+
+Examples:
+  needlework view run.h5 -o needles.png
+  needlework view run.h5 -o flow.svg --frame first --colour vx --background light)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -539,6 +646,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   app.require_subcommand(1);
   app.set_version_flag("-v,--version", version_text, "show version, compiler, CPU and libraries");
   add_run_command(app, exit_code);
+  add_resume_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_reproduce_command(app, exit_code);
   add_check_command(app, exit_code);
@@ -548,6 +656,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_info_command(app, exit_code);
   add_import_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_view_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_bench_command(app, exit_code);
   add_help_command(app, exit_code);
@@ -567,6 +676,7 @@ Exit codes:
 
 Environment:
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
+  NO_COLOR         if set and not empty, run --watch draws without colours
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
 }
 

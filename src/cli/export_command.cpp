@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/cli/file_kind.h"
+#include "src/cli/frame_choice.h"
 #include "src/cli/messages.h"
 #include "src/io/formats/export_formats.h"
 #include "src/runs/exit_codes.h"
@@ -35,24 +35,6 @@ bool fits(const io::ExportFormat& format, const std::string& path) {
                      [&](std::string_view ending) { return path.ends_with(ending); });
 }
 
-struct FrameRange {
-  std::size_t begin, end;
-};
-
-FrameRange chosen_frames(const std::string& choice, bool many, std::size_t count) {
-  if (choice == "all" || (choice.empty() && many)) return {0, count};
-  if (choice == "last" || choice.empty()) return {count - 1, count};
-  if (choice == "first") return {0, 1};
-  std::size_t number = count;  // the command line has checked that it is one
-  std::from_chars(choice.data(), choice.data() + choice.size(), number);
-  if (number >= count) {
-    throw InputError(
-        fmt::format("--frame {}: expected a number from 0 to {}, as there are {} frames", choice,
-                    count - 1, count));
-  }
-  return {number, number + 1};
-}
-
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
   io::Material material = io::read_material(path);
   if (!format.whole_material) return material;
@@ -67,7 +49,9 @@ io::Material read_material(const std::string& path, const io::ExportFormat& form
 void export_frames(const ExportArguments& arguments, const io::ExportFormat& format) {
   const auto file = read_file(arguments.from, FileKind::h5md,
                               [&] { return std::make_unique<io::FrameFile>(arguments.from); });
-  const FrameRange range = chosen_frames(arguments.frame, format.many, file->count());
+  const std::string otherwise = format.many ? "all" : "last";
+  const FrameRange range =
+      chosen_frames(arguments.frame.empty() ? otherwise : arguments.frame, file->count());
   const io::Material material = read_material(arguments.from, format);
   const auto writer = format.open(arguments.to, arguments.force, material);
   for (std::size_t i = range.begin; i < range.end; ++i) {

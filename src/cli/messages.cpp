@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 namespace needlework::cli {
@@ -18,6 +19,22 @@ void print_line(std::string_view kind, std::string_view message) {
 
 void print_error(std::string_view message) { print_line("", message); }
 void print_warning(std::string_view message) { print_line("warning: ", message); }
+
+std::string shell_word(std::string_view word) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("_-+=./:,@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return std::string(word);
+  std::string out = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      out += "'\\''";
+    } else {
+      out += c;
+    }
+  }
+  return out + "'";
+}
 
 void warn_of_name(std::string_view place, std::string_view file,
                   std::initializer_list<std::string_view> endings) {

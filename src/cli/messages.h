@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <string>
 #include <string_view>
 
 namespace needlework::cli {
@@ -11,6 +12,9 @@ void print_error(std::string_view message);
 
 /// Prints "needlework: warning: MESSAGE" as one line.
 void print_warning(std::string_view message);
+
+/// A word as a shell takes it, in quotes where it needs them.
+std::string shell_word(std::string_view word);
 
 /// Warns, naming the place, if the name of a file that is to be written has none of these endings.
 void warn_of_name(std::string_view place, std::string_view file,

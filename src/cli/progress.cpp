@@ -1,7 +1,6 @@
 #include "src/cli/progress.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,18 +9,13 @@
 
 #include "src/cli/messages.h"
 #include "src/cli/signals.h"
+#include "src/cli/terminal.h"
 #include "src/runs/progress_text.h"
 
 namespace needlework::cli {
 namespace {
 
 constexpr double terminal_interval = 1, line_interval = 10;  // [s]
-
-std::size_t terminal_width() {
-  winsize size{};
-  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-  return known ? size.ws_col : 80;
-}
 
 }  // namespace
 
@@ -39,7 +33,7 @@ void ProgressLine::show(double elapsed, double fraction, std::string_view more) 
     fmt::print(stderr, "{}\n", line);
     return;
   }
-  line.resize(std::min(line.size(), terminal_width() - 1));
+  line.resize(std::min(line.size(), terminal_size().columns - 1));
   fmt::print(stderr, "\r{:<{}}", line, std::max(line.size(), drawn_));
   drawn_ = line.size();
   std::fflush(stderr);

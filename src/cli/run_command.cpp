@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "src/cli/report.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
+#include "src/cli/watch.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -24,7 +26,9 @@ namespace {
 
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
-  return file.empty() ? "nothing is saved, as no output file is named" : "saved in " + file;
+  if (file.empty()) return "nothing is saved, as no output file is named";
+  if (scene.output.checkpoint_every == 0) return "saved in " + file;
+  return fmt::format("saved in {}; needlework resume {} continues", file, shell_word(file));
 }
 
 int exit_code_of(const runs::Course& course, const Scene& scene) {
@@ -39,6 +43,11 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
     return stopped;
   }
   return ok;
+}
+
+std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printing& printing) {
+  if (printing.watch) return std::make_unique<RunWatch>(scene);
+  return std::make_unique<RunProgress>(printing.quiet);
 }
 
 }  // namespace
@@ -59,14 +68,18 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+  return drive(prepared, arguments.printing);
+}
+
+int drive(runs::PreparedRun& prepared, const Printing& printing) {
   const SignalGuard guard(prepared.simulation());
-  RunProgress progress(arguments.quiet);
-  const runs::Course course = prepared.drive(progress);
+  const auto monitor = make_monitor(prepared.scene(), printing);
+  const runs::Course course = prepared.drive(*monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
-  if (arguments.json) {
+  if (printing.json) {
     fmt::print("{}\n", json_of(report));
-  } else if (!arguments.quiet) {
+  } else if (!printing.quiet) {
     fmt::print("{}", summary_of(report));
   }
   return exit_code_of(course, prepared.scene());

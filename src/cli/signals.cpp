@@ -1,7 +1,9 @@
 #include "src/cli/signals.h"
 
+#include <array>
 #include <atomic>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <ctime>
 
@@ -14,6 +16,9 @@ std::atomic<int> signal_received = 0;
 std::atomic<std::int64_t> received_at = 0;  // [ns]
 static_assert(std::atomic<Simulation*>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+constexpr std::array handled{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, handled.size()> before;  // of the guard
 
 std::int64_t nanoseconds() {
   std::timespec now{};
@@ -34,7 +39,7 @@ void handle(int signal) {
   if (signal_received == 0) {
     received_at = nanoseconds();
     signal_received = signal;
-  } else if (nanoseconds() - received_at > 1000000000) {
+  } else if (nanoseconds() - received_at > 200000000) {
     set_handler(signal, SIG_DFL);
     raise(signal);
   }
@@ -49,13 +54,17 @@ SignalGuard::SignalGuard(Simulation& simulation) : SignalGuard() {
 
 SignalGuard::SignalGuard() {
   signal_received = 0;
-  set_handler(SIGINT, handle);
-  set_handler(SIGTERM, handle);
+  for (std::size_t n = 0; n < handled.size(); ++n) {
+    sigaction(handled[n], nullptr, &before[n]);
+    // `nohup` has a program go on when its terminal is closed. (Shells have background jobs ignore
+    // SIGINT in the same way, but who sends it to such a job by `kill` means it.)
+    const bool unwanted = handled[n] == SIGHUP && before[n].sa_handler == SIG_IGN;
+    if (!unwanted) set_handler(handled[n], handle);
+  }
 }
 
 SignalGuard::~SignalGuard() {
-  set_handler(SIGINT, SIG_DFL);
-  set_handler(SIGTERM, SIG_DFL);
+  for (std::size_t n = 0; n < handled.size(); ++n) sigaction(handled[n], &before[n], nullptr);
   interrupted_by_signals = nullptr;
 }
 

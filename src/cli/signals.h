@@ -1,13 +1,13 @@
-// SIGINT and SIGTERM end a run in order.
+// SIGINT, SIGTERM and SIGHUP end a run in order.
 #pragma once
 
 #include "needlework/simulation.h"
 
 namespace needlework::cli {
 
-/// While it lives, the first SIGINT or SIGTERM interrupts the simulation instead of ending the
-/// program. Another one a second later, when saving hangs say, ends it at once; sooner ones are
-/// taken for the same, as `timeout` and batch systems often send two. One guard at a time.
+/// While it lives, the first of these signals interrupts the simulation instead of ending the
+/// program. Another one ends it at once, but not within 0.2 s, as terminals, `timeout` and batch
+/// systems often send the same signal twice. One guard at a time.
 class SignalGuard {
  public:
   explicit SignalGuard(Simulation& simulation);

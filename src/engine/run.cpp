@@ -129,15 +129,22 @@ Gas make_gas(const Scene& scene, const State& initial) {
   return gas;
 }
 
-Run::Run(const Scene& scene, Gas initial)
-    : gas(std::move(initial)),
-      restitution{scene.collisions.epsilon, scene.collisions.beta},
+Run::Run(const Scene& scene)
+    : restitution{scene.collisions.epsilon, scene.collisions.beta},
       accuracy(accuracy_of(scene.engine)),
       effects(effects_of(scene)),
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
+  gas.set_species({species_of(scene)});
+}
+
+Run::Run(const Scene& scene, Gas initial) : Run(scene) {
+  gas = std::move(initial);
   open_window();
+  if (!std::isfinite(energy())) {
+    throw InputError("state: its energy is beyond the range of double: expected slower needles");
+  }
   gas.clock = Clock(mean_free_time);
   for (Needle i{0}; i < gas.size(); ++i) {
     const kernels::Flight flight = gas.records[i].flight;
@@ -251,7 +258,7 @@ void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) c
       for (int axis = 0; axis < 3; ++axis) {
         const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
         r[axis] = wrapped.place;
-        image[axis] = add_boxes(image[axis], wrapped.boxes);
+        image[axis] = add_boxes(image[axis], wrapped.boxes, gas.ids[i]);
       }
       const bool just_now = columns[C::elapsed][n] == 0;
       const std::size_t row = begin + n;

@@ -15,6 +15,8 @@
 
 namespace needlework {
 
+class Archive;
+
 /// State, physics, windows and counters of a run.
 ///
 /// Simulated time is divided into windows, each about as long as the mean free time at its start.
@@ -24,6 +26,13 @@ class Run {
  public:
   /// Takes the parameters of the scene, and a gas that make_gas() has made.
   Run(const Scene& scene, Gas initial);
+  /// Continues from what save() has returned for the same scene; search, calendar, threads and
+  /// instruction set may differ. Throws InputError if the scene describes other physics, and for
+  /// damaged bytes as far as that can be seen.
+  Run(const Scene& scene, const Checkpoint& saved);
+  /// All on which the future of the run depends, and sums and counts of its past. `by_id` are the
+  /// places of the needles in storage, in order of id.
+  Checkpoint save(const Scene& scene, const std::vector<Needle>& by_id);
 
   Totals totals() const;
   /// Copies all needles at the present time, in this order. The instruction set is used for free
@@ -74,6 +83,9 @@ class Run {
   Time window_end;
 
  private:
+  /// Takes the parameters of the scene; without needles.
+  explicit Run(const Scene& scene);
+  void transfer(Archive& archive, const std::vector<Needle>& by_id);
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
 

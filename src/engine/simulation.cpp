@@ -48,8 +48,9 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
 
 Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
-bool is_finite(const std::array<double, 3>& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+// Its square enters the energy.
+bool has_finite_square(const std::array<double, 3>& a) {
+  return std::isfinite(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
 void check_velocities(std::span<const std::array<double, 3>> values, std::size_t count,
@@ -58,9 +59,9 @@ void check_velocities(std::span<const std::array<double, 3>> values, std::size_t
     throw InputError(
         fmt::format("set_velocities: {} rows of {}: expected {}", values.size(), what, count));
   }
-  const auto bad = std::find_if_not(values.begin(), values.end(), is_finite);
+  const auto bad = std::find_if_not(values.begin(), values.end(), has_finite_square);
   if (bad != values.end()) {
-    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers",
+    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers, their squares too",
                                  bad - values.begin(), what));
   }
 }
@@ -75,8 +76,10 @@ std::string name_effects(const Scene::Collisions& collisions) {
 }  // namespace
 
 struct Simulation::Implementation {
-  Implementation(const Scene& its_scene, Gas initial)
-      : scene(its_scene), run(scene, std::move(initial)), isa(isa_of(scene.engine.isa)) {
+  /// `start` is a gas or a checkpoint.
+  template <class Start>
+  Implementation(const Scene& its_scene, Start&& start)
+      : scene(its_scene), run(scene, std::forward<Start>(start)), isa(isa_of(scene.engine.isa)) {
     if (has_sizes(scene.engine.search) && !scene.engine.cell_side && !scene.engine.capsule_radius) {
       sizing.emplace(run.gas, run.now);
     }
@@ -160,6 +163,9 @@ Simulation::Simulation(const Scene& scene) {
 Simulation::Simulation(const Scene& scene, const State& initial)
     : implementation_(std::make_unique<Implementation>(scene, make_gas(scene, initial))) {}
 
+Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint)
+    : implementation_(std::make_unique<Implementation>(scene, checkpoint)) {}
+
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -196,6 +202,9 @@ FreeNeedle Simulation::needle(std::uint32_t id) const { return implementation_->
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {
   implementation_->set_velocities(velocity, angular_velocity);
+}
+Checkpoint Simulation::checkpoint() const {
+  return implementation_->run.save(implementation_->scene, implementation_->by_id());
 }
 std::string Simulation::search() const { return implementation_->search; }
 std::string Simulation::queue() const { return implementation_->calendar; }

@@ -87,4 +87,16 @@ void AtomicFile::publish() {
   temporary_.clear();
 }
 
+void sync_name(const std::string& path) {
+  std::error_code error;
+  const auto folder = std::filesystem::canonical(path, error).parent_path();
+  if (error) fail(path, error.value());
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) fail(path, errno);
+  // EINVAL: a file system that cannot do this for folders.
+  const int failure = fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
+  close(descriptor);
+  if (failure != 0) fail(path, failure);
+}
+
 }  // namespace needlework::io

@@ -33,4 +33,8 @@ class AtomicFile {
   bool force_;
 };
 
+/// Returns when the name of an existing file is on the disk, which is in its folder and not in the
+/// file. Throws IoError if it cannot be written.
+void sync_name(const std::string& path);
+
 }  // namespace needlework::io

@@ -26,22 +26,6 @@ std::string format_bytes(std::uint64_t bytes) {
   return fmt::format("{:.1f} {}", size, unit);
 }
 
-// "float64", "int32", "string"
-std::string type_name(hid_t dataset, const std::string& place) {
-  const Handle type(H5Dget_type(dataset), H5Tclose, place);
-  const std::size_t bits = 8 * H5Tget_size(type.get());
-  switch (H5Tget_class(type.get())) {
-    case H5T_FLOAT:
-      return fmt::format("float{}", bits);
-    case H5T_INTEGER:
-      return fmt::format("{}int{}", H5Tget_sign(type.get()) == H5T_SGN_NONE ? "u" : "", bits);
-    case H5T_STRING:
-      return "string";
-    default:
-      return "other";
-  }
-}
-
 std::string read_text(hid_t object, const std::string& name, const std::string& place) {
   if (hdf5::check(H5Aexists(object, name.c_str()), place) == 0) return "unknown";
   return fmt::format("{}", fmt::join(hdf5::read_strings_attribute(object, name, place), ", "));
@@ -230,7 +214,7 @@ void Overview::add_object(const std::string& path, const std::string& name, int 
 void Overview::add_dataset(const std::string& path, const std::string& name, int depth) {
   const std::string place = source_.place(path);
   const Handle dataset = hdf5::open_dataset(source_.get(), path, place);
-  const std::string type = type_name(dataset.get(), place);
+  const std::string type = hdf5::type_name(dataset.get(), place);
   std::string line = fmt::format("{:{}}{:<{}} {:<8} {}", "", 2 * depth, name, 28 - 2 * depth, type,
                                  hdf5::to_string(hdf5::shape_of(dataset.get(), place)));
   if (path.ends_with("/value") && type != "string" && type != "other") {
@@ -251,7 +235,7 @@ void Overview::add_parameters() {
     if (!hdf5::is_dataset(source_.get(), path, place)) continue;
     const Handle dataset = hdf5::open_dataset(source_.get(), path, place);
     const hdf5::Shape shape = hdf5::shape_of(dataset.get(), place);
-    const std::string type = type_name(dataset.get(), place);
+    const std::string type = hdf5::type_name(dataset.get(), place);
     const auto add_value = [&](const auto& value) {
       add("  {:<14} {:<22} {}", name, value, description(path));
     };

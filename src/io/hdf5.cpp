@@ -276,11 +276,38 @@ void write_array(hid_t group, const std::string& name, std::span<const std::stri
                 place);
 }
 
-Shape shape_of(hid_t dataset, const std::string& place) {
+std::string type_name(hid_t dataset, const std::string& place) {
+  const Handle type(H5Dget_type(dataset), H5Tclose, place);
+  const std::size_t bits = 8 * H5Tget_size(type.get());
+  switch (H5Tget_class(type.get())) {
+    case H5T_FLOAT:
+      return fmt::format("float{}", bits);
+    case H5T_INTEGER:
+      return fmt::format("{}int{}", H5Tget_sign(type.get()) == H5T_SGN_NONE ? "u" : "", bits);
+    case H5T_STRING:
+      return "string";
+    default:
+      return "other";
+  }
+}
+
+namespace {
+
+// The present and the greatest extents.
+std::pair<Shape, Shape> extents_of(hid_t dataset, const std::string& place) {
   const Handle space(H5Dget_space(dataset), H5Sclose, place);
-  Shape shape(static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space.get()), place)));
-  check(H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr), place);
-  return shape;
+  Shape now(static_cast<std::size_t>(check(H5Sget_simple_extent_ndims(space.get()), place)));
+  Shape most(now.size());
+  check(H5Sget_simple_extent_dims(space.get(), now.data(), most.data()), place);
+  return {now, most};
+}
+
+}  // namespace
+
+Shape shape_of(hid_t dataset, const std::string& place) { return extents_of(dataset, place).first; }
+
+Shape greatest_shape_of(hid_t dataset, const std::string& place) {
+  return extents_of(dataset, place).second;
 }
 
 bool exists(hid_t object, const std::string& path, const std::string& place) {

@@ -144,7 +144,11 @@ void write_array(hid_t group, const std::string& name, const Shape& shape,
 void write_array(hid_t group, const std::string& name, std::span<const std::string> values,
                  const std::string& place);
 
+/// "float64", "uint8", "string" or "other".
+std::string type_name(hid_t dataset, const std::string& place);
 Shape shape_of(hid_t dataset, const std::string& place);
+/// The extents that a dataset may grow to, H5S_UNLIMITED if there is no limit.
+Shape greatest_shape_of(hid_t dataset, const std::string& place);
 
 /// Whether an object exists at `path`, relative to `object`. Broken links count as absent.
 bool exists(hid_t object, const std::string& path, const std::string& place);

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -38,18 +37,21 @@ constexpr hsize_t page_size = 4096;
 // The settings of the driver in a list of file access properties.
 struct DriverSettings {
   int* error;
+  bool shortening;
 };
 
 // An open file. `kept` holds what HDF5 has written but the disk does not have: metadata between two
-// flushes, and everything after a failed write.
+// flushes, everything after a failed write, and what a file that is shortened does not get.
 struct DriverFile : H5FD_t {
   struct Kept {
     haddr_t address;
+    H5FD_mem_t type;
     std::vector<std::byte> bytes;
   };
 
   int descriptor = -1;
   int* error = nullptr;
+  bool shortening = false;
   haddr_t end_of_allocation = 0;
   haddr_t end_of_file = 0;
   haddr_t size_on_disk = 0;
@@ -87,18 +89,18 @@ H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
   }
   file->descriptor = descriptor;
   file->error = settings->error;
+  file->shortening = settings->shortening;
   file->end_of_file = file->size_on_disk = static_cast<haddr_t>(status.st_size);
-  // HDF5 takes the same lock for reading, and an exclusive lock for writing. Not all file systems
-  // support locks, so a failure is ignored.
-  flock(descriptor, LOCK_SH | LOCK_NB);
   return file;
 }
 
-herr_t driver_query(const H5FD_t*, unsigned long* flags) {
+herr_t driver_query(const H5FD_t* file, unsigned long* flags) {
   if (!flags) return 0;
   *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
            H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE |
            H5FD_FEAT_SUPPORTS_SWMR_IO | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  // Without the accumulator each write is one block of metadata, whose kind can be seen.
+  if (file && driver_file(file).shortening) *flags &= ~H5FD_FEAT_ACCUMULATE_METADATA;
   return 0;
 }
 
@@ -173,10 +175,15 @@ void write_to_disk(DriverFile& file, haddr_t address, const std::byte* bytes, st
 
 // What there is no memory to keep goes to the disk at once: the order of writing then protects the
 // file no more, should the program be killed, but the file itself is right.
-void keep(DriverFile& file, haddr_t address, const std::byte* bytes, std::size_t size) noexcept {
+void keep(DriverFile& file, H5FD_mem_t type, haddr_t address, const std::byte* bytes,
+          std::size_t size) noexcept {
   try {
-    file.kept.push_back({address, {bytes, bytes + size}});
+    file.kept.push_back({address, type, {bytes, bytes + size}});
   } catch (const std::bad_alloc&) {
+    if (file.shortening) {
+      *file.error = ENOMEM;
+      return;
+    }
     for (DriverFile::Kept& kept : file.kept) replace_kept(kept, address, size, bytes);
     if (*file.error == 0) write_to_disk(file, address, bytes, size);
   }
@@ -186,8 +193,9 @@ herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::
                     const void* buffer) {
   DriverFile& file = driver_file(base);
   const auto* const bytes = static_cast<const std::byte*>(buffer);
-  if (type == H5FD_MEM_DRAW && *file.error == 0) write_to_disk(file, address, bytes, size);
-  if (type != H5FD_MEM_DRAW || *file.error != 0) keep(file, address, bytes, size);
+  const bool at_once = type == H5FD_MEM_DRAW && !file.shortening;
+  if (at_once && *file.error == 0) write_to_disk(file, address, bytes, size);
+  if (!at_once || *file.error != 0) keep(file, type, address, bytes, size);
   file.end_of_file = std::max(file.end_of_file, address + size);
   return 0;
 }
@@ -198,10 +206,37 @@ void set_size_on_disk(DriverFile& file, haddr_t size) {
   file.size_on_disk = size;
 }
 
+// HDF5 has the same type for the headers of chunk indexes.
+bool is_object_header(const DriverFile::Kept& kept) {
+  const auto begins_with = [&](const char* signature) {
+    return kept.bytes.size() >= 4 && std::memcmp(kept.bytes.data(), signature, 4) == 0;
+  };
+  return kept.type == H5FD_MEM_OHDR && (begins_with("OHDR") || begins_with("OCHK"));
+}
+
+// When datasets are shortened, only the object headers are written, which contain the numbers of
+// rows. HDF5 also clears the entries of removed chunks in chunk indexes, fills removed rows of the
+// last chunk that stays with zeros, and makes the file smaller. None of this could be done in one
+// step with the header. Without it the chunks stay where they are, as those do that a killed
+// program has added to a chunk index but not yet to the number of rows, and are used again when
+// the dataset grows.
+void write_object_headers(DriverFile& file) {
+  for (const DriverFile::Kept& kept : file.kept) {
+    if (*file.error != 0) return;
+    if (!is_object_header(kept)) continue;
+    write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
+  }
+  std::erase_if(file.kept, is_object_header);
+}
+
 // The superblock, at address 0, contains the size of the file. Readers refuse a file that is
 // shorter, and metadata that point beyond it. Therefore the size of the file is set first, then the
 // superblock is written, then the other metadata.
 void write_kept(DriverFile& file) {
+  if (file.shortening) {
+    write_object_headers(file);
+    return;
+  }
   set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
   std::stable_partition(file.kept.begin(), file.kept.end(),
                         [](const DriverFile::Kept& kept) { return kept.address == 0; });
@@ -225,7 +260,7 @@ herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t) {
 herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
   guarded([&] { write_kept(file); });
-  set_size_on_disk(file, file.end_of_allocation);
+  if (!file.shortening) set_size_on_disk(file, file.end_of_allocation);
   // Some file systems report a full disk only when a file is closed.
   if (close(file.descriptor) != 0 && *file.error == 0) *file.error = errno;
   delete &file;
@@ -268,12 +303,18 @@ void set_pages(hid_t creation, const std::string& place) {
 
 }  // namespace
 
+OutputFile::OutputFile(std::string name, std::string place)
+    : name_(std::move(name)),
+      place_(std::move(place)),
+      lock_(name_, place_),
+      error_(std::make_unique<int>(0)),
+      driver_(register_driver(place_)) {}
+
 OutputFile::OutputFile(std::string name, std::string place, Use use)
-    : name_(std::move(name)), place_(std::move(place)), error_(std::make_unique<int>(0)) {
-  driver_ = register_driver(place_);
+    : OutputFile(std::move(name), std::move(place)) {
   const Handle creation = hdf5::without_times(H5P_FILE_CREATE, place_);
   if (use == Use::growing) set_pages(creation.get(), place_);
-  const Handle access = make_access();
+  const Handle access = make_access(false);
   const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   if (file < 0) require_written();
   file_ = Handle(file, H5Fclose, place_);
@@ -286,28 +327,37 @@ void OutputFile::require_written() const {
   throw IoError(fmt::format("{}: {}", place_, std::generic_category().message(*error_)));
 }
 
-Handle OutputFile::make_access() const {
+Handle OutputFile::make_access(bool shortening) const {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, place_);
   // SWMR mode needs the file format of HDF5 1.10. Newer formats are excluded, so that HDF5 1.10 can
   // read the file.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
-  const DriverSettings settings{error_.get()};
+  const DriverSettings settings{error_.get(), shortening};
   check(H5Pset_driver(access.get(), driver_.get(), &settings), place_);
   return access;
 }
 
-// The file is reopened, because H5Fstart_swmr_write would mark it as open for writing.
-void OutputFile::start_swmr() {
+void OutputFile::open(unsigned flags, bool shortening) {
   close();
-  const Handle access = make_access();
-  const hid_t file = H5Fopen(name_.c_str(), H5F_ACC_RDWR | H5F_ACC_SWMR_WRITE, access.get());
+  const Handle access = make_access(shortening);
+  const hid_t file = H5Fopen(name_.c_str(), flags, access.get());
   if (file < 0) require_written();
   file_ = Handle(file, H5Fclose, place_);
 }
 
+void OutputFile::start_shortening() { open(H5F_ACC_RDWR, true); }
+
+// The file is reopened, because H5Fstart_swmr_write would mark it as open for writing.
+void OutputFile::start_swmr() { open(H5F_ACC_RDWR | H5F_ACC_SWMR_WRITE, false); }
+
 void OutputFile::flush() {
   check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), place_);
   require_written();
+}
+
+void OutputFile::sync() {
+  flush();
+  lock_.sync();
 }
 
 void OutputFile::close() {

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "src/io/hdf5.h"
+#include "src/io/write_lock.h"
 
 namespace needlework::io {
 
-/// A new HDF5 file, which HDF5 writes through a file driver of this library. The driver solves
-/// three problems.
+/// An HDF5 file, which HDF5 writes through a file driver of this library. The driver solves three
+/// problems.
 ///
 /// 1. A failed write must be an ordinary error. When a driver reports a failed write, HDF5 cannot
 ///    close the file any more, and the program ends in a segmentation fault (observed with HDF5
@@ -24,15 +25,17 @@ namespace needlework::io {
 ///
 /// 3. A file that a killed program left must open without special options. HDF5 marks files that
 ///    are open for writing, and refuses to open a file that still has the mark, unless the driver
-///    does not support file locks. This driver does not. It holds a shared lock of the operating
-///    system instead, with which other programs cannot open the file for writing.
+///    does not support file locks. This driver does not. A WriteLock excludes other writers.
 class OutputFile {
  public:
   /// A `growing` file may be read at any moment, and contains the time of its creation. A file
   /// written `in_one_go` has the same bytes whenever it is written.
   enum class Use { growing, in_one_go };
 
-  /// Replaces the file `name` by an empty HDF5 file. `place` begins the messages of errors.
+  /// Takes hold of the file `name`, which must exist, and leaves it as it is. `place` begins the
+  /// messages of errors. Throws IoError if another program has the file open for writing.
+  OutputFile(std::string name, std::string place);
+  /// The same, and makes it an empty HDF5 file.
   OutputFile(std::string name, std::string place, Use use);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -42,18 +45,29 @@ class OutputFile {
 
   /// Throws IoError with the reason of the operating system if a write has failed so far.
   void require_written() const;
-  /// Starts SWMR mode. No object of the file may be open, and none can be created afterwards.
+  /// Opens the file, or opens it again, such that rows can be removed from the ends of datasets,
+  /// and nothing else changed. At any moment, also between the writes of a flush, a dataset on disk
+  /// has its old or its new number of rows, and these rows are unharmed. A flush changes the
+  /// datasets on disk in any order. The file keeps its size, and the space of the removed rows is
+  /// for later rows of the same dataset. The file has to be closed before rows are written.
+  void start_shortening();
+  /// Opens the file, or opens it again, in SWMR mode. No object of the file may be open. Datasets
+  /// can grow then, but neither can they shrink nor objects be created.
   void start_swmr();
   /// Writes everything that HDF5 holds in memory to the file.
   void flush();
+  /// Flushes, and returns when the file is on the disk.
+  void sync();
   /// Closes the file. No object of it may be open.
   void close();
 
  private:
-  hdf5::Handle make_access() const;
+  hdf5::Handle make_access(bool shortening) const;
+  void open(unsigned flags, bool shortening);
 
   std::string name_;
   std::string place_;
+  WriteLock lock_;
   std::unique_ptr<int> error_;  // errno of the first failed write, or 0; set by the driver
   hdf5::Handle driver_;  // must outlive the file: H5FD_close frees a driver that nothing else
                          // holds, and then reads it (HDF5 1.10.8)

@@ -41,6 +41,7 @@ class FrameReader {
   explicit FrameReader(const std::string& path);
 
   std::size_t count() const { return rows_->count(); }
+  std::size_t needles() const { return needles_; }
   std::optional<double> time(std::size_t frame) const;
   State read(std::size_t frame);
 
@@ -310,6 +311,7 @@ FrameFile::~FrameFile() {
 }
 
 std::size_t FrameFile::count() const { return implementation_->reader.count(); }
+std::size_t FrameFile::needles() const { return implementation_->reader.needles(); }
 
 std::optional<double> FrameFile::time(std::size_t frame) const {
   return implementation_->reader.time(frame);

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <numeric>
+#include <limits>
 #include <system_error>
 
 #include "needlework/error.h"
@@ -20,9 +20,16 @@ using hdf5::Shape;
 
 namespace {
 
+// The number of elements, or the largest number if there are more.
 std::uint64_t product(const Shape& shape, std::size_t first) {
-  return std::accumulate(shape.begin() + static_cast<std::ptrdiff_t>(first), shape.end(),
-                         std::uint64_t{1}, std::multiplies<>());
+  std::uint64_t out = 1;
+  for (std::size_t n = first; n < shape.size(); ++n) {
+    if (__builtin_mul_overflow(out, shape[n], &out)) {
+      const bool empty = std::count(shape.begin(), shape.end(), hsize_t{0}) > 0;
+      return empty ? 0 : std::numeric_limits<std::uint64_t>::max();
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -50,6 +57,15 @@ Source::Source(const std::string& path) : path_(path) {
   file_ = Handle(file, H5Fclose, path);
 }
 
+void Source::require_possible(std::uint64_t numbers, const std::string& dataset) const {
+  // Deflate shrinks nothing by more than a factor of 1032. Small datasets may be left out of a file
+  // altogether, which then stand for zeros.
+  constexpr std::uint64_t most_per_byte = 1032, always = std::uint64_t{1} << 23;
+  if (numbers <= always || numbers / most_per_byte <= bytes_) return;
+  throw InputError(fmt::format("{}: {} numbers: expected fewer in a file of {} bytes",
+                               place(dataset), numbers, bytes_));
+}
+
 Element::Element(const Source& source, const std::string& path)
     : source_(&source),
       path_(path),
@@ -67,6 +83,7 @@ Element::Element(const Source& source, const std::string& path)
   }
   shape_ = hdf5::shape_of(value_.get(), place);
   rows_ = shape_.empty() ? 0 : shape_[0];
+  source.require_possible(product(shape_, 0), name_);
   if (!is_group_) return;
 
   steps_ = read_grid<std::int64_t>("step");
@@ -103,6 +120,7 @@ std::optional<std::vector<Number>> Element::read_grid(const char* name) const {
                                  hdf5::to_string(shape)));
   }
   const hid_t type = hdf5::type_of<Number>();
+  source_->require_possible(product(shape, 0), path);
   std::vector<Number> values(product(shape, 0));
   check(H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), place);
   if (!shape.empty()) return values;

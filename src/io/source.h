@@ -19,6 +19,9 @@ class Source {
   hid_t get() const { return file_.get(); }
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; }
+  /// Throws InputError for a dataset of so many numbers if a file of this size cannot hold them,
+  /// even compressed: before memory is taken for them.
+  void require_possible(std::uint64_t numbers, const std::string& dataset) const;
 
   /// "PATH: /OBJECT", with which every message begins.
   std::string place(const std::string& object) const { return path_ + ": " + object; }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -41,8 +40,11 @@ void append_member(Column& column, std::span<const Row> rows,
 StepsAndTimes::StepsAndTimes(hid_t file, const std::string& group, const std::string& place)
     : step_(file, group + "/step", place), time_(file, group + "/time", place) {}
 
-void StepsAndTimes::append(std::span<const Totals> samples) {
+void StepsAndTimes::append_times(std::span<const Totals> samples) {
   append_member<double>(time_, samples, &Totals::time);
+}
+
+void StepsAndTimes::append_steps(std::span<const Totals> samples) {
   append_member<std::int64_t>(step_, samples, &Totals::collisions);
 }
 
@@ -90,18 +92,21 @@ void FieldsTable::append(std::span<const double> samples) {
   }
 }
 
-Frames::Frames(hid_t file, const std::string& place)
+Frames::Frames(hid_t file, const std::string& place, std::uint64_t rows)
     : place_(place),
       id_(hdf5::open_dataset(file, "/particles/needles/id", place)),
       needles_(hdf5::shape_of(id_.get(), place).at(0)),
       ids_(needles_),
+      ids_written_(rows > 0),
       edges_(file, "/particles/needles/box/edges/value", place),
       position_(file, "/particles/needles/position/value", place),
       image_(file, "/particles/needles/image/value", place),
       velocity_(file, "/particles/needles/velocity/value", place),
       orientation_(file, "/particles/needles/orientation/value", place),
       angular_velocity_(file, "/particles/needles/angular_velocity/value", place) {
-  std::iota(ids_.begin(), ids_.end(), 0u);
+  if (needles_ == 0) return;
+  check(H5Dread(id_.get(), type_of<std::uint32_t>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, ids_.data()),
+        place_);
 }
 
 void Frames::append(const State& state) {

@@ -1,7 +1,7 @@
 // The tables of an H5MD file that a run fills: frames, sums over all needles, collisions.
 //
-// The datasets of a table grow one after the other. The times are written last, by a function of
-// their own, and a row is complete when its time is in the file.
+// The datasets of a table grow one after the other. The steps are written last, of events the
+// times, by a function of their own, and a row is complete when that is in the file.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ class StepsAndTimes {
   /// Opens the datasets in `group`.
   StepsAndTimes(hid_t file, const std::string& group, const std::string& place);
 
-  void append(std::span<const Totals> samples);
+  void append_times(std::span<const Totals> samples);
+  void append_steps(std::span<const Totals> samples);
 
  private:
   Column step_, time_;
@@ -66,7 +67,8 @@ class FieldsTable {
 /// /particles/needles: the phase-space states of a fixed number of needles.
 class Frames {
  public:
-  Frames(hid_t file, const std::string& place);
+  /// `rows` is the number of frames in the file.
+  Frames(hid_t file, const std::string& place, std::uint64_t rows);
 
   /// Writes a frame. Its step and time are written by StepsAndTimes. Throws std::invalid_argument
   /// if an array does not have one entry for each needle, or if the ids differ from those of the
@@ -80,7 +82,7 @@ class Frames {
   hdf5::Handle id_;
   std::size_t needles_;
   std::vector<std::uint32_t> ids_;
-  bool ids_written_ = false;
+  bool ids_written_;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
 };
 

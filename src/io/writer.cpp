@@ -2,8 +2,9 @@
 //
 // OutputFile keeps the metadata on disk consistent at any moment, which requires that all objects
 // are created before the first row is written. The datasets of a frame grow one after the other, so
-// the file can contain a part of a frame. Steps and times are written after everything else has
-// reached the file; a reader that reads as many rows as there are steps reads complete frames only.
+// the file can contain a part of a frame. Steps are written after everything else has reached the
+// file; a reader that reads as many rows as there are steps reads complete frames only. A file that
+// is continued is shortened to complete rows first, and then grows in the same way.
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -11,9 +12,11 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/io/atomic_file.h"
+#include "src/io/continuation.h"
 #include "src/io/hdf5.h"
 #include "src/io/layout.h"
 #include "src/io/output_file.h"
+#include "src/io/source.h"
 #include "src/io/tables.h"
 
 namespace needlework::io {
@@ -31,14 +34,19 @@ constexpr std::size_t numbers_block = 131072;
 }  // namespace
 
 struct Writer::Implementation {
-  Implementation(const std::string& name, bool force, const Scene& scene, const RunInfo& run);
+  explicit Implementation(const std::string& name) : path(name) {}
 
-  void open_datasets(const std::vector<SeriesGroup>& groups, bool with_events);
+  void create(bool force, const Scene& scene, const RunInfo& run);
+  void resume(const Scene& scene, const RunInfo& run, const Position& from);
+  void open_datasets(const Scene& scene, const RunInfo& run);
   void commit();
+  void sync();
   void close();
 
   const std::string path;
   bool failed = false;
+  bool name_on_disk = false;
+  Position position;
   std::optional<OutputFile> file;  // declared first, so that it is closed after its datasets
   std::optional<Frames> frames;
   std::optional<TotalsTable> observables;
@@ -48,33 +56,38 @@ struct Writer::Implementation {
   std::optional<StepsAndTimes> series_times;
   std::optional<Events> events;
 
-  // Rows whose steps and times are not in the file yet.
+  // Rows whose steps are not in the file yet.
   std::vector<Totals> pending_frames;
   std::vector<Totals> pending_samples;
   std::vector<double> pending_numbers;
   std::vector<Collision> pending_events;
 };
 
-Writer::Implementation::Implementation(const std::string& name, bool force, const Scene& scene,
-                                       const RunInfo& run)
-    : path(name) {
+void Writer::Implementation::create(bool force, const Scene& scene, const RunInfo& run) {
   AtomicFile atomic(path, force);
   file.emplace(atomic.temporary(), path, OutputFile::Use::growing);
   make_layout(file->get(), scene, run, path);
-  file->start_swmr();
-  open_datasets(run.series, scene.output.events);
+  open_datasets(scene, run);
   atomic.publish();
 }
 
-void Writer::Implementation::open_datasets(const std::vector<SeriesGroup>& groups,
-                                           bool with_events) {
-  frames.emplace(file->get(), path);
+void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, const Position& from) {
+  file.emplace(path, path);
+  require_continuable(Source(path), scene, run, from);
+  shorten(*file, path, from);
+  position = from;
+  open_datasets(scene, run);
+}
+
+void Writer::Implementation::open_datasets(const Scene& scene, const RunInfo& run) {
+  file->start_swmr();
+  frames.emplace(file->get(), path, position.frames);
   observables.emplace(file->get(), "/observables", path);
   frame_times.emplace(file->get(), "/particles/needles/position", path);
   series.emplace(file->get(), "/series", path);
-  fields.emplace(file->get(), groups, path);
+  fields.emplace(file->get(), run.series, path);
   series_times.emplace(file->get(), "/series", path);
-  if (with_events) events.emplace(file->get(), path);
+  if (scene.output.events) events.emplace(file->get(), path);
 }
 
 void Writer::Implementation::commit() {
@@ -83,16 +96,25 @@ void Writer::Implementation::commit() {
   observables->append(pending_frames);
   series->append(pending_samples);
   fields->append(pending_numbers);
+  frame_times->append_times(pending_frames);
+  series_times->append_times(pending_samples);
   if (events) events->append(pending_events);
   file->flush();
-  frame_times->append(pending_frames);
-  series_times->append(pending_samples);
+  frame_times->append_steps(pending_frames);
+  series_times->append_steps(pending_samples);
   if (events) events->append_times(pending_events);
   file->flush();
   pending_frames.clear();
   pending_samples.clear();
   pending_numbers.clear();
   pending_events.clear();
+}
+
+void Writer::Implementation::sync() {
+  const Session session;
+  commit();
+  file->sync();
+  if (!std::exchange(name_on_disk, true)) sync_name(path);
 }
 
 void Writer::Implementation::close() {
@@ -125,7 +147,19 @@ void Writer::use(Action action) {
 
 Writer::Writer(const std::string& path, bool force, const Scene& scene, const RunInfo& run) {
   const Session session;
-  implementation_ = std::make_unique<Implementation>(path, force, scene, run);
+  implementation_ = std::make_unique<Implementation>(path);
+  implementation_->create(force, scene, run);
+}
+
+Writer::Writer(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+Writer Writer::resume(const std::string& path, const Scene& scene, const RunInfo& run,
+                      const Position& position) {
+  const Session session;
+  auto implementation = std::make_unique<Implementation>(path);
+  implementation->resume(scene, run, position);
+  return Writer(std::move(implementation));
 }
 
 Writer::Writer(Writer&&) noexcept = default;
@@ -153,6 +187,7 @@ void Writer::write_series(const Totals& totals, std::span<const double> values) 
       throw std::logic_error("a sample does not have the numbers of the fields of RunInfo::series");
     }
     out.pending_samples.push_back(totals);
+    ++out.position.samples;
     out.pending_numbers.insert(out.pending_numbers.end(), values.begin(), values.end());
     const bool full = out.pending_samples.size() >= block;
     if (full || out.pending_numbers.size() >= numbers_block) out.commit();
@@ -164,6 +199,7 @@ void Writer::write_frame(const Totals& totals, const State& state) {
     const Session session;
     out.frames->append(state);
     out.pending_frames.push_back(totals);
+    ++out.position.frames;
   });
 }
 
@@ -171,12 +207,22 @@ void Writer::write_event(const Collision& collision) {
   use([&](Implementation& out) {
     if (!out.events) throw std::logic_error("the scene does not ask for output.events");
     out.pending_events.push_back(collision);
+    ++out.position.events;
     if (out.pending_events.size() >= block) out.commit();
   });
 }
 
 void Writer::flush() {
   use([](Implementation& out) { out.commit(); });
+}
+
+void Writer::sync() {
+  use([](Implementation& out) { out.sync(); });
+}
+
+Writer::Position Writer::position() const {
+  if (!implementation_) throw std::logic_error("the writer was closed before");
+  return implementation_->position;
 }
 
 void Writer::close() {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "src/archive/archive.h"
+
 namespace needlework {
 
 /// Counts events in batches, stretches of time of equal length. The error of their rate is
@@ -34,6 +36,9 @@ class BatchRate {
   /// The rate over all batches that are complete at time `now`, which must not be before the last
   /// event.
   Estimate estimate(double now) const;
+
+  /// Saves or restores all counts.
+  void transfer(Archive& archive) { archive(length_, counts_); }
 
  private:
   double length_;

@@ -15,6 +15,7 @@
 // Values outside the borders are left out.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <unordered_map>
 
@@ -25,6 +26,14 @@ namespace needlework::observe {
 namespace {
 
 constexpr std::size_t longest_chain = 64;
+
+/// The unfinished chain that a needle is in.
+struct Chain {
+  std::uint32_t partner = 0;
+  std::size_t length = 0;  ///< 0: none
+};
+
+void transfer(Archive& archive, Chain& chain) { archive(chain.partner, chain.length); }
 
 class CollisionStatistics : public Observable {
  public:
@@ -107,13 +116,16 @@ class CollisionStatistics : public Observable {
     t_rot_ = now.totals.t_rot;
   }
 
- private:
-  /// The unfinished chain that a needle is in.
-  struct Chain {
-    std::uint32_t partner = 0;
-    std::size_t length = 0;  ///< 0: none
-  };
+  void transfer(Archive& archive) override {
+    arms_.transfer(archive);
+    angle_.transfer(archive);
+    normal_velocity_.transfer(archive);
+    std::map<std::uint32_t, Chain> open(open_.begin(), open_.end());
+    archive(collisions_, repeats_, t_tr_, t_rot_, chains_, open);
+    open_ = {open.begin(), open.end()};
+  }
 
+ private:
   void follow_chains(std::uint32_t first, std::uint32_t second) {
     const Chain& chain = open_[first];
     const std::size_t before = chain.length > 0 && chain.partner == second ? chain.length : 0;

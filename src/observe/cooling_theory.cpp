@@ -27,6 +27,12 @@ class CoolingTheory : public Observable {
 
   bool reads_state() const override { return false; }
 
+  void transfer(Archive& archive) override {
+    theory::CoolingCurve::Place place = curve_.place();
+    archive(place);
+    curve_.go_to(place);
+  }
+
  private:
   theory::CoolingCurve curve_;
   double time_scale_;

@@ -30,6 +30,10 @@ struct Reference {
   std::vector<Vector> position, orientation;
 };
 
+void transfer(Archive& archive, Reference& reference) {
+  archive(reference.sample, reference.time, reference.position, reference.orientation);
+}
+
 struct Means {
   double parallel = 0, perpendicular = 0, p1 = 0, p2 = 0;
 };
@@ -64,6 +68,8 @@ class Displacement : public Observable {
       put(row, [&](std::size_t n) { return means[n].*mean; });
     }
   }
+
+  void transfer(Archive& archive) override { archive(samples_, stride_, references_); }
 
  private:
   std::vector<Vector> unwrapped(const State& state) const {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/archive/archive.h"
+
 namespace needlework::observe {
 
 /// Bins of equal width from `low` to `high`. A value at a border belongs to the bin above it, and
@@ -23,6 +25,7 @@ class Histogram {
 
   /// The number of values in each bin; doubles, as are all rows of observables.
   const std::vector<double>& counts() const { return counts_; }
+  void transfer(Archive& archive) { archive(counts_); }
   void clear() { counts_.assign(counts_.size(), 0.0); }
 
   /// The borders of the bins, one more than there are bins.

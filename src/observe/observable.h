@@ -12,6 +12,7 @@
 #include "needlework/series.h"
 #include "needlework/state.h"
 #include "needlework/totals.h"
+#include "src/archive/archive.h"
 #include "src/observe/grid.h"
 #include "src/observe/vector.h"
 
@@ -100,6 +101,10 @@ class Observable {
   /// what happened since the last sample.
   virtual bool reads_collisions() const { return false; }
   virtual void collision(const Collision&) {}
+
+  /// Saves or restores what rows depend on besides the snapshot, so that a run that continues from
+  /// a checkpoint goes on with the same rows. Most observables remember nothing.
+  virtual void transfer(Archive&) {}
 };
 
 using ObservablePointer = std::unique_ptr<Observable>;

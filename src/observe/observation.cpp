@@ -65,6 +65,10 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
   return row_.values();
 }
 
+void Observation::transfer(Archive& archive) {
+  for (const Member& member : members_) member.observable->transfer(archive);
+}
+
 void Observation::collision(const Collision& collision) {
   for (Observable* reader : readers_) reader->collision(collision);
 }

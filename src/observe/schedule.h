@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "src/archive/archive.h"
+
 namespace needlework {
 
 /// Times of samples in increasing order, returned one by one.
@@ -30,6 +32,12 @@ class Schedule {
 
   /// Removes all times up to and including `time`.
   void pass(double time);
+
+  /// Saves or restores how far the schedule has come.
+  friend void transfer(Archive& archive, Schedule& schedule) {
+    archive(schedule.per_decade_, schedule.step_, schedule.n_, schedule.times_, schedule.position_,
+            schedule.next_);
+  }
 
  private:
   double grid_time(double n) const;

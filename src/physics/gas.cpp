@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "kernels/power_of_two.h"
+#include "needlework/error.h"
 #include "src/physics/director.h"
 
 namespace needlework {
@@ -107,13 +109,16 @@ Wrapped wrap(double x, double box) {
     boxes += 1;
     out = 0;
   }
-  constexpr double most = std::numeric_limits<std::int32_t>::max();
-  return {out, static_cast<std::int32_t>(std::clamp(boxes, -most, most))};
+  return {out, boxes};
 }
 
-std::int32_t add_boxes(std::int32_t a, std::int32_t b) {
-  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::clamp(std::int64_t{a} + b, -most, most));
+std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  const double sum = image + boxes;
+  if (std::abs(sum) <= most) return static_cast<std::int32_t>(sum);
+  throw InvalidStateError("needle " + std::to_string(id.value) +
+                          " has crossed more than 2^31 - 1 boxes along one axis: expected an "
+                          "earlier end of the run, or a larger box");
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
@@ -121,13 +126,14 @@ Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
   const double elapsed = gas.clock.difference(now, record.time);
   const Vec3d centre = centre_after(record.flight, elapsed);
   double r[3] = {centre.x, centre.y, centre.z};
-  Shift wraps{};
+  Shift wraps{}, image = gas.images[i];
   for (int axis = 0; axis < 3; ++axis) {
     const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
     r[axis] = wrapped.place;
-    wraps[axis] = wrapped.boxes;
-    gas.images[i][axis] = add_boxes(gas.images[i][axis], wraps[axis]);
+    image[axis] = add_boxes(image[axis], wrapped.boxes, gas.ids[i]);
+    wraps[axis] = static_cast<std::int32_t>(wrapped.boxes);
   }
+  gas.images[i] = image;
   record.flight.r = {r[0], r[1], r[2]};
   record.flight.u = normalised(flight.director);
   record.flight.v = flight.velocity;

@@ -55,14 +55,15 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
 /// Time at which a record is renewed: after about 2^10 needle lengths or radians of flight.
 Time renewal_time(const Clock& clock, const Record& record, double length);
 
-/// A coordinate in [0, box), and the number of boxes subtracted, limited to what an int32 holds.
+/// A coordinate in [0, box), and the number of boxes subtracted, a whole number.
 struct Wrapped {
   double place;
-  std::int32_t boxes;
+  double boxes;
 };
 Wrapped wrap(double x, double box);
-/// The sum, limited to the range of an int32.
-std::int32_t add_boxes(std::int32_t a, std::int32_t b);
+/// The number of boxes that a needle has crossed along an axis, with those just subtracted. Throws
+/// InvalidStateError if it is beyond 2^31 - 1, the most that files hold.
+std::int32_t add_boxes(std::int32_t image, double boxes, Id id);
 
 /// The start of a new record. Its position follows from the free flight of the old one.
 struct NewFlight {

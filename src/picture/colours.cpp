@@ -34,6 +34,19 @@ constexpr std::array<Colour, 8> plasma{{{0x72, 0x01, 0xa8},
                                         {0xfb, 0x9f, 0x3a},
                                         {0xfd, 0xca, 0x26},
                                         {0xf0, 0xf9, 0x21}}};
+// Blue and red that grow brighter from a dull middle, and darker from a grey one.
+constexpr std::array<Colour, 7> bright_blue_to_red{{{0x8c, 0xd0, 0xff},
+                                                    {0x3d, 0x8f, 0xe8},
+                                                    {0x35, 0x58, 0x94},
+                                                    {0x55, 0x50, 0x5c},
+                                                    {0x94, 0x45, 0x38},
+                                                    {0xec, 0x6a, 0x3c},
+                                                    {0xff, 0xbe, 0x85}}};
+constexpr std::array<Colour, 5> dark_blue_to_red{{{0x10, 0x4e, 0x9e},
+                                                  {0x5f, 0x9b, 0xcc},
+                                                  {0xc8, 0xc8, 0xc8},
+                                                  {0xe0, 0x7f, 0x5c},
+                                                  {0xa5, 0x10, 0x25}}};
 constexpr std::array<Colour, 7> blue_to_red{{{0x21, 0x66, 0xac},
                                              {0x67, 0xa9, 0xcf},
                                              {0xd1, 0xe5, 0xf0},
@@ -66,7 +79,15 @@ Colour curve_colour(std::size_t number) { return curves[number % curves.size()];
 
 Gradient sequential_gradient() { return viridis; }
 Gradient diverging_gradient() { return blue_to_red; }
-Gradient bright_gradient() { return plasma; }
+
+Gradient sequential_gradient(bool dark_ground) {
+  // Without the part that is lost on the ground.
+  return dark_ground ? Gradient(plasma) : Gradient(viridis).first(8);
+}
+
+Gradient diverging_gradient(bool dark_ground) {
+  return dark_ground ? Gradient(bright_blue_to_red) : Gradient(dark_blue_to_red);
+}
 
 Colour colour_at(Gradient gradient, double share) {
   const double last = static_cast<double>(gradient.size() - 1);

@@ -32,8 +32,9 @@ using Gradient = std::span<const Colour>;
 Gradient sequential_gradient();
 /// Blue to red through white.
 Gradient diverging_gradient();
-/// Plasma without its darkest part, for a dark ground.
-Gradient bright_gradient();
+/// The same for needles, which must be seen against a ground that is dark or light.
+Gradient sequential_gradient(bool dark_ground);
+Gradient diverging_gradient(bool dark_ground);
 
 /// The colour at a share in [0, 1] of the scale; shares beyond it have the colour of its ends.
 Colour colour_at(Gradient gradient, double share);

@@ -6,12 +6,9 @@
 
 #include "src/picture/chart.h"
 #include "src/picture/colours.h"
+#include "src/picture/point.h"
 
 namespace needlework::picture {
-
-struct Point {
-  double x, y;
-};
 
 /// The scales of a panel: pixels of x from left to right, of y from the bottom up.
 struct Area {

@@ -101,7 +101,10 @@ double text_width(const std::string& text, double size) {
 
 std::string plain_text(const std::string& text) {
   std::string plain;
-  for (const Run& run : runs_of(text)) plain += (run.level > 0 ? "^" : "") + run.text;
+  for (const Run& run : runs_of(text)) {
+    if (run.level > 0) plain += '^';
+    plain += run.text;
+  }
   return plain;
 }
 

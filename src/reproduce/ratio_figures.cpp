@@ -147,7 +147,7 @@ FigureResult make_rough_ratio(const PaperRuns& runs) {
     }
     add_pair(panel, curve, line, panel.curves.size() / 2);
   }
-  result.chart = {.title = "Long-time ratio T_{tr} / T_{rot} of rough needles",
+  result.chart = {.title = "Rough needles: long-time ratio T_{tr} / T_{rot}",
                   .description =
                       "Ratio of temperatures against tangential restitution: theory as "
                       "lines, simulations as points.",

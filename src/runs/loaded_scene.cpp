@@ -19,7 +19,13 @@ State read_initial_state(const Scene& scene) {
   const std::string& file = scene.initial.file;
   const std::string place = place_of(scene, "initial.file", file);
   try {
-    return io::read_last_frame(file);
+    const io::FrameFile frames(file);
+    // Before memory is taken for them.
+    require_count(scene, frames.needles());
+    Scene sized = scene;
+    sized.needles.count = frames.needles();
+    require_memory(sized);
+    return frames.read(frames.count() - 1);
   } catch (const InputError& error) {
     throw InputError(place + ": " + error.what());
   } catch (const IoError& error) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "needlework/error.h"
+#include "src/runs/checkpoint.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -25,8 +26,10 @@ void require_writable(const std::string& file, bool force, const std::string& pl
       throw IoError(place + ": cannot be written: expected an ordinary file");
     }
     if (!force) {
-      throw IoError(fmt::format("{}: exists already: expected a new file, or {} to replace it",
-                                place, option));
+      const bool can_continue = CheckpointFiles(file).exist();
+      throw IoError(fmt::format(
+          "{}: exists already: expected a new file, or {} to replace it{}", place, option,
+          can_continue ? "; the run in it can be continued by needlework resume" : ""));
     }
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {

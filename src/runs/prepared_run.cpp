@@ -33,35 +33,67 @@ observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& init
 
 }  // namespace
 
-void PreparedRun::open_output(bool drawn, bool force) {
+// Makes the writer by open(run_info), if there is a file to write.
+template <class Open>
+void PreparedRun::open_output(Open&& open) {
   const std::string& file = scene_.output.file;
   if (file.empty()) return;
-  observation_.emplace(scene_, cooling_theory(scene_, simulation_.totals(), drawn));
+  observation_.emplace(scene_, cooling_theory(scene_, initial_, drawn_));
   try {
     io::RunInfo info = run_info(simulation_, scene_);
     info.series = observation_->groups();
-    writer_.emplace(file, force, scene_, info);
+    writer_.emplace(open(info));
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}: cannot be written: {}", place_of(scene_, "output.file", file),
                               error.what()));
   }
 }
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path)
-    : PreparedRun(std::move(loaded), force, &path) {}
+Output PreparedRun::output() {
+  Output out;
+  if (!writer_) return out;
+  out.writer = &*writer_;
+  out.observation = &*observation_;
+  if (scene_.output.checkpoint_every > 0) out.save_checkpoint = [this] { save_checkpoint(); };
+  out.saves_start = saves_ == Saves::start_and_end;
+  return out;
+}
+
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path, Saves saves)
+    : PreparedRun(std::move(loaded), force, &path, saves) {}
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force)
-    : PreparedRun(std::move(loaded), force, nullptr) {}
+    : PreparedRun(std::move(loaded), force, nullptr, Saves::start_and_end) {}
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path)
-    : scene_(std::move(loaded.scene)), simulation_(make_simulation(loaded)) {
-  const bool drawn = !loaded.initial;
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves)
+    : scene_(std::move(loaded.scene)),
+      saves_(saves),
+      drawn_(!loaded.initial),
+      simulation_(make_simulation(loaded)),
+      initial_(simulation_.totals()) {
   loaded.initial.reset();
   if (path) require_events(simulation_, scene_, *path);
-  open_output(drawn, force);
-  const Output output{.writer = writer_ ? &*writer_ : nullptr,
-                      .observation = observation_ ? &*observation_ : nullptr};
-  driver_.emplace(simulation_, scene_, output, path != nullptr);
+  open_output(
+      [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
+  // Those of an older run, whose file has just been replaced.
+  if (writer_) CheckpointFiles(scene_.output.file).remove();
+  driver_.emplace(simulation_, scene_, output(), path != nullptr);
+}
+
+PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
+    : scene_(std::move(saved.scene)),
+      saves_(saves),
+      drawn_(saved.drawn),
+      simulation_(continue_simulation(saved.simulation)),
+      initial_(saved.initial) {
+  open_output([&](const io::RunInfo& info) {
+    return io::Writer::resume(scene_.output.file, scene_, info, saved.output);
+  });
+  driver_.emplace(simulation_, scene_, output(), true);
+  Archive archive = Archive::from(saved.observation);
+  observation_->transfer(archive);
+  driver_->transfer(archive);
+  archive.require_end();
 }
 
 Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
@@ -69,6 +101,29 @@ Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
   Simulation simulation = loaded.initial ? Simulation(scene_, *loaded.initial) : Simulation(scene_);
   setup_.stop();
   return simulation;
+}
+
+Simulation PreparedRun::continue_simulation(const Checkpoint& saved) {
+  setup_.start();
+  Simulation simulation(scene_, saved);
+  setup_.stop();
+  return simulation;
+}
+
+void PreparedRun::save_checkpoint() {
+  if (!writer_ || scene_.output.checkpoint_every == 0) return;
+  // First the rows that the checkpoint counts.
+  writer_->sync();
+  RunCheckpoint saved{.scene = scene_,
+                      .drawn = drawn_,
+                      .initial = initial_,
+                      .simulation = simulation_.checkpoint(),
+                      .output = writer_->position(),
+                      .observation = {}};
+  Archive archive = Archive::to(saved.observation);
+  observation_->transfer(archive);
+  driver_->transfer(archive);
+  CheckpointFiles(scene_.output.file).write(saved);
 }
 
 Course PreparedRun::drive(RunMonitor& monitor) {
@@ -79,6 +134,9 @@ Course PreparedRun::drive(RunMonitor& monitor) {
     failure = error.what();
   }
   monitor.clear();
+  // Before the sample and the frame of this end, which the continued run does not have.
+  const bool stopped = driver_->stop() == Stop::interrupted || driver_->stop() == Stop::wall_time;
+  if (stopped || saves_ == Saves::start_and_end) save_checkpoint();
   Course course = driver_->finish();
   course.failure = std::move(failure);
   if (writer_) writer_->close();
@@ -110,6 +168,7 @@ void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback ca
 
 void PreparedRun::close() {
   if (!writer_) return;
+  save_checkpoint();
   driver_->finish();
   writer_->close();
   writer_.reset();

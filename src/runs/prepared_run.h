@@ -10,6 +10,7 @@
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
 #include "src/observe/observation.h"
+#include "src/runs/checkpoint.h"
 #include "src/runs/collision_batches.h"
 #include "src/runs/limits.h"
 #include "src/runs/loaded_scene.h"
@@ -21,15 +22,25 @@ namespace needlework::runs {
 /// time is set.
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
 
+/// When a run with an output file is saved, besides every output.checkpoint_every.
+enum class Saves {
+  start_and_end,  ///< so that a run can be continued beyond its end, too
+  when_stopped,   ///< before its end: for many short runs
+};
+
 /// Made of a scene; writes to its output.file if that is not empty. A front end either drives it to
 /// the end that the scene sets, or advances it piece by piece.
 class PreparedRun {
  public:
   /// For drive(): `path` names the scene in messages; `force` replaces an existing file. Throws
   /// InputError if nothing can ever happen, and IoError if the file cannot be written.
-  PreparedRun(LoadedScene loaded, bool force, const std::string& path);
+  PreparedRun(LoadedScene loaded, bool force, const std::string& path,
+              Saves saves = Saves::start_and_end);
   /// For advance(): takes samples for the output file only.
   PreparedRun(LoadedScene loaded, bool force);
+  /// Continues a run, with the output file that its scene names. Throws InputError if the file is
+  /// not that of the run, and IoError if it cannot be written.
+  explicit PreparedRun(RunCheckpoint saved, Saves saves = Saves::start_and_end);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
@@ -44,9 +55,12 @@ class PreparedRun {
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
   /// of each advance those that are left; see CollisionBatches.
   void on_collisions(std::size_t batch, CollisionBatches::Callback callback);
-  /// Writes the sample and the frame of the end, and closes the file. Then only the simulation may
-  /// be used. Does nothing when called again. Throws IoError. Without it, the file ends with the
-  /// last sample that was due.
+  /// Saves the run beside its output file, if it has one and checkpoints are on, so that it can be
+  /// continued from here. Throws IoError.
+  void save_checkpoint();
+  /// Saves the run, writes the sample and the frame of the end, and closes the file. Then only
+  /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, the
+  /// file ends with the last sample that was due.
   void close();
 
   const Scene& scene() const { return scene_; }
@@ -55,13 +69,19 @@ class PreparedRun {
   double setup_s() const { return setup_.wall(); }
 
  private:
-  PreparedRun(LoadedScene loaded, bool force, const std::string* path);
+  PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves);
   Simulation make_simulation(const LoadedScene& loaded);
-  void open_output(bool drawn, bool force);
+  Simulation continue_simulation(const Checkpoint& saved);
+  template <class Open>
+  void open_output(Open&& open);
+  Output output();
 
   Scene scene_;
+  Saves saves_;
+  bool drawn_;  ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
+  Totals initial_;                                   ///< at the start of the run
   std::optional<observe::Observation> observation_;  ///< if there is a writer
   std::optional<io::Writer> writer_;
   std::optional<RunDriver> driver_;

@@ -6,6 +6,7 @@
 
 #include "src/observe/completion.h"
 #include "src/runs/loaded_scene.h"
+#include "src/runs/saved_totals.h"
 
 namespace needlework::runs {
 namespace {
@@ -55,6 +56,7 @@ RunDriver::RunDriver(Simulation& simulation, const Scene& scene, Output output, 
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   const auto start = SteadyClock::now();
   if (!begun_) begin();
+  monitor.begin(course_.initial, course_.samples);
   for (;;) {
     if (monitor.stop_requested()) return course_.stop = Stop::interrupted;
     if (until.wall_s && seconds_since(start) >= *until.wall_s) {
@@ -62,6 +64,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
     }
     if (const auto stop = step(until, start)) return course_.stop = *stop;
     flush_if_due();
+    save_checkpoint_if_due();
     if (const double elapsed = seconds_since(start); monitor.is_due(elapsed)) {
       show_progress(until, elapsed, monitor);
     }
@@ -89,7 +92,6 @@ void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
 }
 
 void RunDriver::begin() {
-  last_flush_ = SteadyClock::now();
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
   course_.initial = simulation_.totals();
@@ -99,6 +101,19 @@ void RunDriver::begin() {
     frames_.pass(0);
   }
   begun_ = true;
+  if (output_.saves_start) save_checkpoint();
+}
+
+void RunDriver::transfer(Archive& archive) {
+  bool has_rate = rate_.has_value();
+  archive(begun_, series_, frames_, last_sample_, last_frame_, course_.initial, course_.samples,
+          has_rate);
+  if (archive.reads()) {
+    rate_.reset();
+    if (has_rate) rate_.emplace(simulation_.mean_free_time());
+  }
+  if (rate_) rate_->transfer(archive);
+  if (archive.reads() && begun_) listen_to_collisions();
 }
 
 void RunDriver::listen_to_collisions() {
@@ -178,6 +193,16 @@ void RunDriver::flush() {
 
 void RunDriver::flush_if_due() {
   if (output_.writer && seconds_since(last_flush_) >= flush_interval) flush();
+}
+
+void RunDriver::save_checkpoint() {
+  if (!output_.save_checkpoint) return;
+  output_.save_checkpoint();
+  last_checkpoint_ = last_flush_ = SteadyClock::now();
+}
+
+void RunDriver::save_checkpoint_if_due() {
+  if (seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every) save_checkpoint();
 }
 
 void RunDriver::show_progress(const Scene::Until& until, double elapsed,

@@ -11,6 +11,7 @@
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
+#include "src/archive/archive.h"
 #include "src/observe/batch_rate.h"
 #include "src/observe/observation.h"
 #include "src/observe/schedule.h"
@@ -29,10 +30,12 @@ struct Course {
   BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
-/// Where the samples of a run go. Both are null, or neither.
+/// Where the samples of a run go. Writer and observation are null, or neither is.
 struct Output {
   io::Writer* writer = nullptr;
   observe::Observation* observation = nullptr;  ///< whose groups the writer was opened with
+  std::function<void()> save_checkpoint = {};   ///< flushes the writer and saves the run
+  bool saves_start = true;                      ///< whether before the first event, too
 };
 
 /// Advances a simulation in steps from sample to sample, and in short steps of wall time between
@@ -48,6 +51,12 @@ class RunDriver {
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
   /// throws, and IoError if the output cannot be written.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
+
+  /// Why the last advance ended.
+  Stop stop() const { return course_.stop; }
+
+  /// Saves or restores how far samples and frames have come, and the Course up to now.
+  void transfer(Archive& archive);
 
   /// Writes and flushes the sample and the frame of the end. To be called once, at the end.
   Course finish();
@@ -67,6 +76,8 @@ class RunDriver {
   void sample(bool series, bool frame);
   void flush();
   void flush_if_due();
+  void save_checkpoint();
+  void save_checkpoint_if_due();
   void show_progress(const Scene::Until& until, double elapsed, RunMonitor& monitor) const;
 
   Simulation& simulation_;
@@ -81,7 +92,8 @@ class RunDriver {
   Course course_;
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
-  SteadyClock::time_point last_flush_;
+  SteadyClock::time_point last_flush_ = SteadyClock::now();
+  SteadyClock::time_point last_checkpoint_ = SteadyClock::now();
 };
 
 }  // namespace needlework::runs

@@ -1,6 +1,8 @@
 // How a front end follows a run: it is shown the progress, and may stop it.
 #pragma once
 
+#include <span>
+
 #include "needlework/totals.h"
 
 namespace needlework::runs {
@@ -10,6 +12,11 @@ class RunMonitor {
  public:
   virtual ~RunMonitor() = default;
 
+  /// The run is about to go on: the totals at its start, and the samples taken so far, which a run
+  /// that is continued brings along.
+  virtual void begin(const Totals& initial, std::span<const Totals> samples) {
+    static_cast<void>(initial), static_cast<void>(samples);
+  }
   /// Whether to show progress now, `elapsed` seconds of wall time into the run.
   virtual bool is_due(double elapsed) const = 0;
   /// `fraction` is the share done, in [0, 1]; the energy is that per needle at the start.

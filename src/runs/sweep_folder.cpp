@@ -16,6 +16,7 @@
 
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
+#include "src/runs/checkpoint.h"
 
 namespace needlework::runs {
 namespace {
@@ -122,10 +123,12 @@ void SweepFolder::keep(const sweep::Member& member, State as) const {
   const std::string to =
       as == State::failed ? failed_file(member) : path_ + "/" + member.name + ".h5";
   if (std::rename(from.c_str(), to.c_str()) != 0) throw IoError(to + ": " + reason(errno));
+  CheckpointFiles(from).remove();
 }
 
 void SweepFolder::remove_unfinished(const sweep::Member& member) const {
   unlink(unfinished_file(member).c_str());
+  CheckpointFiles(unfinished_file(member)).remove();
 }
 
 std::string SweepFolder::lock_file(const sweep::Member& member) const {

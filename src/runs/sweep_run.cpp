@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <numeric>
 
@@ -70,6 +71,22 @@ class MemberMonitor : public RunMonitor {
   double cost_, reported_ = 0, next_ = 1;
 };
 
+// Continues a member from its last checkpoint, if there is one of the same scene.
+std::unique_ptr<PreparedRun> begin_or_continue(LoadedScene loaded, const std::string& grid) {
+  try {
+    RunCheckpoint saved = CheckpointFiles(loaded.scene.output.file).read().checkpoint;
+    if (saved.scene.text == loaded.scene.text) {
+      saved.scene.output.file = loaded.scene.output.file;
+      saved.scene.engine = loaded.scene.engine;
+      return std::make_unique<PreparedRun>(std::move(saved), Saves::when_stopped);
+    }
+  } catch (const InputError&) {
+    // There is none, or it is damaged: from the beginning.
+  } catch (const IoError&) {
+  }
+  return std::make_unique<PreparedRun>(std::move(loaded), true, grid, Saves::when_stopped);
+}
+
 ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMonitor& monitor) {
   const SweepFolder& folder = runs.folder;
   const Claim claim(folder, member);
@@ -81,8 +98,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
   scene.output.file = folder.unfinished_file(member);
   const Course course = [&] {
     try {
-      PreparedRun prepared(complete_scene(std::move(scene)), true, runs.grid.name);
-      return prepared.drive(monitor);
+      return begin_or_continue(complete_scene(std::move(scene)), runs.grid.name)->drive(monitor);
     } catch (...) {
       folder.remove_unfinished(member);  // the disk may be full of it
       throw;
@@ -93,11 +109,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
     throw InvalidStateError(
         fmt::format("{} (saved in {})", *course.failure, folder.failed_file(member)));
   }
-  if (course.stop == Stop::interrupted) {
-    // It cannot be continued from there on the same trajectory.
-    folder.remove_unfinished(member);
-    return stopped;
-  }
+  if (course.stop == Stop::interrupted) return stopped;
   folder.keep(member, SweepFolder::State::finished);
   return ok;
 }

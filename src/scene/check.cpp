@@ -127,14 +127,26 @@ std::string place_of(const Scene& scene, std::string_view key, std::string_view 
   return found == scene.places.end() ? fmt::format("{} = {}", key, value) : found->second;
 }
 
+namespace {
+
+std::string source_of_state(const Scene& scene) {
+  return scene.initial.file.empty() ? "the state" : scene.initial.file;
+}
+
+}  // namespace
+
+void require_count(const Scene& scene, std::size_t count) {
+  const std::uint64_t given = scene.needles.count;
+  if (given == 0 || given == count) return;
+  throw InputError(fmt::format("{}: expected {}, as in {}",
+                               place_of(scene, "needles.count", fmt::to_string(given)), count,
+                               source_of_state(scene)));
+}
+
 void adopt_count_and_box(Scene& scene, const State& state) {
+  require_count(scene, state.size());
   Scene::Needles& needles = scene.needles;
-  const std::string source = scene.initial.file.empty() ? "the state" : scene.initial.file;
-  if (needles.count != 0 && needles.count != state.size()) {
-    throw InputError(fmt::format("{}: expected {}, as in {}",
-                                 place_of(scene, "needles.count", fmt::to_string(needles.count)),
-                                 state.size(), source));
-  }
+  const std::string source = source_of_state(scene);
   const bool given = needles.box != std::array<double, 3>{};
   const auto agrees = [](double edge, double expected) {
     return std::abs(edge - expected) <= 1e-12 * expected;

@@ -2,6 +2,7 @@
 // warning.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,5 +28,8 @@ std::string place_of(const Scene& scene, std::string_view key, std::string_view 
 /// to a relative 1e-12; otherwise throws InputError: "PLACE: expected ..., as in FILE". A count
 /// that the scene does not give is attributed to the file in later messages.
 void adopt_count_and_box(Scene& scene, const State& state);
+/// The part of it that is about the count, so that it can be asked before the state is read. Fills
+/// in nothing.
+void require_count(const Scene& scene, std::size_t count);
 
 }  // namespace needlework

@@ -145,6 +145,13 @@ void require_room(const Scene& scene, const Document& document, const Entry& box
                : fmt::format("expected edges of at least {:.10g} (2.01 needle lengths)", least));
 }
 
+// As --set gives them.
+std::vector<Override> of_options(std::span<const std::string> assignments) {
+  std::vector<Override> out;
+  for (const std::string& assignment : assignments) out.push_back({assignment, {}});
+  return out;
+}
+
 // The text as read, with overrides appended as comments.
 std::string annotated(std::string_view text, std::span<const Override> overrides) {
   std::string result(text);
@@ -157,9 +164,7 @@ std::string annotated(std::string_view text, std::span<const Override> overrides
 
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides, Provided provided) {
-  std::vector<Override> set;
-  for (const std::string& assignment : overrides) set.push_back({assignment, {}});
-  return parse_overridden_scene(text, name, set, provided);
+  return parse_overridden_scene(text, name, of_options(overrides), provided);
 }
 
 Scene parse_overridden_scene(std::string_view text, std::string_view name,
@@ -198,6 +203,20 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   adopt_species(scene);
   scene.text = annotated(text, overrides);
   return scene;
+}
+
+void override_until(Scene& scene, std::span<const std::string> overrides) {
+  const std::vector<Override> set = of_options(overrides);
+  const Document document("", "", set);
+  for (const Entry& entry : document.entries()) {
+    const SceneKey* key = find_scene_key(entry.section, entry.key);
+    if (!key) throw document.error(entry, expected_instead(entry));
+    if (entry.section != "until")
+      throw document.error(entry, "expected a key of [until], as the rest of the scene is given");
+    if (!key->read(scene, entry.value))
+      throw document.error(entry, fmt::format("expected {}", key->expected));
+    scene.places[full_name(entry)] = document.place(entry);
+  }
 }
 
 std::string read_scene_text(const std::string& path) {

@@ -281,6 +281,8 @@ const SceneKey keys[] = {
        const bool* events = v.as<bool>();
        return store(s.output.events, events ? std::optional(*events) : std::nullopt);
      }},
+    {"output", "checkpoint_every", "a number >= 0 of seconds; 0: none",
+     [](Scene& s, V v) { return store(s.output.checkpoint_every, number(v, 0)); }},
 };
 
 constexpr std::string_view sections[] = {"needles", "species", "initial", "collisions",

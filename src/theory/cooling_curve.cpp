@@ -49,6 +49,17 @@ class CoolingGas {
 
   const State& state() const { return state_; }
 
+  /// All that the next values depend on. (The stepper also keeps the slope at the end of its last
+  /// step, which it computes again, to the same bits, when it has none.)
+  CoolingCurve::Place place() const {
+    return {state_[rotational_share], state_[log_energy], state_[collisions], tau_, step_};
+  }
+  void go_to(const CoolingCurve::Place& place) {
+    std::copy_n(place.begin(), static_cast<int>(component_count), state_.begin());
+    tau_ = place[component_count];
+    step_ = place[component_count + 1];
+  }
+
  private:
   /// Fehlberg 7(8) is not suitable: its error estimate does not see a slope that depends on time
   /// alone, which is nearly what remains once the ratio has relaxed.
@@ -167,6 +178,14 @@ Temperatures CoolingCurve::at(double tau) {
   if (!evolving) return initial;
   evolving->advance(tau * std::sqrt(initial.energy()));
   return temperatures(evolving->state(), initial, tau);
+}
+
+CoolingCurve::Place CoolingCurve::place() const {
+  return implementation_->evolving ? implementation_->evolving->place() : Place{};
+}
+
+void CoolingCurve::go_to(const Place& place) {
+  if (implementation_->evolving) implementation_->evolving->go_to(place);
 }
 
 std::vector<double> collisions_per_needle(const Gas& gas, Temperatures initial,

@@ -43,6 +43,12 @@ class TrajectoryHash {
     return out;
   }
 
+  /// Passes the state to an archive (src/archive/archive.h).
+  template <class Archive>
+  friend void transfer(Archive& archive, TrajectoryHash& hash) {
+    archive(hash.low_, hash.high_);
+  }
+
  private:
   // Multiply-xorshift rounds with the constants of splitmix64 (Steele, Lea, Flood 2014).
   struct Mixer {

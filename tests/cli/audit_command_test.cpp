@@ -111,6 +111,7 @@ TEST_F(AuditCommand, NamesWhatIsWrongInItsInput) {
   EXPECT_EQ(run("audit none.toml").exit_code, 5);
   EXPECT_EQ(run("audit small.toml --share 2").exit_code, 2);
   EXPECT_EQ(run("audit small.toml --share nan").exit_code, 2);
+  EXPECT_EQ(run("audit small.toml --share 0").exit_code, 2);
   EXPECT_EQ(run("audit small.toml --seed -1").exit_code, 2);
   EXPECT_EQ(run("audit small.toml --set initial.t_tr=0 --set initial.t_rot=0").exit_code, 3);
 }

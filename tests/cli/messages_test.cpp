@@ -13,8 +13,9 @@ struct Mistake {
 
 TEST_F(Messages, WrongUsageIsAnsweredByWhatIsMeant) {
   const std::string commands =
-      "expected one of run, sweep, check, theory, predict, audit, info, import, export, serve, "
-      "bench, help";
+      "expected one of run, resume, sweep, check, theory, predict, audit, info, import, export, "
+      "view, "
+      "serve, bench, help";
   for (const Mistake& mistake : {
            Mistake{"", "expected a command, such as needlework run SCENE.toml (see "},
            {"simulate small.toml",

@@ -343,5 +343,36 @@ TEST_F(RunCommand, DrawsOneLineOfProgressOnATerminal) {
   EXPECT_EQ(screen.find('\033'), std::string::npos) << screen;
 }
 
+TEST_F(RunCommand, DrawsChartsOnATerminalIfWatched) {
+  if (shell("script -qec true screen").exit_code != 0)
+    GTEST_SKIP() << "no terminal can be had here";
+  const auto screen_of = [&](const std::string& variables) {
+    const std::string command =
+        "stty cols 100 rows 30; '" NEEDLEWORK_PROGRAM "' run cooling.toml --watch";
+    EXPECT_EQ(
+        shell("TERM=xterm " + variables + " script -qec \"" + command + "\" screen").exit_code, 0);
+    return read("screen");
+  };
+  const std::string screen = screen_of("NO_COLOR=");
+  for (const char* part : {"E/E(0)", "T_tr/T_rot", "┤", "\033[33mo\033[0m", "measured/theory"}) {
+    EXPECT_NE(screen.find(part), std::string::npos) << part << " in\n" << screen;
+  }
+  const std::string plain = screen_of("NO_COLOR=1");
+  EXPECT_NE(plain.find("┤"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find("\033[3"), std::string::npos) << plain;
+}
+
+TEST_F(RunCommand, WatchesOnATerminalOnly) {
+  for (const char* before : {"TERM=xterm", "TERM=dumb", "TERM="}) {
+    const Outcome refused = run("run small.toml --watch --out a.h5", before);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(refused.complains("--watch expected a terminal on standard error"));
+  }
+  EXPECT_FALSE(exists("a.h5"));
+  const Outcome both = run("run small.toml --watch --quiet");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_TRUE(both.complains("--watch"));
+}
+
 }  // namespace
 }  // namespace needlework

@@ -38,6 +38,7 @@ def main(needlework, readme_program):
             path.write_text(script)
             assert run(sys.executable, path).strip(), path.read_text()
         run(needlework, "export", "cooling.h5", "cooling.vtkhdf")
+        run(needlework, "view", "cooling.h5", "-o", "needles.png")
 
         lines, = blocks("docs/formats.md", "xml")
         Path(folder, "lines.xml").write_text(lines)

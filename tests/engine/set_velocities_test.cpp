@@ -364,11 +364,15 @@ TEST(SetVelocities, RefusesBadRowsAndChangesNothing) {
   EXPECT_EQ(refused(v, Rows(39)), "set_velocities: 39 rows of angular velocity: expected 40");
   EXPECT_EQ(refused(v, {}), "set_velocities: 0 rows of angular velocity: expected 40");
   EXPECT_EQ(refused(with(v, 7, nan), w),
-            "set_velocities: row 7 of velocity: expected finite numbers");
-  EXPECT_EQ(refused(v, with(w, 39, -infinity)),
-            "set_velocities: row 39 of angular velocity: expected finite numbers");
-  EXPECT_EQ(refused(v, with(w, 0, nan)),
-            "set_velocities: row 0 of angular velocity: expected finite numbers");
+            "set_velocities: row 7 of velocity: expected finite numbers, their squares too");
+  EXPECT_EQ(
+      refused(v, with(w, 39, -infinity)),
+      "set_velocities: row 39 of angular velocity: expected finite numbers, their squares too");
+  EXPECT_EQ(refused(with(v, 3, 1e200), w),
+            "set_velocities: row 3 of velocity: expected finite numbers, their squares too");
+  EXPECT_EQ(
+      refused(v, with(w, 0, nan)),
+      "set_velocities: row 0 of angular velocity: expected finite numbers, their squares too");
   EXPECT_EQ(simulation.copy().position, state.position);
   EXPECT_EQ(simulation.copy().velocity, state.velocity);
   for (Simulation* each : {&simulation, &truth}) each->advance(until_collisions(10));

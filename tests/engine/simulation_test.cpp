@@ -290,5 +290,25 @@ TEST(Simulation, MovesCentresWithTheirVelocities) {
   }
 }
 
+TEST(Simulation, RefusesVelocitiesWhoseSquaresOverflow) {
+  const Scene scene = test::scene_of(20, 5);
+  State state = draw_initial_state(scene);
+  for (auto& velocity : state.velocity) velocity[0] *= 1e160;
+  EXPECT_THROW(Simulation(scene, state), InputError);
+}
+
+// Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2e9.
+TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
+  const Scene scene = test::scene_of(1, 4);
+  State state = draw_initial_state(scene);
+  state.velocity = {{4, 0, 0}};
+  state.angular_velocity = {{0, 0, 0}};
+  Simulation simulation(scene, state);
+  simulation.advance(until_time(2e9));
+  EXPECT_NEAR(simulation.copy().image[0][0], 2e9, 1);
+  simulation.advance(until_time(2.2e9));
+  EXPECT_THROW(simulation.copy(), InvalidStateError);
+}
+
 }  // namespace
 }  // namespace needlework

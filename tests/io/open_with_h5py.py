@@ -124,14 +124,34 @@ def check_all(file):
     check_events(file)
 
 
+def check_files(folder, names):
+    for name in names:
+        for swmr in [False, True]:
+            with h5py.File(os.path.join(folder, name), "r", swmr=swmr) as file:
+                check_all(file)
+
+
+def check_refused(path):
+    try:
+        h5py.File(path, "r+")
+    except OSError:
+        return
+    raise AssertionError(f"{path}: opened for writing, although another program writes it")
+
+
 def main(writer, _program):
     with tempfile.TemporaryDirectory() as folder:
-        result = subprocess.run([writer, folder], timeout=3600)
-        assert result.returncode == -signal.SIGKILL, result.returncode
-        for name in ["sample.h5", "killed.h5"]:
-            for swmr in [False, True]:
-                with h5py.File(os.path.join(folder, name), "r", swmr=swmr) as file:
-                    check_all(file)
+        with subprocess.Popen([writer, folder, "stop"]) as process:
+            _, status = os.waitpid(process.pid, os.WUNTRACED)
+            assert os.WIFSTOPPED(status), status
+            # While they are written.
+            check_files(folder, ["killed.h5", "continued.h5"])
+            for name in ["killed.h5", "continued.h5"]:
+                check_refused(os.path.join(folder, name))
+            process.send_signal(signal.SIGCONT)
+            process.wait(3600)
+        assert process.returncode == -signal.SIGKILL, process.returncode
+        check_files(folder, ["sample.h5", "killed.h5", "continued.h5"])
         with h5py.File(os.path.join(folder, "empty.h5"), "r") as file:
             assert file["particles/needles/position/value"].shape == (1, 0, 3)
             assert file["events/pair"].shape == (0, 2)

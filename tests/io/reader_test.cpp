@@ -394,6 +394,34 @@ TEST_F(Reading, OtherThanNumbersAreRefused) {
       "/particles/all/velocity: the values are not numbers: expected floating point or integers");
 }
 
+// A chunked dataset takes no room in the file before it is written, whatever its shape.
+TEST_F(Reading, MoreNumbersThanTheFileCanHoldAreRefusedBeforeMemoryIsTaken) {
+  const auto declare = [](HandMade& file, const char* name, hdf5::Shape shape, hid_t type) {
+    const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all", "");
+    const hdf5::Handle space(
+        H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "");
+    const hdf5::Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "");
+    hdf5::Shape chunk(shape.size(), 1);
+    H5Pset_chunk(layout.get(), static_cast<int>(chunk.size()), chunk.data());
+    const hdf5::Handle dataset(
+        H5Dcreate2(group.get(), name, type, space.get(), H5P_DEFAULT, layout.get(), H5P_DEFAULT),
+        H5Dclose, "");
+  };
+  const auto complaint_of = [&](const char* name, const hdf5::Shape& shape) {
+    return complaint([&](HandMade& file) {
+      if (std::string_view(name) == "velocity") file.remove("/particles/all/velocity");
+      declare(file, name, shape, H5T_IEEE_F64LE);
+    });
+  };
+  const hsize_t many = hsize_t{1} << 32;
+  EXPECT_NE(complaint_of("velocity", {many, 3}).find("velocity: 12884901888 numbers: expected "),
+            std::string::npos);
+  EXPECT_NE(complaint_of("velocity", {many, many, many}).find("18446744073709551615 numbers"),
+            std::string::npos);
+  EXPECT_NE(complaint_of("image", {many, 3}).find("image: 12884901888 numbers: expected "),
+            std::string::npos);
+}
+
 TEST_F(Reading, WhatIsNotAWholeHdf5FileIsNamed) {
   const auto message = [](const std::string& path) {
     return message_of<IoError>([&] { read_last_frame(path); });

@@ -1,5 +1,6 @@
-// Writes the files that tests/io/open_with_*.py read: `write_h5md_sample FOLDER`. All numbers are
-// simple functions of frame, sample, event and needle, repeated in the scripts.
+// Writes the files that tests/io/open_with_*.py read: `write_h5md_sample FOLDER [stop]`. All
+// numbers are simple functions of frame, sample, event and needle, repeated in the scripts. With
+// `stop`, the program stops itself while the last two files are open.
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -72,20 +73,45 @@ Collision make_collision(int event) {
   return collision;
 }
 
-io::Writer write_all(const std::string& path) {
-  io::Writer writer(path, false, make_scene(needles), {"avx2", 2, 0.5, "rigorous"});
-  for (int sample = 0; sample < samples; ++sample) writer.write_series(make_totals(sample));
-  for (int frame = 0; frame < frames; ++frame) {
+const io::RunInfo run{"avx2", 2, 0.5, "rigorous"};
+
+// Writes all rows from those on that the file has.
+void write_rows(io::Writer& writer) {
+  const auto first = writer.position();
+  for (int sample = static_cast<int>(first.samples); sample < samples; ++sample) {
+    writer.write_series(make_totals(sample));
+  }
+  for (int frame = static_cast<int>(first.frames); frame < frames; ++frame) {
     writer.write_frame(make_totals(frame), make_state(needles, frame));
   }
-  for (int event = 0; event < events; ++event) writer.write_event(make_collision(event));
+  for (int event = static_cast<int>(first.events); event < events; ++event) {
+    writer.write_event(make_collision(event));
+  }
+}
+
+io::Writer write_all(const std::string& path) {
+  io::Writer writer(path, false, make_scene(needles), run);
+  write_rows(writer);
+  return writer;
+}
+
+// The same file from a run that had gone another way after some rows.
+io::Writer write_in_parts(const std::string& path) {
+  io::Writer stopped = write_all(path);
+  for (int row = 100; row < 105; ++row) {
+    stopped.write_series(make_totals(row));
+    stopped.write_frame(make_totals(row), make_state(needles, row));
+  }
+  stopped.close();
+  io::Writer writer = io::Writer::resume(path, make_scene(needles), run, {4, 1, 3000});
+  write_rows(writer);
   return writer;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
+  if (argc != 2 && argc != 3) return 2;
   const std::string folder = std::string(argv[1]) + "/";
   try {
     write_all(folder + "sample.h5").close();
@@ -95,9 +121,12 @@ int main(int argc, char** argv) {
     empty.close();
     io::Writer(folder + "header.h5", false, make_scene(needles), {"scalar", 1, 1}).close();
 
-    // The last file is left behind by a program that was killed.
+    // The last files are left behind by a program that was killed.
     io::Writer killed = write_all(folder + "killed.h5");
     killed.flush();
+    io::Writer continued = write_in_parts(folder + "continued.h5");
+    continued.flush();
+    if (argc == 3) std::raise(SIGSTOP);
     std::raise(SIGKILL);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

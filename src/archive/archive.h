@@ -1,0 +1,135 @@
+// Values to bytes and back, both by the same code.
+//
+// A function that passes its values to an archive says in one place what is saved, and in which
+// order: an archive that writes appends the values to its bytes, one that reads replaces the values
+// by those of its bytes. Types of other headers take part by a function `transfer(Archive&, T&)`
+// beside them.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "needlework/error.h"
+
+namespace needlework {
+
+/// Bytes are not checked against damage here; files that hold them have a checksum.
+class Archive {
+ public:
+  /// Appends to `bytes`, which must outlive the archive.
+  static Archive to(std::string& bytes) { return Archive(&bytes, {}); }
+  /// Reads `bytes`, which must outlive the archive. Every call throws InputError when they are not
+  /// those of the values asked for, as far as that can be seen.
+  static Archive from(std::string_view bytes) { return Archive(nullptr, bytes); }
+
+  bool reads() const { return out_ == nullptr; }
+
+  /// Writes the values, or replaces them.
+  template <class... T>
+  void operator()(T&... values) {
+    (pass(values), ...);
+  }
+  /// To be called after the last value has been read.
+  void require_end() const {
+    if (reads() && !in_.empty()) throw_damaged();
+  }
+  [[noreturn]] static void throw_damaged() {
+    throw InputError("the saved state is damaged: expected what this version of the program saves");
+  }
+
+ private:
+  Archive(std::string* out, std::string_view in) : out_(out), in_(in) {}
+
+  void pass_bytes(void* values, std::size_t size) {
+    static_assert(std::endian::native == std::endian::little, "bytes are in this order");
+    if (size == 0) return;
+    if (out_) {
+      out_->append(static_cast<const char*>(values), size);
+      return;
+    }
+    if (in_.size() < size) throw_damaged();
+    std::memcpy(values, in_.data(), size);
+    in_.remove_prefix(size);
+  }
+
+  template <class T>
+  static constexpr bool is_plain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+
+  template <class T>
+  void pass(T& value) {
+    if constexpr (is_plain<T>) {
+      pass_bytes(&value, sizeof value);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      std::uint8_t byte = value;
+      pass(byte);
+      if (byte > 1) throw_damaged();
+      value = byte == 1;
+    } else {
+      transfer(*this, value);
+    }
+  }
+  template <class T, std::size_t size>
+  void pass(std::array<T, size>& values) {
+    for (T& value : values) pass(value);
+  }
+  void pass(std::string& text) {
+    text.resize(count_of(text.size()));
+    pass_bytes(text.data(), text.size());
+  }
+  template <class T, class Allocator>
+  void pass(std::vector<T, Allocator>& values) {
+    values.resize(count_of(values.size()));
+    if constexpr (is_plain<T>) {
+      if (reads() && values.size() > in_.size() / sizeof(T)) throw_damaged();
+      pass_bytes(values.data(), values.size() * sizeof(T));
+    } else {
+      for (T& value : values) pass(value);
+    }
+  }
+  template <class T>
+  void pass(std::optional<T>& value) {
+    bool has = value.has_value();
+    pass(has);
+    if (!has) {
+      value.reset();
+      return;
+    }
+    if (!value) value.emplace();
+    pass(*value);
+  }
+  template <class Key, class Value, class Less>
+  void pass(std::map<Key, Value, Less>& values) {
+    std::vector<std::pair<Key, Value>> entries(values.begin(), values.end());
+    pass(entries);
+    if (reads()) values = {entries.begin(), entries.end()};
+  }
+  template <class First, class Second>
+  void pass(std::pair<First, Second>& values) {
+    pass(values.first);
+    pass(values.second);
+  }
+
+  // The number of elements. Each has a byte at least, so that a damaged number cannot ask for more
+  // memory than there are bytes, times the size of an element.
+  std::size_t count_of(std::size_t present) {
+    std::uint64_t count = present;
+    pass(count);
+    if (reads() && count > in_.size()) throw_damaged();
+    return count;
+  }
+
+  std::string* out_;
+  std::string_view in_;
+};
+
+}  // namespace needlework

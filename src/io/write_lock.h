@@ -1,0 +1,31 @@
+// The right to write a file, which one program at a time can have.
+#pragma once
+
+#include <string>
+
+namespace needlework::io {
+
+/// A lock of the operating system on an existing file. While it exists,
+///
+/// - no other WriteLock on the file can be made, in this or another process;
+/// - HDF5 refuses to open the file for writing, and opens it for reading, in all programs.
+///
+/// It ends with the process, also by kill -9. On file systems without locks it excludes nobody.
+class WriteLock {
+ public:
+  /// Throws IoError, "PLACE: reason", if the file does not exist, is not a regular file, may not be
+  /// written, or is open for writing in another program.
+  WriteLock(const std::string& name, const std::string& place);
+  ~WriteLock();
+  WriteLock(const WriteLock&) = delete;
+  WriteLock& operator=(const WriteLock&) = delete;
+
+  /// Returns when the content of the file is on the disk. Throws IoError if it cannot be written.
+  void sync();
+
+ private:
+  std::string place_;
+  int descriptor_;
+};
+
+}  // namespace needlework::io

@@ -1,0 +1,170 @@
+#include "src/picture/needle_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/picture/needle_values.h"
+
+namespace needlework::picture {
+namespace {
+
+constexpr double thickness = 0.07;   // of a needle in the middle of the box, in its length
+constexpr double thinnest = 0.7;     // [pixels]
+constexpr double faintest = 0.4;     // share of its colour that the farthest needle keeps
+constexpr double least_unit = 0.55;  // letters of smaller pictures could not be read
+
+struct Theme {
+  Colour ground, text, outline, needle;
+};
+
+Theme theme_of(bool dark) {
+  if (dark) return {{11, 16, 32}, {230, 234, 245}, {74, 86, 128}, {150, 190, 255}};
+  return {{255, 255, 255}, {34, 34, 34}, {150, 156, 170}, {40, 80, 150}};
+}
+
+std::string count_text(const State& state) {
+  return state.size() == 1 ? "1 needle" : fmt::format("{} needles", state.size());
+}
+
+class Painter {
+ public:
+  Painter(const State& state, const NeedlePicture& settings)
+      : state_(state),
+        settings_(settings),
+        theme_(theme_of(settings.dark)),
+        unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
+        camera_(state.box, settings.needle_length / 2, settings.camera, frame()) {}
+
+  Drawing drawing() {
+    const NeedleValues values = values_of(settings_.colour, state_, settings_.dark);
+    drawing_.width = settings_.width;
+    drawing_.height = settings_.height;
+    drawing_.ground = theme_.ground;
+    const auto edges = edges_of(state_.box, camera_);
+    for (std::size_t i = 0; i < 9; ++i) draw_edge(edges[i]);
+    draw_needles(values);
+    for (std::size_t i = 9; i < 12; ++i) draw_edge(edges[i]);
+    if (!values.label.empty()) draw_legend(values);
+    draw_caption();
+    describe(values);
+    return std::move(drawing_);
+  }
+
+ private:
+  // What the legend leaves for the box.
+  Frame frame() const {
+    const double edge = 14 * unit_;
+    return {edge, edge, settings_.width - edge, settings_.height - 76 * unit_};
+  }
+
+  void draw_edge(const std::pair<Vector, Vector>& edge) {
+    const Seen from = camera_.see(edge.first), to = camera_.see(edge.second);
+    drawing_.strokes.push_back({from.place, to.place, 1.3 * unit_, theme_.outline});
+  }
+
+  Vector in_box(Vector point) const {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[axis] -= state_.box[axis] * std::floor(point[axis] / state_.box[axis]);
+    }
+    return point;
+  }
+
+  void draw_needles(const NeedleValues& values) {
+    std::vector<Seen> middles;
+    for (const Vector& centre : state_.position) middles.push_back(camera_.see(in_box(centre)));
+    std::vector<std::size_t> order(state_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return middles[a].nearness < middles[b].nearness;
+    });
+    for (const std::size_t i : order) {
+      const Colour colour =
+          values.label.empty() ? theme_.needle : colour_of(values, values.values[i]);
+      draw_needle(i, middles[i], colour);
+    }
+  }
+
+  void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
+    std::array<Vector, 2> ends{in_box(state_.position[i]), in_box(state_.position[i])};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double half = settings_.needle_length / 2 * state_.orientation[i][axis];
+      ends[0][axis] -= half;
+      ends[1][axis] += half;
+    }
+    // Nearness shows more in the thickness than perspective alone would make it.
+    const double full =
+        thickness * settings_.needle_length * middle.scale * (0.5 + middle.nearness);
+    const double share = faintest + (1 - faintest) * std::clamp(middle.nearness, 0.0, 1.0);
+    drawing_.strokes.push_back({camera_.see(ends[0]).place, camera_.see(ends[1]).place,
+                                std::max(full, thinnest * unit_),
+                                mixed(colour, theme_.ground, share), 0.35 * full});
+  }
+
+  static Colour colour_of(const NeedleValues& values, double value) {
+    return colour_at(values.gradient, Scale{values.range, false, 0, 1}(value));
+  }
+
+  void write(const std::string& text, Point place, Words::Anchor anchor) {
+    drawing_.words.push_back({text, place, anchor, 17 * unit_, theme_.text});
+  }
+
+  // A bar of colours with what they mean above it and numbers below it.
+  void draw_legend(const NeedleValues& values) {
+    constexpr int parts = 64;
+    const double left = 0.3 * settings_.width, right = 0.7 * settings_.width;
+    // Its edges are between pixels, where parts that overlap leave no trace.
+    const double bar = std::round(10 * unit_);
+    const double y = std::round(settings_.height - 36 * unit_) + std::fmod(bar, 2) / 2;
+    const Scale scale{values.range, false, left, right};
+    const auto place = [&](double part) { return left + (right - left) * part / parts; };
+    for (int i = 0; i < parts; ++i) {
+      drawing_.strokes.push_back(
+          {{place(i), y}, {place(i + 1), y}, bar, colour_at(values.gradient, (i + 0.5) / parts)});
+    }
+    write(values.label, {(left + right) / 2, y - 14 * unit_}, Words::Anchor::middle);
+    for (const Tick& tick : ticks(values.range, false, 4)) {
+      if (tick.value != std::round(tick.value)) continue;
+      write(fmt::format("{:.0f}", tick.value), {scale(tick.value), y + 24 * unit_},
+            Words::Anchor::middle);
+    }
+  }
+
+  void draw_caption() {
+    const double y = settings_.height - 12 * unit_, edge = 16 * unit_;
+    if (settings_.time) {
+      write(fmt::format("time {:.6g}", *settings_.time), {edge, y}, Words::Anchor::start);
+    }
+    write(count_text(state_), {settings_.width - edge, y}, Words::Anchor::end);
+  }
+
+  void describe(const NeedleValues& values) {
+    drawing_.title = count_text(state_);
+    drawing_.description = fmt::format(
+        "{} of length {:g} in a periodic box of {:g} by {:g} by {:g}", count_text(state_),
+        settings_.needle_length, state_.box[0], state_.box[1], state_.box[2]);
+    if (settings_.time) drawing_.description += fmt::format(" at time {:.6g}", *settings_.time);
+    if (!values.label.empty()) {
+      drawing_.description += fmt::format("; colours are {} from {:g} to {:g}", values.label,
+                                          values.range.low, values.range.high);
+    }
+    drawing_.description += ".";
+  }
+
+  const State& state_;
+  const NeedlePicture& settings_;
+  Theme theme_;
+  double unit_;  // of what is drawn, in pixels: 1 in a picture of the usual size
+  Camera camera_;
+  Drawing drawing_;
+};
+
+}  // namespace
+
+Drawing drawing_of(const State& state, const NeedlePicture& settings) {
+  return Painter(state, settings).drawing();
+}
+
+}  // namespace needlework::picture

@@ -1,0 +1,26 @@
+// Needles in their box, as a picture.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "needlework/state.h"
+#include "src/picture/camera.h"
+#include "src/picture/drawing.h"
+
+namespace needlework::picture {
+
+struct NeedlePicture {
+  int width = 832, height = 832;  ///< [pixels]
+  std::string colour = "speed";   ///< one of quantities()
+  bool dark = true;               ///< the ground
+  CameraSettings camera;
+  double needle_length = 1;    ///< [L]
+  std::optional<double> time;  ///< shown if it is known
+};
+
+/// The needles, whose centres are moved into the box, and which are drawn whole, so that they reach
+/// across its sides. Far ones are thinner and closer to the colour of the ground.
+Drawing drawing_of(const State& state, const NeedlePicture& settings);
+
+}  // namespace needlework::picture

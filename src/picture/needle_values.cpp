@@ -1,0 +1,177 @@
+#include "src/picture/needle_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace needlework::picture {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+// Divides by the root mean square, which is named in the label.
+void make_relative(NeedleValues& result, const std::string& name) {
+  const double unit = root_mean_square(result.values);
+  if (unit > 0) {
+    for (double& value : result.values) value /= unit;
+  }
+  result.label = fmt::format("{} / {:.3g} (rms)", name, unit);
+}
+
+std::vector<double> lengths(const std::vector<Vector>& vectors) {
+  std::vector<double> lengths;
+  for (const Vector& v : vectors) lengths.push_back(std::hypot(v[0], v[1], v[2]));
+  return lengths;
+}
+
+// Q = 3 (u . v)^2 / v^2 - 1, as the observable `alignment` has it; 0, its mean, for needles at
+// rest.
+std::vector<double> alignments(const State& state) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Vector& v = state.velocity[i];
+    const double speed = std::hypot(v[0], v[1], v[2]);
+    const double cosine = speed > 0 ? dot(state.orientation[i], v) / speed : std::sqrt(1.0 / 3);
+    all.push_back(3 * cosine * cosine - 1);
+  }
+  return all;
+}
+
+// Counts the centres around each centre, with cells at least as wide as the radius.
+class Neighbours {
+ public:
+  Neighbours(const State& state, double radius) : state_(state), radius_(radius) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      count_[axis] =
+          static_cast<std::size_t>(std::clamp(std::floor(state.box[axis] / radius), 1.0, 200.0));
+    }
+    cells_.resize(count_[0] * count_[1] * count_[2]);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      cells_[number(cell_of(i))].push_back(i);
+    }
+  }
+
+  /// Centres within the radius of that of needle i, without itself.
+  std::size_t count(std::size_t i) const {
+    const Cell cell = cell_of(i);
+    std::size_t found = 0;
+    Cell other;
+    for_neighbours(cell[0], count_[0], [&](std::size_t x) {
+      for_neighbours(cell[1], count_[1], [&](std::size_t y) {
+        for_neighbours(cell[2], count_[2], [&](std::size_t z) {
+          other = {x, y, z};
+          for (const std::size_t j : cells_[number(other)]) found += j != i && are_near(i, j);
+        });
+      });
+    });
+    return found;
+  }
+
+ private:
+  using Cell = std::array<std::size_t, 3>;
+
+  // Each of the cells around this one once, although the box is periodic.
+  template <class Action>
+  static void for_neighbours(std::size_t cell, std::size_t count, Action action) {
+    action(cell);
+    if (count > 1) action((cell + 1) % count);
+    if (count > 2) action((cell + count - 1) % count);
+  }
+
+  std::size_t number(const Cell& cell) const {
+    return (cell[2] * count_[1] + cell[1]) * count_[0] + cell[0];
+  }
+  Cell cell_of(std::size_t i) const {
+    Cell cell;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double share = state_.position[i][axis] / state_.box[axis];
+      const double place = (share - std::floor(share)) * static_cast<double>(count_[axis]);
+      cell[axis] = std::min(static_cast<std::size_t>(place), count_[axis] - 1);
+    }
+    return cell;
+  }
+  bool are_near(std::size_t i, std::size_t j) const {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double d = state_.position[i][axis] - state_.position[j][axis];
+      d -= state_.box[axis] * std::round(d / state_.box[axis]);
+      squared += d * d;
+    }
+    return squared < radius_ * radius_;
+  }
+
+  const State& state_;
+  double radius_;
+  Cell count_;
+  std::vector<std::vector<std::size_t>> cells_;
+};
+
+// Density of centres around each centre, as a multiple of the mean, in a ball that holds 30 others
+// in the mean: so chance alone changes it by a fifth.
+std::vector<double> densities(const State& state) {
+  constexpr double wanted = 30;
+  const double others = static_cast<double>(state.size()) - 1;
+  if (others < 1) return std::vector<double>(state.size(), 1.0);
+  const double volume = state.box[0] * state.box[1] * state.box[2];
+  const double shortest = *std::min_element(state.box.begin(), state.box.end());
+  const double ball = 4 * std::numbers::pi / 3;
+  const double radius = std::min(std::cbrt(wanted * volume / (others * ball)), shortest / 2);
+  const double mean = others * ball * radius * radius * radius / volume;
+  const Neighbours neighbours(state, radius);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    all.push_back(static_cast<double>(neighbours.count(i)) / mean);
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& quantities() {
+  static const std::vector<std::string> all{"speed", "spin",      "vx",      "vy",
+                                            "vz",    "alignment", "density", "none"};
+  return all;
+}
+
+NeedleValues values_of(const std::string& quantity, const State& state, bool dark) {
+  NeedleValues result{{}, "", {0, 2}, sequential_gradient(dark)};
+  if (quantity == "speed") {
+    result.values = lengths(state.velocity);
+    make_relative(result, "speed");
+  } else if (quantity == "spin") {
+    result.values = lengths(state.angular_velocity);
+    make_relative(result, "spin");
+  } else if (quantity == "vx" || quantity == "vy" || quantity == "vz") {
+    const auto axis = static_cast<std::size_t>(quantity[1] - 'x');
+    for (const Vector& v : state.velocity) result.values.push_back(v[axis]);
+    make_relative(result, quantity);
+    result.range = {-2, 2};
+    result.gradient = diverging_gradient(dark);
+  } else if (quantity == "alignment") {
+    result.values = alignments(state);
+    result.label = "alignment of needle and velocity";
+    result.range = {-1, 2};
+  } else if (quantity == "density") {
+    result.values = densities(state);
+    result.label = "density / mean density";
+  } else if (quantity == "none") {
+    result.values.assign(state.size(), 1.0);
+  } else {
+    throw std::invalid_argument("quantity " + quantity);
+  }
+  return result;
+}
+
+}  // namespace needlework::picture

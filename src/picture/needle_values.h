@@ -1,0 +1,28 @@
+// What needles can be coloured by.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "needlework/state.h"
+#include "src/picture/colours.h"
+#include "src/picture/ticks.h"
+
+namespace needlework::picture {
+
+/// One number for each needle.
+struct NeedleValues {
+  std::vector<double> values;
+  std::string label;  ///< of the scale of colours
+  Range range;        ///< that the colours show; fixed, so that the pictures of a series compare
+  Gradient gradient;
+};
+
+/// "speed", "spin" and so on.
+const std::vector<std::string>& quantities();
+
+/// The values of one of the quantities, for a ground that is dark or light. Throws
+/// std::invalid_argument for another name.
+NeedleValues values_of(const std::string& quantity, const State& state, bool dark);
+
+}  // namespace needlework::picture

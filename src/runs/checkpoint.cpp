@@ -1,0 +1,168 @@
+#include "src/runs/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/crc.hpp>
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <system_error>
+
+#include "needlework/error.h"
+#include "src/runs/durable_file.h"
+#include "src/runs/saved_totals.h"
+#include "src/scene/saved_scene.h"
+
+namespace needlework {
+
+void transfer(Archive& archive, Checkpoint& checkpoint) { archive(checkpoint.bytes); }
+
+namespace io {
+void transfer(Archive& archive, Writer::Position& position) {
+  archive(position.frames, position.samples, position.events);
+}
+}  // namespace io
+
+}  // namespace needlework
+
+namespace needlework::runs {
+namespace {
+
+// To be changed whenever what is saved changes, here or in any function `transfer`.
+constexpr std::string_view mark = "needlework checkpoint 1\n";
+
+// Follows the mark.
+struct Header {
+  std::uint64_t size = 0;      // of what follows the header
+  std::uint64_t checksum = 0;  // of the same
+};
+
+void transfer(Archive& archive, RunCheckpoint& run) {
+  archive(run.scene, run.drawn, run.initial, run.simulation, run.output, run.observation);
+}
+
+// The cyclic redundancy check of ECMA-182.
+std::uint64_t checksum_of(std::string_view bytes) {
+  boost::crc_optimal<64, 0x42f0e1eba9ea3693, ~std::uint64_t{0}, ~std::uint64_t{0}, true, true> crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+InputError damaged(const std::string& path, std::string_view how) {
+  return InputError(fmt::format("{}: damaged: {}", path, how));
+}
+
+// Reads the next `size` bytes.
+std::string read_bytes(std::FILE* file, std::size_t size, const std::string& path) {
+  std::string bytes(size, '\0');
+  bytes.resize(std::fread(bytes.data(), 1, size, file));
+  if (std::ferror(file)) {
+    throw IoError(
+        fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
+  }
+  return bytes;
+}
+
+void require_mark(const std::string& path, std::string_view begin) {
+  if (begin == mark) return;
+  constexpr std::string_view any_version = "needlework checkpoint ";
+  if (!begin.starts_with(any_version)) throw damaged(path, "expected a checkpoint");
+  throw InputError(fmt::format(
+      "{}: expected \"{}\": a run is continued by the version of the program that began it", path,
+      mark.substr(0, mark.size() - 1)));
+}
+
+RunCheckpoint read_checkpoint(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw InputError(path + ": expected an ordinary file");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+      std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
+  if (!file) {
+    throw IoError(
+        fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
+  }
+  require_mark(path, read_bytes(file.get(), mark.size(), path));
+  Header header;
+  const std::string head = read_bytes(file.get(), sizeof header, path);
+  if (head.size() < sizeof header) throw damaged(path, "it is cut short");
+  std::memcpy(&header, head.data(), sizeof header);
+  // Before memory is taken for it.
+  const std::uint64_t size = fs::file_size(path) - mark.size() - sizeof header;
+  if (size != header.size) {
+    throw damaged(path, fmt::format("{} bytes: expected {}", size, header.size));
+  }
+  const std::string bytes = read_bytes(file.get(), size, path);
+  if (bytes.size() != size || checksum_of(bytes) != header.checksum) {
+    throw damaged(path, "its checksum is wrong");
+  }
+  RunCheckpoint out;
+  Archive archive = Archive::from(bytes);
+  transfer(archive, out);
+  archive.require_end();
+  return out;
+}
+
+}  // namespace
+
+CheckpointFiles::CheckpointFiles(const std::string& output_file)
+    : newest_(output_file + ".checkpoint"), older_(newest_ + ".old") {}
+
+bool CheckpointFiles::exist() const {
+  std::error_code ignored;
+  return std::filesystem::exists(newest_, ignored) || std::filesystem::exists(older_, ignored);
+}
+
+void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
+  std::string bytes(mark);
+  bytes.resize(mark.size() + sizeof(Header));
+  Archive archive = Archive::to(bytes);
+  // An archive that writes changes nothing.
+  transfer(archive, const_cast<RunCheckpoint&>(checkpoint));
+  const std::string_view content = std::string_view(bytes).substr(mark.size() + sizeof(Header));
+  const Header header{content.size(), checksum_of(content)};
+  std::memcpy(bytes.data() + mark.size(), &header, sizeof header);
+
+  const std::string unfinished = newest_ + ".part";
+  write_durably(unfinished, bytes);
+  if (std::rename(newest_.c_str(), older_.c_str()) != 0 && errno != ENOENT) {
+    throw IoError(fmt::format("{}: {}", older_, std::generic_category().message(errno)));
+  }
+  if (std::rename(unfinished.c_str(), newest_.c_str()) != 0) {
+    throw IoError(fmt::format("{}: {}", newest_, std::generic_category().message(errno)));
+  }
+  sync_folder_of(newest_);
+}
+
+CheckpointFiles::Read CheckpointFiles::read() const {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  std::string warning;
+  if (fs::exists(newest_, ignored)) {
+    try {
+      return {read_checkpoint(newest_), {}};
+    } catch (const InputError& error) {
+      if (!fs::exists(older_, ignored)) throw;
+      warning = fmt::format("{}; continuing from {}", error.what(), older_);
+    }
+  }
+  if (!fs::exists(older_, ignored)) {
+    throw InputError(fmt::format(
+        "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
+  }
+  return {read_checkpoint(older_), std::move(warning)};
+}
+
+void CheckpointFiles::remove() {
+  std::error_code ignored;
+  for (const std::string& path : {newest_, older_, newest_ + ".part"}) {
+    std::filesystem::remove(path, ignored);
+  }
+}
+
+}  // namespace needlework::runs

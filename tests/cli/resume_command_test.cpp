@@ -1,0 +1,143 @@
+// `needlework resume`: a run that was stopped goes on as if it had not been, and what cannot go on
+// says why.
+#include <filesystem>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+class ResumeCommand : public ProgramTest {
+ protected:
+  ResumeCommand() {
+    write("gas.toml", R"(
+needles = { count = 300, box = 7 }
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until = { collisions_per_needle = 40 }
+output = { frames = 2, events = true, observables = ["displacement", "collision_statistics"] }
+)");
+  }
+
+  std::string hash_of(const std::string& arguments) const {
+    const Outcome done = run(arguments + " --json --quiet");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return done.exit_code == 0 ? done.json()["trajectory_hash"] : "";
+  }
+  std::string whole_hash() const { return hash_of("run gas.toml --out whole.h5"); }
+};
+
+TEST_F(ResumeCommand, GoesOnToAnotherEnd) {
+  const std::string whole = whole_hash();
+  const std::string half = hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=15");
+  EXPECT_NE(half, whole);
+  EXPECT_EQ(hash_of("resume a.h5"), half);  // its end is already met
+  EXPECT_EQ(hash_of("resume a.h5 --set until.collisions_per_needle=40 --threads 2"), whole);
+  const Outcome back = run("resume a.h5 --set until.collisions_per_needle=20 --json --quiet");
+  EXPECT_EQ(back.json()["collisions"], 40 * 300 / 2) << "a run does not go backwards";
+}
+
+TEST_F(ResumeCommand, GoesOnAfterSignals) {
+  write("long.toml", read("gas.toml") + "[engine]\nsearch = \"linked-lists\"\n");
+  const std::string more = " --set needles.count=2000 --set needles.box=13 ";
+  const std::string whole = hash_of("run long.toml --out whole.h5" + more);
+  for (const std::string signal : {"INT", "TERM", "HUP"}) {
+    const std::string file = signal + ".h5";
+    const Outcome stopped = run_and_signal("run long.toml --quiet --out " + file + more,
+                                           "test -e " + file + ".checkpoint", signal);
+    ASSERT_EQ(stopped.exit_code, 75) << signal << ": " << stopped.err;
+    EXPECT_NE(stopped.err.find("needlework resume " + file + " continues"), std::string::npos)
+        << stopped.err;
+    EXPECT_EQ(hash_of("resume " + file), whole) << signal;
+  }
+}
+
+TEST_F(ResumeCommand, GoesOnAfterTheTimeLimitWhichCountsAnew) {
+  const Outcome stopped = run("run gas.toml --quiet --out a.h5 --set until.wall_s=0");
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_EQ(run("resume a.h5 --quiet").exit_code, 75) << "the limit holds for each process";
+  EXPECT_EQ(hash_of("resume a.h5 --set until.wall_s=1e6"), whole_hash());
+}
+
+TEST_F(ResumeCommand, FollowsAFileThatWasMoved) {
+  hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=15");
+  std::filesystem::create_directory(path("folder"));
+  for (const char* ending : {"", ".checkpoint", ".checkpoint.old"}) {
+    std::filesystem::rename(path("a.h5") + ending, path("folder/b.h5") + ending);
+  }
+  EXPECT_EQ(hash_of("resume folder/b.h5 --set until.collisions_per_needle=40"), whole_hash());
+  EXPECT_FALSE(exists("a.h5"));
+}
+
+TEST_F(ResumeCommand, EndsAtTheSameFailureAgain) {
+  const std::string collapse =
+      "run gas.toml --quiet --out a.h5 --set collisions.epsilon=0.3 --set collisions.tc=1e-300 "
+      "--set until.collisions_per_needle=1000";
+  const Outcome failed = run(collapse);
+  ASSERT_EQ(failed.exit_code, 4) << failed.err;
+  const Outcome again = run("resume a.h5 --quiet");
+  EXPECT_EQ(again.exit_code, 4);
+  EXPECT_EQ(again.err, failed.err);
+}
+
+TEST_F(ResumeCommand, RefusesOtherKeysThanEnds) {
+  hash_of("run gas.toml --out a.h5");
+  EXPECT_TRUE(run("resume a.h5 --set collisions.epsilon=0.5")
+                  .complains("--set collisions.epsilon=0.5: expected a key of [until]"));
+  EXPECT_TRUE(run("resume a.h5 --set until.tiem=3").complains("did you mean time?"));
+  EXPECT_TRUE(run("resume a.h5 --set until.time=-3").complains("expected a time >= 0"));
+  EXPECT_TRUE(run("resume a.h5 --isa neon").complains("--isa neon"));
+  EXPECT_EQ(run("resume a.h5 --set until.tiem=3").exit_code, 3);
+}
+
+TEST_F(ResumeCommand, SaysThatThereIsNothingToContinue) {
+  const Outcome missing = run("resume none.h5");
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_TRUE(missing.complains("none.h5.checkpoint: missing"));
+  hash_of("run gas.toml --out a.h5 --set output.checkpoint_every=0");
+  EXPECT_FALSE(exists("a.h5.checkpoint"));
+  EXPECT_TRUE(run("resume a.h5").complains("there is nothing to continue"));
+}
+
+// A checkpoint and a file that do not belong together.
+TEST_F(ResumeCommand, RefusesTheFileOfAnotherRun) {
+  hash_of("run gas.toml --out a.h5");
+  hash_of("run gas.toml --out b.h5 --set needles.count=200");
+  std::filesystem::copy_file(path("a.h5.checkpoint"), path("b.h5.checkpoint"),
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string before = read("b.h5");
+  const Outcome refused = run("resume b.h5");
+  EXPECT_EQ(refused.exit_code, 3) << refused.err;
+  EXPECT_TRUE(refused.complains("b.h5"));
+  EXPECT_TRUE(read("b.h5") == before);
+}
+
+TEST_F(ResumeCommand, NeedsTheOutputFile) {
+  hash_of("run gas.toml --out a.h5");
+  std::filesystem::remove(path("a.h5"));
+  const Outcome refused = run("resume a.h5");
+  EXPECT_EQ(refused.exit_code, 5) << refused.err;
+  EXPECT_TRUE(refused.complains("a.h5"));
+}
+
+TEST_F(ResumeCommand, IsNamedWhereAFileIsKept) {
+  hash_of("run gas.toml --out a.h5");
+  EXPECT_TRUE(run("run gas.toml --out a.h5").complains("can be continued by needlework resume"));
+  // A new run takes the old checkpoints away.
+  hash_of("run gas.toml --out a.h5 --force --set output.checkpoint_every=0");
+  EXPECT_FALSE(exists("a.h5.checkpoint") || exists("a.h5.checkpoint.old"));
+}
+
+// The limit stands for a full disk; without the signal, writing fails.
+TEST_F(ResumeCommand, GoesOnWhenThereIsRoomAgain) {
+  const std::string whole = whole_hash();
+  const Outcome full = shell("trap '' XFSZ; ulimit -f 1200; exec \"" NEEDLEWORK_PROGRAM
+                             "\" run gas.toml --quiet --out a.h5");
+  ASSERT_EQ(full.exit_code, 5) << full.err;
+  EXPECT_TRUE(full.complains("a.h5"));
+  EXPECT_EQ(run("info a.h5").exit_code, 0);
+  EXPECT_EQ(hash_of("resume a.h5"), whole);
+}
+
+}  // namespace
+}  // namespace needlework

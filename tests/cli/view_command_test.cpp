@@ -1,0 +1,120 @@
+// What `needlework view` does with files; tests/picture judges the pictures.
+#include <fmt/format.h>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+class ViewCommand : public ProgramTest {
+ protected:
+  // Writes frames at three times to a.h5.
+  void make_frames() const {
+    write("frames.toml",
+          "needles = { count = 20, box = 7 }\nuntil.time = 2\n"
+          "output = { file = \"a.h5\", frames = [1], checkpoint_every = 0 }\n");
+    ASSERT_EQ(run("run frames.toml --quiet").exit_code, 0);
+  }
+  bool is_png(const std::string& name) const { return read(name).starts_with("\x89PNG\r\n"); }
+};
+
+TEST_F(ViewCommand, WritesPngAndSvgByTheEnding) {
+  make_frames();
+  const Outcome viewed = run("view a.h5 -o a.png");
+  EXPECT_EQ(viewed.exit_code, 0);
+  EXPECT_EQ(viewed.out + viewed.err, "");
+  EXPECT_TRUE(is_png("a.png"));
+  EXPECT_EQ(run("view a.h5 --out a.svg").exit_code, 0);
+  EXPECT_NE(read("a.svg").find(">20 needles</title>"), std::string::npos);
+  EXPECT_EQ(run("view a.h5 -o a.gif").exit_code, 2);
+  EXPECT_TRUE(run("view a.h5 -o a.gif")
+                  .complains("--out a.gif: expected a name that ends in .png or .svg"));
+  EXPECT_EQ(files(), (std::vector<std::string>{"a.h5", "a.png", "a.svg", "frames.toml", small}));
+}
+
+TEST_F(ViewCommand, ShowsTheFrameThatIsAskedFor) {
+  make_frames();
+  for (const auto& [choice, time] : {std::pair{"first", 0}, {"1", 1}, {"last", 2}, {"2", 2}}) {
+    ASSERT_EQ(run(fmt::format("view a.h5 -o a.svg --force --frame {}", choice)).exit_code, 0);
+    EXPECT_NE(read("a.svg").find(fmt::format(">time {}<", time)), std::string::npos) << choice;
+  }
+  const Outcome beyond = run("view a.h5 -o b.svg --frame 3");
+  EXPECT_EQ(beyond.exit_code, 3);
+  EXPECT_TRUE(beyond.complains("--frame 3: expected a number from 0 to 2, as there are 3 frames"));
+  EXPECT_FALSE(exists("b.svg"));
+}
+
+TEST_F(ViewCommand, NumbersThePicturesOfASeries) {
+  make_frames();
+  ASSERT_EQ(run("view a.h5 -o a.svg --frames all").exit_code, 0);
+  for (const int frame : {0, 1, 2}) {
+    EXPECT_NE(read(fmt::format("a-{:05}.svg", frame)).find(fmt::format(">time {}<", frame)),
+              std::string::npos);
+  }
+  EXPECT_FALSE(exists("a.svg"));
+}
+
+TEST_F(ViewCommand, KeepsExistingFilesUnlessForced) {
+  make_frames();
+  write("a.png", "mine");
+  const Outcome refused = run("view a.h5 -o a.png");
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(refused.complains("a.png: exists already: expected a new file, or --force"));
+  EXPECT_EQ(read("a.png"), "mine");
+  EXPECT_EQ(run("view a.h5 -o a.png --force").exit_code, 0);
+  EXPECT_TRUE(is_png("a.png"));
+
+  // Of a series nothing is written if one of its files exists.
+  write("b-00002.png", "mine");
+  EXPECT_EQ(run("view a.h5 -o b.png --frame all").exit_code, 5);
+  EXPECT_FALSE(exists("b-00000.png"));
+  EXPECT_EQ(read("b-00002.png"), "mine");
+}
+
+TEST_F(ViewCommand, ColoursAsAskedInBothSpellings) {
+  make_frames();
+  ASSERT_EQ(run("view a.h5 -o a.svg --colour spin").exit_code, 0);
+  ASSERT_EQ(run("view a.h5 -o b.svg --color spin").exit_code, 0);
+  EXPECT_EQ(read("a.svg"), read("b.svg"));
+  EXPECT_NE(read("a.svg").find(">spin / "), std::string::npos);
+  const Outcome unknown = run("view a.h5 -o c.svg --colour mass");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_TRUE(unknown.complains("mass: expected one of speed, spin, vx, vy, vz, alignment"));
+}
+
+TEST_F(ViewCommand, HasTheSizeThatIsAskedFor) {
+  make_frames();
+  ASSERT_EQ(run("view a.h5 -o a.svg --width 640 --height 360").exit_code, 0);
+  EXPECT_NE(read("a.svg").find("viewBox=\"0 0 640 360\""), std::string::npos);
+  for (const char* size : {"--width 10", "--height 1000000", "--width nan", "--elevation 91"}) {
+    EXPECT_EQ(run(fmt::format("view a.h5 -o b.png {}", size)).exit_code, 2) << size;
+  }
+  EXPECT_FALSE(exists("b.png"));
+}
+
+TEST_F(ViewCommand, WritesNothingAfterAnError) {
+  write("text.h5", "text");
+  for (const auto& [arguments, exit_code, message] :
+       {std::tuple{"absent.h5 -o a.png", 5, "absent.h5: No such file"},
+        {"text.h5 -o a.png", 5, "text.h5: not an HDF5 file"},
+        {"text.h5 -o x/a.png", 5, "x/a.png: cannot be written: expected a folder that exists"}}) {
+    const Outcome outcome = run(std::string("view ") + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    EXPECT_TRUE(outcome.complains(message)) << outcome.err;
+  }
+  EXPECT_EQ(run("view text.h5").exit_code, 2);
+  EXPECT_EQ(files(), (std::vector<std::string>{small, "text.h5"}));
+}
+
+TEST_F(ViewCommand, ReportsAFullDisk) {
+  make_frames();
+  // A limit on the size of files stands for a full disk.
+  const Outcome full =
+      shell(fmt::format("(trap '' XFSZ; ulimit -f 1; {} view a.h5 -o a.png)", NEEDLEWORK_PROGRAM));
+  EXPECT_EQ(full.exit_code, 5);
+  EXPECT_TRUE(full.complains("a.png: cannot be written completely"));
+  EXPECT_FALSE(exists("a.png"));
+}
+
+}  // namespace
+}  // namespace needlework

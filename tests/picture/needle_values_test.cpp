@@ -1,0 +1,86 @@
+#include "src/picture/needle_values.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include "tests/picture/states.h"
+
+namespace needlework::picture {
+namespace {
+
+std::vector<double> values(const std::string& quantity, const State& state) {
+  return values_of(quantity, state, true).values;
+}
+
+TEST(NeedleValues, AreOneForEachNeedleWhateverTheQuantity) {
+  for (const std::size_t count : {0, 1, 3}) {
+    State state = needles_at(3, std::vector<std::array<double, 3>>(count, {1, 1, 1}));
+    for (const std::string& quantity : quantities()) {
+      const NeedleValues result = values_of(quantity, state, false);
+      EXPECT_EQ(result.values.size(), count) << quantity;
+      for (const double value : result.values) EXPECT_TRUE(std::isfinite(value)) << quantity;
+      EXPECT_LT(result.range.low, result.range.high);
+      EXPECT_EQ(result.label.empty(), quantity == "none");
+    }
+  }
+  EXPECT_THROW(values("mass", needles_at(3, {})), std::invalid_argument);
+}
+
+TEST(NeedleValues, OfSpeedAndSpinAreMultiplesOfTheRootMeanSquare) {
+  State state = needles_at(3, {{0, 0, 0}, {1, 1, 1}});
+  state.velocity = {{0, 3, 4}, {0, 0, 5}};
+  state.angular_velocity = {{0, 0, 0}, {0, 0, 2}};
+  const NeedleValues speed = values_of("speed", state, true);
+  EXPECT_EQ(speed.values, (std::vector{1.0, 1.0}));
+  EXPECT_EQ(speed.label, "speed / 5 (rms)");
+  EXPECT_NEAR(values("spin", state)[1], std::sqrt(2), 1e-12);
+  EXPECT_NEAR(values("vy", state)[0], std::sqrt(2), 1e-12);
+  EXPECT_NEAR(values("vy", state)[1], 0, 1e-12);
+}
+
+TEST(NeedleValues, OfAlignmentAreTwoAlongTheVelocityAndMinusOneAcross) {
+  State state = needles_at(3, {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
+  state.velocity = {{-2, 0, 0}, {0, 1, 5}, {0, 0, 0}};
+  const std::vector<double> q = values("alignment", state);
+  EXPECT_NEAR(q[0], 2, 1e-12);
+  EXPECT_NEAR(q[1], -1, 1e-12);
+  EXPECT_NEAR(q[2], 0, 1e-12);  // at rest
+}
+
+TEST(NeedleValues, OfDensityCountTheNeighboursAcrossTheBorders) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> anywhere(-8, 16);  // outside of the box too
+  for (const std::size_t count : {2, 10, 300}) {
+    std::vector<std::array<double, 3>> centres(count);
+    for (auto& centre : centres) {
+      for (double& x : centre) x = anywhere(random);
+    }
+    State state = needles_at(4, centres);
+    state.box = {4, 6, 8};
+    // The ball that holds 30 others in the mean, or the largest that fits.
+    const double others = static_cast<double>(count) - 1, volume = 4 * 6 * 8;
+    const double ball = 4 * std::numbers::pi / 3;
+    const double radius = std::min(std::cbrt(30 * volume / (others * ball)), 2.0);
+    const std::vector<double> densities = values("density", state);
+    for (std::size_t i = 0; i < count; ++i) {
+      double near = 0;
+      for (std::size_t j = 0; j < count; ++j) {
+        double squared = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double d = std::remainder(centres[i][axis] - centres[j][axis], state.box[axis]);
+          squared += d * d;
+        }
+        near += i != j && squared < radius * radius;
+      }
+      const double mean = others * ball * std::pow(radius, 3) / volume;
+      EXPECT_NEAR(densities[i], near / mean, 1e-9) << count << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace needlework::picture

@@ -1,0 +1,91 @@
+"""What tests of runs that are stopped and continued share: a scene, and the contents of files."""
+
+import subprocess
+
+import h5py
+
+# With all that is remembered between samples, and collisions whose time is that of t_c.
+SCENE = """
+[needles]
+count = 400
+box = 8.0
+[collisions]
+epsilon = 0.8
+tc_relative = 1e-3
+[until]
+energy_ratio = 0.02
+[output]
+frames = 4
+events = true
+checkpoint_every = 0.02
+observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
+               "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
+               "collision_statistics"]
+"""
+
+# What says how a file was made rather than what happened.
+PROVENANCE = {"parameters/threads", "parameters/isa"}
+
+
+def contents(path):
+    """All datasets as arrays, by name; those with several names by each."""
+    found = {}
+
+    def visit(group, prefix):
+        for name, item in group.items():
+            if isinstance(item, h5py.Group):
+                visit(item, f"{prefix}{name}/")
+            elif f"{prefix}{name}" not in PROVENANCE:
+                found[f"{prefix}{name}"] = item[()]
+
+    with h5py.File(path) as file:
+        visit(file, "")
+    return found
+
+
+def bytes_of(value):
+    return value.tobytes() if hasattr(value, "tobytes") else value
+
+
+def differences(one, other):
+    """Names of datasets that are not the same to the last bit."""
+    return sorted(name for name in one.keys() | other.keys()
+                  if name not in one or name not in other
+                  or bytes_of(one[name]) != bytes_of(other[name]))
+
+
+def complete_rows(found):
+    """The number of complete rows of each table, by the name of its dataset of times."""
+    names = ("series/step", "particles/needles/position/step", "events/time")
+    return {name: len(found[name]) for name in names if name in found}
+
+
+def table_of(name):
+    """The dataset of times of the table in which a dataset grows, or nothing."""
+    if name.startswith("events/"):
+        return "events/time"
+    if name.startswith("series/") and (name.endswith("/value") or name in ("series/step",
+                                                                           "series/time")):
+        return "series/step"
+    if name.startswith(("particles/needles/", "observables/")) and name.endswith(
+            ("/value", "/step", "/time")):
+        return "particles/needles/position/step"
+    return None
+
+
+def require_prefix(before, after):
+    """Every complete row of `before` is in `after`, to the last bit."""
+    rows = complete_rows(before)
+    for name, value in before.items():
+        table = table_of(name)
+        if not table:
+            continue
+        count = rows[table]
+        assert len(value) >= count, f"{name}: {len(value)} rows of {count}"
+        assert bytes_of(value[:count]) == bytes_of(after[name][:count]), f"{name}: rows differ"
+
+
+def command(program, *arguments):
+    """Runs the program; returns what it has printed and its exit code."""
+    done = subprocess.run([program, *arguments], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
