@@ -27,6 +27,8 @@ FigureResult make_box_sizes(const PaperRuns& runs);
 FigureResult make_alignment(const PaperRuns& runs);
 FigureResult make_clusters(const PaperRuns& runs);
 // why_figures.cpp
-FigureResult make_tests_of_why(const PaperRuns& runs);
+FigureResult make_cells(const PaperRuns& runs);
+FigureResult make_contact_time_dilute(const PaperRuns& runs);
+FigureResult make_contact_time_dense(const PaperRuns& runs);
 
 }  // namespace needlework::reproduce

@@ -28,10 +28,15 @@ const Figure all[] = {
      {"box-small", "box-middle", "box-large", "dense"},
      make_box_sizes},
     {"clusters", "Beyond the paper: alignment inside clusters", {"dense"}, make_clusters},
-    {"why",
-     "Tests of why: contact time and cells",
-     {"dilute", "dense", "dilute-tc", "dense-tc"},
-     make_tests_of_why},
+    {"cells", "Test of why: size of the cells", {"dense"}, make_cells},
+    {"tc-dilute",
+     "Test of why: contact time of the dilute gas",
+     {"dilute", "dilute-tc"},
+     make_contact_time_dilute},
+    {"tc-dense",
+     "Test of why: contact time of the dense gas",
+     {"dense", "dense-tc"},
+     make_contact_time_dense},
 };
 
 }  // namespace

@@ -20,15 +20,21 @@ using picture::Curve;
 constexpr double standard_energy = 1e-4;     // E/E(0) at which dilute gases are compared
 constexpr double standard_collisions = 400;  // per needle, at which dense gases are
 
+std::vector<double> theory_energies(const Scene& scene, std::span<const double> taus) {
+  std::vector<double> energies;
+  for (const auto& now : theory::cooling_curve({scene.needles.k, scene.collisions.epsilon},
+                                               {scene.initial.t_tr, scene.initial.t_rot}, taus)) {
+    energies.push_back(now.energy());
+  }
+  return energies;
+}
+
 // E / E_theory at the scaled time at which theory has lost all but `standard_energy`.
 double energy_over_theory(const FinishedRun& run) {
-  const Scene& scene = *run.scene;
-  const std::vector<double> taus = taus_of(run);
-  const auto theory = theory::cooling_curve({scene.needles.k, scene.collisions.epsilon},
-                                            {scene.initial.t_tr, scene.initial.t_rot}, taus);
+  const std::vector<double> theory = theory_energies(*run.scene, taus_of(run));
   std::size_t n = 0;
-  while (n + 1 < taus.size() && theory[n].energy() > standard_energy * theory[0].energy()) ++n;
-  return run.series[n].energy / theory[n].energy();
+  while (n + 1 < theory.size() && theory[n] > standard_energy * theory[0]) ++n;
+  return run.series[n].energy / theory[n];
 }
 
 double tc_share(const FinishedRun& run) {
@@ -56,6 +62,26 @@ Case case_of(Point point) {
   return {fmt::format("t_c = {:g} mean free times", tc), std::move(point)};
 }
 
+// Those of a set and, with the same seeds, the first point of another one.
+std::vector<Case> cases_of(const PaperRuns& runs, const std::string& set,
+                           const std::string& reference) {
+  std::vector<Case> cases;
+  for (Point& point : runs.points(set)) cases.push_back(case_of(point));
+  cases.push_back(case_of(with_seeds_of(runs.points(reference).front(), cases.front().point)));
+  return cases;
+}
+
+// The mean over seeds of a number of flow_order over its start.
+MeanCurve growth_curve(const Point& point, const std::string& name,
+                       std::span<const double> places) {
+  return mean_curve(point, places, [&](const FinishedRun& run) {
+    std::vector<double> values = run.field("flow_order/" + name).values;
+    const double start = values.front();
+    for (double& value : values) value /= start;
+    return std::pair{collisions_of(run), values};
+  });
+}
+
 // S of a frame with another number of cells along each axis.
 double flow_order_of(const State& state, int cells) {
   const observe::CellMeans means =
@@ -77,74 +103,93 @@ double growth_with_cells(const FinishedRun& run, int cells) {
 
 }  // namespace
 
-FigureResult make_tests_of_why(const PaperRuns& runs) {
+FigureResult make_cells(const PaperRuns& runs) {
+  const Point point = runs.points("dense").front();
+  FigureResult result;
+  result.table.columns = {"cells", "needles_per_cell", "growth", "error"};
+  Curve curve{"", Curve::Style::points};
+  for (const int cells : {8, 9, 10, 12}) {
+    const Measured growth =
+        measure(point, [&](const FinishedRun& run) { return growth_with_cells(run, cells); });
+    const double occupation =
+        static_cast<double>(point.scene->needles.count) / (cells * cells * cells);
+    result.table.rows.push_back(
+        {static_cast<double>(cells), occupation, growth.value, growth.error});
+    curve.x.push_back(occupation), curve.y.push_back(growth.value);
+    curve.error.push_back(growth.error);
+    result.measurements.push_back(
+        {"flow-order-growth", fmt::format("test, {} cells along each axis", cells), growth});
+  }
+  result.chart = {.title = "Growth of S and the size of the cells",
+                  .description =
+                      "S over S at the start, about 600 collisions per needle, against "
+                      "the mean number of needles in a cell.",
+                  .panels = {{.x = {"needles per cell"}, .y = {"S / start"}, .curves = {curve}}}};
+  return result;
+}
+
+FigureResult make_contact_time_dilute(const PaperRuns& runs) {
+  FigureResult result;
+  result.table.columns = {"tc_relative", "tau", "energy_over_theory", "error"};
+  picture::Panel panel{.x = {"τ", true}, .y = {"E / theory"}};
+  for (const Case& one : cases_of(runs, "dilute-tc", "dilute")) {
+    Curve curve{one.name};
+    const std::vector<double> taus = taus_of(one.point.runs.front());
+    const std::vector<double> theory = theory_energies(*one.point.scene, taus);
+    for (std::size_t n = 1; n < taus.size(); ++n) {
+      if (taus[n] < 1 || theory[n] < 2e-5 * theory[0]) continue;
+      const Measured off = measure(
+          one.point, [&](const FinishedRun& run) { return run.series.at(n).energy / theory[n]; });
+      curve.x.push_back(taus[n]), curve.y.push_back(off.value);
+      result.table.rows.push_back(
+          {*one.point.scene->collisions.tc_relative, taus[n], off.value, off.error});
+    }
+    panel.curves.push_back(curve);
+    result.measurements.push_back(
+        {"energy-theory", "test, " + one.name, measure(one.point, energy_over_theory)});
+    result.measurements.push_back(
+        {"tc-share", "dilute, " + one.name, measure(one.point, tc_share)});
+  }
+  result.chart = {.title = "Energy of the dilute gas over theory, for three contact times",
+                  .description =
+                      "Simulated energy divided by that of theory against scaled time; "
+                      "means over the same three seeds.",
+                  .panels = {panel},
+                  .panel_width = 560};
+  return result;
+}
+
+FigureResult make_contact_time_dense(const PaperRuns& runs) {
   FigureResult result;
   result.table.columns = {"tc_relative", "collisions", "s", "s_error", "moment", "moment_error"};
-  const Point reference = runs.points("dense").front(), dilute = runs.points("dilute").front();
-
-  std::vector<Case> cases, dilute_cases;
-  for (Point& point : runs.points("dense-tc")) cases.push_back(case_of(point));
-  cases.push_back(case_of(with_seeds_of(reference, cases.front().point)));
-  for (Point& point : runs.points("dilute-tc")) dilute_cases.push_back(case_of(point));
-  dilute_cases.push_back(case_of(with_seeds_of(dilute, dilute_cases.front().point)));
-
   picture::Panel s{
       .title = "Order of the flow", .x = {"collisions per needle"}, .y = {"S / start"}};
   picture::Panel moment{.title = "Second moment of the density",
                         .x = {"collisions per needle"},
                         .y = {"second moment / start"}};
   const std::vector<double> places = steps(0, standard_collisions, 40);
-  for (const Case& one : cases) {
-    const auto growth = [&](const char* name) {
-      return mean_curve(one.point, places, [&](const FinishedRun& run) {
-        std::vector<double> values = run.field(std::string("flow_order/") + name).values;
-        const double start = values.front();
-        for (double& value : values) value /= start;
-        return std::pair{collisions_of(run), values};
-      });
-    };
-    const MeanCurve s_curve = growth("translational"), moment_curve = growth("second_moment");
-    Curve line{one.name, Curve::Style::line, s_curve.x, s_curve.mean};
-    s.curves.push_back(line);
-    line.y = moment_curve.mean;
-    moment.curves.push_back(line);
+  for (const Case& one : cases_of(runs, "dense-tc", "dense")) {
+    const MeanCurve s_curve = growth_curve(one.point, "translational", places),
+                    moment_curve = growth_curve(one.point, "second_moment", places);
+    s.curves.push_back({one.name, Curve::Style::line, s_curve.x, s_curve.mean});
+    moment.curves.push_back({one.name, Curve::Style::line, moment_curve.x, moment_curve.mean});
     for (std::size_t n = 0; n < places.size(); ++n) {
       result.table.rows.push_back({*one.point.scene->collisions.tc_relative, places[n],
                                    s_curve.mean[n], s_curve.error[n], moment_curve.mean[n],
                                    moment_curve.error[n]});
     }
-    const auto add = [&](const char* claim, const std::function<double(const FinishedRun&)>& f) {
-      result.measurements.push_back(
-          {claim, fmt::format("test, dense, {}, at {:g}", one.name, standard_collisions),
-           measure(one.point, f)});
-    };
-    const auto growth_of = [](const char* name) {
-      return [name](const FinishedRun& run) {
-        const std::vector<double> values = run.field(std::string("flow_order/") + name).values;
-        return interpolated(collisions_of(run), values, standard_collisions) / values.front();
-      };
-    };
-    add("flow-order-growth", growth_of("translational"));
-    add("moment-growth", growth_of("second_moment"));
-    add("tc-share", tc_share);
-  }
-  for (const int cells : {8, 9, 10, 12}) {
+    const std::string variant = fmt::format("test, {}, at {:g}", one.name, standard_collisions);
+    const std::size_t seeds = one.point.runs.size();
     result.measurements.push_back(
-        {"flow-order-growth", fmt::format("test, dense, {} cells along each axis", cells),
-         measure(reference,
-                 [&](const FinishedRun& run) { return growth_with_cells(run, cells); })});
-  }
-  for (const Case& one : dilute_cases) {
+        {"flow-order-growth", variant, {s_curve.mean.back(), s_curve.error.back(), seeds}});
     result.measurements.push_back(
-        {"energy-theory", "test, dilute, " + one.name, measure(one.point, energy_over_theory)});
-    result.measurements.push_back(
-        {"tc-share", "test, dilute, " + one.name, measure(one.point, tc_share)});
+        {"moment-growth", variant, {moment_curve.mean.back(), moment_curve.error.back(), seeds}});
+    result.measurements.push_back({"tc-share", "dense, " + one.name, measure(one.point, tc_share)});
   }
-  result.chart = {.title = "Does the contact time matter?",
+  result.chart = {.title = "The dense gas with another contact time",
                   .description =
                       "Growth of the order of the flow and of the second moment of the "
-                      "density, for two contact times; k = 6, "
-                      "T_rot(0) = 1.",
+                      "density, for two contact times; k = 6, T_rot(0) = 1.",
                   .panels = {s, moment}};
   return result;
 }

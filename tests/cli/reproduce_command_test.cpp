@@ -41,9 +41,9 @@ TEST_F(ReproduceCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("9: expected one of all, 2, 3, 4, 5a"), std::string::npos) << none.err;
   EXPECT_EQ(run("reproduce").exit_code, 2);
-  const Outcome why = run("reproduce why --quick");
+  const Outcome why = run("reproduce tc-dense --quick");
   EXPECT_EQ(why.exit_code, 2);
-  EXPECT_TRUE(why.complains("why --quick: expected no --quick"));
+  EXPECT_TRUE(why.complains("tc-dense --quick: expected no --quick"));
   EXPECT_EQ(files(), std::vector<std::string>{small});
 }
 
