@@ -26,6 +26,7 @@
 #include "src/cli/ranks.h"
 #include "src/cli/reference.h"
 #include "src/cli/report_command.h"
+#include "src/cli/reproduce_command.h"
 #include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
 #include "src/cli/sweep_command.h"
@@ -204,6 +205,41 @@ seeds are printed and written to summary.h5.
 Examples:
   needlework sweep profiles/sweep-cooling.toml --out cooling-sweep
   needlework sweep grid.toml --out results --member 3/16)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_reproduce_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("reproduce", "make the figures of the paper and check its claims");
+  const auto arguments = std::make_shared<ReproduceArguments>();
+  add_choice(
+      command->add_option("FIGURE", arguments->figure, "a figure of the paper, or all")->required(),
+      names_of_figures());
+  command->add_flag("--quick", arguments->quick,
+                    "smaller systems, fewer seeds: at most 15 minutes");
+  command
+      ->add_option("--out", arguments->out,
+                   "folder for runs, data and pictures; by default reproduction, or "
+                   "reproduction-quick")
+      ->option_text("DIR");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "number of runs at a time; by default, the number of cores")
+      ->option_text("N")
+      ->check(number_in(1, 1024));
+  command->add_flag("--json", arguments->json, "print the claims as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  command->add_flag("--force", arguments->force,
+                    "use a folder with something else in it; runs that differ are run again");
+  command->footer(R"(The paper is "Granular cooling of hard needles" by Huthmann, Aspelmeier and
+Zippelius. Runs that are finished are used again; the same command continues
+after an interruption. For each figure, its data (CSV) and picture (SVG) are
+written, and each claim is compared with the measurement: it agrees within three
+standard errors plus the paper's precision, differs, or is open.
+
+Examples:
+  needlework reproduce 3 --quick
+  needlework reproduce all --out reproduction)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -646,6 +682,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_run_command(app, exit_code);
   add_resume_command(app, exit_code);
   add_sweep_command(app, exit_code);
+  add_reproduce_command(app, exit_code);
   add_check_command(app, exit_code);
   add_theory_command(app, exit_code);
   add_predict_command(app, exit_code);

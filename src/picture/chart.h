@@ -13,17 +13,18 @@ namespace needlework::picture {
 /// Titles, labels and names are plain text, in which _{...} is set below the line and ^{...} above
 /// it, as in "T_{tr} / T_{rot}".
 struct Axis {
-  std::string label;
+  std::string label = {};
   bool logarithmic = false;
-  std::optional<Range> range;  ///< what the panel shows; by default all data and a margin
+  std::optional<Range> range = {};  ///< what the panel shows; by default all data and a margin
 };
 
 /// The colours of the values of a map and of curves with `values`.
 struct ColourScale {
-  std::string label;  ///< beside the bar that explains the colours
+  std::string label = {};  ///< beside the bar that explains the colours
   bool logarithmic = false;
-  bool diverging = false;      ///< two hues that meet in the middle of the range, by default at 0
-  std::optional<Range> range;  ///< values beyond it get the colour of its end; default: all values
+  bool diverging = false;  ///< two hues that meet in the middle of the range, by default at 0
+  std::optional<Range> range =
+      {};  ///< values beyond it get the colour of its end; default: all values
 };
 
 /// A family of values of y at values of x, of the same number. What cannot be placed (NaN,
@@ -35,16 +36,16 @@ struct Curve {
     points,
     steps,  ///< a histogram: y is constant between edges, and x has one number more than y
   };
-  std::string name;  ///< in the legend; not there if empty
+  std::string name = {};  ///< in the legend; not there if empty
   Style style = Style::line;
-  std::vector<double> x, y;
-  std::vector<double> error;  ///< half the length of the error bar of each y; may be empty
+  std::vector<double> x = {}, y = {};
+  std::vector<double> error = {};  ///< half the length of the error bar of each y; may be empty
   /// Colour, and shape of points, counted from 0; by default the place of the curve in the panel.
   /// Curves that belong together, such as theory and measurement, should have the same.
-  std::optional<std::size_t> colour;
+  std::optional<std::size_t> colour = {};
   /// For points: each is filled with the colour of its value in the scale of the panel. May be
   /// empty.
-  std::vector<double> values;
+  std::vector<double> values = {};
 };
 
 /// Values on a grid of rectangles, shown as colours. A value that is not finite leaves a gap.
@@ -62,19 +63,19 @@ struct Arrows {
 };
 
 struct Panel {
-  std::string title;
-  Axis x, y;
-  std::vector<Curve> curves;
-  std::optional<Map> map;
-  std::optional<Arrows> arrows;
-  ColourScale colours;
+  std::string title = {};
+  Axis x = {}, y = {};
+  std::vector<Curve> curves = {};
+  std::optional<Map> map = {};
+  std::optional<Arrows> arrows = {};
+  ColourScale colours = {};
   bool equal_scales = false;  ///< a unit of x is as long as a unit of y, on linear axes
 };
 
 struct Chart {
   std::string title;
-  std::string description;  ///< for those who cannot see the chart; default: what the axes say
-  std::vector<Panel> panels;
+  std::string description = {};  ///< for those who cannot see the chart; default: what the axes say
+  std::vector<Panel> panels = {};
   std::size_t columns = 0;                       ///< panels in a row; 0: all in one
   double panel_width = 380, panel_height = 285;  ///< of the area inside the axes [pixels]
 };

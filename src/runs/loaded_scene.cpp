@@ -1,6 +1,7 @@
 #include "src/runs/loaded_scene.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "needlework/error.h"
@@ -14,23 +15,28 @@ namespace {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-// The last frame of initial.file; errors name the key, then the file and the place in it.
-State read_initial_state(const Scene& scene) {
-  const std::string& file = scene.initial.file;
-  const std::string place = place_of(scene, "initial.file", file);
+// Reads initial.file by read(); errors name the key, then the file and the place in it.
+template <class Read>
+auto reading(const Scene& scene, Read&& read) {
+  const std::string place = place_of(scene, "initial.file", scene.initial.file);
   try {
-    const io::FrameFile frames(file);
-    // Before memory is taken for them.
-    require_count(scene, frames.needles());
-    Scene sized = scene;
-    sized.needles.count = frames.needles();
-    require_memory(sized);
-    return frames.read(frames.count() - 1);
+    return read();
   } catch (const InputError& error) {
     throw InputError(place + ": " + error.what());
   } catch (const IoError& error) {
     throw IoError(place + ": cannot be read: " + error.what());
   }
+}
+
+// The last frame of initial.file. That it fits is checked before memory is taken for it.
+State read_initial_state(const Scene& scene) {
+  const auto file =
+      reading(scene, [&] { return std::make_unique<io::FrameFile>(scene.initial.file); });
+  require_count(scene, file->needles());
+  Scene sized = scene;
+  sized.needles.count = file->needles();
+  require_memory(sized);
+  return reading(scene, [&] { return file->read(file->count() - 1); });
 }
 
 }  // namespace

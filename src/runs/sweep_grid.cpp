@@ -55,8 +55,8 @@ bool belongs_to_grid(const Entry& entry) {
 // Reads the file step by step; every step throws the first error it finds.
 class Reader {
  public:
-  explicit Reader(const std::string& path)
-      : name_(path), text_(read_scene_text(path)), document_(text_, name_, {}) {}
+  Reader(const std::string& path, const ReadText& read_text)
+      : name_(path), read_text_(read_text), text_(read_text(path)), document_(text_, name_, {}) {}
 
   Grid read();
 
@@ -74,7 +74,9 @@ class Reader {
   void make_members();
   Member make_member(std::size_t point, std::uint64_t seed) const;
 
-  std::string name_, text_;
+  std::string name_;
+  const ReadText& read_text_;
+  std::string text_;
   Document document_;
   Grid grid_;
   std::string base_name_;
@@ -145,7 +147,7 @@ void Reader::read_base(const Entry* scene) {
   const std::filesystem::path file = text_value(*scene, "the path of a scene");
   base_name_ = (std::filesystem::path(name_).parent_path() / file).string();
   try {
-    grid_.base = read_scene_text(base_name_);
+    grid_.base = read_text_(base_name_);
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}: {}", document_.place(*scene), error.what()));
   }
@@ -351,7 +353,11 @@ std::string Grid::name_of_point(std::size_t point) const {
   return name;
 }
 
-Grid read_grid(const std::string& path) { return Reader(path).read(); }
+Grid read_grid(const std::string& path) { return read_grid(path, read_scene_text); }
+
+Grid read_grid(const std::string& path, const ReadText& read_text) {
+  return Reader(path, read_text).read();
+}
 
 std::string toml_of(const Value& value) {
   if (const auto* boolean = value.as<bool>()) return *boolean ? "true" : "false";

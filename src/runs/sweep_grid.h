@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,11 @@ struct Grid {
 /// VALUE: expected ...", for the first error, and IoError when a file cannot be read. What a
 /// member's end depends on must not be the clock, so until.wall_s is an error.
 Grid read_grid(const std::string& path);
+
+/// Gives the text of a file. Throws IoError if there is none.
+using ReadText = std::function<std::string(const std::string& path)>;
+/// The same where the texts of grid and base scene are not files on disk.
+Grid read_grid(const std::string& path, const ReadText& read_text);
 
 /// The value in TOML, numbers with all their digits.
 std::string toml_of(const Value& value);

@@ -66,7 +66,8 @@ TEST(CSetVelocities, RefusesWhatIsNoNumberAndChangesNothing) {
   arrays.velocity[3 * 7 + 2] = std::numeric_limits<double>::quiet_NaN();
   const Velocities velocities(arrays);
   EXPECT_EQ(needlework_set_velocities(simulation, &velocities.v, &velocities.w), NEEDLEWORK_INPUT);
-  EXPECT_EQ(simulation.message(), "set_velocities: row 7 of velocity: expected finite numbers, their squares too");
+  EXPECT_EQ(simulation.message(),
+            "set_velocities: row 7 of velocity: expected finite numbers, their squares too");
   EXPECT_EQ(Arrays(simulation).velocity, before.velocity);
   EXPECT_EQ(Arrays(simulation).angular_velocity, before.angular_velocity);
 }

@@ -44,6 +44,9 @@ LAYERS = [
            "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
+    # The figures and claims of the paper: a client of the library.
+    Layer("reproduce", ["src/reproduce"], [],
+          ["base", "scene", "observe", "io", "runs", "picture"], ["theory", "trajectory"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
           ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
@@ -51,8 +54,8 @@ LAYERS = [
     Layer("report", ["src/report"], [], ["base", "scene", "io", "picture", "bindings"], ["theory"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "bindings",
-           "report"],
+          ["base", "scene", "search", "observe", "io", "audit", "runs", "picture", "reproduce",
+           "bindings", "report"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -65,7 +68,7 @@ LIBRARIES = [
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["program", "bindings", "report"]),
+    (r"nlohmann/.*", ["program", "bindings", "report", "reproduce"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["program"]),
