@@ -61,8 +61,9 @@ void check_velocities(std::span<const std::array<double, 3>> values, std::size_t
   }
   const auto bad = std::find_if_not(values.begin(), values.end(), has_finite_square);
   if (bad != values.end()) {
-    throw InputError(fmt::format("set_velocities: row {} of {}: expected finite numbers, their squares too",
-                                 bad - values.begin(), what));
+    throw InputError(
+        fmt::format("set_velocities: row {} of {}: expected finite numbers, their squares too",
+                    bad - values.begin(), what));
   }
 }
 
