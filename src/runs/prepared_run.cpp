@@ -120,6 +120,7 @@ std::string PreparedRun::why_not_saved() const {
            ": turns checkpoints off: expected a number > 0";
   }
   if (!writer_) return "the simulation is closed: expected one that can be run";
+  if (cut_off_) return "memory ran out in the middle of an event: expected a state that is sound";
   return {};
 }
 
@@ -157,17 +158,18 @@ Course PreparedRun::drive(RunMonitor& monitor) {
 }
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
-  if (!batches_) return driver_->advance(until, monitor);
   Stop stop{};
   try {
     stop = driver_->advance(until, monitor);
   } catch (const std::bad_alloc&) {
-    throw;  // in the middle of an event, so that it must not be replaced by an error of the caller
+    // In the middle of an event: neither to be replaced by an error of the caller, nor to be saved.
+    cut_off_ = true;
+    throw;
   } catch (...) {
-    batches_->flush();
+    if (batches_) batches_->flush();
     throw;
   }
-  batches_->flush();
+  if (batches_) batches_->flush();
   return stop;
 }
 

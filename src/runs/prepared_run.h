@@ -80,6 +80,7 @@ class PreparedRun {
 
   Scene scene_;
   Saves saves_;
+  bool cut_off_ = false;  ///< whether an event was, for want of memory
   bool drawn_;  ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
