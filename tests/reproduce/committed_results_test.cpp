@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "src/reproduce/embedded_files.h"
 #include "src/reproduce/reproduction.h"
@@ -19,9 +18,6 @@ const std::filesystem::path folder = NEEDLEWORK_SOURCE "/docs/reproduction";
 nlohmann::json committed() {
   return nlohmann::json::parse(std::ifstream(folder / "claims-all.json"));
 }
-
-// docs/reproduction.md says that the full runs of these have not been made yet.
-const std::set<std::string> not_yet{"sizes"};
 
 std::map<std::string, Claim> claims() {
   std::map<std::string, Claim> all;
@@ -58,15 +54,13 @@ TEST(CommittedResults, HaveEachClaimWithItsNumbersAndVerdicts) {
     EXPECT_EQ(row["verdict"], name_of(verdict_of(claim.paper, measured))) << row["id"];
     missing.erase(id);
   }
-  std::erase_if(missing, [](const auto& one) { return not_yet.count(one.second.figure) > 0; });
   for (const auto& [id, claim] : missing) ADD_FAILURE() << id << " has no result";
 }
 
 TEST(CommittedResults, HaveDataAndPictureOfEachFigure) {
   for (const Figure& figure : figures()) {
     for (const char* ending : {".csv", ".svg"}) {
-      EXPECT_EQ(std::filesystem::exists(folder / ("figure-" + figure.name + ending)),
-                not_yet.count(figure.name) == 0)
+      EXPECT_TRUE(std::filesystem::exists(folder / ("figure-" + figure.name + ending)))
           << figure.name << ending;
     }
   }
