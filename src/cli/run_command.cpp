@@ -27,8 +27,14 @@ namespace {
 std::string where_saved(const Scene& scene) {
   const std::string& file = scene.output.file;
   if (file.empty()) return "nothing is saved, as no output file is named";
-  if (scene.output.checkpoint_every == 0) return "saved in " + file;
-  return fmt::format("saved in {}; needlework resume {} continues", file, shell_word(file));
+  return "saved in " + file;
+}
+
+// Empty if the run cannot be continued.
+std::string how_to_continue(const Scene& scene) {
+  const std::string& file = scene.output.file;
+  if (file.empty() || scene.output.checkpoint_every == 0) return "";
+  return fmt::format("; needlework resume {} continues", shell_word(file));
 }
 
 int exit_code_of(const runs::Course& course, const Scene& scene) {
@@ -39,7 +45,8 @@ int exit_code_of(const runs::Course& course, const Scene& scene) {
   if (course.stop == Stop::interrupted || course.stop == Stop::wall_time) {
     print_error(fmt::format("stopped by {} at time {:.6g} after {} collisions ({})",
                             course.stop == Stop::wall_time ? "until.wall_s" : "a signal",
-                            course.last.time, course.last.collisions, where_saved(scene)));
+                            course.last.time, course.last.collisions,
+                            where_saved(scene) + how_to_continue(scene)));
     return stopped;
   }
   return ok;

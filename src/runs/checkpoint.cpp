@@ -119,7 +119,10 @@ bool CheckpointFiles::exist() const {
 }
 
 void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
-  std::string bytes(mark);
+  std::string bytes;
+  bytes.reserve(checkpoint.simulation.bytes.size() + checkpoint.observation.size() +
+                checkpoint.scene.text.size() + 65536);
+  bytes = mark;
   bytes.resize(mark.size() + sizeof(Header));
   Archive archive = Archive::to(bytes);
   // An archive that writes changes nothing.

@@ -20,6 +20,7 @@ namespace {
 constexpr double base_bytes = 12e6;
 constexpr double bytes_per_needle = 580;
 constexpr double bytes_per_needle_of_a_frame = 100;
+constexpr double bytes_per_needle_of_a_checkpoint = 400;  // while it is written
 constexpr double bytes_per_needle_of_displacement = 500;  // eight references, of 48 each, and more
 
 }  // namespace
@@ -28,6 +29,7 @@ double estimated_memory(const Scene& scene) {
   double per_needle = bytes_per_needle;
   if (!scene.output.file.empty()) {
     per_needle += bytes_per_needle_of_a_frame;
+    if (scene.output.checkpoint_every > 0) per_needle += bytes_per_needle_of_a_checkpoint;
     const auto& names = scene.output.observables;
     const bool displaced = std::find(names.begin(), names.end(), "displacement") != names.end();
     if (displaced) per_needle += bytes_per_needle_of_displacement;

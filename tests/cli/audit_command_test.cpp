@@ -56,10 +56,10 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
   EXPECT_LT(some["checked"].get<double>(), 0.2 * all["checked"].get<double>());
   EXPECT_EQ(some["collisions"], all["collisions"]);
   EXPECT_EQ(some["checked"], run("audit small.toml --json --share 0.1 --seed 3").json()["checked"]);
-  const json none = run("audit small.toml --json --share 0").json();
+  const json none = run("audit small.toml --json --share 1e-12").json();
   EXPECT_EQ(none["checked"], 0);
   EXPECT_TRUE(none["bound95"]["missed"].is_null());
-  const Outcome nothing = run("audit small.toml --quiet --share 0");
+  const Outcome nothing = run("audit small.toml --quiet --share 1e-12");
   EXPECT_TRUE(nothing.complains("expected a larger share"));
 }
 

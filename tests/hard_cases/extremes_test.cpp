@@ -33,7 +33,7 @@ TEST(FewNeedles, NoneOrOneHasNothingToMeet) {
     const Scene scene = gas(count, 3);
     const HardRun open = run_hard(scene, until_collisions(1));
     EXPECT_EQ(open.stop, Stop::nothing_can_happen);
-    for (const double time : {1e6, 1e15}) {
+    for (const double time : {1e6, 1e9}) {
       const HardRun run = run_hard(scene, until_time(time));
       EXPECT_EQ(run.stop, Stop::time);
       EXPECT_EQ(run.time, time);
