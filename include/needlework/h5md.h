@@ -25,6 +25,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -82,9 +83,10 @@ class Writer {
   /// `isa` and `threads` of the run may be other ones; the file keeps those it has. Throws IoError
   /// if the file cannot be opened for writing, or is open for writing in another program, and
   /// InputError, "PATH: /DATASET...: expected ...", if it is not a file of this scene and run or
-  /// has fewer rows than `position`. In both cases the file is as it was.
+  /// has fewer rows than `position`. In both cases the file is as it was. `approve` is called when
+  /// no other program can write the file any more, and before anything is changed; it may throw.
   static Writer resume(const std::string& path, const Scene& scene, const RunInfo& run,
-                       const Position& position);
+                       const Position& position, const std::function<void()>& approve = {});
   Writer(Writer&&) noexcept;
   Writer& operator=(Writer&&) noexcept;
   ~Writer();

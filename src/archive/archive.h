@@ -43,6 +43,10 @@ class Archive {
   void require_end() const {
     if (reads() && !in_.empty()) throw_damaged();
   }
+  /// Throws InputError if what has been read cannot have been written.
+  void require(bool condition) const {
+    if (reads() && !condition) throw_damaged();
+  }
   [[noreturn]] static void throw_damaged() {
     throw InputError("the saved state is damaged: expected what this version of the program saves");
   }

@@ -192,7 +192,8 @@ int run(const AuditArguments& arguments) {
     }
   }
   simulation.on_collision([&](const Collision& collision) { audit.add(collision); });
-  const SignalGuard guard(simulation);
+  SignalGuard guard;
+  guard.interrupt(simulation);
   const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);
   if (arguments.state && !outcome.failure) {
     if (outcome.is_complete()) {

@@ -1,4 +1,5 @@
 // The program: a client of the library.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -30,6 +31,8 @@ bool output_is_complete() { return std::fflush(stdout) == 0 && std::ferror(stdou
 
 int main(int argc, char** argv) {
   using namespace needlework::cli;
+  // A file that reaches a limit of its size is a failed write, with a message, and not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int exit_code = run_program(argc, argv);
   if (output_is_complete()) return exit_code;
   print_error("standard output: cannot be written");

@@ -6,6 +6,7 @@
 #include "needlework/parse.h"
 #include "src/cli/messages.h"
 #include "src/cli/run_command.h"
+#include "src/cli/signals.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
 
@@ -23,6 +24,7 @@ void require_end(const Scene::Until& until, const std::string& file) {
 }  // namespace
 
 int run(const ResumeArguments& arguments) {
+  SignalGuard signals;
   auto [saved, warning] = runs::load_checkpoint(arguments.file, [&](Scene& scene) {
     override_until(scene, arguments.overrides);
     require_end(scene.until, arguments.file);
@@ -30,7 +32,7 @@ int run(const ResumeArguments& arguments) {
   });
   if (!warning.empty()) print_warning(warning);
   runs::PreparedRun prepared(std::move(saved));
-  return drive(prepared, arguments.printing);
+  return drive(prepared, signals, arguments.printing);
 }
 
 }  // namespace needlework::cli

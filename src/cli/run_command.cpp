@@ -60,6 +60,7 @@ std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printin
 }  // namespace
 
 int run(const RunArguments& arguments) {
+  SignalGuard signals;  // a signal during the set-up ends the run in order, too
   runs::LoadedScene loaded = load_scene(arguments.scene);
   Scene& scene = loaded.scene;
   if (arguments.out) {
@@ -75,11 +76,11 @@ int run(const RunArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
 
   runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
-  return drive(prepared, arguments.printing);
+  return drive(prepared, signals, arguments.printing);
 }
 
-int drive(runs::PreparedRun& prepared, const Printing& printing) {
-  const SignalGuard guard(prepared.simulation());
+int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& printing) {
+  signals.interrupt(prepared.simulation());
   const auto monitor = make_monitor(prepared.scene(), printing);
   const runs::Course course = prepared.drive(*monitor);
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/cli/scene_arguments.h"
+#include "src/cli/signals.h"
 #include "src/runs/prepared_run.h"
 
 namespace needlework::cli {
@@ -26,6 +27,6 @@ int run(const RunArguments& arguments);
 
 /// Drives a run to its end, unless a signal ends it before, and prints the result. Returns the exit
 /// code.
-int drive(runs::PreparedRun& prepared, const Printing& printing);
+int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& printing);
 
 }  // namespace needlework::cli

@@ -48,8 +48,9 @@ void handle(int signal) {
 
 }  // namespace
 
-SignalGuard::SignalGuard(Simulation& simulation) : SignalGuard() {
+void SignalGuard::interrupt(Simulation& simulation) {
   interrupted_by_signals = &simulation;
+  if (signal_received != 0) simulation.interrupt();
 }
 
 SignalGuard::SignalGuard() {

@@ -5,14 +5,16 @@
 
 namespace needlework::cli {
 
-/// While it lives, the first of these signals interrupts the simulation instead of ending the
+/// While it lives, the first of these signals interrupts a simulation instead of ending the
 /// program. Another one ends it at once, but not within 0.2 s, as terminals, `timeout` and batch
 /// systems often send the same signal twice. One guard at a time.
 class SignalGuard {
  public:
-  explicit SignalGuard(Simulation& simulation);
-  /// Interrupts nothing: for those who ask received() often enough.
+  /// Interrupts nothing yet: for those who ask received() often enough.
   SignalGuard();
+  /// From now on a signal interrupts this simulation, which must outlive the guard; so does one
+  /// that has come before.
+  void interrupt(Simulation& simulation);
   ~SignalGuard();
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;

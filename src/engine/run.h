@@ -86,6 +86,7 @@ class Run {
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
+  void require_consistent() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
 

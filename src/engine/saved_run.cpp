@@ -37,6 +37,10 @@ void require(bool condition) {
   if (!condition) Archive::throw_damaged();
 }
 
+bool is_time(const Clock& clock, Time time) {
+  return time.offset >= 0 && time.offset < clock.epoch_length();
+}
+
 // The parameters on which the trajectory depends.
 std::vector<double> physics_of(const Run& run, const Scene& scene) {
   constexpr double absent = -1;
@@ -79,10 +83,32 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w) && is_finite(f.p) &&
           std::abs(dot(f.u, f.u) - 1) < 1e-6 && std::isfinite(f.omega) && f.omega >= 0);
   require(record.species < gas.species.size());
+  require(is_time(gas.clock, record.time) && is_time(gas.clock, record.renewal));
+  for (const auto& [place, edge] :
+       {std::pair(f.r.x, gas.box[0]), std::pair(f.r.y, gas.box[1]), std::pair(f.r.z, gas.box[2])}) {
+    require(place >= 0 && place < edge);
+  }
   for (const RecordedTouch& touch : touches) gas.add_touch(i, touch);
 }
 
 }  // namespace
+
+// Damaged numbers could keep a run from ever ending. Speeds are bounded by the energy, which is
+// known twice.
+void Run::require_consistent() const {
+  require(is_time(gas.clock, now) && is_time(gas.clock, window_end) && now.epoch >= 0);
+  require(quantum_ > 0 && std::isfinite(quantum_) && std::isfinite(initial_energy));
+  if (gas.size() < 2) return;
+  require(window_span_ > 0 && search_span > 0 && mean_free_time > 0 && contact_time >= 0);
+  const auto is_past = [&](const Record& record) {
+    return record.time.epoch >= 0 && record.time <= now && record.renewal > record.time;
+  };
+  require(std::ranges::all_of(gas.records, is_past));
+  Totals sums;
+  sum_energies(sums);
+  const double sum = sums.energy * static_cast<double>(gas.size());
+  require(std::abs(sum - energy()) <= 1e-6 * energy_at_window_);
+}
 
 // Needles are saved in order of id, whatever their order in storage.
 void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
@@ -110,6 +136,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   per_quantum_ = 1 / quantum_;
   archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
           tally.instant, tally.at_instant);
+  if (archive.reads()) require_consistent();
 }
 
 Checkpoint Run::save(const Scene& scene, const std::vector<Needle>& by_id) {

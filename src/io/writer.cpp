@@ -37,7 +37,8 @@ struct Writer::Implementation {
   explicit Implementation(const std::string& name) : path(name) {}
 
   void create(bool force, const Scene& scene, const RunInfo& run);
-  void resume(const Scene& scene, const RunInfo& run, const Position& from);
+  void resume(const Scene& scene, const RunInfo& run, const Position& from,
+              const std::function<void()>& approve);
   void open_datasets(const Scene& scene, const RunInfo& run);
   void commit();
   void sync();
@@ -71,8 +72,10 @@ void Writer::Implementation::create(bool force, const Scene& scene, const RunInf
   atomic.publish();
 }
 
-void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, const Position& from) {
+void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, const Position& from,
+                                    const std::function<void()>& approve) {
   file.emplace(path, path);
+  if (approve) approve();
   require_continuable(Source(path), scene, run, from);
   shorten(*file, path, from);
   position = from;
@@ -155,10 +158,10 @@ Writer::Writer(std::unique_ptr<Implementation> implementation)
     : implementation_(std::move(implementation)) {}
 
 Writer Writer::resume(const std::string& path, const Scene& scene, const RunInfo& run,
-                      const Position& position) {
+                      const Position& position, const std::function<void()>& approve) {
   const Session session;
   auto implementation = std::make_unique<Implementation>(path);
-  implementation->resume(scene, run, position);
+  implementation->resume(scene, run, position, approve);
   return Writer(std::move(implementation));
 }
 

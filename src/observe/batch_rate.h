@@ -1,6 +1,7 @@
 // Rates with error estimates that include correlations, by the method of batch means.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -38,7 +39,10 @@ class BatchRate {
   Estimate estimate(double now) const;
 
   /// Saves or restores all counts.
-  void transfer(Archive& archive) { archive(length_, counts_); }
+  void transfer(Archive& archive) {
+    archive(length_, counts_);
+    archive.require(std::isfinite(length_) && length_ > 0 && counts_.size() <= most_batches);
+  }
 
  private:
   double length_;

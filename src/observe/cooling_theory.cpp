@@ -1,5 +1,8 @@
 #include "src/observe/cooling_theory.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "src/observe/forecast.h"
 
 namespace needlework::observe {
@@ -30,6 +33,8 @@ class CoolingTheory : public Observable {
   void transfer(Archive& archive) override {
     theory::CoolingCurve::Place place = curve_.place();
     archive(place);
+    const auto is_finite = [](double value) { return std::isfinite(value); };
+    archive.require(std::ranges::all_of(place, is_finite) && place.back() > 0);
     curve_.go_to(place);
   }
 

@@ -69,7 +69,14 @@ class Displacement : public Observable {
     }
   }
 
-  void transfer(Archive& archive) override { archive(samples_, stride_, references_); }
+  void transfer(Archive& archive) override {
+    archive(samples_, stride_, references_);
+    archive.require(stride_ > 0 && references_.size() <= places);
+    for (const Reference& reference : references_) {
+      archive.require(reference.position.size() == gas_.count &&
+                      reference.orientation.size() == gas_.count);
+    }
+  }
 
  private:
   std::vector<Vector> unwrapped(const State& state) const {

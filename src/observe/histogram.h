@@ -25,7 +25,11 @@ class Histogram {
 
   /// The number of values in each bin; doubles, as are all rows of observables.
   const std::vector<double>& counts() const { return counts_; }
-  void transfer(Archive& archive) { archive(counts_); }
+  void transfer(Archive& archive) {
+    const std::size_t bins = counts_.size();
+    archive(counts_);
+    archive.require(counts_.size() == bins);
+  }
   void clear() { counts_.assign(counts_.size(), 0.0); }
 
   /// The borders of the bins, one more than there are bins.

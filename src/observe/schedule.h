@@ -37,6 +37,10 @@ class Schedule {
   friend void transfer(Archive& archive, Schedule& schedule) {
     archive(schedule.per_decade_, schedule.step_, schedule.n_, schedule.times_, schedule.position_,
             schedule.next_);
+    const bool is_grid = schedule.per_decade_ > 0 || schedule.step_ > 0;
+    archive.require(schedule.per_decade_ >= 0 && schedule.step_ >= 0 &&
+                    schedule.position_ <= schedule.times_.size() &&
+                    (!is_grid || schedule.next_ == schedule.grid_time(schedule.n_)));
   }
 
  private:

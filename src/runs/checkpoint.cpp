@@ -12,6 +12,7 @@
 #include <memory>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "needlework/error.h"
 #include "src/runs/durable_file.h"
@@ -77,12 +78,15 @@ void require_mark(const std::string& path, std::string_view begin) {
       mark.substr(0, mark.size() - 1)));
 }
 
-RunCheckpoint read_checkpoint(const std::string& path) {
-  namespace fs = std::filesystem;
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+// Opens a file and reads what stands before its content.
+std::pair<File, Header> open_checkpoint(const std::string& path) {
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw InputError(path + ": expected an ordinary file");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError(path + ": expected an ordinary file");
+  }
+  File file(std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
   if (!file) {
     throw IoError(
         fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
@@ -92,8 +96,13 @@ RunCheckpoint read_checkpoint(const std::string& path) {
   const std::string head = read_bytes(file.get(), sizeof header, path);
   if (head.size() < sizeof header) throw damaged(path, "it is cut short");
   std::memcpy(&header, head.data(), sizeof header);
+  return {std::move(file), header};
+}
+
+RunCheckpoint read_checkpoint(const std::string& path) {
+  const auto [file, header] = open_checkpoint(path);
   // Before memory is taken for it.
-  const std::uint64_t size = fs::file_size(path) - mark.size() - sizeof header;
+  const std::uint64_t size = std::filesystem::file_size(path) - mark.size() - sizeof header;
   if (size != header.size) {
     throw damaged(path, fmt::format("{} bytes: expected {}", size, header.size));
   }
@@ -105,6 +114,7 @@ RunCheckpoint read_checkpoint(const std::string& path) {
   Archive archive = Archive::from(bytes);
   transfer(archive, out);
   archive.require_end();
+  out.origin = {path, header.checksum};
   return out;
 }
 
@@ -159,6 +169,15 @@ CheckpointFiles::Read CheckpointFiles::read() const {
         "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
   }
   return {read_checkpoint(older_), std::move(warning)};
+}
+
+void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
+  try {
+    if (open_checkpoint(origin.path).second.checksum == origin.checksum) return;
+  } catch (const InputError&) {
+    // It is another one, or gone.
+  }
+  throw IoError(origin.path + ": another program has continued the run in the meantime");
 }
 
 void CheckpointFiles::remove() {

@@ -1,7 +1,7 @@
 // Checkpoints of runs: all that a run needs to continue after its process has ended.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 
 #include "needlework/h5md.h"
@@ -19,6 +19,13 @@ struct RunCheckpoint {
   Checkpoint simulation;        ///< the state of the gas
   io::Writer::Position output;  ///< the rows that the output file had
   std::string observation;      ///< what observables and schedules remember
+
+  /// The file that it was read from, and its checksum.
+  struct Origin {
+    std::string path;
+    std::uint64_t checksum = 0;
+  };
+  Origin origin;
 };
 
 /// The checkpoints of one output file, in files beside it: the newest, "FILE.checkpoint", and the
@@ -44,6 +51,9 @@ class CheckpointFiles {
   /// The newest one that is whole. Throws InputError if there is none, or if it is of another
   /// version of the program; IoError if it cannot be read.
   Read read() const;
+
+  /// Throws IoError if another program has written a newer one since this one was read.
+  static void require_unchanged(const RunCheckpoint::Origin& origin);
 
   /// Removes them, if there are any.
   void remove();

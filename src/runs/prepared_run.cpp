@@ -86,8 +86,10 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
       drawn_(saved.drawn),
       simulation_(continue_simulation(saved.simulation)),
       initial_(saved.initial) {
+  if (simulation_.needles() != scene_.needles.count) Archive::throw_damaged();
   open_output([&](const io::RunInfo& info) {
-    return io::Writer::resume(scene_.output.file, scene_, info, saved.output);
+    return io::Writer::resume(scene_.output.file, scene_, info, saved.output,
+                              [&] { CheckpointFiles::require_unchanged(saved.origin); });
   });
   driver_.emplace(simulation_, scene_, output(), true);
   Archive archive = Archive::from(saved.observation);
@@ -133,7 +135,8 @@ void PreparedRun::save_checkpoint() {
                       .initial = initial_,
                       .simulation = simulation_.checkpoint(),
                       .output = writer_->position(),
-                      .observation = {}};
+                      .observation = {},
+                      .origin = {}};
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);

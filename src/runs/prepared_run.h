@@ -81,7 +81,7 @@ class PreparedRun {
   Scene scene_;
   Saves saves_;
   bool cut_off_ = false;  ///< whether an event was, for want of memory
-  bool drawn_;  ///< whether the initial state was drawn
+  bool drawn_;            ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
   Totals initial_;                                   ///< at the start of the run

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/runs/prepared_run.h"
 #include "tests/support/runs.h"
@@ -111,6 +112,23 @@ TEST(Simulation, IsInterruptedInTheNextCallIfNoneIsRunning) {
   EXPECT_EQ(simulation.advance(from_now({.collisions = 5}, simulation)), Stop::interrupted);
   EXPECT_EQ(simulation.advance(from_start({.collisions = 5}, simulation)), Stop::collisions);
   EXPECT_EQ(simulation.collisions(), 5u);
+}
+
+// Two programs that continue one run: the one that comes later must not take rows away.
+TEST(PreparedRun, IsNotContinuedFromACheckpointThatIsNoLongerTheNewest) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.h5";
+  Silent monitor;
+  PreparedRun(complete_scene(cooling_scene(file)), false, "scene").drive(monitor);
+  RunCheckpoint first = CheckpointFiles(file).read().checkpoint, second = first;
+  {
+    PreparedRun run(std::move(first));
+    run.advance(from_now({.collisions = 100}, run.simulation()), monitor);
+    run.close();
+  }
+  const std::size_t rows = io::read_run(file).series.size();
+  EXPECT_THROW(PreparedRun(std::move(second)), IoError);
+  EXPECT_EQ(io::read_run(file).series.size(), rows);
 }
 
 }  // namespace
