@@ -9,23 +9,9 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 modules=${NEEDLEWORK_MODULES:-$here/../../../build/report-page}
 
-skip() {
-  echo "$1: the page cannot be built"
-  exit 77
-}
+source "$here/../../../cmake/npm.sh"
 
-for program in node npm; do
-  command -v "$program" >/dev/null || skip "There is no $program"
-done
-mkdir -p "$modules"
-if ! cmp -s "$here/package-lock.json" "$modules/package-lock.json" || [[ ! -d $modules/node_modules ]]; then
-  cp "$here/package.json" "$here/package-lock.json" "$modules/"
-  if ! npm ci --prefix "$modules" --no-audit --no-fund >"$modules/npm.log" 2>&1; then
-    cat "$modules/npm.log"
-    rm -rf "$modules/node_modules" "$modules/package-lock.json"
-    skip "npm cannot install the packages"
-  fi
-fi
+install_npm_packages "$here" "$modules"
 export NEEDLEWORK_MODULES=$modules
 if [[ ${1:-} != --check ]]; then
   node "$here/build.js" "$here/page.html"
