@@ -7,10 +7,8 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,8 +16,6 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#include "needlework/error.h"
 
 namespace needlework {
 
@@ -47,24 +43,12 @@ class Archive {
   void require(bool condition) const {
     if (reads() && !condition) throw_damaged();
   }
-  [[noreturn]] static void throw_damaged() {
-    throw InputError("the saved state is damaged: expected what this version of the program saves");
-  }
+  [[noreturn]] static void throw_damaged();
 
  private:
   Archive(std::string* out, std::string_view in) : out_(out), in_(in) {}
 
-  void pass_bytes(void* values, std::size_t size) {
-    static_assert(std::endian::native == std::endian::little, "bytes are in this order");
-    if (size == 0) return;
-    if (out_) {
-      out_->append(static_cast<const char*>(values), size);
-      return;
-    }
-    if (in_.size() < size) throw_damaged();
-    std::memcpy(values, in_.data(), size);
-    in_.remove_prefix(size);
-  }
+  void pass_bytes(void* values, std::size_t size);
 
   template <class T>
   static constexpr bool is_plain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;

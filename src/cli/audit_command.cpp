@@ -93,8 +93,8 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   return outcome;
 }
 
-nlohmann::ordered_json json_of(const audit::Findings& findings, const AuditArguments& arguments,
-                               const Outcome& outcome) {
+nlohmann::ordered_json findings_json(const audit::Findings& findings,
+                                     const AuditArguments& arguments, const Outcome& outcome) {
   nlohmann::ordered_json json;
   json["checked"] = findings.checked;
   for (const audit::Kind kind : audit::kinds) json[audit::name(kind)] = findings.count(kind);
@@ -210,7 +210,7 @@ int run(const AuditArguments& arguments) {
                     arguments.share, findings.collisions));
   }
   if (arguments.json) {
-    fmt::print("{}\n", json_text(json_of(findings, arguments, outcome), 2));
+    fmt::print("{}\n", json_text(findings_json(findings, arguments, outcome), 2));
   } else if (!arguments.quiet) {
     fmt::print("{}", text_of(findings, arguments, outcome));
   }

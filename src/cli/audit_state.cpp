@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // 64-bit keys are text: readers of JSON may hold numbers as doubles.
-Json json_of(const audit::Checkpoint& checkpoint) {
+Json checkpoint_json(const audit::Checkpoint& checkpoint) {
   const audit::Findings& findings = checkpoint.findings;
   Json continuations = Json::array();
   for (const auto& [pair, continuation] : checkpoint.continuations) {
@@ -81,7 +81,7 @@ void write_audit_state(const std::string& path, const AuditIdentity& identity,
                        const audit::Checkpoint& checkpoint) {
   const std::string draft = path + ".part";
   std::ofstream file(draft);
-  file << json_text(Json{{"audit", identity}, {"state", json_of(checkpoint)}}) << '\n';
+  file << json_text(Json{{"audit", identity}, {"state", checkpoint_json(checkpoint)}}) << '\n';
   file.close();
   if (!file || std::rename(draft.c_str(), path.c_str()) != 0) {
     throw IoError(path + ": cannot be written");

@@ -28,7 +28,7 @@ bool launched() {
 }
 
 // The first of these variables that is set, as a number.
-int number_in(std::initializer_list<const char*> variables, int otherwise) {
+int number_from(std::initializer_list<const char*> variables, int otherwise) {
   for (const char* variable : variables) {
     if (const char* value = std::getenv(variable)) return std::atoi(value);
   }
@@ -39,8 +39,8 @@ int number_in(std::initializer_list<const char*> variables, int otherwise) {
 
 Launch mpi_launch() {
   if (!launched()) return {};
-  return {number_in({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, 0),
-          number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1)};
+  return {number_from({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, 0),
+          number_from({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1)};
 }
 
 #ifdef NEEDLEWORK_MPI

@@ -28,7 +28,7 @@ using enum runs::ExitCode;
 
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = std::numeric_limits<double>::max();
 
 /// An option that takes numbers, and which.
@@ -151,7 +151,7 @@ Question question_of(TheoryArguments arguments) {
 }
 
 Predictions predictions_of(const TheoryArguments& arguments) {
-  Predictions result{question_of(arguments), undefined, undefined, {}, {}};
+  Predictions result{question_of(arguments), not_computed, not_computed, {}, {}};
   result.ratio = theory::asymptotic_ratio(result.gas);
   if (result.gas.beta == -1.0) result.equipartition_k = theory::equipartition_k();
   result.curve = theory::cooling_curve(result.gas, result.initial, result.taus);

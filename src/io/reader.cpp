@@ -36,6 +36,8 @@ struct Slice {
   }
 };
 
+}  // namespace
+
 class FrameReader {
  public:
   explicit FrameReader(const std::string& path);
@@ -291,8 +293,6 @@ void FrameReader::require_needles(const State& state) {
     }
   }
 }
-
-}  // namespace
 
 struct FrameFile::Implementation {
   explicit Implementation(const std::string& path) : reader(path) {}

@@ -14,7 +14,7 @@
 namespace needlework::io {
 namespace {
 
-[[noreturn]] void fail(const std::string& place, int error) {
+[[noreturn]] void fail_lock(const std::string& place, int error) {
   throw IoError(fmt::format("{}: {}", place, std::generic_category().message(error)));
 }
 
@@ -41,7 +41,7 @@ bool lock_against_writers(int descriptor) {
 
 WriteLock::WriteLock(const std::string& name, const std::string& place)
     : place_(place), descriptor_(open(name.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ < 0) fail(place_, errno);
+  if (descriptor_ < 0) fail_lock(place_, errno);
   struct stat status;
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
   if (regular && lock_against_hdf5(descriptor_) && lock_against_writers(descriptor_)) return;
@@ -53,7 +53,7 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
 WriteLock::~WriteLock() { close(descriptor_); }
 
 void WriteLock::sync() {
-  if (fsync(descriptor_) != 0) fail(place_, errno);
+  if (fsync(descriptor_) != 0) fail_lock(place_, errno);
 }
 
 }  // namespace needlework::io

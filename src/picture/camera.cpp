@@ -7,8 +7,6 @@
 namespace needlework::picture {
 namespace {
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 // Corner 0 to 7 of a box with a margin; bit i of the number is for axis i.
 Vector corner(const Vector& box, std::size_t number, double margin = 0) {
   Vector point;
@@ -19,6 +17,8 @@ Vector corner(const Vector& box, std::size_t number, double margin = 0) {
 }
 
 }  // namespace
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Camera::Camera(const Vector& box, double margin, const CameraSettings& settings,
                const Frame& frame) {

@@ -11,6 +11,8 @@ namespace needlework::picture {
 
 using Vector = std::array<double, 3>;
 
+double dot(const Vector& a, const Vector& b);
+
 struct CameraSettings {
   double azimuth = 33;    ///< from where one looks: from the x axis towards the y axis [degrees]
   double elevation = 24;  ///< above the plane of x and y [degrees]

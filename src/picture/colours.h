@@ -13,6 +13,8 @@ struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 };
 
+inline constexpr Colour ink{0x22, 0x22, 0x22};  ///< of text and of most lines
+
 /// "#rrggbb".
 std::string hex(Colour colour);
 

@@ -15,7 +15,6 @@
 namespace needlework::picture {
 namespace {
 
-constexpr Colour ink{0x22, 0x22, 0x22};
 constexpr double line_width = 1.8;
 
 bool is_finite(const Point& point) { return std::isfinite(point.x) && std::isfinite(point.y); }

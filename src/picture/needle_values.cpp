@@ -8,12 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "src/picture/camera.h"
+
 namespace needlework::picture {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0;

@@ -15,7 +15,7 @@ constexpr double tick_size = 12, label_size = 13, title_size = 14;  // of texts 
 constexpr double row_height = 18;                                   // of the legend
 constexpr double bar_gap = 14, bar_thickness = 12;                  // of the bar of colours
 constexpr double margin_of_data = 0.04;
-constexpr Colour grey{0xdd, 0xdd, 0xdd}, ink{0x22, 0x22, 0x22};
+constexpr Colour grey{0xdd, 0xdd, 0xdd};
 
 double widest(const std::vector<Tick>& ticks) {
   double width = 0;

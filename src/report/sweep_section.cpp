@@ -15,7 +15,7 @@ Json text_at(const io::Contents& contents, const std::string& path) {
   return texts && texts->size() == 1 ? Json(texts->front()) : Json(nullptr);
 }
 
-Json parameters_of(const io::Contents& contents) {
+Json parameter_arrays(const io::Contents& contents) {
   Json out = Json::object();
   for (const std::string& name : contents.names("/parameters")) {
     const std::string path = "/parameters/" + name;
@@ -73,7 +73,7 @@ Json sweep_section(const std::string& path, const io::Contents& contents, const 
               {"grid", text_at(contents, "/sweep/grid")},
               {"scene", text_at(contents, "/sweep/scene")},
               {"version", text_at(contents, "/sweep/version")},
-              {"parameters", parameters_of(contents)},
+              {"parameters", parameter_arrays(contents)},
               {"members", count},
               {"results", quantities_of(contents, "/results", points, arrays)},
               {"series", Json::array()}};

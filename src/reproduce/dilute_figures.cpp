@@ -61,7 +61,7 @@ double log_tc_collisions(const FinishedRun& run) {
 }
 
 // T_tr / T_rot from `late_tau` on, over c.
-double late_ratio(const FinishedRun& run, double c) {
+double late_ratio_over_theory(const FinishedRun& run, double c) {
   const std::vector<double> taus = taus_of(run);
   double sum = 0, count = 0;
   for (std::size_t n = 0; n < taus.size(); ++n) {
@@ -152,7 +152,7 @@ FigureResult make_cooling(const PaperRuns& runs) {
     return exponent(taus, energies_of(run), taus.back() / 1000);
   });
   result.measurements = {{"energy-theory", "", curves.farthest},
-                         {"ratio-theory", "", over_seeds(late_ratio)},
+                         {"ratio-theory", "", over_seeds(late_ratio_over_theory)},
                          {"ratio-theory-start", "", curves.farthest_ratio},
                          {"ratio-time", "", over_seeds(time_to_share)},
                          {"haff-dilute", "", haff},

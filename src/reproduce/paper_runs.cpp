@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace sweep = runs::sweep;
-using State = runs::SweepFolder::State;
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -94,7 +93,7 @@ PaperRuns::Outcome PaperRuns::run(const std::string& set, int threads, runs::Swe
   std::vector<std::size_t> all, missing;
   for (std::size_t n = 0; n < grid.members.size(); ++n) {
     all.push_back(n);
-    if (folder.state(grid.members[n]) != State::finished) missing.push_back(n);
+    if (folder.state(grid.members[n]) != runs::SweepFolder::State::finished) missing.push_back(n);
   }
   const std::vector<double> costs = runs::estimated_costs(grid);
   runs::run_members({.grid = grid,

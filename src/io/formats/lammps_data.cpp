@@ -17,7 +17,6 @@ namespace needlework::io {
 namespace {
 
 constexpr const char* style = "hybrid sphere dipole";
-constexpr std::int64_t most_needles = std::numeric_limits<std::uint32_t>::max();
 
 // A row of Atoms, id type x y z diameter density q mux muy muz ix iy iz, is followed by what the
 // row of Velocities has after the id, vx vy vz wx wy wz. Images may be absent.

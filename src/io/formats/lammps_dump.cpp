@@ -14,7 +14,6 @@ namespace {
 constexpr std::string_view begin_of_frame = "ITEM: TIMESTEP";
 constexpr std::string_view begin_of_box = "ITEM: BOX BOUNDS";
 constexpr std::string_view begin_of_atoms = "ITEM: ATOMS";
-constexpr std::int64_t most_needles = std::numeric_limits<std::uint32_t>::max();
 
 void read_box(Lines& lines, State& state) {
   const auto words = lines.fields();

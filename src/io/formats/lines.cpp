@@ -11,8 +11,6 @@
 namespace needlework::io {
 namespace {
 
-constexpr std::size_t longest_quotation = 80;
-
 bool separates(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
@@ -37,11 +35,17 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
+std::string quotation(std::string_view text) {
+  constexpr std::size_t longest = 80;
+  if (text.size() <= longest) return std::string(text);
+  return std::string(text.substr(0, longest)) + "...";
+}
+
 double Row::read(std::size_t field, std::string_view name) const {
   double value = 0;
   const std::errc error = read_decimal(fields[field], value);
   if (error == std::errc()) return value;
-  reject(fmt::format("{} = {}: expected {}", name, fields[field].substr(0, longest_quotation),
+  reject(fmt::format("{} = {}: expected {}", name, quotation(fields[field]),
                      error == std::errc::result_out_of_range ? "a number that a double can hold"
                                                              : "a finite number"));
 }
@@ -55,8 +59,8 @@ std::int64_t Row::read_whole(std::size_t field, std::string_view name, std::int6
       value <= most) {
     return value;
   }
-  reject(fmt::format("{} = {}: expected a whole number from {} to {}", name,
-                     text.substr(0, longest_quotation), least, most));
+  reject(fmt::format("{} = {}: expected a whole number from {} to {}", name, quotation(text), least,
+                     most));
 }
 
 void Row::reject(std::string_view reason) const {

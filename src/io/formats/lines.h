@@ -53,6 +53,9 @@ class Lines {
   std::size_t next_ = 0;
 };
 
+/// The text as messages quote it: the beginning of a long one.
+std::string quotation(std::string_view text);
+
 /// The words of a line that blanks separate. Blanks between quotes separate nothing; quotes are
 /// kept.
 std::vector<std::string_view> words_of(std::string_view line);

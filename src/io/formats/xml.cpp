@@ -8,16 +8,10 @@
 
 #include "needlework/error.h"
 #include "src/io/decimal.h"
+#include "src/io/formats/lines.h"
 
 namespace needlework::io {
 namespace {
-
-constexpr std::size_t longest_quotation = 80;
-
-std::string quoted(std::string_view text) {
-  if (text.size() <= longest_quotation) return std::string(text);
-  return std::string(text.substr(0, longest_quotation)) + "...";
-}
 
 std::string_view trimmed(std::string_view text) {
   constexpr const char* blanks = " \t\r\n";
@@ -39,7 +33,7 @@ std::optional<XmlElement> element(const XmlDocument& document, pugi::xml_node no
 
 }  // namespace
 
-std::string XmlElement::name() const { return quoted(node_.name()); }
+std::string XmlElement::name() const { return quotation(node_.name()); }
 
 XmlElement XmlElement::child(const char* name) const {
   const auto found = first(name);
@@ -83,12 +77,12 @@ void XmlElement::require_only(std::initializer_list<std::string_view> attributes
                               std::initializer_list<std::string_view> children) const {
   for (const pugi::xml_attribute attribute : node_.attributes()) {
     if (contains(attributes, attribute.name())) continue;
-    reject(fmt::format("attribute {} cannot be carried over: expected {}", quoted(attribute.name()),
-                       listed(attributes)));
+    reject(fmt::format("attribute {} cannot be carried over: expected {}",
+                       quotation(attribute.name()), listed(attributes)));
   }
   for (const pugi::xml_node child : node_.children()) {
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-      reject(fmt::format("text '{}': expected elements only", quoted(trimmed(child.value()))));
+      reject(fmt::format("text '{}': expected elements only", quotation(trimmed(child.value()))));
     }
     if (contains(children, child.name())) continue;
     XmlElement(*document_, child)
@@ -108,7 +102,7 @@ void XmlElement::reject(std::string_view what) const {
 void XmlElement::reject(const char* attribute, std::string_view expected) const {
   throw InputError(fmt::format("{}: {} {} = {}: expected {}",
                                document_->place(node_.offset_debug()), name(), attribute,
-                               quoted(node_.attribute(attribute).value()), expected));
+                               quotation(node_.attribute(attribute).value()), expected));
 }
 
 XmlDocument::XmlDocument(std::string text, std::string path)

@@ -15,8 +15,6 @@
 namespace needlework::io {
 namespace {
 
-constexpr std::int64_t most_needles = std::numeric_limits<std::uint32_t>::max();
-
 std::string_view unquoted(std::string_view text) {
   if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') &&
       text.front() == text.back()) {
