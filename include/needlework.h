@@ -14,8 +14,9 @@
  * throws no exception to its caller, never ends the process, prints nothing, and changes no signal
  * handler and no setting of OpenMP or HDF5. It computes in the default floating-point environment,
  * whatever that of the caller is, and leaves the caller's as it was. A function that fails changes
- * nothing, except where it says so. If memory runs out while a simulation runs, every function on
- * it returns NEEDLEWORK_INVALID_STATE from then on; what its file holds stays.
+ * nothing, except where it says so. If memory runs out while a simulation runs, or a defect of the
+ * library is found in the middle of an event, every function on it returns NEEDLEWORK_INVALID_STATE
+ * from then on; what its file holds stays.
  *
  * Threads. Each function says in square brackets which calls may run at the same time:
  *   [any]     with every other function
@@ -161,7 +162,8 @@ enum needlework_stop {
  * simulation; NULL stands for the scene's [until]. `stop` receives a value of needlework_stop
  * (NULL: not wanted). Where a call stops does not change the trajectory. On failure the simulation
  * has come as far as it could: on NEEDLEWORK_INVALID_STATE the state is that before the event that
- * failed; on NEEDLEWORK_IO the output file is complete up to the last sample, and the simulation
+ * failed, and the message names the bundle for `needlework replay` that lies beside the output file,
+ * if there is one; on NEEDLEWORK_IO the output file is complete up to the last sample, and the simulation
  * can be looked at, but not run any further. [handle] */
 NEEDLEWORK_API int needlework_run_until(needlework_simulation* simulation,
                                         const needlework_limits* limits, int* stop);

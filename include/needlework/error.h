@@ -2,6 +2,9 @@
 // them to its exit codes.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -15,7 +18,18 @@ struct InputError : std::runtime_error {
 
 /// A simulation that cannot be continued correctly, such as an unresolvable collapse (exit code 4).
 struct InvalidStateError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  /// Ids of two needles, equal if there is one.
+  using Needles = std::optional<std::array<std::uint32_t, 2>>;
+  explicit InvalidStateError(const std::string& message, const Needles& which = {})
+      : std::runtime_error(message), needles(which) {}
+
+  Needles needles;  ///< those that the error is about, if it is about some
+};
+
+/// The same in the middle of an event. The state of the simulation is neither that before the event
+/// nor that after it, so that it must be neither continued nor saved.
+struct UnfinishedEventError : InvalidStateError {
+  using InvalidStateError::InvalidStateError;
 };
 
 /// A file that cannot be read or written (exit code 5).

@@ -44,8 +44,9 @@ class Simulation {
 
   /// Runs until the first of the conditions is met. They count from the start of the run, not from
   /// the present time. Throws InvalidStateError if the run cannot continue correctly; the state
-  /// then stays as it was before the event that failed. Throws InputError if no condition is
-  /// given, or if OpenMP provides fewer threads than at the start; the call may then be repeated.
+  /// then stays as it was before the event that failed, unless the error is an
+  /// UnfinishedEventError. Throws InputError if no condition is given, or if OpenMP provides fewer
+  /// threads than at the start; the call may then be repeated.
   Stop advance(const Scene::Until& until);
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time
@@ -61,10 +62,15 @@ class Simulation {
   Totals totals() const;
   const Counters& counters() const;
 
-  std::size_t needles() const;          ///< number of needles
-  std::uint64_t collisions() const;     ///< of all needles since the start of the run
-  double time() const;                  ///< since the start of the run
-  double initial_energy() const;        ///< per needle at the start, to which energy_ratio refers
+  std::size_t needles() const;       ///< number of needles
+  std::uint64_t collisions() const;  ///< of all needles since the start of the run
+  double time() const;               ///< since the start of the run
+  double initial_energy() const;     ///< per needle at the start, to which energy_ratio refers
+  /// How far rounding has moved the energy since the start. Each window of the run, about a mean
+  /// free time long, adds the relative difference between the energy of all needles and that by
+  /// account, which changes with each collision by its energy change. In an elastic gas, that is
+  /// the relative change of the energy. Costs about as much as totals().
+  double energy_drift() const;
   double epoch_length() const;          ///< power of two near the initial mean free time
   double mean_free_time() const;        ///< by kinetic theory, from the temperatures at the start
                                         ///< of the present window

@@ -50,7 +50,7 @@ void require_flags(unsigned flags) {
 void require_whole(const needlework_simulation& simulation) {
   if (!simulation.broken) return;
   throw InvalidStateError(
-      "memory did not suffice in the middle of an event: expected the simulation to be destroyed");
+      "an error came in the middle of an event: expected the simulation to be destroyed");
 }
 
 int report_failure(needlework_error* error) noexcept {

@@ -9,6 +9,7 @@
 
 #include "kernels/default_arithmetic.h"
 #include "needlework.h"
+#include "needlework/error.h"
 #include "src/runs/prepared_run.h"
 
 struct needlework_simulation {
@@ -79,13 +80,16 @@ int guarded(needlework_simulation* simulation, Action&& action) noexcept {
   return code;
 }
 
-/// Changes the state of the simulation by change(). If memory does not suffice, that ends in the
-/// middle of an event, and the simulation is broken.
+/// Changes the state of the simulation by change(). If memory does not suffice, or a defect of the
+/// program is found, that ends in the middle of an event, and the simulation is broken.
 template <class Change>
 auto changing(needlework_simulation& simulation, Change&& change) {
   try {
     return change();
   } catch (const std::bad_alloc&) {
+    simulation.broken = true;
+    throw;
+  } catch (const UnfinishedEventError&) {
     simulation.broken = true;
     throw;
   }

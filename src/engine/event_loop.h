@@ -103,7 +103,7 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   const Time until = std::min(next, limits.time);
   if (run_.window_end > until || until == Time::never()) return false;
   run_.now = run_.window_end;
-  run_.open_window();
+  run_.pass_window();
   FurtherTouches& touches = *run_.gas.further_touches;
   // No record of an earlier window is ever put back.
   if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);

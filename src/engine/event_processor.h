@@ -235,10 +235,11 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
   event.side = static_cast<std::int8_t>(contact.side);
   event.resolvable = !contact.unresolvable;
   if (event.time < now()) {
-    throw InvalidStateError("needles " + std::to_string(event.lower_id.value) + " and " +
-                            std::to_string(event.higher_id.value) + ": a contact at time " +
-                            std::to_string(gas_.clock.since_start(event.time)) +
-                            " was missed; this is a defect of the program");
+    throw UnfinishedEventError("needles " + std::to_string(event.lower_id.value) + " and " +
+                                   std::to_string(event.higher_id.value) + ": a contact at time " +
+                                   std::to_string(gas_.clock.since_start(event.time)) +
+                                   " was missed; this is a defect of the program",
+                               {{event.lower_id.value, event.higher_id.value}});
   }
   if (event < best) best = event;
 }
@@ -252,8 +253,10 @@ void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
   if (now() != tally_.instant) tally_.at_instant = 0;
   tally_.instant = now();
   if (++tally_.at_instant <= 10000 + 2 * gas_.size()) return;
-  throw InvalidStateError(message_of(
-      GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()), tally_.at_instant}));
+  throw InvalidStateError(
+      message_of(GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()),
+                               tally_.at_instant}),
+      {{gas_.ids[a].value, gas_.ids[b].value}});
 }
 
 template <Search S, Model M>
@@ -264,15 +267,17 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
   const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
   const Time start = Gas::start_of(first, second);
   const DoubleDouble elapsed = gas_.clock.exact_difference(event.time, start);
-  throw InvalidStateError(message_of(
-      PairCollapse{.first = event.lower_id,
-                   .second = event.higher_id,
-                   .time = gas_.clock.since_start(event.time),
-                   .gap = model_.gap(pair, elapsed) / model_.geometry(pair, elapsed).sin_angle,
-                   .after = gas_.clock.difference(event.time, start),
-                   .root_tolerance = model_.accuracy().root_tolerance,
-                   .epsilon = model_.restitution().epsilon,
-                   .contact_time = M::effects.contact_time}));
+  throw InvalidStateError(
+      message_of(
+          PairCollapse{.first = event.lower_id,
+                       .second = event.higher_id,
+                       .time = gas_.clock.since_start(event.time),
+                       .gap = model_.gap(pair, elapsed) / model_.geometry(pair, elapsed).sin_angle,
+                       .after = gas_.clock.difference(event.time, start),
+                       .root_tolerance = model_.accuracy().root_tolerance,
+                       .epsilon = model_.restitution().epsilon,
+                       .contact_time = M::effects.contact_time}),
+      {{event.lower_id.value, event.higher_id.value}});
 }
 
 }  // namespace needlework

@@ -41,7 +41,7 @@ class Loop {
 
   /// Processes events until a limit is met, or until the pause, when it returns nothing. Throws
   /// InvalidStateError when the run cannot continue correctly; the state then stays as it was
-  /// before the event that failed.
+  /// before the event that failed, unless the error is an UnfinishedEventError.
   virtual std::optional<Stop> advance(const Limits& limits) = 0;
   virtual const char* search_name() const = 0;
   virtual const char* calendar_name() const = 0;

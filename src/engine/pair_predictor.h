@@ -129,7 +129,7 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
 template <Model M>
 void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
   if (std::max(gas_.records[a].time, gas_.records[b].time) > now) {
-    throw InvalidStateError("needles touch at an event that another thread has done before");
+    throw UnfinishedEventError("needles touch at an event that another thread has done before");
   }
   ++counters_.touches;
   const Record* first = &gas_.records[a];

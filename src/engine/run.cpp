@@ -173,6 +173,22 @@ void Run::open_window() {
   search_span = 4 * window_span_;
 }
 
+void Run::pass_window() {
+  const double by_account = energy();
+  open_window();
+  drift_of_windows_ += drift_to(energy_at_window_, by_account);
+}
+
+double Run::drift_to(double energy_of_all, double by_account) {
+  return energy_of_all > 0 ? (energy_of_all - by_account) / energy_of_all : 0;
+}
+
+double Run::energy_drift() const {
+  Totals sums;
+  sum_energies(sums);
+  return drift_of_windows_ + drift_to(sums.energy * static_cast<double>(gas.size()), energy());
+}
+
 void Run::report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const {
   const auto state_of = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;

@@ -46,14 +46,19 @@ class Run {
     return energy_at_window_ + quantum_ * static_cast<double>(tally.energy - quanta_at_window_);
   }
   /// An energy as a whole number of quanta, which are far smaller than the resolution of a double
-  /// at the total energy. Sums of whole numbers do not depend on their order.
+  /// at the total energy. Sums of whole numbers do not depend on their order. Rounded to the
+  /// nearest, so that the energy by account does not drift.
   std::int64_t in_quanta(double energy) const {
-    return static_cast<std::int64_t>(energy * per_quantum_);
+    return static_cast<std::int64_t>(energy * per_quantum_ + (energy < 0 ? -0.5 : 0.5));
   }
+  /// See Simulation::energy_drift().
+  double energy_drift() const;
 
   /// Computes the mean free time, the contact time and the end of the next window from the present
   /// state.
   void open_window();
+  /// The same at the end of a window, of which the drift of the energy is noted.
+  void pass_window();
   bool nothing_can_happen() const;
 
   /// Passes a collision of these two needles to the callback, or appends it to `later`. Kept out
@@ -89,11 +94,14 @@ class Run {
   void require_consistent() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
+  /// The relative difference between this energy of all needles and that by account.
+  static double drift_to(double energy_of_all, double by_account);
 
   std::optional<double> tc_, tc_relative_;
   double window_span_ = 0;
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::int64_t quanta_at_window_ = 0;
+  double drift_of_windows_ = 0;  ///< of those that have ended
 };
 
 /// The effects on flight and pair rule that the scene requires.

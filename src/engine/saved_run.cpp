@@ -97,7 +97,8 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 // known twice.
 void Run::require_consistent() const {
   require(is_time(gas.clock, now) && is_time(gas.clock, window_end) && now.epoch >= 0);
-  require(quantum_ > 0 && std::isfinite(quantum_) && std::isfinite(initial_energy));
+  require(quantum_ > 0 && std::isfinite(quantum_) && std::isfinite(initial_energy) &&
+          std::isfinite(drift_of_windows_));
   if (gas.size() < 2) return;
   require(window_span_ > 0 && search_span > 0 && mean_free_time > 0 && contact_time >= 0);
   const auto is_past = [&](const Record& record) {
@@ -132,7 +133,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   require(!archive.reads() ||
           std::ranges::adjacent_find(gas.ids, std::ranges::equal_to{}) == gas.ids.end());
   archive(now, window_end, window_span_, mean_free_time, contact_time, search_span, initial_energy,
-          energy_at_window_, quantum_, quanta_at_window_);
+          energy_at_window_, quantum_, quanta_at_window_, drift_of_windows_);
   per_quantum_ = 1 / quantum_;
   archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
           tally.instant, tally.at_instant);

@@ -188,6 +188,7 @@ std::uint64_t Simulation::collisions() const { return implementation_->run.tally
 double Simulation::initial_energy() const {
   return implementation_->run.initial_energy / static_cast<double>(implementation_->run.gas.size());
 }
+double Simulation::energy_drift() const { return implementation_->run.energy_drift(); }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }

@@ -116,9 +116,10 @@ std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
   constexpr double most = std::numeric_limits<std::int32_t>::max();
   const double sum = image + boxes;
   if (std::abs(sum) <= most) return static_cast<std::int32_t>(sum);
-  throw InvalidStateError("needle " + std::to_string(id.value) +
-                          " has crossed more than 2^31 - 1 boxes along one axis: expected an "
-                          "earlier end of the run, or a larger box");
+  throw UnfinishedEventError("needle " + std::to_string(id.value) +
+                                 " has crossed more than 2^31 - 1 boxes along one axis: expected "
+                                 "an earlier end of the run, or a larger box",
+                             {{id.value, id.value}});
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {

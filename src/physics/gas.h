@@ -62,7 +62,7 @@ struct Wrapped {
 };
 Wrapped wrap(double x, double box);
 /// The number of boxes that a needle has crossed along an axis, with those just subtracted. Throws
-/// InvalidStateError if it is beyond 2^31 - 1, the most that files hold.
+/// UnfinishedEventError if it is beyond 2^31 - 1, the most that files hold.
 std::int32_t add_boxes(std::int32_t image, double boxes, Id id);
 
 /// The start of a new record. Its position follows from the free flight of the old one.

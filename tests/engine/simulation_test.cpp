@@ -49,6 +49,31 @@ TEST(Simulation, EndsAtTheExactCollision) {
   EXPECT_EQ(simulation.time(), last);
 }
 
+TEST(Simulation, DriftOfEnergyIsThatOfAnElasticGas) {
+  Scene scene = test::scene_of(100, 5);
+  Simulation simulation(scene);
+  const double start = simulation.totals().energy;
+  EXPECT_EQ(simulation.energy_drift(), 0);
+  simulation.advance(until_collisions(300));
+  const double changed = simulation.totals().energy / start - 1;
+  EXPECT_NE(changed, 0);
+  EXPECT_NEAR(simulation.energy_drift(), changed, 1e-15);
+}
+
+TEST(Simulation, DriftOfEnergyIsThatOfRoundingInAnInelasticGas) {
+  Scene scene = test::scene_of(100, 5);
+  scene.collisions.epsilon = 0.8;
+  scene.collisions.tc_relative = 1e-3;
+  Simulation simulation(scene);
+  const double start = simulation.totals().energy;
+  simulation.advance(until_collisions(300));
+  EXPECT_LT(simulation.totals().energy, 1e-3 * start);
+  EXPECT_NE(simulation.energy_drift(), 0);
+  EXPECT_LT(std::abs(simulation.energy_drift()), 1e-14);
+  Simulation continued(scene, simulation.checkpoint());
+  EXPECT_EQ(continued.energy_drift(), simulation.energy_drift());
+}
+
 TEST(Simulation, EndsAtTheFirstCollisionBelowTheEnergy) {
   Scene scene = test::scene_of(100, 5);
   scene.collisions.epsilon = 0.7;
