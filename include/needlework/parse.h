@@ -48,8 +48,9 @@ Scene parse_scene(std::string_view text, std::string_view name,
 Scene parse_overridden_scene(std::string_view text, std::string_view name,
                              std::span<const Override> overrides, Provided provided = {});
 
-/// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value".
-/// Throws InputError for other keys and for bad values.
+/// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value",
+/// and removes those that are "until.key=none". Throws InputError for other keys and for bad
+/// values.
 void override_until(Scene& scene, std::span<const std::string> overrides);
 
 /// The text of a scene file, or its first part if it is longer than max_scene_bytes, which

@@ -37,7 +37,29 @@ bool lock_against_writers(int descriptor) {
 #endif
 }
 
+// Whether lock_against_writers() would fail. A descriptor for reading is enough to ask.
+bool is_locked_by_writer(int descriptor) {
+#ifdef F_OFD_GETLK
+  struct flock whole_file {};
+  whole_file.l_type = F_WRLCK;
+  whole_file.l_whence = SEEK_SET;
+  return fcntl(descriptor, F_OFD_GETLK, &whole_file) == 0 && whole_file.l_type != F_UNLCK;
+#else
+  return false;
+#endif
+}
+
+constexpr const char* is_being_written = ": another program has the file open for writing";
+
 }  // namespace
+
+void require_not_being_written(const std::string& name, const std::string& place) {
+  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return;
+  const bool written = !lock_against_hdf5(descriptor) || is_locked_by_writer(descriptor);
+  close(descriptor);  // and its lock
+  if (written) throw IoError(place + is_being_written);
+}
 
 WriteLock::WriteLock(const std::string& name, const std::string& place)
     : place_(place), descriptor_(open(name.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)) {
@@ -46,8 +68,7 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
   if (regular && lock_against_hdf5(descriptor_) && lock_against_writers(descriptor_)) return;
   close(descriptor_);
-  throw IoError(place_ + (regular ? ": another program has the file open for writing"
-                                  : ": not a regular file"));
+  throw IoError(place_ + (regular ? is_being_written : ": not a regular file"));
 }
 
 WriteLock::~WriteLock() { close(descriptor_); }

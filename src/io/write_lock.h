@@ -5,6 +5,10 @@
 
 namespace needlework::io {
 
+/// Throws IoError, "PLACE: reason", if a program has this file open for writing, as far as locks
+/// show that. Of a file that does not exist or may not be read, they show nothing.
+void require_not_being_written(const std::string& name, const std::string& place);
+
 /// A lock of the operating system on an existing file. While it exists,
 ///
 /// - no other WriteLock on the file can be made, in this or another process;

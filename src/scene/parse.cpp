@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "needlework/error.h"
@@ -205,6 +206,26 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   return scene;
 }
 
+namespace {
+
+bool is_none(const Value& value) {
+  const auto* text = value.as<std::string>();
+  return text && *text == "none";
+}
+
+void remove_end(Scene::Until& until, std::string_view key) {
+  auto& [time, collisions_per_needle, energy_ratio, wall_s] = until;
+  for (const auto& [name, end] :
+       {std::pair<std::string_view, std::optional<double>*>{"time", &time},
+        {"collisions_per_needle", &collisions_per_needle},
+        {"energy_ratio", &energy_ratio},
+        {"wall_s", &wall_s}}) {
+    if (name == key) end->reset();
+  }
+}
+
+}  // namespace
+
 void override_until(Scene& scene, std::span<const std::string> overrides) {
   const std::vector<Override> set = of_options(overrides);
   const Document document("", "", set);
@@ -213,8 +234,11 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
     if (!key) throw document.error(entry, expected_instead(entry));
     if (entry.section != "until")
       throw document.error(entry, "expected a key of [until], as the rest of the scene is given");
-    if (!key->read(scene, entry.value))
-      throw document.error(entry, fmt::format("expected {}", key->expected));
+    if (is_none(entry.value)) {
+      remove_end(scene.until, entry.key);
+    } else if (!key->read(scene, entry.value)) {
+      throw document.error(entry, fmt::format("expected {}, or none to remove it", key->expected));
+    }
     scene.places[full_name(entry)] = document.place(entry);
   }
 }
