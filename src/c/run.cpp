@@ -17,7 +17,7 @@ namespace {
 /// Neither shows progress nor stops a run: callers interrupt it.
 struct NoMonitor : runs::RunMonitor {
   bool is_due(double) const override { return false; }
-  void show(double, double, const Totals&, double) override {}
+  void show(const runs::Progress&) override {}
 };
 
 static_assert(static_cast<int>(Stop::time) == NEEDLEWORK_STOP_TIME);

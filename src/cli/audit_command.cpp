@@ -16,11 +16,11 @@
 #include "src/cli/progress.h"
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
-#include "src/observe/completion.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
+#include "src/runs/pace.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/resources.h"
 #include "src/scene/check.h"
@@ -57,7 +57,7 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
   Outcome outcome;
   outcome.clock.start();
   const double begin = runs::seconds_since_launch();
-  const Totals initial = simulation.totals();
+  const runs::Pace pace(simulation, scene, scene.until, simulation.totals());
   try {
     for (;;) {
       const double elapsed = runs::seconds_since_launch() - begin;
@@ -70,11 +70,7 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
         break;
       }
       if (progress.is_due(elapsed)) {
-        const Totals now = simulation.totals();
-        progress.show(elapsed,
-                      completed_fraction(scene.until, initial, now,
-                                         static_cast<double>(scene.needles.count), elapsed),
-                      now, initial.energy);
+        progress.show(pace.after(elapsed));
       }
       Scene::Until until = scene.until;
       until.wall_s = longest_step;

@@ -186,7 +186,7 @@ standard error.
 
 Exit codes:
   0   done
-  1   differences were found (audit, bench --compare)
+  1   differences were found (audit, bench --compare, replay)
   2   wrong usage
   3   a scene or an input file that cannot be used
   4   the state of a run became invalid

@@ -5,8 +5,8 @@
 
 namespace needlework::cli {
 
-/// Commands about runs: run, resume, sweep, reproduce, check, theory, predict, audit. The command
-/// that is called sets the exit code.
+/// Commands about runs: run, resume, replay, sweep, reproduce, check, theory, predict, audit. The
+/// command that is called sets the exit code.
 void add_run_commands(CLI::App& app, int& exit_code);
 /// Commands about files: info, import, export, report, view.
 void add_file_commands(CLI::App& app, int& exit_code);

@@ -36,14 +36,13 @@ std::string shell_word(std::string_view word) {
   return out + "'";
 }
 
-void warn_of_name(std::string_view place, std::string_view file,
-                  std::initializer_list<std::string_view> endings) {
+std::optional<std::string> warning_of_name(std::string_view place, std::string_view file,
+                                           std::initializer_list<std::string_view> endings) {
   const bool fits = std::any_of(endings.begin(), endings.end(),
                                 [&](std::string_view ending) { return file.ends_with(ending); });
-  if (fits) return;
-  print_warning(
-      fmt::format("{}: will be an HDF5 file nevertheless: expected a name that ends in {}", place,
-                  *endings.begin()));
+  if (fits) return std::nullopt;
+  return fmt::format("{}: will be an HDF5 file nevertheless: expected a name that ends in {}",
+                     place, *endings.begin());
 }
 
 }  // namespace needlework::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,8 +17,9 @@ void print_warning(std::string_view message);
 /// A word as a shell takes it, in quotes where it needs them.
 std::string shell_word(std::string_view word);
 
-/// Warns, naming the place, if the name of a file that is to be written has none of these endings.
-void warn_of_name(std::string_view place, std::string_view file,
-                  std::initializer_list<std::string_view> endings);
+/// A warning that names the place, if the name of a file that is to be written has none of these
+/// endings; else nothing.
+std::optional<std::string> warning_of_name(std::string_view place, std::string_view file,
+                                           std::initializer_list<std::string_view> endings);
 
 }  // namespace needlework::cli

@@ -74,6 +74,21 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   add_engine_options(command, arguments.engine);
 }
 
+void add_log(CLI::App& command, std::optional<std::string>& log) {
+  command
+      .add_option("--log", log,
+                  "append start, progress, checkpoints, warnings and end to a file, as JSON Lines")
+      ->option_text("FILE");
+}
+
+void add_progress_every(CLI::App& command, std::optional<double>& every) {
+  command
+      .add_option("--progress-every", every,
+                  "wall time between two lines of progress [s]; by default 10, on a terminal 1")
+      ->option_text("S")
+      ->check(number_in(0.0, 1e6));
+}
+
 void add_printing(CLI::App& command, Printing& printing) {
   command.add_flag("--json", printing.json, "print the result as one JSON object");
   CLI::Option* quiet = command.add_flag("--quiet", printing.quiet, "no progress, no summary");
@@ -82,6 +97,8 @@ void add_printing(CLI::App& command, Printing& printing) {
                 "draw energy, T_tr/T_rot and collision rate on the terminal while the run lasts")
       ->excludes(quiet)
       ->check(terminal_on_stderr());
+  add_progress_every(command, printing.progress_every);
+  add_log(command, printing.log);
 }
 
 }  // namespace needlework::cli

@@ -50,7 +50,11 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa);
 void add_engine_options(CLI::App& command, EngineOptions& engine);
 /// All of these.
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
-/// --json, --quiet and --watch.
+/// --log.
+void add_log(CLI::App& command, std::optional<std::string>& log);
+/// --progress-every.
+void add_progress_every(CLI::App& command, std::optional<double>& every);
+/// --json, --quiet, --watch, and both of these.
 void add_printing(CLI::App& command, Printing& printing);
 
 }  // namespace needlework::cli

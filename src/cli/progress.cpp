@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/signals.h"
 #include "src/cli/terminal.h"
@@ -19,16 +21,16 @@ constexpr double terminal_interval = 1, line_interval = 10;  // [s]
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet)
+ProgressLine::ProgressLine(bool quiet, std::optional<double> every)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
-      next_(terminal_ ? terminal_interval : line_interval) {}
+      interval_(every.value_or(terminal_ ? terminal_interval : line_interval)),
+      next_(interval_) {}
 
 bool ProgressLine::is_due(double elapsed) const { return !quiet_ && elapsed >= next_; }
 
-void ProgressLine::show(double elapsed, double fraction, std::string_view more) {
-  next_ = elapsed + (terminal_ ? terminal_interval : line_interval);
-  std::string line = runs::progress_text(elapsed, fraction, more);
+void ProgressLine::show(double elapsed, std::string line) {
+  next_ = elapsed + interval_;
   if (!terminal_) {
     fmt::print(stderr, "{}\n", line);
     return;
@@ -44,21 +46,41 @@ void ProgressLine::clear() {
   drawn_ = 0;
 }
 
-void RunProgress::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
-  line_.show(elapsed, fraction, runs::progress_of_run(now, initial_energy));
+void RunProgress::show(const runs::Progress& progress) {
+  line_.show(progress.elapsed, runs::progress_text(progress));
 }
 
 bool RunProgress::stop_requested() const { return SignalGuard::received() != 0; }
 
+void SweepProgress::log_to(LogFile& log, double every) {
+  log_ = &log;
+  log_interval_ = next_in_log_ = every;
+}
+
 void SweepProgress::show(double elapsed, double fraction, std::size_t finished,
                          std::size_t members) {
-  line_.show(elapsed, fraction, fmt::format("{} of {} members", finished, members));
+  const double left = elapsed * ((1 - fraction) / fraction);
+  if (line_.is_due(elapsed)) {
+    line_.show(elapsed, runs::progress_text(fraction, left,
+                                            fmt::format("{} of {} members", finished, members)));
+  }
+  if (!log_ || elapsed < next_in_log_) return;
+  next_in_log_ = elapsed + log_interval_;
+  log_->write("progress", {{"elapsed_s", elapsed},
+                           {"fraction", fraction},
+                           {"left_s", number(left)},
+                           {"finished", finished},
+                           {"members", members}});
 }
 
 void SweepProgress::report_failure(const runs::sweep::Member& member,
                                    const runs::Failure& failure) {
   line_.clear();
   print_error(fmt::format("member {}: {}", member.name, failure.message));
+  if (!log_) return;
+  const int code = failure.exit_code;
+  log_->write("member_failed",
+              {{"member", member.name}, {"exit_code", code}, {"message", failure.message}});
 }
 
 bool SweepProgress::stop_requested() const { return SignalGuard::received() != 0; }

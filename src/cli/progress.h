@@ -2,25 +2,32 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
+#include "src/cli/log_file.h"
 #include "src/runs/run_monitor.h"
 #include "src/runs/sweep_run.h"
 
 namespace needlework::cli {
 
-/// On a terminal one line, drawn again and again; elsewhere a line every 10 s. Plain text without
-/// colours or other escape sequences, so there is nothing that NO_COLOR would have to turn off.
+/// Interval of progress in a log, unless an option gives another one [s].
+constexpr double log_interval = 10;
+
+/// On a terminal one line, drawn again every second; elsewhere a line every 10 s. Plain text
+/// without colours or other escape sequences, so there is nothing that NO_COLOR would have to turn
+/// off.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  /// `every`: another interval [s].
+  explicit ProgressLine(bool quiet, std::optional<double> every = {});
   ~ProgressLine() { clear(); }
 
   /// Whether it is time for another line, `elapsed` seconds of wall time into the work.
   bool is_due(double elapsed) const;
 
-  /// Shows the share done (of [0, 1]), the time left that follows from it, and more.
-  void show(double elapsed, double fraction, std::string_view more);
+  /// Shows a line.
+  void show(double elapsed, std::string line);
 
   /// Takes the line off a terminal, before anything else is printed.
   void clear();
@@ -28,16 +35,16 @@ class ProgressLine {
  private:
   bool quiet_;
   bool terminal_;
-  double next_;
+  double interval_, next_;
   std::size_t drawn_ = 0;  ///< columns of the line on the terminal
 };
 
 /// Shows the progress of the only run; signals stop it.
 class RunProgress : public runs::RunMonitor {
  public:
-  explicit RunProgress(bool quiet) : line_(quiet) {}
+  explicit RunProgress(bool quiet, std::optional<double> every = {}) : line_(quiet, every) {}
   bool is_due(double elapsed) const override { return line_.is_due(elapsed); }
-  void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
+  void show(const runs::Progress& progress) override;
   void clear() override { line_.clear(); }
   bool stop_requested() const override;
 
@@ -45,17 +52,24 @@ class RunProgress : public runs::RunMonitor {
   ProgressLine line_;
 };
 
-/// Shows the progress of a sweep and its errors; signals stop it.
+/// Shows the progress of a sweep and its errors, and logs them where there is a log; signals stop
+/// it.
 class SweepProgress : public runs::SweepMonitor {
  public:
-  explicit SweepProgress(bool quiet) : line_(quiet) {}
-  bool is_due(double elapsed) const override { return line_.is_due(elapsed); }
+  explicit SweepProgress(bool quiet, std::optional<double> every = {}) : line_(quiet, every) {}
+  /// From now on. The log must outlive this object; `every`: the interval of progress in it [s].
+  void log_to(LogFile& log, double every);
+  bool is_due(double elapsed) const override {
+    return line_.is_due(elapsed) || (log_ && elapsed >= next_in_log_);
+  }
   void show(double elapsed, double fraction, std::size_t finished, std::size_t members) override;
   void report_failure(const runs::sweep::Member& member, const runs::Failure& failure) override;
   bool stop_requested() const override;
 
  private:
   ProgressLine line_;
+  LogFile* log_ = nullptr;
+  double log_interval_ = 0, next_in_log_ = 0;
 };
 
 }  // namespace needlework::cli

@@ -31,8 +31,13 @@ int run(const ResumeArguments& arguments) {
     apply(arguments.engine, scene);
   });
   if (!warning.empty()) print_warning(warning);
-  runs::PreparedRun prepared(std::move(saved));
-  return drive(prepared, signals, arguments.printing);
+  RunLog log = open_log(arguments.printing, arguments.file);
+  return logged(log, [&, &from = saved, &of_checkpoint = warning] {
+    runs::PreparedRun prepared(std::move(from));
+    log.start({}, prepared);
+    if (!of_checkpoint.empty()) log.warning(of_checkpoint);
+    return drive(prepared, signals, arguments.printing, log);
+  });
 }
 
 }  // namespace needlework::cli

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "src/cli/messages.h"
 #include "src/cli/progress.h"
@@ -12,6 +14,7 @@
 #include "src/cli/scene_arguments.h"
 #include "src/cli/signals.h"
 #include "src/cli/watch.h"
+#include "src/io/write_lock.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -37,27 +40,58 @@ std::string how_to_continue(const Scene& scene) {
   return fmt::format("; needlework resume {} continues", shell_word(file));
 }
 
-int exit_code_of(const runs::Course& course, const Scene& scene) {
+// The message of a run that has not got to its end.
+struct Ending {
+  runs::ExitCode exit_code = ok;
+  std::string message = {};
+};
+
+Ending ending_of(const runs::Course& course, const Scene& scene) {
   if (course.failure) {
-    print_error(fmt::format("{} ({})", *course.failure, where_saved(scene)));
-    return invalid_state;
+    const std::string replay =
+        course.bundle.empty()
+            ? ""
+            : fmt::format("; needlework replay {} shows it again", shell_word(course.bundle));
+    return {invalid_state, fmt::format("{} ({}{})", *course.failure, where_saved(scene), replay)};
   }
   if (course.stop == Stop::interrupted || course.stop == Stop::wall_time) {
-    print_error(fmt::format("stopped by {} at time {:.6g} after {} collisions ({})",
-                            course.stop == Stop::wall_time ? "until.wall_s" : "a signal",
-                            course.last.time, course.last.collisions,
-                            where_saved(scene) + how_to_continue(scene)));
-    return stopped;
+    return {stopped, fmt::format("stopped by {} at time {:.6g} after {} collisions ({})",
+                                 course.stop == Stop::wall_time ? "until.wall_s" : "a signal",
+                                 course.last.time, course.last.collisions,
+                                 where_saved(scene) + how_to_continue(scene))};
   }
-  return ok;
+  return {};
 }
 
 std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printing& printing) {
   if (printing.watch) return std::make_unique<RunWatch>(scene);
-  return std::make_unique<RunProgress>(printing.quiet);
+  return std::make_unique<RunProgress>(printing.quiet, printing.progress_every);
 }
 
+// Prints the warnings about a scene that is about to be run.
+std::vector<std::string> warn(const Scene& scene) {
+  std::vector<std::string> warnings = runs::all_warnings(scene);
+  const std::string& file = scene.output.file;
+  const std::string place = place_of(scene, "output.file", file);
+  const auto of_name = warning_of_name(place, file, {".h5", ".hdf5", ".h5md"});
+  if (!file.empty() && of_name) warnings.insert(warnings.begin(), *of_name);
+  for (const std::string& warning : warnings) print_warning(warning);
+  return warnings;
+}
+
+bool is_at(const Simulation& simulation, double time, std::uint64_t collisions) {
+  return simulation.time() == time && simulation.collisions() == collisions;
+}
+
+constexpr const char* nothing_to_do =
+    "the end of the run is met already: nothing to do; --set until.KEY=VALUE sets another end, "
+    "--set until.KEY=none removes one";
+
 }  // namespace
+
+RunLog open_log(const Printing& printing, const std::string& output_file) {
+  return printing.log ? RunLog(*printing.log, output_file) : RunLog();
+}
 
 int run(const RunArguments& arguments) {
   SignalGuard signals;  // a signal during the set-up ends the run in order, too
@@ -67,22 +101,31 @@ int run(const RunArguments& arguments) {
     scene.output.file = *arguments.out;
     scene.places["output.file"] = "--out " + *arguments.out;
   }
-  const std::string& file = scene.output.file;
+  const std::string file = scene.output.file;
   if (!file.empty()) {
     const std::string place = place_of(scene, "output.file", file);
     runs::require_writable(file, arguments.force, place);
-    warn_of_name(place, file, {".h5", ".hdf5", ".h5md"});
+    io::require_not_being_written(file, place + ": cannot be replaced");
   }
-  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
-
-  runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
-  return drive(prepared, signals, arguments.printing);
+  const std::vector<std::string> warnings = warn(scene);
+  RunLog log = open_log(arguments.printing, file);
+  return logged(log, [&] {
+    runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+    log.start(arguments.scene.path, prepared);
+    for (const std::string& warning : warnings) log.warning(warning);
+    return drive(prepared, signals, arguments.printing, log);
+  });
 }
 
-int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& printing) {
+int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& printing,
+          RunLog& log) {
   signals.interrupt(prepared.simulation());
-  const auto monitor = make_monitor(prepared.scene(), printing);
-  const runs::Course course = prepared.drive(*monitor);
+  const auto shown = make_monitor(prepared.scene(), printing);
+  LoggedRun with_log(*shown, log, printing.progress_every.value_or(log_interval));
+  runs::RunMonitor& monitor = log ? static_cast<runs::RunMonitor&>(with_log) : *shown;
+  const double time = prepared.simulation().time();
+  const std::uint64_t collisions = prepared.simulation().collisions();
+  const runs::Course course = prepared.drive(monitor);
 
   const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
   if (printing.json) {
@@ -90,7 +133,14 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
   } else if (!printing.quiet) {
     fmt::print("{}", summary_of(report));
   }
-  return exit_code_of(course, prepared.scene());
+  const Ending ending = ending_of(course, prepared.scene());
+  if (!ending.message.empty()) print_error(ending.message);
+  if (ending.exit_code == ok && time > 0 && is_at(prepared.simulation(), time, collisions)) {
+    print_warning(nothing_to_do);
+    log.warning(nothing_to_do);
+  }
+  log.end(prepared, course, ending.exit_code, ending.message);
+  return ending.exit_code;
 }
 
 }  // namespace needlework::cli

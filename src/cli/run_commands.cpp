@@ -12,6 +12,7 @@
 #include "src/cli/commands.h"
 #include "src/cli/options.h"
 #include "src/cli/predict_command.h"
+#include "src/cli/replay_command.h"
 #include "src/cli/reproduce_command.h"
 #include "src/cli/resume_command.h"
 #include "src/cli/run_command.h"
@@ -31,7 +32,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--force", arguments->force, "replace an existing output file");
   command->footer(R"(Prints a summary: how the run ended, its energy and temperatures beside those
 of theory, and what it cost. Without --out and without output.file in the
-scene, no file is written. --watch needs a terminal.
+scene, no file is written. --watch needs a terminal. docs/log.md describes the
+lines of --log.
 
 Examples:
   needlework run profiles/quickstart.toml
@@ -45,7 +47,8 @@ void add_resume_command(CLI::App& app, int& exit_code) {
   command->add_option("FILE.h5", arguments->file, "output file of the run")->required();
   command
       ->add_option("--set", arguments->overrides,
-                   "replace an end of the run, such as until.time=100; may be repeated")
+                   "replace an end of the run, such as until.time=100, or remove it by "
+                   "until.time=none; may be repeated")
       ->option_text("until.KEY=VALUE")
       ->allow_extra_args(false);
   add_engine_options(*command, arguments->engine);
@@ -57,6 +60,36 @@ FILE.h5, with the same collisions as if it had never been stopped. The ends in
 Examples:
   needlework resume cooling.h5
   needlework resume cooling.h5 --set until.time=1e6 --threads 2)");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_replay_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("replay", "show again how a run has failed");
+  const auto arguments = std::make_shared<ReplayArguments>();
+  command->add_option("BUNDLE", arguments->bundle, "file that the failed run has named")
+      ->required()
+      ->option_text("FILE");
+  command
+      ->add_option("--last", arguments->last, "number of collisions to print, the last of the run")
+      ->option_text("N")
+      ->check(number_in(0, 1000000))
+      ->capture_default_str();
+  add_engine_options(*command, arguments->engine);
+  command->add_flag("--json", arguments->json, "print the result as one JSON object");
+  command->add_flag("--quiet", arguments->quiet, "no progress, no result");
+  add_progress_every(*command, arguments->progress_every);
+  command->footer(R"(A run with an output file FILE.h5 that fails with exit code 4 leaves a bundle,
+FILE.h5.failure: its last checkpoint before the failure, and what the failure
+was. The run is repeated from there, without output, until it fails or passes
+the place where it failed. Printed are the last collisions of the needles that
+the failure is about, or of all needles. A checkpoint is taken, too: that of a
+run whose process has crashed, for instance.
+
+Exit codes: 4 if the run fails again in the same way, 1 if it does not, or in
+another way.
+
+Example:
+  needlework replay cooling.h5.failure)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
@@ -79,6 +112,8 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
                     "run nothing; sum up the members that are finished");
   command->add_flag("--json", arguments->json, "print the result as one JSON object");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");
+  add_progress_every(*command, arguments->progress_every);
+  add_log(*command, arguments->log);
   command->add_flag("--force", arguments->force,
                     "continue in the folder of another grid; members that differ are run again");
   command->footer(R"(A member is one run: a point of the grid with one of the seeds. The same
@@ -258,6 +293,7 @@ Examples:
 void add_run_commands(CLI::App& app, int& exit_code) {
   add_run_command(app, exit_code);
   add_resume_command(app, exit_code);
+  add_replay_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_reproduce_command(app, exit_code);
   add_check_command(app, exit_code);

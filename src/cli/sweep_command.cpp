@@ -2,18 +2,23 @@
 
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
-#include <set>
+#include <utility>
+#include <vector>
 
 #include "needlework/error.h"
 #include "src/cli/file_kind.h"
 #include "src/cli/json.h"
+#include "src/cli/log_file.h"
 #include "src/cli/messages.h"
 #include "src/cli/progress.h"
 #include "src/cli/ranks.h"
@@ -66,15 +71,18 @@ void choose_engines(sweep::Grid& grid, const std::optional<std::string>& isa) {
   }
 }
 
-void print_warnings(const sweep::Grid& grid) {
-  std::set<std::string> printed;
+// Each once, in the order of the members.
+std::vector<std::string> all_warnings(const sweep::Grid& grid) {
+  std::vector<std::string> all;
   for (const sweep::Member& member : grid.members) {
     Scene scene = member.scene;
     scene.output.file = member.name;  // output does go somewhere
-    for (const std::string& warning : warnings(scene)) {
-      if (printed.insert(warning).second) print_warning(warning);
+    for (std::string& warning : warnings(scene)) {
+      if (std::find(all.begin(), all.end(), warning) == all.end())
+        all.push_back(std::move(warning));
     }
   }
+  return all;
 }
 
 void require_memory(const runs::MemberRuns& runs) {
@@ -96,6 +104,8 @@ class Sweep {
 
  private:
   void prepare();
+  void begin_log();
+  void warn(const std::string& message);
   void find_out_what_is_there();
   void run_what_is_missing();
   void look_at_those_of_others();
@@ -106,6 +116,7 @@ class Sweep {
   const SweepArguments& arguments_;
   const Share share_;
   const Ranks ranks_;
+  std::unique_ptr<LogFile> log_;  ///< if there is one
   sweep::Grid grid_;
   std::optional<runs::SweepFolder> folder_;
   std::vector<double> costs_;
@@ -129,7 +140,29 @@ int Sweep::run() {
   });
   int result = code;
   for (const std::size_t member : members_) result = std::max(result, codes_[member]);
+  if (log_ && ranks_.rank() == 0) {
+    log_->write("end", {{"exit_code", result}, {"computed", computed_}, {"missing", missing_}});
+  }
   return result;
+}
+
+void Sweep::begin_log() {
+  if (!arguments_.log) return;
+  log_ = std::make_unique<LogFile>(*arguments_.log, "--log " + *arguments_.log);
+  if (ranks_.rank() > 0) return;
+  log_->write("start", {{"command", "sweep"},
+                        {"version", NEEDLEWORK_VERSION},
+                        {"grid", arguments_.grid},
+                        {"pid", getpid()},
+                        {"members", members_.size()},
+                        {"threads", threads_},
+                        {"ranks", ranks_.count()}});
+}
+
+void Sweep::warn(const std::string& message) {
+  if (ranks_.rank() > 0) return;
+  print_warning(message);
+  if (log_) log_->write("warning", {{"message", message}});
 }
 
 void Sweep::prepare() {
@@ -145,15 +178,16 @@ void Sweep::prepare() {
     throw InputError(place + ": expected the folder of a sweep, to sum up: it does not exist");
   }
   folder_.emplace(out, grid_, arguments_.force, place);
-  if (ranks_.rank() == 0) print_warnings(grid_);
   costs_ = runs::estimated_costs(grid_);
   std::vector<std::size_t> all(grid_.members.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   members_ = runs::share_of(all, costs_, share_.k, share_.m);
   threads_ = arguments_.threads.value_or(omp_get_max_threads());
-  if (arguments_.threads && threads_ > runs::cores() && ranks_.rank() == 0) {
-    print_warning(fmt::format("--threads {}: expected at most {}, the number of cores here",
-                              threads_, runs::cores()));
+  begin_log();
+  for (const std::string& warning : all_warnings(grid_)) warn(warning);
+  if (arguments_.threads && threads_ > runs::cores()) {
+    warn(fmt::format("--threads {}: expected at most {}, the number of cores here", threads_,
+                     runs::cores()));
   }
 }
 
@@ -181,7 +215,12 @@ void Sweep::run_what_is_missing() {
   const runs::MemberRuns runs{
       .grid = grid_, .folder = *folder_, .members = mine, .costs = costs_, .threads = threads_};
   require_memory(runs);
-  SweepProgress progress(arguments_.quiet || ranks_.rank() > 0);
+  SweepProgress progress(arguments_.quiet || ranks_.rank() > 0, arguments_.progress_every);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (log_) {
+    const double every = arguments_.progress_every.value_or(log_interval);
+    progress.log_to(*log_, ranks_.rank() == 0 ? every : never);
+  }
   const SignalGuard guard;
   runs::run_members(runs, progress, codes_);
 }

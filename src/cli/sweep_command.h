@@ -8,8 +8,9 @@ namespace needlework::cli {
 
 struct SweepArguments {
   std::string grid;
-  std::optional<std::string> member, out, isa;
+  std::optional<std::string> member, out, isa, log;
   std::optional<int> threads;
+  std::optional<double> progress_every;  ///< [s]
   bool summary = false, json = false, quiet = false, force = false;
 };
 

@@ -64,12 +64,12 @@ void RunWatch::begin(const Totals& initial, std::span<const Totals> samples) {
   for (const Totals& sample : samples) run_->add(sample);
 }
 
-void RunWatch::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
-  next_record_ = elapsed + record_interval;
-  run_->add(now);
-  if (elapsed < next_drawing_) return;
-  next_drawing_ = elapsed + drawing_interval;
-  progress_ = runs::progress_text(elapsed, fraction, runs::progress_of_run(now, initial_energy));
+void RunWatch::show(const runs::Progress& progress) {
+  next_record_ = progress.elapsed + record_interval;
+  run_->add(progress.now);
+  if (progress.elapsed < next_drawing_) return;
+  next_drawing_ = progress.elapsed + drawing_interval;
+  progress_ = runs::progress_text(progress);
   draw();
 }
 

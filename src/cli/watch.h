@@ -29,7 +29,7 @@ class RunWatch : public runs::RunMonitor {
   explicit RunWatch(const Scene& scene);
   void begin(const Totals& initial, std::span<const Totals> samples) override;
   bool is_due(double elapsed) const override { return elapsed >= next_record_; }
-  void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
+  void show(const runs::Progress& progress) override;
   void clear() override;
   bool stop_requested() const override;
 

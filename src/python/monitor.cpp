@@ -9,10 +9,9 @@ namespace py = pybind11;
 /// Time between two lines of progress [s].
 constexpr double interval = 0.5;
 
-void Monitor::show(double elapsed, double fraction, const Totals& now, double initial_energy) {
-  next_ = elapsed + interval;
-  const std::string line =
-      runs::progress_text(elapsed, fraction, runs::progress_of_run(now, initial_energy));
+void Monitor::show(const runs::Progress& progress) {
+  next_ = progress.elapsed + interval;
+  const std::string line = runs::progress_text(progress);
   const py::gil_scoped_acquire lock;
   try {
     show_(line);

@@ -18,7 +18,7 @@ class Monitor : public runs::RunMonitor {
   explicit Monitor(pybind11::object show) : show_(std::move(show)), quiet_(show_.is_none()) {}
 
   bool is_due(double elapsed) const override { return !quiet_ && elapsed >= next_; }
-  void show(double elapsed, double fraction, const Totals& now, double initial_energy) override;
+  void show(const runs::Progress& progress) override;
   /// Asks Python, which runs the handlers of signals in its main thread only.
   bool stop_requested() const override;
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <boost/crc.hpp>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -15,6 +13,7 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/runs/saved_totals.h"
 #include "src/scene/saved_scene.h"
@@ -32,10 +31,16 @@ void transfer(Archive& archive, Writer::Position& position) {
 }  // namespace needlework
 
 namespace needlework::runs {
+
+static void transfer(Archive& archive, RunFailure& failure) {
+  auto& [message, needles, time, collisions, trajectory_hash, version] = failure;
+  archive(message, needles, time, collisions, trajectory_hash, version);
+}
+
 namespace {
 
 // To be changed whenever what is saved changes, here or in any function `transfer`.
-constexpr std::string_view mark = "needlework checkpoint 1\n";
+constexpr std::string_view mark = "needlework checkpoint 2\n";
 
 // Follows the mark.
 struct Header {
@@ -44,14 +49,8 @@ struct Header {
 };
 
 void transfer(Archive& archive, RunCheckpoint& run) {
-  archive(run.scene, run.drawn, run.initial, run.simulation, run.output, run.observation);
-}
-
-// The cyclic redundancy check of ECMA-182.
-std::uint64_t checksum_of(std::string_view bytes) {
-  boost::crc_optimal<64, 0x42f0e1eba9ea3693, ~std::uint64_t{0}, ~std::uint64_t{0}, true, true> crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
+  archive(run.scene, run.drawn, run.initial, run.simulation, run.output, run.observation,
+          run.failure);
 }
 
 InputError damaged(const std::string& path, std::string_view how) {
@@ -99,7 +98,35 @@ std::pair<File, Header> open_checkpoint(const std::string& path) {
   return {std::move(file), header};
 }
 
-RunCheckpoint read_checkpoint(const std::string& path) {
+std::string bytes_of(const RunCheckpoint& checkpoint) {
+  std::string bytes;
+  bytes.reserve(checkpoint.simulation.bytes.size() + checkpoint.observation.size() +
+                checkpoint.scene.text.size() + 65536);
+  bytes = mark;
+  bytes.resize(mark.size() + sizeof(Header));
+  Archive archive = Archive::to(bytes);
+  // An archive that writes changes nothing.
+  transfer(archive, const_cast<RunCheckpoint&>(checkpoint));
+  const std::string_view content = std::string_view(bytes).substr(mark.size() + sizeof(Header));
+  const Header header{content.size(), checksum_of(content)};
+  std::memcpy(bytes.data() + mark.size(), &header, sizeof header);
+  return bytes;
+}
+
+std::string unfinished(const std::string& path) { return path + ".part"; }
+
+enum class IfMissing { fail, do_nothing };
+
+void move_file(const std::string& from, const std::string& to,
+               IfMissing if_missing = IfMissing::fail) {
+  if (std::rename(from.c_str(), to.c_str()) == 0) return;
+  if (errno == ENOENT && if_missing == IfMissing::do_nothing) return;
+  throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
+}
+
+}  // namespace
+
+RunCheckpoint CheckpointFiles::read(const std::string& path) {
   const auto [file, header] = open_checkpoint(path);
   // Before memory is taken for it.
   const std::uint64_t size = std::filesystem::file_size(path) - mark.size() - sizeof header;
@@ -118,38 +145,37 @@ RunCheckpoint read_checkpoint(const std::string& path) {
   return out;
 }
 
-}  // namespace
-
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
-    : newest_(output_file + ".checkpoint"), older_(newest_ + ".old") {}
+    : newest_(output_file + ".checkpoint"),
+      older_(newest_ + ".old"),
+      bundle_(output_file + ".failure") {}
 
 bool CheckpointFiles::exist() const {
   std::error_code ignored;
   return std::filesystem::exists(newest_, ignored) || std::filesystem::exists(older_, ignored);
 }
 
-void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
-  std::string bytes;
-  bytes.reserve(checkpoint.simulation.bytes.size() + checkpoint.observation.size() +
-                checkpoint.scene.text.size() + 65536);
-  bytes = mark;
-  bytes.resize(mark.size() + sizeof(Header));
-  Archive archive = Archive::to(bytes);
-  // An archive that writes changes nothing.
-  transfer(archive, const_cast<RunCheckpoint&>(checkpoint));
-  const std::string_view content = std::string_view(bytes).substr(mark.size() + sizeof(Header));
-  const Header header{content.size(), checksum_of(content)};
-  std::memcpy(bytes.data() + mark.size(), &header, sizeof header);
+void CheckpointFiles::require_writable() const {
+  write_durably(unfinished(newest_), "");
+  std::error_code ignored;
+  std::filesystem::remove(unfinished(newest_), ignored);
+}
 
-  const std::string unfinished = newest_ + ".part";
-  write_durably(unfinished, bytes);
-  if (std::rename(newest_.c_str(), older_.c_str()) != 0 && errno != ENOENT) {
-    throw IoError(fmt::format("{}: {}", older_, std::generic_category().message(errno)));
-  }
-  if (std::rename(unfinished.c_str(), newest_.c_str()) != 0) {
-    throw IoError(fmt::format("{}: {}", newest_, std::generic_category().message(errno)));
-  }
+void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
+  write_durably(unfinished(newest_), bytes_of(checkpoint));
+  move_file(newest_, older_, IfMissing::do_nothing);
+  move_file(unfinished(newest_), newest_);
   sync_folder_of(newest_);
+}
+
+void CheckpointFiles::write_bundle(const RunCheckpoint& checkpoint) {
+  write_durably(unfinished(bundle_), bytes_of(checkpoint));
+  move_file(unfinished(bundle_), bundle_);
+  sync_folder_of(bundle_);
+}
+
+void CheckpointFiles::move_bundle(const std::string& output_file) const {
+  move_file(bundle_, CheckpointFiles(output_file).bundle_, IfMissing::do_nothing);
 }
 
 CheckpointFiles::Read CheckpointFiles::read() const {
@@ -158,7 +184,7 @@ CheckpointFiles::Read CheckpointFiles::read() const {
   std::string warning;
   if (fs::exists(newest_, ignored)) {
     try {
-      return {read_checkpoint(newest_), {}};
+      return {read(newest_), {}};
     } catch (const InputError& error) {
       if (!fs::exists(older_, ignored)) throw;
       warning = fmt::format("{}; continuing from {}", error.what(), older_);
@@ -168,7 +194,7 @@ CheckpointFiles::Read CheckpointFiles::read() const {
     throw InputError(fmt::format(
         "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
   }
-  return {read_checkpoint(older_), std::move(warning)};
+  return {read(older_), std::move(warning)};
 }
 
 void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
@@ -182,8 +208,9 @@ void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
 
 void CheckpointFiles::remove() {
   std::error_code ignored;
-  for (const std::string& path : {newest_, older_, newest_ + ".part"}) {
+  for (const std::string& path : {newest_, older_, bundle_}) {
     std::filesystem::remove(path, ignored);
+    std::filesystem::remove(unfinished(path), ignored);
   }
 }
 

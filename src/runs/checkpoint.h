@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
@@ -11,14 +13,27 @@
 
 namespace needlework::runs {
 
+/// How a run failed, so that a failure that comes again can be told from another one.
+struct RunFailure {
+  std::string message;
+  InvalidStateError::Needles needles;  ///< those that it is about
+  double time = 0;                     ///< of the last event before it
+  std::uint64_t collisions = 0;        ///< since the start of the run
+  std::string trajectory_hash;         ///< of these collisions
+  std::string version;                 ///< of the program
+
+  friend bool operator==(const RunFailure&, const RunFailure&) = default;
+};
+
 /// A run at one instant.
 struct RunCheckpoint {
   Scene scene;                  ///< complete: engine chosen, count and box filled in
   bool drawn = false;           ///< whether the initial state was drawn
   Totals initial;               ///< at the start of the run
-  Checkpoint simulation;        ///< the state of the gas
+  Checkpoint simulation;        ///< the state of the gas; without bytes: that of the scene
   io::Writer::Position output;  ///< the rows that the output file had
   std::string observation;      ///< what observables and schedules remember
+  std::optional<RunFailure> failure = {};  ///< of a bundle: how the run failed after this instant
 
   /// The file that it was read from, and its checksum.
   struct Origin {
@@ -30,19 +45,28 @@ struct RunCheckpoint {
 
 /// The checkpoints of one output file, in files beside it: the newest, "FILE.checkpoint", and the
 /// one before, "FILE.checkpoint.old". Each has a version and a checksum. Whenever the process or
-/// the machine stops, one of the two is whole, once there has been one.
+/// the machine stops, one of the two is whole, once there has been one. A run that fails leaves a
+/// third one there, the bundle "FILE.failure", from which its failure can be shown again.
 class CheckpointFiles {
  public:
   explicit CheckpointFiles(const std::string& output_file);
 
   const std::string& newest() const { return newest_; }
   const std::string& older() const { return older_; }
-  /// Whether there is one.
+  const std::string& bundle() const { return bundle_; }
+  /// Whether there is one to continue from.
   bool exist() const;
+  /// Throws IoError if none could be written here.
+  void require_writable() const;
 
   /// Makes this one the newest. It is on the disk when this returns. Throws IoError, and keeps
   /// those before.
   void write(const RunCheckpoint& checkpoint);
+
+  /// Writes the bundle, in the same way.
+  void write_bundle(const RunCheckpoint& checkpoint);
+  /// Moves the bundle, if there is one, beside the new name of the output file.
+  void move_bundle(const std::string& output_file) const;
 
   struct Read {
     RunCheckpoint checkpoint;
@@ -51,6 +75,8 @@ class CheckpointFiles {
   /// The newest one that is whole. Throws InputError if there is none, or if it is of another
   /// version of the program; IoError if it cannot be read.
   Read read() const;
+  /// The checkpoint or bundle in a file of any name. Throws as read() does.
+  static RunCheckpoint read(const std::string& path);
 
   /// Throws IoError if another program has written a newer one since this one was read.
   static void require_unchanged(const RunCheckpoint::Origin& origin);
@@ -59,7 +85,7 @@ class CheckpointFiles {
   void remove();
 
  private:
-  std::string newest_, older_;
+  std::string newest_, older_, bundle_;
 };
 
 }  // namespace needlework::runs

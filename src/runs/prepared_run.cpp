@@ -7,6 +7,7 @@
 
 #include "needlework/error.h"
 #include "src/observe/cooling_theory.h"
+#include "src/runs/failure.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
 
@@ -23,6 +24,9 @@ void require_events(Simulation& simulation, const Scene& scene, const std::strin
 
 namespace {
 
+constexpr const char* cut_off_by_an_error =
+    "an error came in the middle of an event: expected a state that is sound";
+
 // Where kinetic theory has something to say: of a drawn gas that moves.
 observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
   if (!drawn || !(initial.energy > 0)) return nullptr;
@@ -38,7 +42,7 @@ template <class Open>
 void PreparedRun::open_output(Open&& open) {
   const std::string& file = scene_.output.file;
   if (file.empty()) return;
-  observation_.emplace(scene_, cooling_theory(scene_, initial_, drawn_));
+  observe();
   try {
     io::RunInfo info = run_info(simulation_, scene_);
     info.series = observation_->groups();
@@ -49,11 +53,15 @@ void PreparedRun::open_output(Open&& open) {
   }
 }
 
+void PreparedRun::observe() {
+  if (!observation_) observation_.emplace(scene_, cooling_theory(scene_, initial_, drawn_));
+}
+
 Output PreparedRun::output() {
   Output out;
+  if (observation_) out.observation = &*observation_;
   if (!writer_) return out;
   out.writer = &*writer_;
-  out.observation = &*observation_;
   if (scene_.output.checkpoint_every > 0) out.save_checkpoint = [this] { save_checkpoint(); };
   out.saves_start = saves_ == Saves::start_and_end;
   return out;
@@ -87,9 +95,15 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
       simulation_(continue_simulation(saved.simulation)),
       initial_(saved.initial) {
   if (simulation_.needles() != scene_.needles.count) Archive::throw_damaged();
+  observe();
   open_output([&](const io::RunInfo& info) {
-    return io::Writer::resume(scene_.output.file, scene_, info, saved.output,
-                              [&] { CheckpointFiles::require_unchanged(saved.origin); });
+    // While the file is locked, and before it is changed.
+    return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
+      CheckpointFiles::require_unchanged(saved.origin);
+      if (scene_.output.checkpoint_every > 0) {
+        CheckpointFiles(scene_.output.file).require_writable();
+      }
+    });
   });
   driver_.emplace(simulation_, scene_, output(), true);
   Archive archive = Archive::from(saved.observation);
@@ -122,7 +136,7 @@ std::string PreparedRun::why_not_saved() const {
            ": turns checkpoints off: expected a number > 0";
   }
   if (!writer_) return "the simulation is closed: expected one that can be run";
-  if (cut_off_) return "memory ran out in the middle of an event: expected a state that is sound";
+  if (cut_off_) return cut_off_by_an_error;
   return {};
 }
 
@@ -143,24 +157,102 @@ void PreparedRun::save_checkpoint() {
   CheckpointFiles(scene_.output.file).write(saved);
 }
 
+// What a failed run leaves: the message with a hint at the bundle, and its name, or none.
+struct PreparedRun::Kept {
+  std::string message, bundle;
+};
+
+// The last checkpoint in a file, or else the start; nothing if the start is not known any more.
+std::optional<RunCheckpoint> PreparedRun::before_failure() const {
+  try {
+    return CheckpointFiles(scene_.output.file).read().checkpoint;
+  } catch (const InputError&) {
+  } catch (const IoError&) {
+  }
+  if (!drawn_ && scene_.initial.file.empty()) return std::nullopt;
+  return RunCheckpoint{.scene = {},
+                       .drawn = drawn_,
+                       .initial = initial_,
+                       .simulation = {},
+                       .output = {},
+                       .observation = {},
+                       .failure = {},
+                       .origin = {}};
+}
+
+// Keeps a bundle that shows the same failure: it may begin earlier.
+void PreparedRun::write_bundle(const RunFailure& failure) {
+  CheckpointFiles files(scene_.output.file);
+  try {
+    if (CheckpointFiles::read(files.bundle()).failure == failure) return;
+  } catch (const InputError&) {
+  } catch (const IoError&) {
+  }
+  auto checkpoint = before_failure();
+  if (!checkpoint) throw IoError("its start is in no file");
+  checkpoint->scene = scene_;
+  checkpoint->failure = failure;
+  files.write_bundle(*checkpoint);
+}
+
+PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
+                                            const InvalidStateError::Needles& needles) {
+  if (!writer_) return {message, {}};
+  const std::string bundle = CheckpointFiles(scene_.output.file).bundle();
+  try {
+    write_bundle({.message = message,
+                  .needles = needles,
+                  .time = simulation_.time(),
+                  .collisions = simulation_.collisions(),
+                  .trajectory_hash = simulation_.trajectory_hash(),
+                  .version = NEEDLEWORK_VERSION});
+    return {message, bundle};
+  } catch (const std::exception& error) {
+    return {fmt::format("{}; no bundle for needlework replay: {}", message, error.what()), {}};
+  }
+}
+
+// Keeps the exception being handled, or throws it again if it is not about the state of the run.
+PreparedRun::Kept PreparedRun::keep_current_failure() {
+  InvalidStateError::Needles needles;
+  try {
+    throw;
+  } catch (const UnfinishedEventError& error) {
+    cut_off_ = true;
+    needles = error.needles;
+  } catch (const InvalidStateError& error) {
+    needles = error.needles;
+  } catch (...) {
+    cut_off_ = true;
+  }
+  const Failure failure = current_failure();
+  if (failure.exit_code != invalid_state) throw;
+  return keep_failure(failure.message, needles);
+}
+
 Course PreparedRun::drive(RunMonitor& monitor) {
-  std::optional<std::string> failure;
+  std::optional<Kept> kept;
   try {
     driver_->advance(scene_.until, monitor);
-  } catch (const InvalidStateError& error) {
-    failure = error.what();
+  } catch (const std::exception&) {
+    kept = keep_current_failure();
   }
   monitor.clear();
   // Before the sample and the frame of this end, which the continued run does not have.
   const bool stopped = driver_->stop() == Stop::interrupted || driver_->stop() == Stop::wall_time;
-  if (stopped || saves_ == Saves::start_and_end) save_checkpoint();
-  Course course = driver_->finish();
-  course.failure = std::move(failure);
+  const bool saves = why_not_saved().empty() && (stopped || saves_ == Saves::start_and_end);
+  if (saves) driver_->save_checkpoint(&monitor);
+  Course course = cut_off_ ? driver_->abandon() : driver_->finish();
+  if (kept) {
+    course.failure = std::move(kept->message);
+    course.bundle = std::move(kept->bundle);
+  }
   if (writer_) writer_->close();
   return course;
 }
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
+  if (cut_off_) throw InvalidStateError(cut_off_by_an_error);
   Stop stop{};
   try {
     stop = driver_->advance(until, monitor);
@@ -168,6 +260,15 @@ Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
     // In the middle of an event: neither to be replaced by an error of the caller, nor to be saved.
     cut_off_ = true;
     throw;
+  } catch (const InvalidStateError& error) {
+    const Kept kept = keep_current_failure();
+    if (batches_) batches_->flush();
+    std::string message = kept.message;
+    if (!kept.bundle.empty()) {
+      message += fmt::format("; needlework replay {} shows it again", kept.bundle);
+    }
+    if (cut_off_) throw UnfinishedEventError(message, error.needles);
+    throw InvalidStateError(message, error.needles);
   } catch (...) {
     if (batches_) batches_->flush();
     throw;
@@ -187,7 +288,7 @@ void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback ca
 void PreparedRun::close() {
   if (!writer_) return;
   save_checkpoint();
-  driver_->finish();
+  if (!cut_off_) driver_->finish();
   writer_->close();
   writer_.reset();
 }

@@ -38,19 +38,23 @@ class PreparedRun {
               Saves saves = Saves::start_and_end);
   /// For advance(): takes samples for the output file only.
   PreparedRun(LoadedScene loaded, bool force);
-  /// Continues a run, with the output file that its scene names. Throws InputError if the file is
-  /// not that of the run, and IoError if it cannot be written.
+  /// Continues a run, with the output file that its scene names, or without output if it names
+  /// none. Throws InputError if the file is not that of the run, and IoError if it cannot be
+  /// written.
   explicit PreparedRun(RunCheckpoint saved, Saves saves = Saves::start_and_end);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;
 
-  /// Runs to the end, to be called once; see RunDriver. Closes the file. Catches InvalidStateError:
-  /// its message is in the Course.
+  /// Runs to the end, to be called once; see RunDriver. Closes the file. Catches what makes a run
+  /// invalid, InvalidStateError and defects of the program: the message is in the Course, and a
+  /// bundle is beside the output file, if there is one.
   Course drive(RunMonitor& monitor);
 
   /// Advances until the first of the conditions is met, which count from the start of the run. The
   /// function of on_collisions() has seen all collisions when this returns. Throws what
-  /// RunDriver::advance() throws, and what that function has thrown.
+  /// RunDriver::advance() throws, and what that function has thrown. The message of an
+  /// InvalidStateError names the bundle that has been written beside the output file, if there is
+  /// one.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
   /// of each advance those that are left; see CollisionBatches.
@@ -61,8 +65,8 @@ class PreparedRun {
   /// Why save_checkpoint() does nothing, and what was expected; empty if it saves.
   std::string why_not_saved() const;
   /// Saves the run, writes the sample and the frame of the end, and closes the file. Then only
-  /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, the
-  /// file ends with the last sample that was due.
+  /// the simulation may be used. Does nothing when called again. Throws IoError. Without it, and
+  /// after an error in the middle of an event, the file ends with the last sample that was due.
   void close();
 
   const Scene& scene() const { return scene_; }
@@ -76,16 +80,22 @@ class PreparedRun {
   Simulation continue_simulation(const Checkpoint& saved);
   template <class Open>
   void open_output(Open&& open);
+  void observe();
   Output output();
+  struct Kept;
+  Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);
+  Kept keep_current_failure();
+  void write_bundle(const RunFailure& failure);
+  std::optional<RunCheckpoint> before_failure() const;
 
   Scene scene_;
   Saves saves_;
-  bool cut_off_ = false;  ///< whether an event was, for want of memory
+  bool cut_off_ = false;  ///< whether an event was, by an error in the middle of it
   bool drawn_;            ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
   Totals initial_;                                   ///< at the start of the run
-  std::optional<observe::Observation> observation_;  ///< if there is a writer
+  std::optional<observe::Observation> observation_;  ///< if there is a writer, or has been one
   std::optional<io::Writer> writer_;
   std::optional<RunDriver> driver_;
   std::optional<CollisionBatches> batches_;

@@ -6,17 +6,23 @@
 
 namespace needlework::runs {
 
-std::string progress_text(double elapsed, double fraction, std::string_view more) {
-  const double left = elapsed / fraction - elapsed;  // infinite at 0, and then not known
+std::string progress_text(double fraction, double left, std::string_view more) {
   return fmt::format("{:4.1f} % done, {} left: {}", 100 * fraction, duration_text(left), more);
 }
 
-std::string progress_of_run(const Totals& now, double initial_energy) {
-  std::string text = fmt::format("{} collisions, time {:.4g}", now.collisions, now.time);
-  if (now.energy < 0.999 * initial_energy) {
-    text += fmt::format(", E/E(0) = {:.3g}", now.energy / initial_energy);
+std::string progress_text(const Progress& progress) {
+  const Totals& now = progress.now;
+  std::string text = fmt::format("{} collisions, {:.3g} per s, time {:.4g}", now.collisions,
+                                 progress.rate, now.time);
+  if (now.energy < 0.999 * progress.initial.energy) {
+    text += fmt::format(", E/E(0) = {:.3g}", now.energy / progress.initial.energy);
   }
-  return text;
+  if (progress.since_checkpoint) {
+    text += fmt::format(", saved {} ago", duration_text(*progress.since_checkpoint));
+  }
+  text += fmt::format(", drift of energy {:.1e}, of momentum {:.1e}", progress.energy_drift,
+                      progress.momentum_drift);
+  return progress_text(progress.fraction, progress.left, text);
 }
 
 }  // namespace needlework::runs

@@ -4,15 +4,16 @@
 #include <string>
 #include <string_view>
 
-#include "needlework/totals.h"
+#include "src/runs/run_monitor.h"
 
 namespace needlework::runs {
 
-/// The share done (of [0, 1]) `elapsed` seconds into the work, the time left that follows from it,
-/// and more.
-std::string progress_text(double elapsed, double fraction, std::string_view more);
+/// The share done (of [0, 1]), the wall time left, which is infinite if it is not known [s], and
+/// more.
+std::string progress_text(double fraction, double left, std::string_view more);
 
-/// Collisions, time and energy of a run, whose energy per needle was `initial_energy` at the start.
-std::string progress_of_run(const Totals& now, double initial_energy);
+/// The line of a run: share done, time left, collisions, their rate, time, energy, the age of the
+/// last checkpoint, and the drift of energy and momentum.
+std::string progress_text(const Progress& progress);
 
 }  // namespace needlework::runs

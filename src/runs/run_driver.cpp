@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
-#include "src/observe/completion.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/saved_totals.h"
 
@@ -24,7 +24,6 @@ Schedule series_schedule(const Scene::Output& output, double start) {
 }
 
 Schedule frame_schedule(const Scene::Output& output, double start) {
-  if (output.file.empty()) return {};
   if (output.frames_per_decade) return Schedule::logarithmic(*output.frames_per_decade, start);
   return Schedule::at(output.frame_times);
 }
@@ -50,13 +49,19 @@ RunDriver::RunDriver(Simulation& simulation, const Scene& scene, Output output, 
   if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
   series_ = series_schedule(scene.output, start);
-  frames_ = frame_schedule(scene.output, start);
+  // A run that is replayed has frames in its schedule, too, as it had when it was saved.
+  if (output_.observation) frames_ = frame_schedule(scene.output, start);
 }
 
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   const auto start = SteadyClock::now();
-  if (!begun_) begin();
+  if (!begun_) begin(&monitor);
   monitor.begin(course_.initial, course_.samples);
+  // A sum over all needles, which short advances that nobody follows can do without.
+  pace_.reset();
+  if (monitor.is_due(std::numeric_limits<double>::infinity())) {
+    pace_.emplace(simulation_, scene_, until, course_.initial);
+  }
   for (;;) {
     if (monitor.stop_requested()) return course_.stop = Stop::interrupted;
     if (until.wall_s && seconds_since(start) >= *until.wall_s) {
@@ -64,16 +69,15 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
     }
     if (const auto stop = step(until, start)) return course_.stop = *stop;
     flush_if_due();
-    save_checkpoint_if_due();
-    if (const double elapsed = seconds_since(start); monitor.is_due(elapsed)) {
-      show_progress(until, elapsed, monitor);
-    }
+    save_checkpoint_if_due(monitor);
+    const double elapsed = seconds_since(start);
+    if (pace_ && monitor.is_due(elapsed)) show_progress(elapsed, monitor);
   }
 }
 
 Course RunDriver::finish() {
   if (failure_) std::rethrow_exception(failure_);
-  if (!begun_) begin();
+  if (!begun_) begin(nullptr);
   course_.last = simulation_.totals();
   if (samples()) {
     // The end belongs to the series and to the frames, unless it has just been sampled.
@@ -86,12 +90,17 @@ Course RunDriver::finish() {
   return std::move(course_);
 }
 
+Course RunDriver::abandon() {
+  course_.last = simulation_.totals();
+  return std::move(course_);
+}
+
 void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
   callback_ = std::move(callback);
   listen_to_collisions();
 }
 
-void RunDriver::begin() {
+void RunDriver::begin(RunMonitor* monitor) {
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
   course_.initial = simulation_.totals();
@@ -101,7 +110,7 @@ void RunDriver::begin() {
     frames_.pass(0);
   }
   begun_ = true;
-  if (output_.saves_start) save_checkpoint();
+  if (output_.saves_start) save_checkpoint(monitor);
 }
 
 void RunDriver::transfer(Archive& archive) {
@@ -136,7 +145,7 @@ void RunDriver::listen_to_collisions() {
 void RunDriver::record(const Collision& collision) {
   try {
     if (!failure_) {
-      if (scene_.output.events) output_.writer->write_event(collision);
+      if (output_.writer && scene_.output.events) output_.writer->write_event(collision);
       output_.observation->collision(collision);
     }
   } catch (...) {
@@ -172,12 +181,16 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
 void RunDriver::sample(bool series, bool frame) {
   const Totals totals = simulation_.totals();
   io::Writer* const writer = output_.writer;
-  const bool observes = writer && series && output_.observation->reads_state();
+  observe::Observation* const observation = output_.observation;
+  const bool reads_state = observation && series && observation->reads_state();
   State state;
-  if (observes || (writer && frame)) simulation_.copy(state);
+  if (reads_state || (writer && frame)) simulation_.copy(state);
   if (series) {
     if (keeps_course_) course_.samples.push_back(totals);
-    if (writer) writer->write_series(totals, output_.observation->sample(state, totals));
+    if (observation) {
+      const auto values = observation->sample(state, totals);
+      if (writer) writer->write_series(totals, values);
+    }
     last_sample_ = totals;
   }
   if (frame && writer) {
@@ -196,22 +209,23 @@ void RunDriver::flush_if_due() {
   if (output_.writer && seconds_since(last_flush_) >= flush_interval) flush();
 }
 
-void RunDriver::save_checkpoint() {
+void RunDriver::save_checkpoint(RunMonitor* monitor) {
   if (!output_.save_checkpoint) return;
+  const auto start = SteadyClock::now();
   output_.save_checkpoint();
   last_checkpoint_ = last_flush_ = SteadyClock::now();
+  if (!monitor) return;
+  monitor->saved(simulation_.time(), simulation_.collisions(), seconds_since(start));
 }
 
-void RunDriver::save_checkpoint_if_due() {
-  if (seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every) save_checkpoint();
+void RunDriver::save_checkpoint_if_due(RunMonitor& monitor) {
+  if (seconds_since(last_checkpoint_) >= scene_.output.checkpoint_every) save_checkpoint(&monitor);
 }
 
-void RunDriver::show_progress(const Scene::Until& until, double elapsed,
-                              RunMonitor& monitor) const {
-  const Totals now = simulation_.totals();
-  const double fraction = completed_fraction(until, course_.initial, now,
-                                             static_cast<double>(scene_.needles.count), elapsed);
-  monitor.show(elapsed, fraction, now, course_.initial.energy);
+void RunDriver::show_progress(double elapsed, RunMonitor& monitor) const {
+  Progress progress = pace_->after(elapsed);
+  if (output_.save_checkpoint) progress.since_checkpoint = seconds_since(last_checkpoint_);
+  monitor.show(progress);
 }
 
 }  // namespace needlework::runs

@@ -15,6 +15,7 @@
 #include "src/observe/batch_rate.h"
 #include "src/observe/observation.h"
 #include "src/observe/schedule.h"
+#include "src/runs/pace.h"
 #include "src/runs/resources.h"
 #include "src/runs/run_monitor.h"
 
@@ -26,11 +27,13 @@ struct Course {
   std::vector<Totals> samples;  ///< the series, first and last included
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
+  std::string bundle;                  ///< file that `needlework replay` takes then, or empty
   Stopwatch loop;                      ///< time spent in the event loop
   BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
-/// Where the samples of a run go. Writer and observation are null, or neither is.
+/// Where the samples of a run go. With a writer there is an observation; a run without output can
+/// be observed nevertheless, as one that is replayed is.
 struct Output {
   io::Writer* writer = nullptr;
   observe::Observation* observation = nullptr;  ///< whose groups the writer was opened with
@@ -60,6 +63,11 @@ class RunDriver {
 
   /// Writes and flushes the sample and the frame of the end. To be called once, at the end.
   Course finish();
+  /// The same without sample and frame, for a state that is not sound.
+  Course abandon();
+
+  /// Saves the run, if the output does that, and says so to the monitor, if there is one.
+  void save_checkpoint(RunMonitor* monitor);
 
   /// Sets a function that is called for each collision, beside what the output needs; see
   /// Simulation::on_collision().
@@ -68,17 +76,16 @@ class RunDriver {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  bool samples() const { return output_.writer || keeps_course_; }
-  void begin();
+  bool samples() const { return output_.writer || output_.observation || keeps_course_; }
+  void begin(RunMonitor* monitor);
   void record(const Collision& collision);
   void listen_to_collisions();
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
   void flush();
   void flush_if_due();
-  void save_checkpoint();
-  void save_checkpoint_if_due();
-  void show_progress(const Scene::Until& until, double elapsed, RunMonitor& monitor) const;
+  void save_checkpoint_if_due(RunMonitor& monitor);
+  void show_progress(double elapsed, RunMonitor& monitor) const;
 
   Simulation& simulation_;
   const Scene& scene_;
@@ -90,6 +97,7 @@ class RunDriver {
   std::function<void(const Collision&)> callback_;
   std::exception_ptr failure_;  ///< of writing or observing a collision
   Course course_;
+  std::optional<Pace> pace_;  ///< of this advance, if someone follows it
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
   SteadyClock::time_point last_flush_ = SteadyClock::now();

@@ -1,11 +1,27 @@
 // How a front end follows a run: it is shown the progress, and may stop it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "needlework/totals.h"
 
 namespace needlework::runs {
+
+/// How far a run is.
+struct Progress {
+  double elapsed = 0;       ///< wall time in which this process has run it [s]
+  double fraction = 0;      ///< share done, in [0, 1]
+  double left = 0;          ///< wall time to its end at the pace so far, infinite if not known [s]
+  double rate = 0;          ///< collisions in this process per second of wall time
+  Totals now, initial;      ///< `initial`: at the start of the run
+  double energy_drift = 0;  ///< see Simulation::energy_drift()
+  double momentum_drift = 0;  ///< change of the total momentum, over sqrt(N m T_tr)
+  /// Wall time since the last checkpoint, or since this process has begun; none if none is written
+  /// [s].
+  std::optional<double> since_checkpoint = {};
+};
 
 /// Implemented by front ends. All members are called by the thread that runs.
 class RunMonitor {
@@ -17,10 +33,14 @@ class RunMonitor {
   virtual void begin(const Totals& initial, std::span<const Totals> samples) {
     static_cast<void>(initial), static_cast<void>(samples);
   }
-  /// Whether to show progress now, `elapsed` seconds of wall time into the run.
+  /// Whether to show progress now, `elapsed` seconds of wall time into the run; at infinity,
+  /// whether it is ever shown.
   virtual bool is_due(double elapsed) const = 0;
-  /// `fraction` is the share done, in [0, 1]; the energy is that per needle at the start.
-  virtual void show(double elapsed, double fraction, const Totals& now, double initial_energy) = 0;
+  virtual void show(const Progress& progress) = 0;
+  /// A checkpoint of this time and number of collisions has been written, in so many seconds.
+  virtual void saved(double time, std::uint64_t collisions, double seconds) {
+    static_cast<void>(time), static_cast<void>(collisions), static_cast<void>(seconds);
+  }
   /// The run is over.
   virtual void clear() {}
   /// Whether to end the run; asked several times a second.

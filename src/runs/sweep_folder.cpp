@@ -123,6 +123,7 @@ void SweepFolder::keep(const sweep::Member& member, State as) const {
   const std::string to =
       as == State::failed ? failed_file(member) : path_ + "/" + member.name + ".h5";
   if (std::rename(from.c_str(), to.c_str()) != 0) throw IoError(to + ": " + reason(errno));
+  CheckpointFiles(from).move_bundle(to);
   CheckpointFiles(from).remove();
 }
 

@@ -59,10 +59,10 @@ class MemberMonitor : public RunMonitor {
   ~MemberMonitor() override { sweep_.advance(cost_ - reported_, true); }
 
   bool is_due(double elapsed) const override { return elapsed >= next_; }
-  void show(double elapsed, double fraction, const Totals&, double) override {
-    next_ = elapsed + 1;
-    sweep_.advance(fraction * cost_ - reported_, false);
-    reported_ = fraction * cost_;
+  void show(const Progress& progress) override {
+    next_ = progress.elapsed + 1;
+    sweep_.advance(progress.fraction * cost_ - reported_, false);
+    reported_ = progress.fraction * cost_;
   }
   bool stop_requested() const override { return sweep_.stop_requested(); }
 
@@ -106,8 +106,12 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
   }();
   if (course.failure) {
     folder.keep(member, SweepFolder::State::failed);
-    throw InvalidStateError(
-        fmt::format("{} (saved in {})", *course.failure, folder.failed_file(member)));
+    const std::string file = folder.failed_file(member);
+    const std::string replay =
+        course.bundle.empty()
+            ? ""
+            : fmt::format("; needlework replay {} shows it again", CheckpointFiles(file).bundle());
+    throw InvalidStateError(fmt::format("{} (saved in {}{})", *course.failure, file, replay));
   }
   if (course.stop == Stop::interrupted) return stopped;
   folder.keep(member, SweepFolder::State::finished);

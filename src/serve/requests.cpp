@@ -98,12 +98,12 @@ class Monitor : public runs::RunMonitor {
   }
 
   bool is_due(double elapsed) const override { return next_ && elapsed >= *next_; }
-  void show(double elapsed, double fraction, const Totals& now, double) override {
-    next_ = elapsed + *every_;
+  void show(const runs::Progress& progress) override {
+    next_ = progress.elapsed + *every_;
     connection_.notify({{"id", id_},
-                        {"progress", number(fraction)},
-                        {"time", now.time},
-                        {"collisions", now.collisions}});
+                        {"progress", number(progress.fraction)},
+                        {"time", progress.now.time},
+                        {"collisions", progress.now.collisions}});
   }
   bool stop_requested() const override { return connection_.interrupted(); }
 

@@ -37,6 +37,25 @@ TEST_F(ResumeCommand, GoesOnToAnotherEnd) {
   EXPECT_EQ(back.json()["collisions"], 40 * 300 / 2) << "a run does not go backwards";
 }
 
+TEST_F(ResumeCommand, SaysThatTheEndIsMetAlready) {
+  hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=15");
+  const Outcome again = run("resume a.h5 --quiet");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_TRUE(again.complains("warning: the end of the run is met already: nothing to do; --set "));
+  EXPECT_EQ(run("resume a.h5 --quiet --set until.collisions_per_needle=16").err, "");
+  EXPECT_EQ(run("run gas.toml --quiet --out b.h5 --set until.time=0").err, "");
+}
+
+TEST_F(ResumeCommand, RemovesAnEnd) {
+  const std::string whole = whole_hash();
+  hash_of("run gas.toml --out a.h5 --set until.time=0.5");
+  EXPECT_EQ(hash_of("resume a.h5 --set until.time=none"), whole);
+  const Outcome none = run("resume a.h5 --set until.collisions_per_needle=none");
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_TRUE(none.complains("a.h5: the run has no end: expected --set until.KEY=VALUE"));
+  EXPECT_TRUE(run("resume a.h5 --set until.time=never").complains("or none to remove it"));
+}
+
 TEST_F(ResumeCommand, GoesOnAfterSignals) {
   write("long.toml", read("gas.toml") + "[engine]\nsearch = \"linked-lists\"\n");
   const std::string more = " --set needles.count=2000 --set needles.box=13 ";
@@ -126,6 +145,31 @@ TEST_F(ResumeCommand, IsNamedWhereAFileIsKept) {
   // A new run takes the old checkpoints away.
   hash_of("run gas.toml --out a.h5 --force --set output.checkpoint_every=0");
   EXPECT_FALSE(exists("a.h5.checkpoint") || exists("a.h5.checkpoint.old"));
+}
+
+// What checkpoints cannot be written to is noticed before the run goes on.
+TEST_F(ResumeCommand, NeedsAFolderThatCanBeWritten) {
+  hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=15");
+  std::filesystem::create_directory(path("a.h5.checkpoint.part"));
+  const std::string before = read("a.h5");
+  const Outcome refused = run("resume a.h5 --set until.collisions_per_needle=16");
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_TRUE(refused.complains("a.h5.checkpoint.part: "));
+  EXPECT_TRUE(read("a.h5") == before);
+}
+
+TEST_F(ResumeCommand, IsNotReplacedWhileAnotherProgramWritesIt) {
+  const std::string more = " --quiet --out a.h5 --set until.collisions_per_needle=1e9";
+  write("second", "test -e a.h5.checkpoint || exit 1\n\"" NEEDLEWORK_PROGRAM
+                  "\" run gas.toml --force" +
+                      more + " 2>refused; echo $? >code\n");
+  const Outcome first = run_and_signal("run gas.toml" + more, "sh second", "INT");
+  EXPECT_EQ(first.exit_code, 75) << first.err;
+  EXPECT_EQ(read("code"), "5\n");
+  EXPECT_EQ(read("refused"),
+            "needlework: --out a.h5: cannot be replaced: another program has the file open for "
+            "writing\n");
+  hash_of("run gas.toml --force --out a.h5");
 }
 
 // The limit stands for a full disk; without the signal, writing fails.

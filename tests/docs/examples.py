@@ -52,7 +52,10 @@ def main(needlework, readme_program):
 
         gas, = blocks("README.md", "toml")
         Path(folder, "gas.toml").write_text(gas)
-        run(needlework, "run", "gas.toml")
+        run(needlework, "run", "gas.toml", "--log", "gas.jsonl")
+        script, = blocks("docs/log.md", "python")
+        printed = run(sys.executable, "-c", script)
+        assert "energy at collision" in printed, printed
         assert "/particles/needles: 1000 particles" in run(needlework, "info", "gas.h5")
         printed = run(readme_program).splitlines()
         assert len(printed) == 5 and printed[-1].startswith("hash "), printed

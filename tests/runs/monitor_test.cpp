@@ -21,11 +21,11 @@ struct Watcher : RunMonitor {
     begun_with.push_back(samples.size());
   }
   bool is_due(double) const override { return true; }
-  void show(double, double fraction, const Totals& now, double initial_energy) override {
-    EXPECT_GE(fraction, last_fraction);
-    EXPECT_DOUBLE_EQ(initial_energy, 2.5);
-    last_fraction = fraction;
-    collisions = now.collisions;
+  void show(const Progress& progress) override {
+    EXPECT_GE(progress.fraction, last_fraction);
+    EXPECT_DOUBLE_EQ(progress.initial.energy, 2.5);
+    last_fraction = progress.fraction;
+    collisions = progress.now.collisions;
     ++shown;
   }
   void clear() override { ++cleared; }

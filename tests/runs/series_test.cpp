@@ -12,7 +12,7 @@ namespace {
 
 struct Silent : RunMonitor {
   bool is_due(double) const override { return false; }
-  void show(double, double, const Totals&, double) override {}
+  void show(const Progress&) override {}
 };
 
 class Series : public testing::Test {

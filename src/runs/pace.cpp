@@ -1,0 +1,53 @@
+#include "src/runs/pace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/observe/completion.h"
+
+namespace needlework::runs {
+namespace {
+
+// The change of the total momentum, over that of so many needles by chance.
+double momentum_drift(const Totals& initial, const Totals& now, const Scene& scene) {
+  double square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double change = now.momentum[axis] - initial.momentum[axis];
+    square += change * change;
+  }
+  const double count = static_cast<double>(scene.needles.count);
+  const double scale = std::sqrt(count * scene.one_species().mass * now.t_tr);
+  return scale > 0 ? std::sqrt(square) / scale : 0;
+}
+
+}  // namespace
+
+Pace::Pace(const Simulation& simulation, const Scene& scene, const Scene::Until& until,
+           const Totals& initial)
+    : simulation_(simulation),
+      scene_(scene),
+      until_(until),
+      initial_(initial),
+      fraction_before_(fraction_of(simulation.totals(), 0)),
+      collisions_before_(simulation.collisions()) {}
+
+double Pace::fraction_of(const Totals& now, double elapsed) const {
+  const double count = static_cast<double>(scene_.needles.count);
+  return completed_fraction(until_, initial_, now, count, elapsed);
+}
+
+Progress Pace::after(double elapsed) const {
+  Progress progress;
+  progress.elapsed = elapsed;
+  progress.initial = initial_;
+  progress.now = simulation_.totals();
+  progress.fraction = fraction_of(progress.now, elapsed);
+  const double done = std::max(progress.fraction - fraction_before_, 0.0);
+  progress.left = elapsed * ((1 - progress.fraction) / done);  // infinite if nothing is done yet
+  progress.rate = static_cast<double>(progress.now.collisions - collisions_before_) / elapsed;
+  progress.energy_drift = simulation_.energy_drift();
+  progress.momentum_drift = momentum_drift(initial_, progress.now, scene_);
+  return progress;
+}
+
+}  // namespace needlework::runs

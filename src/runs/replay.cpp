@@ -1,0 +1,94 @@
+#include "src/runs/replay.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "needlework/error.h"
+#include "src/runs/engine_choice.h"
+#include "src/runs/failure.h"
+#include "src/runs/loaded_scene.h"
+
+namespace needlework::runs {
+namespace {
+
+void make_ready(Scene& scene, const std::function<void(Scene&)>& change) {
+  scene.output.file.clear();
+  scene.until.wall_s.reset();
+  const auto here = instruction_sets();
+  if (std::find(here.begin(), here.end(), scene.engine.isa) == here.end())
+    scene.engine.isa = "auto";
+  if (change) change(scene);
+  choose_engine(scene);
+}
+
+std::unique_ptr<PreparedRun> prepare(RunCheckpoint from) {
+  if (!from.simulation.bytes.empty()) return std::make_unique<PreparedRun>(std::move(from));
+  return std::make_unique<PreparedRun>(complete_scene(std::move(from.scene)), false);
+}
+
+}  // namespace
+
+Replay::Replay(const std::string& path, std::size_t last, const std::function<void(Scene&)>& change)
+    : most_(last) {
+  RunCheckpoint from = CheckpointFiles::read(path);
+  failure_ = std::move(from.failure);
+  make_ready(from.scene, change);
+  run_ = prepare(std::move(from));
+  start_time_ = run_->simulation().time();
+  noted_ = start_collisions_ = run_->simulation().collisions();
+  const Scene::Until& until = run_->scene().until;
+  if (!failure_ && !until.time && !until.collisions_per_needle && !until.energy_ratio) {
+    throw InputError(path +
+                     ": a checkpoint of a run without end that has not failed: expected a bundle");
+  }
+}
+
+Scene::Until Replay::end() const {
+  const Scene::Until& until = run_->scene().until;
+  if (!failure_) return until;
+  return from_start({.time = until.time, .collisions = failure_->collisions + 1},
+                    run_->simulation());
+}
+
+bool Replay::concerns(const Collision& collision) const {
+  if (!failure_ || !failure_->needles) return true;
+  const auto& needles = *failure_->needles;
+  const auto is_one = [&](std::uint32_t id) {
+    return std::find(needles.begin(), needles.end(), id) != needles.end();
+  };
+  return is_one(collision.first) || is_one(collision.second);
+}
+
+void Replay::note(const Collision& collision) {
+  ++noted_;
+  if (most_ == 0 || !concerns(collision)) return;
+  if (last_.size() == most_) last_.pop_front();
+  last_.push_back({noted_, collision});
+}
+
+Replayed Replay::drive(RunMonitor& monitor) {
+  Replayed out;
+  run_->on_collisions(1, [this](std::span<const Collision> collisions) {
+    for (const Collision& collision : collisions) note(collision);
+  });
+  try {
+    out.stop = run_->advance(end(), monitor);
+  } catch (const std::exception&) {
+    const Failure failure = current_failure();
+    if (failure.exit_code != invalid_state) throw;
+    out.failure = failure.message;
+  }
+  monitor.clear();
+  const Simulation& simulation = run_->simulation();
+  out.time = simulation.time();
+  out.collisions = simulation.collisions();
+  out.trajectory_hash = simulation.trajectory_hash();
+  out.same = failure_ && out.failure == failure_->message &&
+             out.collisions == failure_->collisions &&
+             out.trajectory_hash == failure_->trajectory_hash;
+  out.last = std::move(last_);
+  return out;
+}
+
+}  // namespace needlework::runs

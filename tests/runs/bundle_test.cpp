@@ -1,0 +1,118 @@
+// Runs that fail in the middle of an event: what is left can be continued and replayed.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
+#include "src/runs/checkpoint.h"
+#include "src/runs/prepared_run.h"
+#include "src/runs/replay.h"
+#include "tests/support/runs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+struct Silent : RunMonitor {
+  bool is_due(double) const override { return false; }
+  void show(const Progress&) override {}
+};
+
+class Bundle : public testing::Test {
+ protected:
+  Bundle() {
+    scene.collisions.epsilon = 0.9;
+    scene.until.collisions_per_needle = 100;
+    scene.output.file = folder.path() / "run.h5";
+  }
+  // A gas one needle of which is at the last box that can be counted.
+  LoadedScene far_away() const {
+    State state = draw_initial_state(scene);
+    state.image.resize(state.size());
+    state.image[7].fill(std::numeric_limits<std::int32_t>::max() - 1);
+    return complete_scene(scene, state);
+  }
+
+  const test::TemporaryFolder folder;
+  Scene scene = test::scene_of(60, 5);
+  Silent monitor;
+};
+
+TEST_F(Bundle, OfAnUnfinishedEventShowsItAgain) {
+  const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
+  ASSERT_TRUE(course.failure);
+  EXPECT_TRUE(course.failure->starts_with("needle 7 has crossed")) << *course.failure;
+  const CheckpointFiles files(scene.output.file);
+  EXPECT_EQ(course.bundle, files.bundle());
+  Replay replay(course.bundle, 5);
+  const Replayed again = replay.drive(monitor);
+  EXPECT_TRUE(again.same);
+  EXPECT_EQ(again.failure, course.failure);
+  for (const NumberedCollision& entry : again.last) {
+    EXPECT_TRUE(entry.collision.first == 7 || entry.collision.second == 7);
+  }
+}
+
+// The state is neither that before the event nor that after it.
+TEST_F(Bundle, AnUnfinishedEventIsNotSaved) {
+  PreparedRun run(far_away(), false, "scene");
+  const Course course = run.drive(monitor);
+  EXPECT_GT(course.last.collisions, 0u);
+  EXPECT_NE(run.why_not_saved(), "");
+  const RunCheckpoint saved = CheckpointFiles(scene.output.file).read().checkpoint;
+  EXPECT_EQ(saved.output.samples, 1u) << "the checkpoint before the first collision";
+  const Course again = PreparedRun(saved).drive(monitor);
+  EXPECT_EQ(again.failure, course.failure);
+  EXPECT_EQ(again.last.collisions, course.last.collisions);
+}
+
+TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
+  PreparedRun run(far_away(), false);
+  try {
+    for (int n = 1; n <= 100; ++n) {
+      run.advance({.time = {}, .collisions_per_needle = n, .energy_ratio = {}, .wall_s = {}},
+                  monitor);
+    }
+    FAIL() << "expected an error";
+  } catch (const UnfinishedEventError& error) {
+    const std::string message = error.what();
+    EXPECT_TRUE(
+        message.ends_with("; needlework replay " + scene.output.file + ".failure shows it again"))
+        << message;
+  }
+  EXPECT_TRUE(Replay(scene.output.file + ".failure", 0).drive(monitor).same);
+  EXPECT_THROW(run.advance(scene.until, monitor), InvalidStateError) << "it cannot go on";
+  run.close();
+  EXPECT_EQ(CheckpointFiles(scene.output.file).read().checkpoint.output.samples, 1u);
+}
+
+// A defect outside the engine, which a replay does not meet.
+TEST_F(Bundle, OfAnyDefectIsKeptAndAReplayWithoutItPasses) {
+  PreparedRun run(complete_scene(scene), false, "scene");
+  run.advance({.time = {}, .collisions_per_needle = 2, .energy_ratio = {}, .wall_s = {}}, monitor);
+  run.simulation().on_collision([](const Collision&) { throw std::logic_error("a defect"); });
+  const Course course = run.drive(monitor);
+  EXPECT_EQ(course.failure, "unexpected error: a defect");
+  EXPECT_EQ(course.last.collisions, 61u);
+  Replay replay(course.bundle, 5);
+  ASSERT_TRUE(replay.failure());
+  EXPECT_EQ(replay.failure()->message, course.failure);
+  const Replayed again = replay.drive(monitor);
+  EXPECT_FALSE(again.failure || again.same);
+  EXPECT_EQ(again.collisions, 62u);
+  EXPECT_EQ(again.last.size(), 5u) << "of all needles";
+  EXPECT_EQ(again.last.back().number, 62u);
+}
+
+TEST_F(Bundle, NeedsAStartThatIsKnown) {
+  scene.output.checkpoint_every = 0;
+  const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
+  EXPECT_EQ(course.bundle, "");
+  EXPECT_TRUE(course.failure->ends_with("no bundle for needlework replay: its start is in no file"))
+      << *course.failure;
+}
+
+}  // namespace
+}  // namespace needlework::runs
