@@ -12,16 +12,15 @@ std::string progress_text(double fraction, double left, std::string_view more) {
 
 std::string progress_text(const Progress& progress) {
   const Totals& now = progress.now;
-  std::string text = fmt::format("{} collisions, {:.3g} per s, time {:.4g}", now.collisions,
-                                 progress.rate, now.time);
+  std::string text =
+      fmt::format("{} collisions, {:.3g}/s, time {:.4g}", now.collisions, progress.rate, now.time);
   if (now.energy < 0.999 * progress.initial.energy) {
     text += fmt::format(", E/E(0) = {:.3g}", now.energy / progress.initial.energy);
   }
   if (progress.since_checkpoint) {
     text += fmt::format(", saved {} ago", duration_text(*progress.since_checkpoint));
   }
-  text += fmt::format(", drift of energy {:.1e}, of momentum {:.1e}", progress.energy_drift,
-                      progress.momentum_drift);
+  text += fmt::format(", drift E {:.1e}, P {:.1e}", progress.energy_drift, progress.momentum_drift);
   return progress_text(progress.fraction, progress.left, text);
 }
 

@@ -159,11 +159,10 @@ TEST_F(ResumeCommand, NeedsAFolderThatCanBeWritten) {
 }
 
 TEST_F(ResumeCommand, IsNotReplacedWhileAnotherProgramWritesIt) {
-  const std::string more = " --quiet --out a.h5 --set until.collisions_per_needle=1e9";
   write("second", "test -e a.h5.checkpoint || exit 1\n\"" NEEDLEWORK_PROGRAM
-                  "\" run gas.toml --force" +
-                      more + " 2>refused; echo $? >code\n");
-  const Outcome first = run_and_signal("run gas.toml" + more, "sh second", "INT");
+                  "\" run gas.toml --force --quiet --out a.h5 2>refused; echo $? >code\n");
+  const Outcome first = run_and_signal(
+      "run gas.toml --quiet --out a.h5 --set until.collisions_per_needle=1e9", "sh second", "INT");
   EXPECT_EQ(first.exit_code, 75) << first.err;
   EXPECT_EQ(read("code"), "5\n");
   EXPECT_EQ(read("refused"),

@@ -22,8 +22,8 @@ class Progress(unittest.TestCase):
     def test_a_line_is_drawn_and_taken_away(self):
         printed = stderr_of(True)
         lines = printed.split("\r")
-        self.assertRegex(lines[1], r"^ *[0-9.]+ % done, .* left: \d+ collisions, [0-9.e+]+ per s, "
-                         r"time [0-9.e+]+, drift of energy [0-9.e+-]+, of momentum [0-9.e+-]+$")
+        self.assertRegex(lines[1], r"^ *[0-9.]+ % done, .* left: \d+ collisions, [0-9.e+]+/s, "
+                         r"time [0-9.e+]+.*$")
         self.assertEqual(lines[-1], "")
         self.assertEqual(lines[-2].strip(), "")
 
