@@ -85,12 +85,12 @@ void print_result(const runs::Replay& replay, const runs::Replayed& done,
                   const std::string& bundle) {
   const Simulation& simulation = replay.run().simulation();
   print_row("bundle", fmt::format("{}: of time {:.17g}, after {} collisions", bundle,
-                                   replay.start_time(), replay.start_collisions()));
+                                  replay.start_time(), replay.start_collisions()));
   const int threads = replay.run().scene().engine.threads.value_or(1);
   print_row("replayed", fmt::format("{} collisions on {} thread{} ({}, {}, {})",
-                                     done.collisions - replay.start_collisions(), threads,
-                                     threads == 1 ? "" : "s", simulation.search(),
-                                     simulation.queue(), simulation.isa()));
+                                    done.collisions - replay.start_collisions(), threads,
+                                    threads == 1 ? "" : "s", simulation.search(),
+                                    simulation.queue(), simulation.isa()));
   if (!done.last.empty()) print_collisions(replay, done);
 }
 

@@ -13,7 +13,8 @@ struct Mistake {
 
 TEST_F(Messages, WrongUsageIsAnsweredByWhatIsMeant) {
   const std::string commands =
-      "expected one of run, resume, replay, sweep, reproduce, check, theory, predict, audit, info, import, "
+      "expected one of run, resume, replay, sweep, reproduce, check, theory, predict, audit, info, "
+      "import, "
       "export, report, view, serve, bench, help";
   for (const Mistake& mistake : {
            Mistake{"", "expected a command, such as needlework run SCENE.toml (see "},
