@@ -88,6 +88,13 @@ module needlework
       type(needlework_error), intent(out) :: error
     end function
 
+    ! `file`, an output file, ends with c_null_char. The result is a null pointer on failure.
+    type(c_ptr) function needlework_resume(file, error) bind(c)
+      import :: c_ptr, c_char, needlework_error
+      character(kind=c_char), intent(in) :: file(*)
+      type(needlework_error), intent(out) :: error
+    end function
+
     subroutine needlework_destroy(simulation) bind(c)
       import :: c_ptr
       type(c_ptr), value :: simulation
@@ -117,6 +124,11 @@ module needlework
       import :: c_ptr
       type(c_ptr), value :: simulation
     end subroutine
+
+    integer(c_int) function needlework_checkpoint(simulation) bind(c)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: simulation
+    end function
 
     integer(c_int) function needlework_close(simulation) bind(c)
       import :: c_ptr, c_int

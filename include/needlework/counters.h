@@ -25,6 +25,7 @@ struct Counters {
   // For several threads; see docs/how-it-works.md.
   std::uint64_t phases = 0;   ///< stretches of time between two meetings of all threads
   std::uint64_t redone = 0;   ///< phases that one thread had to repeat
+  std::uint64_t alone = 0;    ///< collisions that one thread processed while the others rested
   std::uint64_t border = 0;   ///< attempts of events that might read what another thread writes
   std::uint64_t held = 0;     ///< times that an event had to wait for others near it
   std::uint64_t waited = 0;   ///< times that a thread had no event that could proceed
@@ -37,7 +38,7 @@ struct Counters {
     const char* name;
     std::uint64_t Counters::*value;
   };
-  static const std::array<Named, 23> all;
+  static const std::array<Named, 24> all;
 
   Counters& operator+=(const Counters& other) {
     for (const Named& counter : all) this->*counter.value += other.*counter.value;
@@ -45,30 +46,19 @@ struct Counters {
   }
 };
 
-inline constexpr std::array<Counters::Named, 23> Counters::all{{
-    {"events", &Counters::events},
-    {"stale", &Counters::stale},
-    {"crossings", &Counters::crossings},
-    {"rebuilds", &Counters::rebuilds},
-    {"sorts", &Counters::sorts},
-    {"resized", &Counters::resized},
-    {"renewals", &Counters::renewals},
-    {"searches", &Counters::searches},
-    {"candidates", &Counters::candidates},
-    {"filtered", &Counters::filtered},
-    {"isolated", &Counters::isolated},
-    {"predicted", &Counters::predicted},
-    {"evaluated", &Counters::evaluated},
-    {"escalated", &Counters::escalated},
-    {"touches", &Counters::touches},
-    {"phases", &Counters::phases},
-    {"redone", &Counters::redone},
-    {"border", &Counters::border},
-    {"held", &Counters::held},
-    {"waited", &Counters::waited},
-    {"foreign", &Counters::foreign},
-    {"turns", &Counters::turns},
-    {"blocked", &Counters::blocked},
+inline constexpr std::array<Counters::Named, 24> Counters::all{{
+    {"events", &Counters::events},         {"stale", &Counters::stale},
+    {"crossings", &Counters::crossings},   {"rebuilds", &Counters::rebuilds},
+    {"sorts", &Counters::sorts},           {"resized", &Counters::resized},
+    {"renewals", &Counters::renewals},     {"searches", &Counters::searches},
+    {"candidates", &Counters::candidates}, {"filtered", &Counters::filtered},
+    {"isolated", &Counters::isolated},     {"predicted", &Counters::predicted},
+    {"evaluated", &Counters::evaluated},   {"escalated", &Counters::escalated},
+    {"touches", &Counters::touches},       {"phases", &Counters::phases},
+    {"redone", &Counters::redone},         {"alone", &Counters::alone},
+    {"border", &Counters::border},         {"held", &Counters::held},
+    {"waited", &Counters::waited},         {"foreign", &Counters::foreign},
+    {"turns", &Counters::turns},           {"blocked", &Counters::blocked},
 }};
 
 }  // namespace needlework

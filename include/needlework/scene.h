@@ -52,6 +52,7 @@ struct Scene {
     std::optional<double> root_tolerance;   ///< see needlework/accuracy.h
     std::optional<double> sampling_step;    ///< see needlework/accuracy.h
     std::optional<int> threads;             ///< absent: OMP_NUM_THREADS, else 1
+    std::string team = "auto";  ///< "auto": one thread works alone where that is faster; or "all"
     std::string isa = "auto";
     std::optional<double> cell_side;       ///< least side of cells [L]; absent: chosen
     std::optional<double> capsule_radius;  ///< radius of capsules [L]; absent: chosen

@@ -16,6 +16,7 @@ struct LoopChoice {
   std::string search;    ///< not "auto"
   std::string calendar;  ///< not "auto"
   int threads = 1;
+  bool all_threads = false;  ///< whether they work together even where one alone is faster
   SearchSetup setup = {};
   ReplacedRecords replaced = {};  ///< records that were replaced at the present time
 };

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -38,6 +39,7 @@
 #include "src/engine/event_loop.h"
 #include "src/engine/phase.h"
 #include "src/engine/phase_plan.h"
+#include "src/engine/team_choice.h"
 #include "src/engine/zone_thread.h"
 
 namespace needlework {
@@ -50,6 +52,18 @@ struct ParallelTuning {
   double sight = 1.5;
   double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
                                           ///< shared
+  bool by_cost = true;                    ///< whether one thread works alone where that is faster
+};
+
+/// Wall time since it was made [s].
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// Asks OpenMP for whole teams, and leaves its setting as found.
@@ -72,6 +86,11 @@ inline int team_of(int threads) {
 #pragma omp single
   team = omp_get_num_threads();
   return team;
+}
+
+/// More threads than cores only wait for each other.
+inline int zones_for(int threads, const ParallelTuning& tuning) {
+  return tuning.by_cost ? std::min(threads, omp_get_num_procs()) : threads;
 }
 
 template <Search S, Model M>
@@ -97,6 +116,8 @@ class ParallelLoop final : public EventLoop<S, M> {
   void undo();
   void report();
 
+  static constexpr TeamChoice::Turn all_together{true, std::numeric_limits<double>::infinity()};
+
   /// Collisions of the whole gas per time, from the mean free time.
   double thermal_rate() const {
     return 0.5 * static_cast<double>(run_.gas.size()) / run_.mean_free_time;
@@ -109,6 +130,9 @@ class ParallelLoop final : public EventLoop<S, M> {
   double fastest_to_thermal_;  ///< speed of the fastest needle of the previous phase, divided by
                                ///< thermal_speed()
   PhasePlan plan_;
+  TeamChoice team_;
+  const bool by_cost_;
+  bool ordered_ = true;  ///< whether one thread alone can use the calendar as it is
 };
 
 template <Search S, Model M>
@@ -117,8 +141,9 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
     : Base(run, std::move(search), std::make_unique<CalendarOf<CellCalendar>>(),
            std::move(replaced)),
       cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
-      phase_(run, search_, cell_calendar_, threads, tuning.sight),
-      plan_(run.gas.clock, tuning.least) {
+      phase_(run, search_, cell_calendar_, zones_for(threads, tuning), tuning.sight),
+      plan_(run.gas.clock, tuning.least),
+      by_cost_(tuning.by_cost) {
   const int team = team_of(threads);
   if (team != threads) {
     throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
@@ -128,6 +153,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
   }
   for (std::uint32_t zone = 0; zone < phase_.threads; ++zone)
     threads_.emplace_back(phase_, this->model_, zone);
+  phase_.may_be_too_slow = tuning.by_cost;
   double squares = 0;
   for (const Record& record : run.gas.records) {
     squares = std::max(squares, dot(record.flight.v, record.flight.v));
@@ -163,18 +189,27 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     // Before `ready` no thread has to rebase the times that the search stores.
     const Time ready = search_.prepare(run_.now);
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
-    const PhasePlan::Stretch stretch =
-        plan_.next({next, std::min(run_.window_end, last), ready, left, thermal_rate()});
+    const TeamChoice::Turn turn = by_cost_ ? team_.next() : all_together;
+    const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
+                                                   left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
+    const Stopwatch watch;
+    double preparing = 0;
+    std::optional<Stop> stop;
     if (stretch.together) {
       run_together(limits, stretch.end);
     } else {
-      cell_calendar_.order_again();
-      if (const auto stop = this->run_alone(limits, stretch.end)) return stop;
-      if (run_.tally.collisions >= limits.pause) return std::nullopt;
+      if (!ordered_) cell_calendar_.order_again();
+      ordered_ = true;
+      preparing = watch.seconds();
+      stop = this->run_alone(limits, stretch.end);
     }
-    plan_.counted(static_cast<double>(run_.tally.collisions - before),
-                  thermal_rate() * run_.gas.clock.difference(stretch.end, next));
+    const auto collisions = static_cast<double>(run_.tally.collisions - before);
+    if (!stretch.together) run_.tally.counters.alone += run_.tally.collisions - before;
+    team_.took(stretch.together, collisions, watch.seconds() - preparing, preparing);
+    if (stop) return stop;
+    if (!stretch.together && run_.tally.collisions >= limits.pause) return std::nullopt;
+    plan_.counted(collisions, thermal_rate() * run_.gas.clock.difference(stretch.end, next));
   }
 }
 
@@ -188,6 +223,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   for (auto& thread : threads_) thread.begin();
   [[maybe_unused]] const Time base = search_.volumes().base;
   const TimeKey end_key = cell_calendar_.key_of(end);
+  ordered_ = false;
   const int threads = static_cast<int>(threads_.size());
   {
     const WholeTeams whole;
@@ -224,7 +260,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
     undo();
     if (phase_.too_many) {
       plan_.had_too_many();
-    } else {
+    } else if (!phase_.too_slow) {
       plan_.undone(run_.now, end);
     }
     return;
@@ -248,6 +284,7 @@ void ParallelLoop<S, M>::undo() {
   for (std::size_t n = 0; n < needles.size(); ++n) {
     processor_.schedule(needles[n], placed_until[n]);
   }
+  ordered_ = true;
 }
 
 // Reports the collisions of the phase in order of time.

@@ -16,14 +16,16 @@ class Patience {
  public:
   explicit Patience(int spins) : spins_(spins) {}
 
-  void wait() {
+  /// Returns whether the core was yielded.
+  bool wait() {
     if (++turns_ > spins_) {
       std::this_thread::yield();
-    } else {
-#if defined(__x86_64__)
-      _mm_pause();
-#endif
+      return true;
     }
+#if defined(__x86_64__)
+    _mm_pause();
+#endif
+    return false;
   }
   void reset() { turns_ = 0; }
 
@@ -43,16 +45,25 @@ class BlockedTime {
     if (!blocked_) return;
     blocked_ = false;
     ++count;
-    const auto time =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(SteadyClock::now() - since_);
-    nanoseconds += static_cast<std::uint64_t>(time.count());
+    const SteadyClock::duration time = SteadyClock::now() - since_;
+    total_ += time;
+    const auto whole = std::chrono::duration_cast<std::chrono::nanoseconds>(time);
+    nanoseconds += static_cast<std::uint64_t>(whole.count());
+  }
+  /// Whether the thread, which is blocked, has been so for longer than `least` in all, and for most
+  /// of the time since this object was made.
+  bool is_most(std::chrono::milliseconds least) const {
+    const SteadyClock::time_point now = SteadyClock::now();
+    const SteadyClock::duration blocked = total_ + (now - since_);
+    return blocked > least && 2 * blocked > now - made_;
   }
 
  private:
   using SteadyClock = std::chrono::steady_clock;
 
   bool blocked_ = false;
-  SteadyClock::time_point since_;
+  SteadyClock::time_point made_ = SteadyClock::now(), since_;
+  SteadyClock::duration total_{};
 };
 
 /// Called before a thread reads or publishes progress. Does nothing in a normal build. In a build

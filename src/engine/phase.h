@@ -4,6 +4,7 @@
 #include <omp.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,9 +60,14 @@ struct Phase {
   Mail mail;
   alignas(128) std::atomic<bool> amiss = false;  ///< the phase must be undone
   std::atomic<bool> too_many = false;            ///< a thread has had too many collisions
+  std::atomic<bool> too_slow = false;            ///< a thread has waited too long
   std::uint64_t most_collisions = 0;             ///< of one thread
-  const int spins;                               ///< turns that a waiting thread spins before it
-                                                 ///< yields
+  bool may_be_too_slow = false;                  ///< whether long waits end the phase
+  /// A thread that has waited for longer in a phase, and for most of the time, ends it. It is about
+  /// a slice of the scheduler's time.
+  static constexpr std::chrono::milliseconds longest_wait{4};
+  const int spins;  ///< turns that a waiting thread spins before it
+                    ///< yields
 };
 
 template <Search S>
@@ -113,7 +119,7 @@ void Phase<S>::begin(double fastest, std::uint64_t most) {
   done.clear();
   mail.begin();
   fronts.begin(fastest);
-  amiss = too_many = false;
+  amiss = too_many = too_slow = false;
   most_collisions = most;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "src/physics/clock.h"
 
@@ -26,23 +27,27 @@ class PhasePlan {
 
   /// What is known before a stretch of time is planned.
   struct Outlook {
-    Time next;    ///< time of the next event
-    Time end;     ///< latest end of the stretch
-    Time ready;   ///< latest time to which several threads can work
-    double left;  ///< collisions until the run ends
-    double rate;  ///< expected number of collisions in thermal flight [1/time]
+    Time next;             ///< time of the next event
+    Time end;              ///< latest end of the stretch
+    Time ready;            ///< latest time to which several threads can work
+    double left;           ///< collisions until the run ends
+    double rate;           ///< expected number of collisions in thermal flight [1/time]
+    bool together = true;  ///< whether all threads are preferred to one
+    double most = std::numeric_limits<double>::infinity();  ///< collisions of the stretch
   };
 
   Stretch next(const Outlook& at) const {
     if (at.next < alone_until_) return {std::min(at.end, alone_until_), false};
-    const Time end = std::min(at.end, at.ready);
+    const Time end = at.together ? std::min(at.end, at.ready) : at.end;
     // A limit on collisions is approached in ever shorter phases, so that little has to be undone.
-    const double most = std::min(most_, at.left / 2);
     const double rate = pace_ * at.rate, to_end = rate * clock_.difference(end, at.next);
+    const double most =
+        at.together ? std::min({most_, std::max(at.most, least_), at.left / 2}) : at.most;
     const Time part = to_end > most ? std::min(end, clock_.add(at.next, most / rate)) : end;
     // Too few collisions to share, or a stretch so short that rounding hides it.
-    if (std::min(most, to_end) < least_ || !(at.next < part)) return {at.end, false};
-    return {part, true};
+    const bool too_few = at.together && std::min(most, to_end) < least_;
+    if (too_few || !(at.next < part)) return {at.end, false};
+    return {part, at.together};
   }
 
   /// Number of collisions of one thread at which a phase is abandoned.

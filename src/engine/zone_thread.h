@@ -125,7 +125,9 @@ void ZoneThread<S, M>::work(TimeKey end) {
   };
   const auto wait = [&] {
     blocked_time.begin();
-    patience.wait();
+    if (patience.wait() && phase_.may_be_too_slow && blocked_time.is_most(Phase<S>::longest_wait)) {
+      phase_.too_slow = phase_.amiss = true;
+    }
   };
   while (!phase_.amiss.load(std::memory_order_relaxed)) {
     if (phase_.mail.has_some(zone_)) read_mail();

@@ -27,9 +27,9 @@ void transfer(Archive& archive, Scene& scene) {
   }
   {
     auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,
-           threads, isa, cell_side, capsule_radius, storage] = engine;
+           threads, team, isa, cell_side, capsule_radius, storage] = engine;
     archive(search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,
-            threads, isa, cell_side, capsule_radius, storage);
+            threads, team, isa, cell_side, capsule_radius, storage);
   }
   {
     auto& [time, collisions_per_needle, energy_ratio, wall_s] = until;

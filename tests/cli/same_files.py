@@ -17,6 +17,8 @@ box = 8.0
 [collisions]
 epsilon = 0.8
 tc_relative = 1e-3
+[engine]
+team = "all"
 [until]
 energy_ratio = 0.2
 [output]

@@ -84,6 +84,7 @@ void choose_parts(Scene& scene, std::size_t n) {
   if (parallel && n % 2 == 1) {
     scene.engine.queue = "cell-calendar";
     scene.engine.threads = static_cast<int>(2 + n % 3);
+    scene.engine.team = "all";
   }
 }
 

@@ -48,6 +48,7 @@ TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
         scene.engine.search = search;
         scene.engine.isa = kernels::name_of(isa);
         scene.engine.threads = threads;
+        scene.engine.team = "all";
         ASSERT_EQ(hash_of(scene), hash) << search << ", " << scene.engine.isa << ", " << threads;
       }
     }

@@ -63,6 +63,7 @@ struct Parts {
     scene.engine.search = search;
     scene.engine.queue = calendar;
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     return scene;
   }
 };

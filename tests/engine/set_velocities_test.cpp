@@ -237,6 +237,7 @@ TEST(SetVelocities, IsTheSameOnThreadsThatShareTheWork) {
   scene.collisions.tc_relative = 1e-2;
   const auto run = [&](int threads) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Followed run(scene);
     for (const double mean : {3.0, 6.0, 9.0}) {
       run->advance(until_collisions(mean / thin));
@@ -402,6 +403,7 @@ TEST(SetVelocities, LeaveTheEnergyOfTheStart) {
   scene.collisions.tc_relative = 1e-3;
   for (const int threads : {1, 2}) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Simulation simulation(scene);
     const double start = simulation.totals().energy;
     simulation.advance(until_collisions(1));

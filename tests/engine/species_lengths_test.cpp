@@ -115,6 +115,7 @@ TEST(SpeciesOfAnyLength, HaveOneTrajectoryOnThreads) {
     Simulation one(scene);
     one.advance(until);
     scene.engine.threads = 3;
+    scene.engine.team = "all";
     Simulation several(scene);
     several.advance(until);
     EXPECT_EQ(several.trajectory_hash(), one.trajectory_hash()) << length;

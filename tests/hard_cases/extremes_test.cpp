@@ -63,6 +63,7 @@ TEST(FewNeedles, TwoMayCoolUntilNothingHappensAnyMore) {
   scene.collisions.tc_relative = 1e-5;
   for (const int threads : {1, 2}) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Simulation simulation(scene);
     EXPECT_EQ(simulation.advance(until_collisions(1e6)), Stop::nothing_can_happen);
     const Totals cold = simulation.totals();

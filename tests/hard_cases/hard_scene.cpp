@@ -210,6 +210,7 @@ HardRun run_hard(const Scene& given, const State& state, const Scene::Until& unt
     scene.engine = {};
   }
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   for (const char* search : {"linked-cells", "capsules"}) {
     scene.engine.search = search;
     expect_same(truth, run_once(scene, state, until, nullptr),

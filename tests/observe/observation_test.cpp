@@ -54,6 +54,7 @@ TEST(Observation, DoesNotDependOnThreadsAndStorage) {
   scene.engine.search = "capsules";
   for (const int threads : {1, 3}) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     EXPECT_EQ(rows_of(scene, initial), expected) << threads << " threads";
   }
 }

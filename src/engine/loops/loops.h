@@ -21,6 +21,6 @@ std::unique_ptr<Loop> make_event_loop(Run& run, S search, std::unique_ptr<AnyCal
 
 /// The multi-threaded loop.
 std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
-                                         int threads);
+                                         int threads, bool all_threads);
 
 }  // namespace needlework

@@ -42,6 +42,7 @@ TEST(Cloud, IsFollowedAsItSpreads) {
   for (const int threads : {1, 2, 3}) {
     SCOPED_TRACE(threads);
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Simulation simulation(scene, state);
     EXPECT_EQ(simulation.search(), "capsules");
     EXPECT_LT(simulation.counters().candidates, 600u * simulation.counters().searches);

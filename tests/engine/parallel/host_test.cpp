@@ -25,6 +25,7 @@ Scene scene_on(kernels::Isa isa, int threads, std::uint64_t seed) {
   scene.collisions.tc_relative = 1e-3;
   scene.engine.isa = kernels::name_of(isa);
   scene.engine.threads = threads;
+  scene.engine.team = "all";
   return scene;
 }
 
@@ -135,6 +136,7 @@ TEST_F(HostWithOpenMP, RunsASimulationInEachThreadOfARegion) {
   for (const int threads : {1, 2}) {
     Scene scene = scene_;
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     std::array<std::string, 3> hashes;
 #pragma omp parallel num_threads(3)
     {

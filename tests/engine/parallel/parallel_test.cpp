@@ -49,6 +49,7 @@ TEST_P(ParallelRun, IsThatOfOneThread) {
       SCOPED_TRACE(std::string(search) + " on " + std::to_string(threads) + " threads");
       scene.engine.search = search;
       scene.engine.threads = threads;
+      scene.engine.team = "all";
       ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, test::record(scene, count)));
     }
   }
@@ -85,6 +86,7 @@ TEST(Parallel, IsTheSameEveryTime) {
   for (int n = 0; n < repeats; ++n) {
     for (const int threads : {3, 8}) {
       scene.engine.threads = threads;
+      scene.engine.team = "all";
       ASSERT_EQ(test::record(scene, 700).hash, truth) << threads << " threads, run " << n;
     }
   }
@@ -97,6 +99,7 @@ TEST(Parallel, UsesAllThreadsAfterALongStretchOnOne) {
   const int steps = thin > 1 ? 20 : 100;
   const auto run = [&](int threads) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     auto simulation = std::make_unique<Simulation>(scene);
     // Each step is too short for a phase.
     for (int n = 0; n <= steps; ++n) simulation->advance(test::until_collisions(0.2 * n));
@@ -112,6 +115,7 @@ TEST(Parallel, UsesAllThreadsAfterALongStretchOnOne) {
 TEST(Parallel, UsesItsThreads) {
   Scene scene = scene_of({"", 2000, {14, 14, 14}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   Simulation simulation(scene);
   Scene::Until until;
   until.collisions_per_needle = 10;
@@ -128,6 +132,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   const auto stops = [&](int threads) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Simulation simulation(scene);
     std::vector<std::tuple<Stop, double, std::uint64_t, std::string>> out;
     std::vector<State> states;
@@ -159,6 +164,7 @@ TEST(Parallel, StopsWhereOneThreadStops) {
 TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance({.energy_ratio = 0.5}), Stop::energy);
   EXPECT_GE(simulation.counters().redone, 1u);
@@ -173,6 +179,7 @@ TEST(Parallel, EndsAtTheNextCollision) {
     const double mean = std::nextafter(n / 500.0, 1.0);
     slightly_above += mean * 500 > n;
     scene.engine.threads = 2;
+    scene.engine.team = "all";
     Simulation simulation(scene);
     ASSERT_EQ(simulation.advance({.collisions_per_needle = mean}), Stop::collisions);
     ASSERT_EQ(simulation.totals().collisions, static_cast<std::uint64_t>(std::ceil(mean * 500)));
@@ -188,6 +195,7 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   scene.initial.t_rot = 0;
   const auto run = [&](int threads, double wall) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     auto simulation = std::make_unique<Simulation>(scene);
     Scene::Until until;
     until.energy_ratio = thin > 1 ? 0.7 : 0.3;
@@ -236,6 +244,7 @@ TEST(Parallel, UndoesPhasesOfRareGasesCorrectly) {
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;
+  scene.engine.team = "all";
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance(test::until_collisions(10 / thin)), Stop::collisions);
   const Counters& counters = simulation.counters();
@@ -267,6 +276,7 @@ TEST(Parallel, HasTheSameTrajectoryForFewNeedles) {
 TEST(Parallel, ReportsThatOpenMPGivesFewerThreads) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   const int levels = omp_get_max_active_levels();
   omp_set_max_active_levels(0);
   std::string message;
@@ -283,6 +293,7 @@ TEST(Parallel, FailsWhereOneThreadFails) {
   Scene scene = scene_of({"", 400, {5, 5, 5}, 0.2, -1, 0, 6, 0});
   const auto failure = [&](int threads) {
     scene.engine.threads = threads;
+    scene.engine.team = "all";
     Simulation simulation(scene);
     std::string message;
     try {
@@ -301,6 +312,7 @@ TEST(Parallel, FailsWhereOneThreadFails) {
 TEST(Parallel, CanBeInterrupted) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   Simulation simulation(scene);
   simulation.on_collision([&](const Collision&) { simulation.interrupt(); });
   EXPECT_EQ(simulation.advance({.collisions_per_needle = 1e6}), Stop::interrupted);
@@ -310,6 +322,7 @@ TEST(Parallel, CanBeInterrupted) {
 TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {
   Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
+  scene.engine.team = "all";
   scene.engine.search = "all-pairs";
   EXPECT_THROW(Simulation{scene}, InputError);
   scene.engine.search = "auto";

@@ -18,7 +18,7 @@ class PhasePlanTest : public testing::Test {
  protected:
   // A run without a limit on collisions, with this number of collisions per time.
   PhasePlan::Outlook outlook(double next, double rate, double left = infinity) const {
-    return {at(next), at(1e6), at(1e6), left, rate};
+    return {.next = at(next), .end = at(1e6), .ready = at(1e6), .left = left, .rate = rate};
   }
   void expect_together(const PhasePlan::Outlook& outlook, double until) {
     const PhasePlan::Stretch stretch = plan.next(outlook);

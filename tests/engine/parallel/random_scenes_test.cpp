@@ -95,6 +95,7 @@ void PrintTo(const End& end, std::ostream* out) {
 // to `counters`.
 End run(Drawn drawn, int threads, double slice, Counters& counters) {
   drawn.scene.engine.threads = threads;
+  drawn.scene.engine.team = "all";
   if (slice > 0) drawn.until.wall_s = slice;
   Simulation simulation(drawn.scene, drawn.state());
   Stop stop;
