@@ -15,9 +15,12 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/io/atomic_file.h"
 #include "src/runs/durable_file.h"
 #include "src/runs/saved_totals.h"
+#include "src/scene/printable.h"
 #include "src/scene/saved_scene.h"
+#include "src/scene/scene_values.h"
 
 namespace needlework {
 
@@ -99,6 +102,16 @@ std::pair<File, Header> open_checkpoint(const std::string& path) {
   return {std::move(file), header};
 }
 
+// A checksum says nothing about a file that somebody has made.
+void restore(Scene& scene) {
+  // The name of the output file may be any: options give it, and callers replace it.
+  std::string file = std::exchange(scene.output.file, {});
+  require_valid(scene);
+  scene.output.file = std::move(file);
+  // They become parts of messages.
+  for (auto& [key, place] : scene.places) place = printable(place);
+}
+
 RunCheckpoint read_checkpoint(const std::string& path) {
   const auto [file, header] = open_checkpoint(path);
   // Before memory is taken for it.
@@ -111,17 +124,35 @@ RunCheckpoint read_checkpoint(const std::string& path) {
     throw damaged(path, "its checksum is wrong");
   }
   RunCheckpoint out;
-  Archive archive = Archive::from(bytes);
-  transfer(archive, out);
-  archive.require_end();
+  try {
+    Archive archive = Archive::from(bytes);
+    transfer(archive, out);
+    archive.require_end();
+    restore(out.scene);
+  } catch (const InputError& error) {
+    throw damaged(path, error.what());
+  }
   out.origin = {path, header.checksum};
   return out;
+}
+
+// The file to which a symbolic link leads, or the name itself if it is none.
+std::string behind_links(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path file = std::filesystem::canonical(path, error);
+  return error ? path : file.string();
+}
+
+void rename_file(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) == 0) return;
+  throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
 }
 
 }  // namespace
 
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
-    : newest_(output_file + ".checkpoint"), older_(newest_ + ".old") {}
+    : newest_(behind_links(output_file) + ".checkpoint"), older_(newest_ + ".old") {}
 
 bool CheckpointFiles::exist() const {
   std::error_code ignored;
@@ -143,13 +174,10 @@ void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
 
   const std::string unfinished = newest_ + ".part";
   write_durably(unfinished, bytes);
-  if (std::rename(newest_.c_str(), older_.c_str()) != 0 && errno != ENOENT) {
-    throw IoError(fmt::format("{}: {}", older_, std::generic_category().message(errno)));
-  }
-  if (std::rename(unfinished.c_str(), newest_.c_str()) != 0) {
-    throw IoError(fmt::format("{}: {}", newest_, std::generic_category().message(errno)));
-  }
-  sync_folder_of(newest_);
+  std::error_code ignored;
+  if (std::filesystem::exists(newest_, ignored)) rename_file(newest_, older_);
+  rename_file(unfinished, newest_);
+  io::sync_name(newest_);
 }
 
 CheckpointFiles::Read CheckpointFiles::read() const {
@@ -181,9 +209,12 @@ void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
 }
 
 void CheckpointFiles::remove() {
-  std::error_code ignored;
   for (const std::string& path : {newest_, older_, newest_ + ".part"}) {
-    std::filesystem::remove(path, ignored);
+    std::error_code error, ignored;
+    std::filesystem::remove(path, error);
+    if (error && std::filesystem::exists(path, ignored)) {
+      throw IoError(fmt::format("{}: cannot be removed: {}", path, error.message()));
+    }
   }
 }
 

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "needlework/error.h"
 #include "src/observe/cooling_theory.h"
+#include "src/runs/saved_totals.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
 
@@ -23,6 +27,12 @@ void require_events(Simulation& simulation, const Scene& scene, const std::strin
 
 namespace {
 
+[[noreturn]] void throw_damaged(const RunCheckpoint::Origin& origin) {
+  throw InputError(origin.path +
+                   ": damaged: its parts do not belong together: expected a checkpoint that this "
+                   "version of the program has written");
+}
+
 // Where kinetic theory has something to say: of a drawn gas that moves.
 observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
   if (!drawn || !(initial.energy > 0)) return nullptr;
@@ -38,6 +48,7 @@ template <class Open>
 void PreparedRun::open_output(Open&& open) {
   const std::string& file = scene_.output.file;
   if (file.empty()) return;
+  output_file_ = std::filesystem::absolute(file);
   observation_.emplace(scene_, cooling_theory(scene_, initial_, drawn_));
   try {
     io::RunInfo info = run_info(simulation_, scene_);
@@ -76,7 +87,7 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path
   open_output(
       [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
   // Those of an older run, whose file has just been replaced.
-  if (writer_) CheckpointFiles(scene_.output.file).remove();
+  if (writer_) checkpoints().remove();
   driver_.emplace(simulation_, scene_, output(), path != nullptr);
 }
 
@@ -84,18 +95,40 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
     : scene_(std::move(saved.scene)),
       saves_(saves),
       drawn_(saved.drawn),
-      simulation_(continue_simulation(saved.simulation)),
+      simulation_(continue_simulation(saved)),
       initial_(saved.initial) {
-  if (simulation_.needles() != scene_.needles.count) Archive::throw_damaged();
+  if (scene_.output.file.empty()) throw std::logic_error("a checkpoint without an output file");
+  require_consistent(saved);
   open_output([&](const io::RunInfo& info) {
-    return io::Writer::resume(scene_.output.file, scene_, info, saved.output,
-                              [&] { CheckpointFiles::require_unchanged(saved.origin); });
+    return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
+      CheckpointFiles::require_unchanged(saved.origin);
+      // Whether it can be restored has to be known before the file is changed.
+      RunDriver driver(simulation_, scene_, {}, true);
+      restore(saved, driver);
+    });
   });
   driver_.emplace(simulation_, scene_, output(), true);
-  Archive archive = Archive::from(saved.observation);
-  observation_->transfer(archive);
-  driver_->transfer(archive);
-  archive.require_end();
+  restore(saved, *driver_);
+}
+
+void PreparedRun::require_consistent(const RunCheckpoint& saved) const {
+  const double energy = simulation_.initial_energy();
+  const bool consistent =
+      simulation_.needles() == scene_.needles.count && are_possible(initial_) &&
+      initial_.time == 0 && initial_.collisions == 0 &&
+      (scene_.needles.count == 0 || std::abs(initial_.energy - energy) <= 1e-9 * energy);
+  if (!consistent) throw_damaged(saved.origin);
+}
+
+void PreparedRun::restore(const RunCheckpoint& saved, RunDriver& driver) {
+  try {
+    Archive archive = Archive::from(saved.observation);
+    observation_->transfer(archive);
+    driver.transfer(archive);
+    archive.require_end();
+  } catch (const InputError&) {
+    throw_damaged(saved.origin);
+  }
 }
 
 Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
@@ -105,12 +138,18 @@ Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
   return simulation;
 }
 
-Simulation PreparedRun::continue_simulation(const Checkpoint& saved) {
+Simulation PreparedRun::continue_simulation(const RunCheckpoint& saved) {
   setup_.start();
-  Simulation simulation(scene_, saved);
-  setup_.stop();
-  return simulation;
+  try {
+    Simulation simulation(scene_, saved.simulation);
+    setup_.stop();
+    return simulation;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", saved.origin.path, error.what()));
+  }
 }
+
+CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_.string()); }
 
 std::string PreparedRun::why_not_saved() const {
   if (scene_.output.file.empty()) {
@@ -140,7 +179,7 @@ void PreparedRun::save_checkpoint() {
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);
-  CheckpointFiles(scene_.output.file).write(saved);
+  checkpoints().write(saved);
 }
 
 Course PreparedRun::drive(RunMonitor& monitor) {
