@@ -9,6 +9,7 @@
 #include "src/archive/archive.h"
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
+#include "src/physics/vectors.h"
 
 namespace needlework {
 
@@ -29,10 +30,6 @@ void transfer(Archive& archive, Flight& flight) {
 }  // namespace kernels
 
 namespace {
-
-bool is_finite(const Vec3d& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
 
 void require(bool condition) {
   if (!condition) Archive::throw_damaged();
