@@ -15,27 +15,27 @@ namespace needlework {
 namespace {
 
 // Whole numbers beyond those of TOML become a number that no key accepts.
-Value value_of(std::uint64_t n) {
+Value toml_of(std::uint64_t n) {
   constexpr auto most = std::numeric_limits<std::int64_t>::max();
   return {n <= std::uint64_t{most} ? static_cast<std::int64_t>(n) : std::int64_t{-1}};
 }
-Value value_of(int n) { return {std::int64_t{n}}; }
-Value value_of(double x) { return {x}; }
-Value value_of(bool b) { return {b}; }
-Value value_of(const std::string& text) { return {text}; }
+Value toml_of(int n) { return {std::int64_t{n}}; }
+Value toml_of(double x) { return {x}; }
+Value toml_of(bool b) { return {b}; }
+Value toml_of(const std::string& text) { return {text}; }
 
 template <class Sequence>
 Value array_of(const Sequence& values) {
   Value::Array out;
-  for (const auto& value : values) out.push_back(value_of(value));
+  for (const auto& value : values) out.push_back(toml_of(value));
   return {std::move(out)};
 }
 template <class T, std::size_t size>
-Value value_of(const std::array<T, size>& values) {
+Value toml_of(const std::array<T, size>& values) {
   return array_of(values);
 }
 template <class T>
-Value value_of(const std::vector<T>& values) {
+Value toml_of(const std::vector<T>& values) {
   return array_of(values);
 }
 
@@ -46,7 +46,7 @@ class Section {
 
   template <class T>
   void operator()(std::string_view key, const T& value) {
-    out_.push_back({name_, key, value_of(value)});
+    out_.push_back({name_, key, toml_of(value)});
   }
   template <class T>
   void operator()(std::string_view key, const std::optional<T>& value) {
@@ -139,7 +139,7 @@ void require_agreement(const Scene& scene) {
 
 std::vector<KeyValue> values_of(const Scene& scene) {
   std::vector<KeyValue> out;
-  out.push_back({"", "title", value_of(scene.title)});
+  out.push_back({"", "title", toml_of(scene.title)});
   put_gas(scene, out);
   const auto& [epsilon, beta, tc, tc_relative] = scene.collisions;
   Section collisions(out, "collisions");
@@ -163,7 +163,8 @@ void require_valid(const Scene& scene) {
   for (const auto& [section, name, value] : values_of(scene)) {
     const SceneKey* key = find_scene_key(section, name);
     if (key->read(again, value)) continue;
-    refuse(section.empty() ? std::string(name) : fmt::format("{}.{}", section, name), key->expected);
+    refuse(section.empty() ? std::string(name) : fmt::format("{}.{}", section, name),
+           key->expected);
   }
   require_agreement(scene);
   if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");
