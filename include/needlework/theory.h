@@ -68,6 +68,7 @@ class CoolingCurve {
   /// values, to the last bit.
   using Place = std::array<double, 5>;
   Place place() const;
+  /// Throws InputError for a place that no curve can have come to.
   void go_to(const Place& place);
 
  private:

@@ -76,12 +76,15 @@ class Archive {
   }
   template <class T, class Allocator>
   void pass(std::vector<T, Allocator>& values) {
-    values.resize(count_of(values.size()));
+    const std::size_t count = count_of(values.size());
     if constexpr (is_plain<T>) {
-      if (reads() && values.size() > in_.size() / sizeof(T)) throw_damaged();
-      pass_bytes(values.data(), values.size() * sizeof(T));
+      if (reads() && count > in_.size() / sizeof(T)) throw_damaged();
+      values.resize(count);
+      pass_bytes(values.data(), count * sizeof(T));
     } else {
-      for (T& value : values) pass(value);
+      // One by one, so that a damaged count takes no more memory than the values that are there.
+      if (reads()) values.clear();
+      for (std::size_t n = 0; n < count; ++n) pass(reads() ? values.emplace_back() : values[n]);
     }
   }
   template <class T>
@@ -107,8 +110,7 @@ class Archive {
     pass(values.second);
   }
 
-  // The number of elements. Each has a byte at least, so that a damaged number cannot ask for more
-  // memory than there are bytes, times the size of an element.
+  // The number of elements. Each has a byte at least.
   std::size_t count_of(std::size_t present) {
     std::uint64_t count = present;
     pass(count);

@@ -12,7 +12,6 @@
 namespace needlework::audit {
 namespace {
 
-constexpr std::size_t most_listed = 100;
 /// Times may be off by this fraction of the flight, plus four times the pair's condition limit.
 constexpr double relative_tolerance = 1e-12;
 /// A collision before its contact is early. Without a contact within this fraction of the time in
@@ -45,16 +44,35 @@ Collision in_epochs(Collision collision, double epoch_length) {
   return collision;
 }
 
+std::vector<Needle> needles_of(const State& initial, double epoch_length) {
+  std::vector<Needle> needles;
+  needles.reserve(initial.size());
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    needles.emplace_back(Record{{},
+                                vector(initial.position[i]),
+                                vector(initial.velocity[i]) * epoch_length,
+                                vector(initial.orientation[i]),
+                                vector(initial.angular_velocity[i]) * epoch_length});
+  }
+  return needles;
+}
+
+double density_of(const State& state) {
+  return static_cast<double>(state.size()) / (state.box[0] * state.box[1] * state.box[2]);
+}
+
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return std::uint64_t{i} << 32 | j; }
 
 }  // namespace
 
 const char* name(Kind kind) {
-  constexpr std::array names = {"missed", "spurious", "late", "early", "wrong_order", "wrong_rule"};
+  constexpr std::array names = {"missed",      "spurious",   "late",        "early",
+                                "wrong_order", "wrong_rule", "wrong_start", "wrong_end"};
   return names[static_cast<std::size_t>(kind)];
 }
 
 double Findings::bound95(Kind kind) const {
+  if (!is_of_collisions(kind)) return std::numeric_limits<double>::quiet_NaN();
   const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
   const std::uint64_t n = of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0);
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -63,14 +81,14 @@ double Findings::bound95(Kind kind) const {
 }
 
 Audit::Audit(const State& initial, const Setup& setup)
-    : setup_(setup), space_{initial.box}, ids_(initial.id) {
-  needles_.reserve(initial.size());
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    needles_.emplace_back(Record{{},
-                                 vector(initial.position[i]),
-                                 vector(initial.velocity[i]) * setup.epoch_length,
-                                 vector(initial.orientation[i]),
-                                 vector(initial.angular_velocity[i]) * setup.epoch_length});
+    : setup_(setup),
+      space_{initial.box},
+      ids_(initial.id),
+      needles_(needles_of(initial, setup.epoch_length)),
+      windows_(needles_, density_of(initial), setup.rule.k) {
+  if (!needles_.empty()) {
+    initial_energy_ =
+        static_cast<double>(needles_.size()) * temperatures_of(needles_, setup.rule.k).energy();
   }
   if (setup_.tc) *setup_.tc /= setup.epoch_length;
   has_collided_.assign(initial.size(), false);
@@ -133,6 +151,8 @@ void Audit::add(const Collision& reported) {
     fingerprint_ = mixed(fingerprint_ ^ word);
   }
   ++findings_.collisions;
+  if (setup_.tc_relative) windows_.advance(now, needles_);
+  last_energy_change_ = collision.energy_change;
   if (!resumed_) {
     check_order(now, collision);
     const bool backwards = now < needles_[a].record.time || now < needles_[b].record.time;
@@ -228,15 +248,20 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
   }
 }
 
-// A relative contact time is in units that only the engine knows, so its report is accepted.
 bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {
-  if (!setup_.tc) return setup_.tc_relative && reported;
+  if (!setup_.tc && !setup_.tc_relative) return false;
+  if (!setup_.tc && !windows_.are_certain()) return reported;
+  const double tc = setup_.tc ? *setup_.tc : *setup_.tc_relative * windows_.mean_free_time();
+  const double tolerance = setup_.tc ? 0x1p-50 : Windows::tolerance;
+  bool undecided = false;
   for (const Index i : {a, b}) {
     if (!has_collided_[i]) continue;
     const double age = elapsed<double>(needles_[i].record.time, now).middle;
-    if (std::abs(age - *setup_.tc) <= 0x1p-50 * *setup_.tc) return reported;
-    if (age < *setup_.tc) return true;
+    const bool near = std::abs(age - tc) <= tolerance * tc;
+    undecided |= near;
+    if (!near && age < tc) return true;
   }
+  if (undecided) return reported;
   return false;
 }
 

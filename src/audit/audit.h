@@ -19,19 +19,27 @@
 #include "src/audit/encounters.h"
 #include "src/audit/pair_flight.h"
 #include "src/audit/rule.h"
+#include "src/audit/windows.h"
 
 namespace needlework::audit {
 
-enum class Kind { missed, spurious, late, early, wrong_order, wrong_rule };
-inline constexpr std::array kinds = {Kind::missed, Kind::spurious,    Kind::late,
-                                     Kind::early,  Kind::wrong_order, Kind::wrong_rule};
+enum class Kind { missed, spurious, late, early, wrong_order, wrong_rule, wrong_start, wrong_end };
+inline constexpr std::array kinds = {Kind::missed,      Kind::spurious,    Kind::late,
+                                     Kind::early,       Kind::wrong_order, Kind::wrong_rule,
+                                     Kind::wrong_start, Kind::wrong_end};
 const char* name(Kind kind);
+/// Whether it is about collisions, or otherwise about the run as a whole.
+constexpr bool is_of_collisions(Kind kind) {
+  return kind != Kind::wrong_start && kind != Kind::wrong_end;
+}
+/// The greatest number of differences that are listed.
+inline constexpr std::size_t most_listed = 100;
 
 /// A difference between the run and the result of the audit.
 struct Difference {
   Kind kind;
   double time = 0;  ///< of the collision, or of the contact that was missed [time]
-  std::uint32_t first = 0, second = 0;  ///< ids of the needles
+  std::uint32_t first = 0, second = 0;  ///< ids of the needles, if it is of collisions
 };
 
 /// The results of an audit so far.
@@ -48,7 +56,7 @@ struct Findings {
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
   /// Upper limit, with 95 % confidence, on the fraction of collisions that differ in this way: a
-  /// Poisson limit, 3 / n if none of n does. NaN without collisions.
+  /// Poisson limit, 3 / n if none of n does. NaN without collisions, and if it is not of them.
   double bound95(Kind kind) const;
 };
 
@@ -68,10 +76,10 @@ struct Checkpoint {
 struct Setup {
   double epoch_length = 1;  ///< unit of the collisions' times, a power of two
   Rule rule;
-  std::optional<double> tc;  ///< absolute contact time, whose use can be checked
-  bool tc_relative = false;
-  double share = 1;        ///< fraction of all pairs that are checked
-  std::uint64_t seed = 0;  ///< selects these pairs
+  std::optional<double> tc;           ///< absolute contact time
+  std::optional<double> tc_relative;  ///< the same in present mean free times
+  double share = 1;                   ///< fraction of all pairs that are checked
+  std::uint64_t seed = 0;             ///< selects these pairs
 };
 
 class Audit {
@@ -84,12 +92,21 @@ class Audit {
   void resume(Checkpoint checkpoint);
   Checkpoint checkpoint() const;
 
+  /// Checks that the state at time 0 is that of the scene: `given`, if it was read from a file, or
+  /// otherwise one of its temperatures and without momentum. To be called before the first
+  /// collision is added.
+  void check_start(const Scene& scene, const State* given);
+
   /// Adds the next collision. Throws InputError if an audit is continued with collisions of
   /// another run.
   void add(const Collision& collision);
   /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
+
+  /// Checks that the run ended for this reason where its conditions say, and not later. To be
+  /// called after finish(), for a run that was neither interrupted nor ended by wall time.
+  void check_end(const Scene::Until& until, Stop reason, double time);
 
   const Findings& findings() const { return findings_; }
 
@@ -123,6 +140,10 @@ class Audit {
   void settle(const PairFlight& pair, bool undecided);
   double tolerance(PairFlight& pair, double s) const;
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
+  void report(Kind kind);
+  bool is_proper(const Needle& needle) const;
+  bool is_as_given(const Needle& needle, const State& given, std::size_t i) const;
+  bool is_at_rest() const;
   void follow(Index a, Index b, const Instant& now, const Collision& collision);
 
   Setup setup_;
@@ -130,6 +151,9 @@ class Audit {
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
   std::vector<bool> has_collided_;
+  Windows windows_;
+  double initial_energy_ = 0;      ///< of all needles, speeds per epoch
+  double last_energy_change_ = 0;  ///< in the last collision
   std::unordered_map<std::uint64_t, Continuation> continuations_;
   std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;
   Findings findings_;

@@ -46,7 +46,7 @@ audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, doubl
   return {.epoch_length = epoch_length,
           .rule = {collisions.epsilon, collisions.beta, scene.needles.k},
           .tc = collisions.tc,
-          .tc_relative = collisions.tc_relative.has_value(),
+          .tc_relative = collisions.tc_relative,
           .share = arguments.share,
           .seed = arguments.seed};
 }
@@ -82,6 +82,7 @@ Outcome follow(Simulation& simulation, audit::Audit& audit, const Scene& scene, 
     if (outcome.is_complete() && !audit.finish(simulation.time(), SignalGuard::received)) {
       outcome.stop = Stop::interrupted;
     }
+    if (outcome.is_complete()) audit.check_end(scene.until, outcome.stop, simulation.time());
   } catch (const InvalidStateError& error) {
     outcome.failure = error.what();
   }
@@ -96,6 +97,7 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
   for (const audit::Kind kind : audit::kinds) json[audit::name(kind)] = findings.count(kind);
   json["undecided"] = findings.undecided;
   for (const audit::Kind kind : audit::kinds) {
+    if (!is_of_collisions(kind)) continue;
     json["bound95"][audit::name(kind)] = number(findings.bound95(kind));
   }
   json["collisions"] = findings.collisions;
@@ -107,11 +109,18 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
   json["cpu_s"] = outcome.clock.cpu();
   json["differences"] = nlohmann::json::array();
   for (const audit::Difference& difference : findings.listed) {
-    json["differences"].push_back({{"kind", audit::name(difference.kind)},
-                                   {"time", difference.time},
-                                   {"pair", {difference.first, difference.second}}});
+    json["differences"].push_back(
+        {{"kind", audit::name(difference.kind)}, {"time", difference.time}});
+    if (!is_of_collisions(difference.kind)) continue;
+    json["differences"].back()["pair"] = {difference.first, difference.second};
   }
   return json;
+}
+
+const char* meaning_of(audit::Kind kind) {
+  return kind == audit::Kind::wrong_start
+             ? "the initial state is not that of the scene"
+             : "the run did not end at the first of the conditions in [until]";
 }
 
 std::string text_of(const audit::Findings& findings, const AuditArguments& arguments,
@@ -121,6 +130,7 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
                   findings.collisions, runs::duration_text(outcome.clock.wall()));
   for (const audit::Kind kind : audit::kinds) {
+    if (!is_of_collisions(kind)) continue;
     const double bound = findings.bound95(kind);
     text += fmt::format("{:12} {:8}   {}\n", audit::name(kind), findings.count(kind),
                         std::isnan(bound)
@@ -130,6 +140,10 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
   text +=
       fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", findings.undecided);
   for (const audit::Difference& difference : findings.listed) {
+    if (!is_of_collisions(difference.kind)) {
+      text += fmt::format("{}: {}\n", audit::name(difference.kind), meaning_of(difference.kind));
+      continue;
+    }
     text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
                         difference.first, difference.second, difference.time);
   }
@@ -187,6 +201,7 @@ int run(const AuditArguments& arguments) {
       audit.resume(std::move(*checkpoint));
     }
   }
+  audit.check_start(scene, loaded.initial ? &*loaded.initial : nullptr);
   simulation.on_collision([&](const Collision& collision) { audit.add(collision); });
   SignalGuard guard;
   guard.interrupt(simulation);

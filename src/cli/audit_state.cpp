@@ -1,13 +1,16 @@
 #include "src/cli/audit_state.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "needlework/error.h"
 #include "src/cli/json.h"
+#include "src/runs/durable_file.h"
 
 namespace needlework::cli {
 namespace {
@@ -80,11 +83,10 @@ audit::Checkpoint checkpoint_of(const Json& from) {
 void write_audit_state(const std::string& path, const AuditIdentity& identity,
                        const audit::Checkpoint& checkpoint) {
   const std::string draft = path + ".part";
-  std::ofstream file(draft);
-  file << json_text(Json{{"audit", identity}, {"state", checkpoint_json(checkpoint)}}) << '\n';
-  file.close();
-  if (!file || std::rename(draft.c_str(), path.c_str()) != 0) {
-    throw IoError(path + ": cannot be written");
+  runs::write_durably(
+      draft, json_text(Json{{"audit", identity}, {"state", checkpoint_json(checkpoint)}}) + '\n');
+  if (std::rename(draft.c_str(), path.c_str()) != 0) {
+    throw IoError(path + ": " + std::generic_category().message(errno));
   }
 }
 

@@ -6,13 +6,16 @@
 #include <cctype>
 #include <cstdio>
 
+#include "src/scene/printable.h"
+
 namespace needlework::cli {
 namespace {
 
+// Messages quote files of strangers, whose control characters would reach the terminal.
 void print_line(std::string_view kind, std::string_view message) {
   std::string line(message);
   std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "needlework: {}{}\n", kind, line);
+  fmt::print(stderr, "needlework: {}{}\n", kind, printable(line));
 }
 
 }  // namespace

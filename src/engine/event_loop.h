@@ -90,7 +90,7 @@ std::optional<Stop> EventLoop<S, M>::run_alone(const Limits& limits, Time end) {
       return Stop::time;
     }
     if (event.time >= end) {
-      if (event.time == Time::never()) return Stop::nothing_can_happen;
+      if (event.time == Time::never()) return run_.end_of_events();
       return std::nullopt;
     }
     processor_.process(event, processor_.is_stale(event));

@@ -122,6 +122,12 @@ class ParallelLoop final : public EventLoop<S, M> {
   double thermal_rate() const {
     return 0.5 * static_cast<double>(run_.gas.size()) / run_.mean_free_time;
   }
+  /// Whether keys, which are times since the start as doubles, have enough digits for the events of
+  /// one window. In a gas that does not cool they lose them after some 2^30 mean free times.
+  /// Threads compare nothing but keys, and could wait for each other without end.
+  bool keys_resolve(Time now) const {
+    return run_.gas.clock.since_start(now) * 0x1p-30 <= run_.search_span;
+  }
   double thermal_speed() const { return std::sqrt(std::max(0.0, run_.energy())); }
 
   CellCalendar& cell_calendar_;
@@ -185,7 +191,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
       run_.now = limits.time;
       return Stop::time;
     }
-    if (next == Time::never()) return Stop::nothing_can_happen;
+    if (next == Time::never()) return run_.end_of_events();
     // Before `ready` no thread has to rebase the times that the search stores.
     const Time ready = search_.prepare(run_.now);
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
@@ -193,10 +199,11 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
+    const bool together = stretch.together && keys_resolve(next);
     const Stopwatch watch;
     double preparing = 0;
     std::optional<Stop> stop;
-    if (stretch.together) {
+    if (together) {
       run_together(limits, stretch.end);
     } else {
       if (!ordered_) cell_calendar_.order_again();
@@ -205,10 +212,10 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
       stop = this->run_alone(limits, stretch.end);
     }
     const auto collisions = static_cast<double>(run_.tally.collisions - before);
-    if (!stretch.together) run_.tally.counters.alone += run_.tally.collisions - before;
-    team_.took(stretch.together, collisions, watch.seconds() - preparing, preparing);
+    if (!together) run_.tally.counters.alone += run_.tally.collisions - before;
+    team_.took(together, collisions, watch.seconds() - preparing, preparing);
     if (stop) return stop;
-    if (!stretch.together && run_.tally.collisions >= limits.pause) return std::nullopt;
+    if (!together && run_.tally.collisions >= limits.pause) return std::nullopt;
     plan_.counted(collisions, thermal_rate() * run_.gas.clock.difference(stretch.end, next));
   }
 }

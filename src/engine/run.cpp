@@ -158,15 +158,27 @@ void Run::open_window() {
   const double count = static_cast<double>(gas.size());
   energy_at_window_ = sums.energy * count;
   quanta_at_window_ = tally.energy;
-  // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
-  quantum_ = energy_at_window_ > 0 ? times_power_of_two(1, exponent_of(energy_at_window_) - 58) : 1;
-  per_quantum_ = 1 / quantum_;
   mean_free_time = mean_free_time_of(gas, sums);
-  contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
-  const bool endless = !std::isfinite(mean_free_time);
-  window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+  const Scales scales = scales_of_window();
+  quantum_ = scales.quantum;
+  per_quantum_ = 1 / quantum_;
+  contact_time = scales.contact_time;
+  window_span_ = scales.window_span;
   window_end = gas.clock.add(now, window_span_);
-  search_span = 4 * window_span_;
+  search_span = scales.search_span;
+}
+
+Run::Scales Run::scales_of_window() const {
+  const bool endless = !std::isfinite(mean_free_time);
+  const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+  // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
+  const int quantum = energy_at_window_ > 0 ? exponent_of(energy_at_window_) - 58 : 0;
+  return {.quantum = times_power_of_two(1, quantum),
+          .contact_time = tc_            ? *tc_
+                          : tc_relative_ ? *tc_relative_ * mean_free_time
+                                         : 0,
+          .window_span = span,
+          .search_span = 4 * span};
 }
 
 void Run::pass_window() {
@@ -218,6 +230,14 @@ bool Run::nothing_can_happen() const {
   return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {
     return record.flight.omega == 0 && record.flight.v == v;
   });
+}
+
+Stop Run::end_of_events() const {
+  if (nothing_can_happen()) return Stop::nothing_can_happen;
+  throw InvalidStateError(fmt::format(
+      "time {:.6g}: the next event is after {:.6g}, the largest time of this run (2^62 times the "
+      "mean free time at its start): expected an earlier end",
+      gas.clock.since_start(now), gas.clock.since_start(Time::never())));
 }
 
 void Run::sum_energies(Totals& out) const {

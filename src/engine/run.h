@@ -43,13 +43,16 @@ class Run {
 
   /// Energy of all needles, updated at each collision.
   double energy() const {
-    return energy_at_window_ + quantum_ * static_cast<double>(tally.energy - quanta_at_window_);
+    const auto since_window = static_cast<std::int64_t>(tally.energy - quanta_at_window_);
+    return energy_at_window_ + quantum_ * static_cast<double>(since_window);
   }
   /// An energy as a whole number of quanta, which are far smaller than the resolution of a double
   /// at the total energy. Sums of whole numbers do not depend on their order. Rounded to the
-  /// nearest, so that the energy by account does not drift.
-  std::int64_t in_quanta(double energy) const {
-    return static_cast<std::int64_t>(energy * per_quantum_ + (energy < 0 ? -0.5 : 0.5));
+  /// nearest, so that the energy by account does not drift. They are modulo 2^64, in which those of
+  /// all windows would overflow.
+  std::uint64_t in_quanta(double energy) const {
+    return static_cast<std::uint64_t>(
+        static_cast<std::int64_t>(energy * per_quantum_ + (energy < 0 ? -0.5 : 0.5)));
   }
   /// See Simulation::energy_drift().
   double energy_drift() const;
@@ -60,6 +63,9 @@ class Run {
   /// The same at the end of a window, of which the drift of the energy is noted.
   void pass_window();
   bool nothing_can_happen() const;
+  /// How a run ends that has no further event: since nothing can happen any more. If needles still
+  /// move, their next events are beyond the range of the clock: throws InvalidStateError.
+  Stop end_of_events() const;
 
   /// Passes a collision of these two needles to the callback, or appends it to `later`. Kept out
   /// of the event loops, whose code it would enlarge.
@@ -97,10 +103,16 @@ class Run {
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 
+  /// What follows from the mean free time and the energy at the start of a window.
+  struct Scales {
+    double quantum, contact_time, window_span, search_span;
+  };
+  Scales scales_of_window() const;
+
   std::optional<double> tc_, tc_relative_;
   double window_span_ = 0;
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
-  std::int64_t quanta_at_window_ = 0;
+  std::uint64_t quanta_at_window_ = 0;
   double drift_of_windows_ = 0;  ///< of those that have ended
 };
 

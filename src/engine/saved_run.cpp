@@ -3,6 +3,7 @@
 // are not saved, because no trajectory depends on them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "needlework/error.h"
 #include "src/archive/archive.h"
@@ -34,8 +35,28 @@ void require(bool condition) {
   if (!condition) Archive::throw_damaged();
 }
 
+// What a needle takes in a checkpoint, without touches.
+constexpr std::size_t least_bytes_of_a_needle = 180;
+constexpr std::size_t most_touches = std::numeric_limits<decltype(Record::touch_count)>::max();
+// Of needles that have not collided yet, in the memory of the t_c rule.
+constexpr Time long_ago{-(std::int64_t{1} << 62), 0};
+
 bool is_time(const Clock& clock, Time time) {
-  return time.offset >= 0 && time.offset < clock.epoch_length();
+  return time.offset >= 0 && time.offset < clock.epoch_length() && time >= long_ago &&
+         time <= Time::never();
+}
+
+bool equal(const Vec3d& a, const Vec3d& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+// What follows from velocities follows again, to the same bits.
+void require_flight(const kernels::Flight& f) {
+  require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w));
+  require(std::abs(dot(f.u, f.u) - 1) < 1e-6);
+  const double largest = std::max({std::abs(f.w.x), std::abs(f.w.y), std::abs(f.w.z)});
+  require(std::abs(dot(f.u, f.w)) <= 1e-6 * largest + 1e-300);
+  kernels::Flight again = f;
+  set_rotation(again);
+  require(equal(f.p, again.p) && f.omega == again.omega && std::isfinite(f.omega));
 }
 
 // The parameters on which the trajectory depends.
@@ -77,15 +98,20 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   archive(touches);
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
-  require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w) && is_finite(f.p) &&
-          std::abs(dot(f.u, f.u) - 1) < 1e-6 && std::isfinite(f.omega) && f.omega >= 0);
+  require_flight(f);
   require(record.species < gas.species.size());
-  require(is_time(gas.clock, record.time) && is_time(gas.clock, record.renewal));
+  require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
+  require(record.renewal == renewal_time(gas.clock, record, gas.species_of(record).length));
+  require(touches.size() <= most_touches);
   for (const auto& [place, edge] :
        {std::pair(f.r.x, gas.box[0]), std::pair(f.r.y, gas.box[1]), std::pair(f.r.z, gas.box[2])}) {
     require(place >= 0 && place < edge);
   }
-  for (const RecordedTouch& touch : touches) gas.add_touch(i, touch);
+  record.touch_count = 0;
+  for (const RecordedTouch& touch : touches) {
+    require(std::abs(touch.side) <= 1 && std::isfinite(touch.gap));
+    gas.add_touch(i, touch);
+  }
 }
 
 }  // namespace
@@ -94,14 +120,23 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 // known twice.
 void Run::require_consistent() const {
   require(is_time(gas.clock, now) && is_time(gas.clock, window_end) && now.epoch >= 0);
-  require(quantum_ > 0 && std::isfinite(quantum_) && std::isfinite(initial_energy) &&
+  require(std::isfinite(initial_energy) && initial_energy >= 0 &&
           std::isfinite(drift_of_windows_));
-  if (gas.size() < 2) return;
-  require(window_span_ > 0 && search_span > 0 && mean_free_time > 0 && contact_time >= 0);
-  const auto is_past = [&](const Record& record) {
-    return record.time.epoch >= 0 && record.time <= now && record.renewal > record.time;
-  };
-  require(std::ranges::all_of(gas.records, is_past));
+  require(std::isfinite(energy_at_window_) && energy_at_window_ >= 0 && mean_free_time > 0);
+  const Scales scales = scales_of_window();
+  require(quantum_ == scales.quantum && window_span_ == scales.window_span &&
+          search_span == scales.search_span);
+  // No number of infinite mean free times may be NaN.
+  require(contact_time == scales.contact_time || !std::isfinite(mean_free_time));
+  require(tally.tc_collisions <= tally.collisions && tally.at_instant <= tally.collisions &&
+          tally.collisions < std::uint64_t{1} << 63);
+  const auto is_past = [&](Time time) { return is_time(gas.clock, time) && time <= now; };
+  require(std::ranges::all_of(gas.records, is_past, &Record::time));
+  require(std::ranges::all_of(last_collision, is_past));
+  // Where nothing can happen, time passes without windows.
+  if (!nothing_can_happen()) {
+    require(now <= window_end && window_end <= gas.clock.add(now, window_span_));
+  }
   Totals sums;
   sum_energies(sums);
   const double sum = sums.energy * static_cast<double>(gas.size());
@@ -115,12 +150,13 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (archive.reads()) {
     require(std::isfinite(epoch_length) && epoch_length > 0);
     gas.clock = Clock(epoch_length);
+    require(gas.clock.epoch_length() == epoch_length);
     for (const double edge : gas.box) {
       require(std::isfinite(edge) && edge >= 2.01 * gas.longest);
     }
   }
   const bool has_last_collisions = effects.contact_time;
-  if (has_last_collisions) last_collision.resize(gas.size(), Time{-(std::int64_t{1} << 62), 0});
+  if (has_last_collisions) last_collision.resize(gas.size(), long_ago);
   for (const Needle i : by_id) {
     transfer_needle(archive, gas, i);
     if (has_last_collisions) archive(last_collision[i]);
@@ -158,7 +194,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
         "the saved state is of other needles, collisions or accuracy than those of the scene: "
         "expected the same");
   }
-  require(count <= saved.bytes.size());
+  require(count <= saved.bytes.size() / least_bytes_of_a_needle);
   gas.records.resize(count);
   gas.ids.resize(count);
   gas.images.resize(count);

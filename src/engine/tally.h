@@ -12,7 +12,7 @@ namespace needlework {
 
 struct Tally {
   std::uint64_t collisions = 0, tc_collisions = 0;
-  std::int64_t energy = 0;  ///< change of the total energy, in quanta of the window
+  std::uint64_t energy = 0;  ///< change of the total energy, in quanta of the windows, modulo 2^64
   TrajectoryHash hash;
   Counters counters;
   Time instant;                  ///< time of the last collision

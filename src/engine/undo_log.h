@@ -35,7 +35,7 @@ class UndoLog {
     for (std::size_t n = 0; n < used_; ++n) {
       Entry& entry = entries_[n];
       Record& record = gas.records[entry.needle];
-      if (entry.record.serial >= record.serial) continue;
+      if (!is_older(entry.record, record)) continue;
       std::swap(record, entry.record);
       gas.images[entry.needle] = entry.image;
       if (!last_collision.empty()) last_collision[entry.needle] = entry.last_collision;
@@ -43,6 +43,11 @@ class UndoLog {
   }
 
  private:
+  // Serial numbers are modulo 2^32; both belong to one phase, in which they differ by far less.
+  static bool is_older(const Record& a, const Record& b) {
+    return static_cast<std::int32_t>(b.serial - a.serial) > 0;
+  }
+
   struct Entry {
     Needle needle;
     Record record;

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/io/system_calls.h"
 
 namespace needlework::io {
 namespace {
@@ -43,7 +44,8 @@ std::string create_beside(const std::string& path, const std::filesystem::path& 
   for (int attempt = 0;; ++attempt) {
     const auto name = fmt::format(".needlework-{}-{}.part", getpid(), attempt);
     std::string temporary = (target.parent_path() / name).string();
-    const int descriptor = open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    const int descriptor = uninterrupted(
+        [&] { return open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666); });
     if (descriptor >= 0) {
       close(descriptor);
       return temporary;
@@ -91,12 +93,7 @@ void sync_name(const std::string& path) {
   std::error_code error;
   const auto folder = std::filesystem::canonical(path, error).parent_path();
   if (error) fail(path, error.value());
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) fail(path, errno);
-  // EINVAL: a file system that cannot do this for folders.
-  const int failure = fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
-  close(descriptor);
-  if (failure != 0) fail(path, failure);
+  if (const int failure = sync_folder(folder)) fail(path, failure);
 }
 
 }  // namespace needlework::io

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/io/system_calls.h"
 
 #if H5_VERSION_GE(1, 13, 0)
 #include <H5FDdevelop.h>
@@ -76,7 +77,8 @@ herr_t guarded(Action action) noexcept {
 H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
   const auto* settings = static_cast<const DriverSettings*>(H5Pget_driver_info(access));
   const int create = (flags & H5F_ACC_TRUNC) != 0 ? O_CREAT | O_TRUNC : 0;
-  const int descriptor = open(name, O_RDWR | O_CLOEXEC | create, 0666);
+  const int descriptor =
+      uninterrupted([&] { return open(name, O_RDWR | O_CLOEXEC | create, 0666); });
   if (descriptor < 0) {
     *settings->error = errno;
     return nullptr;
@@ -143,28 +145,16 @@ herr_t driver_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t
   auto* const bytes = static_cast<std::byte*>(buffer);
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t got =
-        pread(file.descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
-    if (got < 0 && errno != EINTR) return -1;
+    const ssize_t got = uninterrupted([&] {
+      return pread(file.descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
+    });
+    if (got < 0) return -1;
     if (got == 0) break;
-    if (got > 0) done += static_cast<std::size_t>(got);
+    done += static_cast<std::size_t>(got);
   }
   // Bytes that were allocated but not written yet are zero.
   std::fill(bytes + done, bytes + size, std::byte{0});
   for (const DriverFile::Kept& kept : file.kept) copy_kept(kept, address, size, bytes);
-  return 0;
-}
-
-// Returns 0 or the errno of the failure.
-int write_fully(int descriptor, const std::byte* bytes, std::size_t size, haddr_t address) {
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t put =
-        pwrite(descriptor, bytes + done, size - done, static_cast<off_t>(address + done));
-    if (put < 0 && errno != EINTR) return errno;
-    if (put == 0) return ENOSPC;
-    if (put > 0) done += static_cast<std::size_t>(put);
-  }
   return 0;
 }
 
@@ -202,7 +192,8 @@ herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::
 
 void set_size_on_disk(DriverFile& file, haddr_t size) {
   if (*file.error != 0 || size == file.size_on_disk) return;
-  if (ftruncate(file.descriptor, static_cast<off_t>(size)) != 0) *file.error = errno;
+  const auto resize = [&] { return ftruncate(file.descriptor, static_cast<off_t>(size)); };
+  if (uninterrupted(resize) != 0) *file.error = errno;
   file.size_on_disk = size;
 }
 
@@ -261,8 +252,8 @@ herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
   guarded([&] { write_kept(file); });
   if (!file.shortening) set_size_on_disk(file, file.end_of_allocation);
-  // Some file systems report a full disk only when a file is closed.
-  if (close(file.descriptor) != 0 && *file.error == 0) *file.error = errno;
+  const int error = close_written(file.descriptor);
+  if (*file.error == 0) *file.error = error;
   delete &file;
   return 0;
 }

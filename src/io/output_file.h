@@ -58,6 +58,9 @@ class OutputFile {
   void flush();
   /// Flushes, and returns when the file is on the disk.
   void sync();
+  /// Throws IoError unless `name` leads to this file, which another program may have removed,
+  /// renamed or replaced in the meantime.
+  void require_named(const std::string& name) const { lock_.require_named(name); }
   /// Closes the file. No object of it may be open.
   void close();
 

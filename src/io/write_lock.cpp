@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/io/system_calls.h"
 
 namespace needlework::io {
 namespace {
@@ -62,7 +63,9 @@ void require_not_being_written(const std::string& name, const std::string& place
 }
 
 WriteLock::WriteLock(const std::string& name, const std::string& place)
-    : place_(place), descriptor_(open(name.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK)) {
+    : place_(place),
+      descriptor_(
+          uninterrupted([&] { return open(name.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK); })) {
   if (descriptor_ < 0) fail_lock(place_, errno);
   struct stat status;
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
@@ -74,7 +77,15 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
 WriteLock::~WriteLock() { close(descriptor_); }
 
 void WriteLock::sync() {
-  if (fsync(descriptor_) != 0) fail_lock(place_, errno);
+  if (const int error = sync_file(descriptor_)) fail_lock(place_, error);
+}
+
+void WriteLock::require_named(const std::string& name) const {
+  struct stat locked, named;
+  const bool same = fstat(descriptor_, &locked) == 0 && stat(name.c_str(), &named) == 0 &&
+                    locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+  if (same) return;
+  throw IoError(place_ + ": the file has been removed, renamed or replaced while it was written");
 }
 
 }  // namespace needlework::io

@@ -26,6 +26,8 @@ class WriteLock {
 
   /// Returns when the content of the file is on the disk. Throws IoError if it cannot be written.
   void sync();
+  /// Throws IoError unless `name` leads to this file: what is written could not be found there.
+  void require_named(const std::string& name) const;
 
  private:
   std::string place_;

@@ -5,6 +5,7 @@
 // the file can contain a part of a frame. Steps are written after everything else has reached the
 // file; a reader that reads as many rows as there are steps reads complete frames only. A file that
 // is continued is shortened to complete rows first, and then grows in the same way.
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -34,7 +35,8 @@ constexpr std::size_t numbers_block = 131072;
 }  // namespace
 
 struct Writer::Implementation {
-  explicit Implementation(const std::string& name) : path(name) {}
+  explicit Implementation(const std::string& name)
+      : path(name), absolute_path(std::filesystem::absolute(name)) {}
 
   void create(bool force, const Scene& scene, const RunInfo& run);
   void resume(const Scene& scene, const RunInfo& run, const Position& from,
@@ -45,6 +47,7 @@ struct Writer::Implementation {
   void close();
 
   const std::string path;
+  const std::string absolute_path;  // the process may go to another folder
   bool failed = false;
   bool name_on_disk = false;
   Position position;
@@ -117,7 +120,8 @@ void Writer::Implementation::sync() {
   const Session session;
   commit();
   file->sync();
-  if (!std::exchange(name_on_disk, true)) sync_name(path);
+  file->require_named(absolute_path);
+  if (!std::exchange(name_on_disk, true)) sync_name(absolute_path);
 }
 
 void Writer::Implementation::close() {
@@ -131,6 +135,7 @@ void Writer::Implementation::close() {
   observables.reset();
   frames.reset();
   file->close();
+  file->require_named(absolute_path);
 }
 
 template <class Action>

@@ -123,7 +123,7 @@ class CollisionStatistics : public Observable {
     std::map<std::uint32_t, Chain> open(open_.begin(), open_.end());
     archive(collisions_, repeats_, t_tr_, t_rot_, chains_, open);
     open_ = {open.begin(), open.end()};
-    archive.require(chains_.size() == longest_chain);
+    archive.require(chains_.size() == longest_chain && open_.size() <= gas_.count);
   }
 
  private:

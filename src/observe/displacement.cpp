@@ -15,6 +15,8 @@
 // any length has lags from one sample to all of it. Samples at equal steps make lags that repeat
 // and can be averaged; at logarithmic times, references are spread over the decades.
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 
 #include "src/observe/registry.h"
@@ -71,9 +73,12 @@ class Displacement : public Observable {
 
   void transfer(Archive& archive) override {
     archive(samples_, stride_, references_);
-    archive.require(stride_ > 0 && references_.size() <= places);
-    for (const Reference& reference : references_) {
-      archive.require(reference.position.size() == gas_.count &&
+    archive.require(std::has_single_bit(stride_) && references_.size() <= places &&
+                    references_.size() == samples_ / stride_ + (samples_ % stride_ != 0));
+    for (std::size_t n = 0; n < references_.size(); ++n) {
+      const Reference& reference = references_[n];
+      archive.require(reference.sample == n * stride_ && std::isfinite(reference.time) &&
+                      reference.position.size() == gas_.count &&
                       reference.orientation.size() == gas_.count);
     }
   }

@@ -35,15 +35,15 @@ double Schedule::grid_time(double n) const {
   return step_ > 0 ? n * step_ : std::pow(10.0, n / per_decade_);
 }
 
+double Schedule::time_of_next() const {
+  if (per_decade_ > 0 || step_ > 0) return grid_time(n_);
+  return position_ < times_.size() ? times_[position_] : std::numeric_limits<double>::infinity();
+}
+
 void Schedule::pass(double time) {
   while (next_ <= time) {
-    if (per_decade_ > 0 || step_ > 0) {
-      next_ = grid_time(++n_);
-    } else {
-      ++position_;
-      next_ =
-          position_ < times_.size() ? times_[position_] : std::numeric_limits<double>::infinity();
-    }
+    per_decade_ > 0 || step_ > 0 ? void(++n_) : void(++position_);
+    next_ = time_of_next();
   }
 }
 

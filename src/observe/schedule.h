@@ -1,6 +1,7 @@
 // The times at which a run is sampled.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -37,14 +38,19 @@ class Schedule {
   friend void transfer(Archive& archive, Schedule& schedule) {
     archive(schedule.per_decade_, schedule.step_, schedule.n_, schedule.times_, schedule.position_,
             schedule.next_);
-    const bool is_grid = schedule.per_decade_ > 0 || schedule.step_ > 0;
-    archive.require(schedule.per_decade_ >= 0 && schedule.step_ >= 0 &&
-                    schedule.position_ <= schedule.times_.size() &&
-                    (!is_grid || schedule.next_ == schedule.grid_time(schedule.n_)));
+    archive.require(schedule.next_ == schedule.time_of_next() && std::abs(schedule.n_) < 0x1p52);
+  }
+  /// Whether its times are those of `whole`, or none, and the next one is at `time` or later.
+  bool is_rest_of(const Schedule& whole, double time) const {
+    const bool is_empty = per_decade_ == 0 && step_ == 0 && times_.empty();
+    const bool same =
+        per_decade_ == whole.per_decade_ && step_ == whole.step_ && times_ == whole.times_;
+    return (is_empty || same) && next_ >= time;
   }
 
  private:
   double grid_time(double n) const;
+  double time_of_next() const;
 
   double per_decade_ = 0;  ///< > 0: logarithmic
   double step_ = 0;        ///< > 0: linear; neither: a list of times

@@ -13,10 +13,13 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/io/atomic_file.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/runs/saved_totals.h"
+#include "src/scene/printable.h"
 #include "src/scene/saved_scene.h"
+#include "src/scene/scene_values.h"
 
 namespace needlework {
 
@@ -124,6 +127,24 @@ void move_file(const std::string& from, const std::string& to,
   throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
 }
 
+// A checksum says nothing about a file that somebody has made.
+void restore(Scene& scene) {
+  // The name of the output file may be any: options give it, and callers replace it.
+  std::string file = std::exchange(scene.output.file, {});
+  require_valid(scene);
+  scene.output.file = std::move(file);
+  // They become parts of messages.
+  for (auto& [key, place] : scene.places) place = printable(place);
+}
+
+// The file to which a symbolic link leads, or the name itself if it is none.
+std::string behind_links(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path file = std::filesystem::canonical(path, error);
+  return error ? path : file.string();
+}
+
 }  // namespace
 
 RunCheckpoint CheckpointFiles::read(const std::string& path) {
@@ -138,17 +159,22 @@ RunCheckpoint CheckpointFiles::read(const std::string& path) {
     throw damaged(path, "its checksum is wrong");
   }
   RunCheckpoint out;
-  Archive archive = Archive::from(bytes);
-  transfer(archive, out);
-  archive.require_end();
+  try {
+    Archive archive = Archive::from(bytes);
+    transfer(archive, out);
+    archive.require_end();
+    restore(out.scene);
+  } catch (const InputError& error) {
+    throw damaged(path, error.what());
+  }
   out.origin = {path, header.checksum};
   return out;
 }
 
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
-    : newest_(output_file + ".checkpoint"),
+    : newest_(behind_links(output_file) + ".checkpoint"),
       older_(newest_ + ".old"),
-      bundle_(output_file + ".failure") {}
+      bundle_(behind_links(output_file) + ".failure") {}
 
 bool CheckpointFiles::exist() const {
   std::error_code ignored;
@@ -165,13 +191,13 @@ void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
   write_durably(unfinished(newest_), bytes_of(checkpoint));
   move_file(newest_, older_, IfMissing::do_nothing);
   move_file(unfinished(newest_), newest_);
-  sync_folder_of(newest_);
+  io::sync_name(newest_);
 }
 
 void CheckpointFiles::write_bundle(const RunCheckpoint& checkpoint) {
   write_durably(unfinished(bundle_), bytes_of(checkpoint));
   move_file(unfinished(bundle_), bundle_);
-  sync_folder_of(bundle_);
+  io::sync_name(bundle_);
 }
 
 void CheckpointFiles::move_bundle(const std::string& output_file) const {
@@ -207,10 +233,14 @@ void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
 }
 
 void CheckpointFiles::remove() {
-  std::error_code ignored;
-  for (const std::string& path : {newest_, older_, bundle_}) {
-    std::filesystem::remove(path, ignored);
-    std::filesystem::remove(unfinished(path), ignored);
+  for (const std::string& file : {newest_, older_, bundle_}) {
+    for (const std::string& path : {file, unfinished(file)}) {
+      std::error_code error, ignored;
+      std::filesystem::remove(path, error);
+      if (error && std::filesystem::exists(path, ignored)) {
+        throw IoError(fmt::format("{}: cannot be removed: {}", path, error.message()));
+      }
+    }
   }
 }
 

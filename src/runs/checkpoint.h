@@ -44,9 +44,11 @@ struct RunCheckpoint {
 };
 
 /// The checkpoints of one output file, in files beside it: the newest, "FILE.checkpoint", and the
-/// one before, "FILE.checkpoint.old". Each has a version and a checksum. Whenever the process or
-/// the machine stops, one of the two is whole, once there has been one. A run that fails leaves a
-/// third one there, the bundle "FILE.failure", from which its failure can be shown again.
+/// one before, "FILE.checkpoint.old". If the output file is a symbolic link, they are beside the
+/// file that it leads to, so that they are found by either name. Each has a version and a checksum.
+/// Whenever the process or the machine stops, one of the two is whole, once there has been one. A
+/// run that fails leaves a third one there, the bundle "FILE.failure", from which its failure can
+/// be shown again.
 class CheckpointFiles {
  public:
   explicit CheckpointFiles(const std::string& output_file);
@@ -81,7 +83,7 @@ class CheckpointFiles {
   /// Throws IoError if another program has written a newer one since this one was read.
   static void require_unchanged(const RunCheckpoint::Origin& origin);
 
-  /// Removes them, if there are any.
+  /// Removes them, if there are any. Throws IoError if that is not possible.
   void remove();
 
  private:

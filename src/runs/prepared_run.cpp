@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "needlework/error.h"
 #include "src/observe/cooling_theory.h"
 #include "src/runs/failure.h"
+#include "src/runs/saved_totals.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
 
@@ -26,6 +30,11 @@ namespace {
 
 constexpr const char* cut_off_by_an_error =
     "an error came in the middle of an event: expected a state that is sound";
+[[noreturn]] void throw_damaged(const RunCheckpoint::Origin& origin) {
+  throw InputError(origin.path +
+                   ": damaged: its parts do not belong together: expected a checkpoint that this "
+                   "version of the program has written");
+}
 
 // Where kinetic theory has something to say: of a drawn gas that moves.
 observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
@@ -42,6 +51,7 @@ template <class Open>
 void PreparedRun::open_output(Open&& open) {
   const std::string& file = scene_.output.file;
   if (file.empty()) return;
+  output_file_ = std::filesystem::absolute(file);
   observe();
   try {
     io::RunInfo info = run_info(simulation_, scene_);
@@ -84,7 +94,7 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path
   open_output(
       [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
   // Those of an older run, whose file has just been replaced.
-  if (writer_) CheckpointFiles(scene_.output.file).remove();
+  if (writer_) checkpoints().remove();
   driver_.emplace(simulation_, scene_, output(), path != nullptr);
 }
 
@@ -92,24 +102,42 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
     : scene_(std::move(saved.scene)),
       saves_(saves),
       drawn_(saved.drawn),
-      simulation_(continue_simulation(saved.simulation)),
+      simulation_(continue_simulation(saved)),
       initial_(saved.initial) {
-  if (simulation_.needles() != scene_.needles.count) Archive::throw_damaged();
+  require_consistent(saved);
   observe();
   open_output([&](const io::RunInfo& info) {
     // While the file is locked, and before it is changed.
     return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
       CheckpointFiles::require_unchanged(saved.origin);
-      if (scene_.output.checkpoint_every > 0) {
-        CheckpointFiles(scene_.output.file).require_writable();
-      }
+      if (scene_.output.checkpoint_every > 0) checkpoints().require_writable();
+      // Whether it can be restored has to be known as well.
+      RunDriver driver(simulation_, scene_, {}, true);
+      restore(saved, driver);
     });
   });
   driver_.emplace(simulation_, scene_, output(), true);
-  Archive archive = Archive::from(saved.observation);
-  observation_->transfer(archive);
-  driver_->transfer(archive);
-  archive.require_end();
+  restore(saved, *driver_);
+}
+
+void PreparedRun::require_consistent(const RunCheckpoint& saved) const {
+  const double energy = simulation_.initial_energy();
+  const bool consistent =
+      simulation_.needles() == scene_.needles.count && are_possible(initial_) &&
+      initial_.time == 0 && initial_.collisions == 0 &&
+      (scene_.needles.count == 0 || std::abs(initial_.energy - energy) <= 1e-9 * energy);
+  if (!consistent) throw_damaged(saved.origin);
+}
+
+void PreparedRun::restore(const RunCheckpoint& saved, RunDriver& driver) {
+  try {
+    Archive archive = Archive::from(saved.observation);
+    observation_->transfer(archive);
+    driver.transfer(archive);
+    archive.require_end();
+  } catch (const InputError&) {
+    throw_damaged(saved.origin);
+  }
 }
 
 Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
@@ -119,12 +147,18 @@ Simulation PreparedRun::make_simulation(const LoadedScene& loaded) {
   return simulation;
 }
 
-Simulation PreparedRun::continue_simulation(const Checkpoint& saved) {
+Simulation PreparedRun::continue_simulation(const RunCheckpoint& saved) {
   setup_.start();
-  Simulation simulation(scene_, saved);
-  setup_.stop();
-  return simulation;
+  try {
+    Simulation simulation(scene_, saved.simulation);
+    setup_.stop();
+    return simulation;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", saved.origin.path, error.what()));
+  }
 }
+
+CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_.string()); }
 
 std::string PreparedRun::why_not_saved() const {
   if (scene_.output.file.empty()) {
@@ -154,7 +188,7 @@ void PreparedRun::save_checkpoint() {
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);
-  CheckpointFiles(scene_.output.file).write(saved);
+  checkpoints().write(saved);
 }
 
 // What a failed run leaves: the message with a hint at the bundle, and its name, or none.
@@ -165,7 +199,7 @@ struct PreparedRun::Kept {
 // The last checkpoint in a file, or else the start; nothing if the start is not known any more.
 std::optional<RunCheckpoint> PreparedRun::before_failure() const {
   try {
-    return CheckpointFiles(scene_.output.file).read().checkpoint;
+    return checkpoints().read().checkpoint;
   } catch (const InputError&) {
   } catch (const IoError&) {
   }
@@ -182,7 +216,7 @@ std::optional<RunCheckpoint> PreparedRun::before_failure() const {
 
 // Keeps a bundle that shows the same failure: it may begin earlier.
 void PreparedRun::write_bundle(const RunFailure& failure) {
-  CheckpointFiles files(scene_.output.file);
+  CheckpointFiles files = checkpoints();
   try {
     if (CheckpointFiles::read(files.bundle()).failure == failure) return;
   } catch (const InputError&) {
@@ -198,7 +232,7 @@ void PreparedRun::write_bundle(const RunFailure& failure) {
 PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                                             const InvalidStateError::Needles& needles) {
   if (!writer_) return {message, {}};
-  const std::string bundle = CheckpointFiles(scene_.output.file).bundle();
+  const std::string bundle = checkpoints().bundle();
   try {
     write_bundle({.message = message,
                   .needles = needles,

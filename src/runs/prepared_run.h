@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -77,7 +78,11 @@ class PreparedRun {
  private:
   PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves);
   Simulation make_simulation(const LoadedScene& loaded);
-  Simulation continue_simulation(const Checkpoint& saved);
+  Simulation continue_simulation(const RunCheckpoint& saved);
+  /// Throws InputError unless the parts of the checkpoint belong together.
+  void require_consistent(const RunCheckpoint& saved) const;
+  /// Restores what observables and schedules remember. Throws InputError if it is damaged.
+  void restore(const RunCheckpoint& saved, RunDriver& driver);
   template <class Open>
   void open_output(Open&& open);
   void observe();
@@ -87,11 +92,13 @@ class PreparedRun {
   Kept keep_current_failure();
   void write_bundle(const RunFailure& failure);
   std::optional<RunCheckpoint> before_failure() const;
+  CheckpointFiles checkpoints() const;
 
   Scene scene_;
   Saves saves_;
-  bool cut_off_ = false;  ///< whether an event was, by an error in the middle of it
-  bool drawn_;            ///< whether the initial state was drawn
+  std::filesystem::path output_file_;  ///< absolute, as the process may go to another folder
+  bool cut_off_ = false;               ///< whether an event was, by an error in the middle of it
+  bool drawn_;                         ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
   Totals initial_;                                   ///< at the start of the run

@@ -119,11 +119,21 @@ void RunDriver::transfer(Archive& archive) {
   archive(begun_, series_, frames_, last_sample_, last_frame_, course_.initial, course_.samples,
           has_rate);
   if (archive.reads()) {
+    require_restored(archive);
     rate_.reset();
     if (has_rate) rate_.emplace(simulation_.mean_free_time());
   }
   if (rate_) rate_->transfer(archive);
   if (archive.reads() && begun_) listen_to_collisions();
+}
+
+// Wrong schedules could take samples without end.
+void RunDriver::require_restored(const Archive& archive) const {
+  const double now = simulation_.time() * (1 - 0x1p-50);
+  archive.require(series_.is_rest_of(series_schedule(scene_.output, 1), now) &&
+                  frames_.is_rest_of(frame_schedule(scene_.output, 1), now));
+  archive.require(are_possible(course_.initial) &&
+                  std::ranges::all_of(course_.samples, are_possible));
 }
 
 void RunDriver::listen_to_collisions() {

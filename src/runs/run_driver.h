@@ -80,6 +80,7 @@ class RunDriver {
   void begin(RunMonitor* monitor);
   void record(const Collision& collision);
   void listen_to_collisions();
+  void require_restored(const Archive& archive) const;
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
   void flush();

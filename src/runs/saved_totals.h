@@ -1,6 +1,9 @@
 // Totals as part of a checkpoint.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "needlework/totals.h"
 #include "src/archive/archive.h"
 
@@ -9,6 +12,16 @@ namespace needlework {
 inline void transfer(Archive& archive, Totals& totals) {
   auto& [time, t_tr, t_rot, energy, momentum, collisions, tc_collisions] = totals;
   archive(time, t_tr, t_rot, energy, momentum, collisions, tc_collisions);
+}
+
+/// Whether these can be the totals of a gas, as far as can be seen from them alone.
+inline bool are_possible(const Totals& totals) {
+  const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0; };
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  return is_amount(totals.time) && is_amount(totals.t_tr) && is_amount(totals.t_rot) &&
+         totals.energy == 1.5 * totals.t_tr + totals.t_rot &&
+         std::ranges::all_of(totals.momentum, is_finite) &&
+         totals.tc_collisions <= totals.collisions;
 }
 
 }  // namespace needlework

@@ -99,8 +99,14 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
   const Course course = [&] {
     try {
       return begin_or_continue(complete_scene(std::move(scene)), runs.grid.name)->drive(monitor);
+    } catch (const IoError&) {
+      // What can be continued when there is room again is kept.
+      if (!CheckpointFiles(folder.unfinished_file(member)).exist()) {
+        folder.remove_unfinished(member);
+      }
+      throw;
     } catch (...) {
-      folder.remove_unfinished(member);  // the disk may be full of it
+      folder.remove_unfinished(member);
       throw;
     }
   }();

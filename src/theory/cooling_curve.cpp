@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "needlework/error.h"
 #include "needlework/theory.h"
 #include "src/theory/cooling_law.h"
 #include "src/theory/requirements.h"
@@ -188,7 +189,16 @@ CoolingCurve::Place CoolingCurve::place() const {
   return implementation_->evolving ? implementation_->evolving->place() : Place{};
 }
 
+// Others could keep at() from ever ending.
 void CoolingCurve::go_to(const Place& place) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  const auto [share, log_energy, collisions, tau, step] = place;
+  const bool possible = std::ranges::all_of(place, is_finite) && share > -1e-6 &&
+                        share < 1.000001 && log_energy < 1e-6 && collisions >= 0.0 && tau >= 0.0 &&
+                        step > 0.0;
+  if (implementation_->evolving && !possible) {
+    throw InputError("the place of a cooling curve: expected one that a curve has come to");
+  }
   if (implementation_->evolving) implementation_->evolving->go_to(place);
 }
 

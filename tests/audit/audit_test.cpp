@@ -30,7 +30,7 @@ audit::Setup setup_of(const Scene& scene, double epoch_length) {
   setup.epoch_length = epoch_length;
   setup.rule = {c.epsilon, c.beta, scene.needles.k};
   setup.tc = c.tc;
-  setup.tc_relative = c.tc_relative.has_value();
+  setup.tc_relative = c.tc_relative;
   return setup;
 }
 

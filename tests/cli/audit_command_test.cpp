@@ -33,6 +33,8 @@ TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
     EXPECT_EQ(result[kind], 0) << kind;
     EXPECT_NEAR(result["bound95"][kind].get<double>(), 2.9957 / 250, 1e-5) << kind;
   }
+  EXPECT_EQ(result["wrong_start"], 0);
+  EXPECT_EQ(result["wrong_end"], 0);
   EXPECT_EQ(result["collisions"], 250);
   EXPECT_EQ(result["contacts"], 250);
   EXPECT_GT(result["checked"].get<int>(), 250 * 97);

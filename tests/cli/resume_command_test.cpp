@@ -88,6 +88,22 @@ TEST_F(ResumeCommand, FollowsAFileThatWasMoved) {
   EXPECT_FALSE(exists("a.h5"));
 }
 
+TEST_F(ResumeCommand, FindsCheckpointsByALinkAndByTheFileItLeadsTo) {
+  const std::string whole = whole_hash();
+  std::filesystem::create_directory(path("folder"));
+  hash_of("run gas.toml --out folder/a.h5 --set until.collisions_per_needle=15");
+  std::filesystem::create_symlink("folder/a.h5", path("link.h5"));
+  EXPECT_NE(hash_of("resume link.h5 --set until.collisions_per_needle=25"), whole);
+  EXPECT_EQ(hash_of("resume folder/a.h5 --set until.collisions_per_needle=40"), whole);
+  EXPECT_FALSE(exists("link.h5.checkpoint"));
+  // A run that replaces the file through the link saves there, too.
+  hash_of("run gas.toml --out link.h5 --force --set until.collisions_per_needle=15");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.h5")));
+  EXPECT_FALSE(exists("link.h5.checkpoint"));
+  EXPECT_EQ(hash_of("resume folder/a.h5 --set until.collisions_per_needle=40"), whole);
+  EXPECT_TRUE(run("run gas.toml --out link.h5").complains("can be continued"));
+}
+
 TEST_F(ResumeCommand, EndsAtTheSameFailureAgain) {
   const std::string collapse =
       "run gas.toml --quiet --out a.h5 --set collisions.epsilon=0.3 --set collisions.tc=1e-300 "

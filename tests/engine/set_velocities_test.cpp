@@ -39,7 +39,7 @@ void expect_clean(const Scene& scene, const State& state, std::int64_t start_epo
   audit::Setup setup;
   setup.epoch_length = run.simulation->epoch_length();
   setup.rule = {scene.collisions.epsilon, scene.collisions.beta, scene.needles.k};
-  setup.tc_relative = scene.collisions.tc_relative.has_value();
+  setup.tc_relative = scene.collisions.tc_relative;
   audit::Audit audit(state, setup);
   for (Collision c : run.collisions) {
     c.epoch -= start_epoch;

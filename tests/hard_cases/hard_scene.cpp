@@ -84,7 +84,7 @@ audit::Setup audit_setup(const Scene& scene, double epoch_length, double share) 
   setup.epoch_length = epoch_length;
   setup.rule = {c.epsilon, c.beta, scene.needles.k};
   setup.tc = c.tc;
-  setup.tc_relative = c.tc_relative.has_value();
+  setup.tc_relative = c.tc_relative;
   setup.share = share;
   return setup;
 }

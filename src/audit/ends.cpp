@@ -1,0 +1,140 @@
+// Whether a run begins with the gas of its scene, and ends where its scene says.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/audit/audit.h"
+
+namespace needlework::audit {
+namespace {
+
+// Relative: of sums over all needles in another order than that of the engine.
+constexpr double sums = 1e-11;
+// Of one number that may have been rounded a few times.
+constexpr double rounding = 0x1p-45;
+
+bool near(double a, double b, double relative) { return std::abs(a - b) <= relative * std::abs(b); }
+
+bool near(const Vector<double>& a, const Vector<double>& b, double size) {
+  const Vector<double> difference = a - b;
+  return norm(difference) <= rounding * size;
+}
+
+Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
+
+}  // namespace
+
+// The directors and velocities are those with which the run begins: unit vectors, and angular
+// velocities normal to them.
+bool Audit::is_proper(const Needle& needle) const {
+  const Record& record = needle.record;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(record.r[axis] >= 0 && record.r[axis] < space_.box[axis])) return false;
+  }
+  return near(dot(record.u, record.u), 1, rounding) &&
+         std::abs(dot(record.u, record.w)) <= rounding * norm(record.w);
+}
+
+bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i) const {
+  const Record& record = needle.record;
+  const double epoch = setup_.epoch_length;
+  const Vector<double> director = vector(given.orientation[i]);
+  const Vector<double> u = director * (1 / norm(director));
+  const Vector<double> v = vector(given.velocity[i]) * epoch;
+  const Vector<double> spin = vector(given.angular_velocity[i]) * epoch;
+  const Vector<double> w = spin - u * dot(u, spin);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double boxes = (given.position[i][axis] - record.r[axis]) / space_.box[axis];
+    const double size = std::abs(given.position[i][axis]) / space_.box[axis] + 1;
+    if (!(std::abs(boxes - std::round(boxes)) <= rounding * size)) return false;
+  }
+  return near(record.u, u, 1) && near(record.v, v, norm(v)) && near(record.w, w, norm(spin));
+}
+
+void Audit::check_start(const Scene& scene, const State* given) {
+  if (resumed_) return;
+  const Scene::Species species = scene.one_species();
+  bool right = needles_.size() == species.count &&
+               std::ranges::all_of(needles_, [&](const Needle& n) { return is_proper(n); });
+  for (int axis = 0; axis < 3; ++axis) right &= space_.box[axis] == scene.needles.box[axis];
+  if (right && given) {
+    std::vector<std::size_t> order(given->size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    if (!given->id.empty()) std::ranges::sort(order, {}, [&](auto i) { return given->id[i]; });
+    right = order.size() == needles_.size();
+    for (std::size_t i = 0; right && i < order.size(); ++i) {
+      right = is_as_given(needles_[i], *given, order[i]);
+    }
+  } else if (right && !needles_.empty()) {
+    const Temperatures found = temperatures_of(needles_, setup_.rule.k);
+    const double scale = setup_.epoch_length * setup_.epoch_length;
+    Vector<double> momentum{};
+    for (const Needle& needle : needles_) momentum = momentum + needle.record.v;
+    const double count = static_cast<double>(needles_.size());
+    right = near(found.t_tr, species.t_tr * scale, sums) &&
+            near(found.t_rot, species.t_rot * scale, sums) &&
+            (needles_.size() < 2 || norm(momentum) <= sums * count * std::sqrt(3 * found.t_tr));
+  }
+  const double free = windows_.mean_free_time();
+  if (std::isfinite(free)) right &= free > 1 - Windows::tolerance && free < 2 + Windows::tolerance;
+  if (!right) report(Kind::wrong_start);
+}
+
+// The energy changes by collisions only.
+void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
+  const double count = static_cast<double>(needles_.size());
+  const double collisions = static_cast<double>(findings_.collisions);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double latest = until.time.value_or(infinity);
+  const double most = until.collisions_per_needle.value_or(infinity) * count / 2;
+  const double least_energy = until.energy_ratio.value_or(-1) * initial_energy_;
+  const double energy =
+      needles_.empty() ? 0 : count * temperatures_of(needles_, setup_.rule.k).energy();
+  const double before = energy - last_energy_change_;
+  const double last = last_ ? since_start(last_->first) * setup_.epoch_length : 0;
+  const double slack = sums * initial_energy_ * std::min(1.0, until.energy_ratio.value_or(0));
+
+  // No condition was met before the last collision, or in the flight after it.
+  bool right = last <= latest * (1 + rounding) && time <= latest * (1 + rounding) &&
+               last <= time * (1 + rounding);
+  if (findings_.collisions > 0) right &= collisions - 1 < most && before > least_energy - slack;
+  switch (reason) {
+    case Stop::time:
+      right &= until.time && near(time, latest, rounding);
+      break;
+    case Stop::collisions:
+      right &= collisions >= most && near(time, last, rounding);
+      break;
+    case Stop::energy:
+      right &= energy <= least_energy + slack && near(time, last, rounding);
+      break;
+    case Stop::nothing_can_happen:
+      right &= is_at_rest();
+      break;
+    case Stop::wall_time:
+    case Stop::interrupted:
+      return;
+  }
+  if (reason == Stop::time) {
+    right &= collisions < most && energy > least_energy - slack;
+  }
+  if (!right) report(Kind::wrong_end);
+}
+
+// Whether no two needles can ever meet: none turns, and all move alike.
+bool Audit::is_at_rest() const {
+  if (needles_.size() < 2) return true;
+  const Vector<double>& v = needles_.front().record.v;
+  return std::ranges::all_of(needles_, [&](const Needle& needle) {
+    const Record& record = needle.record;
+    return norm(record.w) == 0 && norm(record.v - v) == 0;
+  });
+}
+
+void Audit::report(Kind kind) {
+  ++findings_.differences[static_cast<std::size_t>(kind)];
+  const double time = last_ ? since_start(last_->first) * setup_.epoch_length : 0;
+  if (findings_.listed.size() < most_listed) findings_.listed.push_back({kind, time, {}, {}});
+}
+
+}  // namespace needlework::audit

@@ -1,0 +1,27 @@
+// The values of a scene's keys, as a scene file would give them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "needlework/scene.h"
+#include "src/scene/document.h"
+
+namespace needlework {
+
+struct KeyValue {
+  std::string_view section;
+  std::string_view key;
+  Value value;
+};
+
+/// The keys that a scene has, with their values: all of those that exclude no other, and of the
+/// others those that are set.
+std::vector<KeyValue> values_of(const Scene& scene);
+
+/// Throws InputError, "the scene: SECTION.KEY: expected ...", unless a scene file could describe
+/// this scene: for one that was restored from a file and has not been parsed.
+void require_valid(const Scene& scene);
+
+}  // namespace needlework

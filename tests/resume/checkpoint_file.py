@@ -1,0 +1,214 @@
+"""Checkpoints as lists of fields, for tests that change them and repair their checksum."""
+
+import struct
+
+MARK = b"needlework checkpoint 1\n"
+TYPES = {"u8": "<B", "i8": "<b", "i16": "<h", "i32": "<i", "u32": "<I", "u64": "<Q", "i64": "<q",
+         "f64": "<d"}
+
+
+def _crc_table():
+    table = []
+    for n in range(256):
+        for _ in range(8):
+            n = n >> 1 ^ (0xc96c5795d7870f42 if n & 1 else 0)
+        table.append(n)
+    return table
+
+
+TABLE = _crc_table()
+
+
+def checksum(data):
+    """The cyclic redundancy check of ECMA-182, reflected."""
+    crc = 2**64 - 1
+    for byte in data:
+        crc = TABLE[(crc ^ byte) & 255] ^ crc >> 8
+    return crc ^ 2**64 - 1
+
+
+def sealed(content):
+    """A file of this content, with the right size and checksum."""
+    return MARK + struct.pack("<QQ", len(content), checksum(content)) + content
+
+
+def content_of(file):
+    assert file.startswith(MARK)
+    size, crc = struct.unpack_from("<QQ", file, len(MARK))
+    content = file[len(MARK) + 16:]
+    assert len(content) == size and checksum(content) == crc
+    return content
+
+
+class Fields:
+    """The places and types of all numbers and lengths in the content of a checkpoint."""
+
+    def __init__(self, content):
+        self.content, self.at, self.found = content, 0, []
+        self.scene()
+        self.one("drawn", "u8")
+        self.totals("initial")
+        self.simulation()
+        for name in ("frames", "samples", "events"):
+            self.one(f"position.{name}", "u64")
+        self.observation()
+        assert self.at == len(content), "the checkpoint has another layout than this test knows"
+
+    def one(self, name, kind):
+        value, = struct.unpack_from(TYPES[kind], self.content, self.at)
+        self.found.append((name, kind, self.at))
+        self.at += struct.calcsize(TYPES[kind])
+        return value
+
+    def several(self, name, kind, count):
+        return [self.one(name, kind) for _ in range(count)]
+
+    def text(self, name):
+        size = self.one(f"{name}.size", "u64")
+        self.found.append((name, "text", (self.at, size)))
+        self.at += size
+        return self.content[self.at - size:self.at]
+
+    def sequence(self, name, each):
+        for _ in range(self.one(f"{name}.size", "u64")):
+            each(name)
+
+    def optional(self, name, each):
+        if self.one(f"{name}.given", "u8"):
+            each(name)
+
+    def f64(self, name):
+        return self.one(name, "f64")
+
+    def totals(self, name):
+        self.several(name, "f64", 7)
+        self.several(f"{name}.counts", "u64", 2)
+
+    def scene(self):
+        self.text("title")
+
+        def species(name):
+            self.text(f"{name}.name")
+            self.one(f"{name}.count", "u64")
+            self.several(name, "f64", 5)
+
+        def place(name):
+            self.text(name)
+            self.text(name)
+
+        self.sequence("species", species)
+        self.text("text")
+        self.sequence("places", place)
+        self.one("needles.count", "u64")
+        self.several("needles.box", "f64", 3)
+        self.f64("needles.k")
+        self.one("needles.seed", "u64")
+        self.several("initial.t", "f64", 2)
+        self.text("initial.file")
+        self.several("collisions", "f64", 2)
+        for name in ("tc", "tc_relative"):
+            self.optional(f"collisions.{name}", self.f64)
+        for name in ("search", "queue", "accuracy"):
+            self.text(f"engine.{name}")
+        for name in ("isolation", "escalation", "filter"):
+            self.optional(f"engine.{name}", self.text)
+        for name in ("root_tolerance", "sampling_step"):
+            self.optional(f"engine.{name}", self.f64)
+        self.optional("engine.threads", lambda name: self.one(name, "i32"))
+        self.text("engine.isa")
+        for name in ("cell_side", "capsule_radius"):
+            self.optional(f"engine.{name}", self.f64)
+        self.text("engine.storage")
+        for name in ("time", "collisions_per_needle", "energy_ratio", "wall_s"):
+            self.optional(f"until.{name}", self.f64)
+        self.text("output.file")
+        self.f64("output.series_per_decade")
+        self.optional("output.series_every", self.f64)
+        self.sequence("output.frame_times", self.f64)
+        self.optional("output.frames_per_decade", self.f64)
+        self.sequence("output.observables", self.text)
+        self.optional("output.grid", lambda name: self.several(name, "i32", 3))
+        self.one("output.events", "u8")
+        self.f64("output.checkpoint_every")
+
+    def time(self, name):
+        self.one(f"{name}.epoch", "i64")
+        self.one(f"{name}.offset", "f64")
+
+    def touch(self, name):
+        self.several(name, "u32", 2)
+        self.several(f"{name}.shift", "i16", 3)
+        self.one(f"{name}.side", "i8")
+        self.one(f"{name}.collided", "u8")
+        self.f64(f"{name}.gap")
+
+    def simulation(self):
+        end = self.one("simulation.size", "u64") + self.at
+        self.sequence("physics", self.f64)
+        count = self.one("count", "u64")
+        self.several("box", "f64", 3)
+        self.f64("epoch_length")
+        for _ in range(count):
+            self.one("id", "u32")
+            self.several("image", "i32", 3)
+            self.time("record.time")
+            for part in "rvuwp":
+                self.several(f"record.{part}", "f64", 3)
+            self.f64("record.omega")
+            self.time("record.renewal")
+            self.one("record.serial", "u32")
+            self.one("record.species", "u8")
+            self.sequence("touch", self.touch)
+            self.time("last_collision")  # a scene with the t_c rule
+        self.time("now")
+        self.time("window_end")
+        for name in ("window_span", "mean_free_time", "contact_time", "search_span",
+                     "initial_energy", "energy_at_window", "quantum"):
+            self.f64(name)
+        self.one("quanta_at_window", "u64")
+        for name in ("collisions", "tc_collisions", "quanta", "hash", "hash"):
+            self.one(f"tally.{name}", "u64")
+        self.several("counters", "u64", 23)
+        self.time("instant")
+        self.one("at_instant", "u64")
+        assert self.at == end
+
+    def vector(self, name):
+        self.several(name, "f64", 3)
+
+    def reference(self, name):
+        self.one(f"{name}.sample", "u64")
+        self.f64(f"{name}.time")
+        self.sequence(f"{name}.position", self.vector)
+        self.sequence(f"{name}.orientation", self.vector)
+
+    def schedule(self, name):
+        self.several(name, "f64", 3)
+        self.sequence(f"{name}.times", self.f64)
+        self.one(f"{name}.position", "u64")
+        self.f64(f"{name}.next")
+
+    def chain(self, name):
+        self.several(name, "u32", 2)
+        self.one(f"{name}.length", "u64")
+
+    def observation(self):
+        """Of a drawn gas with the observables displacement and collision_statistics."""
+        end = self.one("observation.size", "u64") + self.at
+        self.several("theory", "f64", 5)
+        self.several("displacement", "u64", 2)
+        self.sequence("reference", self.reference)
+        for name in ("arms", "angle", "normal_velocity"):
+            self.sequence(name, self.f64)
+        self.several("statistics", "f64", 4)
+        self.sequence("chains", self.f64)
+        self.sequence("chain", self.chain)
+        self.one("begun", "u8")
+        self.schedule("series")
+        self.schedule("frames")
+        self.optional("last_sample", self.totals)
+        self.optional("last_frame", self.f64)
+        self.totals("course.initial")
+        self.sequence("course.sample", self.totals)
+        self.one("has_rate", "u8")
+        assert self.at == end

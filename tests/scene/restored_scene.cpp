@@ -1,0 +1,130 @@
+// A scene that was restored from a file has to be one that a scene file could describe.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "needlework/error.h"
+#include "needlework/parse.h"
+#include "src/scene/scene_values.h"
+#include "src/scene/schema.h"
+
+namespace needlework {
+namespace {
+
+const char* const rich = R"(
+title = "all kinds of keys"
+needles = { count = 20, box = [7, 8, 9], k = 5, seed = 12 }
+initial = { t_tr = 2, t_rot = 3 }
+collisions = { epsilon = 0.9, beta = 0.1, tc = 0.01 }
+[engine]
+search = "capsules"
+queue = "bucket"
+accuracy = "rigorous"
+isolation = "bounds"
+escalation = "never"
+filter = "float"
+root_tolerance = 1e-9
+sampling_step = 0.1
+threads = 2
+isa = "avx2"
+cell_side = 2
+capsule_radius = 0.3
+storage = "by-id"
+[until]
+time = 3
+collisions_per_needle = 5
+energy_ratio = 0.1
+wall_s = 7
+[output]
+file = "a.h5"
+series_every = 0.1
+frames = [1, 2, 3]
+observables = ["fields"]
+grid = [2, 3, 4]
+events = true
+checkpoint_every = 17
+)";
+const char* const species = R"(
+needles.box = 9
+until.time = 1
+[[species]]
+name = "a"
+count = 7
+length = 0.5
+mass = 3
+k = 2
+t_tr = 2
+t_rot = 0
+)";
+
+TEST(RestoredScene, HasAllKeys) {
+  std::set<std::string> seen;
+  for (const char* text : {rich, species,
+                           "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
+                           "initial.file = \"state.h5\"\n"
+                           "collisions.tc_relative = 1"}) {
+    const Scene scene = parse_scene(text, "scene.toml");
+    EXPECT_NO_THROW(require_valid(scene)) << text;
+    for (const auto& [section, key, value] : values_of(scene)) {
+      seen.insert(std::string(section) + "." + std::string(key));
+    }
+  }
+  for (const SceneKey& key : scene_keys()) {
+    EXPECT_TRUE(seen.contains(std::string(key.section) + "." + std::string(key.key))) << key.key;
+  }
+}
+
+TEST(RestoredScene, IsAcceptedIfItWasParsed) {
+  for (const auto& file : std::filesystem::directory_iterator(NEEDLEWORK_SOURCE "/profiles")) {
+    if (file.path().extension() != ".toml" ||
+        file.path().string().find("sweep") != std::string::npos)
+      continue;
+    EXPECT_NO_THROW(require_valid(read_scene(file.path().string()))) << file.path();
+  }
+}
+
+TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
+  const auto complaint = [](const char* text, auto&& change) -> std::string {
+    Scene scene = parse_scene(text, "scene.toml");
+    change(scene);
+    try {
+      require_valid(scene);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect = [&](const char* part, const char* text, auto&& change) {
+    const std::string found = complaint(text, change);
+    EXPECT_NE(found.find(part), std::string::npos) << found << " of " << part;
+  };
+  EXPECT_EQ(complaint(rich, [](Scene&) {}), "none");
+  expect("title: expected", rich, [](Scene& s) { s.title = "\x1b[2J"; });
+  expect("needles.count: expected", rich, [](Scene& s) { s.needles.count = ~std::uint64_t{0}; });
+  expect("needles.box: expected", rich, [&](Scene& s) { s.needles.box[1] = nan; });
+  expect("needles.box: expected", rich, [](Scene& s) { s.needles.box[1] = 2; });
+  expect("needles.k: expected", rich, [](Scene& s) { s.needles.k = 0; });
+  expect("initial.t_rot: expected", rich, [](Scene& s) { s.initial.t_rot = -1; });
+  expect("collisions.epsilon: expected", rich, [](Scene& s) { s.collisions.epsilon = 1.5; });
+  expect("collisions: expected either", rich, [](Scene& s) { s.collisions.tc_relative = 1; });
+  expect("engine.search: expected", rich, [](Scene& s) { s.engine.search = "no such"; });
+  expect("engine.threads: expected", rich, [](Scene& s) { s.engine.threads = -1; });
+  expect("engine.cell_side: expected", rich, [](Scene& s) { s.engine.cell_side = 0; });
+  expect("until.time: expected", rich, [&](Scene& s) { s.until.time = nan; });
+  expect("output.frames: expected", rich, [](Scene& s) { s.output.frame_times = {2, 1}; });
+  expect("output.grid: expected", rich, [](Scene& s) { s.output.grid = {10000, 10000, 1}; });
+  expect("output.observables: expected", rich, [](Scene& s) { s.output.observables = {"x"}; });
+  expect("species: expected the count", species, [](Scene& s) { s.needles.count = 8; });
+  expect("species.length: expected", species, [](Scene& s) { s.species[0].length = 0; });
+  expect("needles.box: expected edges", species, [](Scene& s) { s.species[0].length = 5; });
+  expect("species: expected one", species, [](Scene& s) { s.species.push_back(s.species[0]); });
+  expect("text: expected", rich, [](Scene& s) { s.text.resize(max_scene_bytes + 1); });
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,94 @@
+// What Simulation::checkpoint() saves, as numbers that tests can change.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "needlework/simulation.h"
+#include "src/archive/archive.h"
+#include "src/engine/tally.h"
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+// Of src/engine/saved_run.cpp.
+void transfer(Archive& archive, Time& time);
+void transfer(Archive& archive, RecordedTouch& touch);
+void transfer(Archive& archive, Counters& counters);
+namespace kernels {
+void transfer(Archive& archive, Flight& flight);
+}
+
+namespace test {
+
+struct SavedNeedle {
+  std::uint32_t id = 0;
+  std::array<std::int32_t, 3> image{};
+  Time time;
+  kernels::Flight flight;
+  Time renewal;
+  std::uint32_t serial = 0;
+  std::uint8_t species = 0;
+  std::vector<RecordedTouch> touches;
+  Time last_collision;  ///< if the scene has the t_c rule
+};
+
+struct SavedGas {
+  explicit SavedGas(const Scene& scene, const Checkpoint& saved)
+      : has_contact_time(scene.collisions.tc || scene.collisions.tc_relative) {
+    Archive archive = Archive::from(saved.bytes);
+    transfer(archive);
+    archive.require_end();
+  }
+  Checkpoint checkpoint() {
+    Checkpoint out;
+    Archive archive = Archive::to(out.bytes);
+    transfer(archive);
+    return out;
+  }
+
+  /// Passes all times to a function, apart from those that stand for never or for long ago.
+  template <class Change>
+  void for_each_time(Change&& change) {
+    const auto pass = [&](Time& time) {
+      if (time.epoch > -(std::int64_t{1} << 61) && time != Time::never()) change(time);
+    };
+    for (SavedNeedle& needle : needles) {
+      pass(needle.time);
+      pass(needle.renewal);
+      if (has_contact_time) pass(needle.last_collision);
+    }
+    pass(now);
+    pass(window_end);
+    pass(tally.instant);
+  }
+
+  void transfer(Archive& archive) {
+    std::uint64_t count = needles.size();
+    archive(physics, count, box, epoch_length);
+    needles.resize(count);
+    for (SavedNeedle& n : needles) {
+      archive(n.id, n.image, n.time, n.flight, n.renewal, n.serial, n.species, n.touches);
+      if (has_contact_time) archive(n.last_collision);
+    }
+    archive(now, window_end, window_span, mean_free_time, contact_time, search_span, initial_energy,
+            energy_at_window, quantum, quanta_at_window);
+    archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
+            tally.instant, tally.at_instant);
+  }
+
+  bool has_contact_time;
+  std::vector<double> physics;
+  std::array<double, 3> box{};
+  double epoch_length = 1;
+  std::vector<SavedNeedle> needles;
+  Time now, window_end;
+  double window_span = 0, mean_free_time = 0, contact_time = 0, search_span = 0;
+  double initial_energy = 0, energy_at_window = 0, quantum = 1;
+  std::uint64_t quanta_at_window = 0;
+  Tally tally;
+};
+
+}  // namespace test
+}  // namespace needlework
