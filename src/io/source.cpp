@@ -73,7 +73,8 @@ Element::Element(const Source& source, const std::string& path)
   name_ = is_group_ ? path + "/value" : path;
   const std::string place = source.place(name_);
   if (!hdf5::is_dataset(source.get(), name_, place)) {
-    throw InputError(fmt::format("{}: missing: expected a dataset", place));
+    throw InputError(fmt::format("{}: {}: expected a dataset", place,
+                                 hdf5::why_absent(source.get(), name_, place)));
   }
   value_ = hdf5::open_dataset(source.get(), name_, place);
   const Handle type(H5Dget_type(value_.get()), H5Tclose, place);
@@ -164,7 +165,8 @@ std::string find_particles(const Source& source) {
   const std::string root = "/particles";
   const std::string place = source.place(root);
   if (!hdf5::is_group(source.get(), root, place)) {
-    throw InputError(place + ": missing: expected a group, as in H5MD files");
+    throw InputError(fmt::format("{}: {}: expected a group, as in H5MD files", place,
+                                 hdf5::why_absent(source.get(), root, place)));
   }
   if (hdf5::is_group(source.get(), root + "/needles", place)) return root + "/needles";
   const Handle group = hdf5::open_group(source.get(), root, place);

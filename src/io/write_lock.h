@@ -23,6 +23,10 @@ class WriteLock {
   /// Returns when the content of the file is on the disk. Throws IoError if it cannot be written.
   void sync();
 
+  /// In a process that has just been forked: closes the descriptors of all locks, which would
+  /// outlast them in the parent. They cannot be used here any more.
+  static void leave_to_parent();
+
  private:
   std::string place_;
   int descriptor_;

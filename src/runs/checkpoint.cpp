@@ -16,8 +16,8 @@
 
 #include "needlework/error.h"
 #include "src/runs/durable_file.h"
-#include "src/runs/saved_totals.h"
 #include "src/scene/saved_scene.h"
+#include "src/trajectory/saved_totals.h"
 
 namespace needlework {
 
