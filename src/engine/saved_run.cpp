@@ -33,6 +33,9 @@ bool is_finite(const Vec3d& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+// The square enters the energy.
+bool has_finite_square(const Vec3d& a) { return std::isfinite(dot(a, a)); }
+
 void require(bool condition) {
   if (!condition) Archive::throw_damaged();
 }
@@ -80,8 +83,9 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   archive(touches);
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
-  require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w) && is_finite(f.p) &&
-          std::abs(dot(f.u, f.u) - 1) < 1e-6 && std::isfinite(f.omega) && f.omega >= 0);
+  require(is_finite(f.r) && has_finite_square(f.v) && is_finite(f.u) && has_finite_square(f.w) &&
+          is_finite(f.p) && std::abs(dot(f.u, f.u) - 1) < 1e-6 && std::isfinite(f.omega) &&
+          f.omega >= 0);
   require(record.species < gas.species.size());
   require(is_time(gas.clock, record.time) && is_time(gas.clock, record.renewal));
   for (const auto& [place, edge] :

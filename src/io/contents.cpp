@@ -8,8 +8,6 @@ namespace needlework::io {
 
 using hdf5::Handle;
 
-namespace {
-
 // The members of Contents, where the file is open.
 class OpenContents {
  public:
@@ -96,8 +94,6 @@ std::vector<double> OpenContents::rows(const std::string& path,
   }
   return values;
 }
-
-}  // namespace
 
 struct Contents::Implementation {
   explicit Implementation(const std::string& path)

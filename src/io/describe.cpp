@@ -191,7 +191,8 @@ void Overview::add_group(const std::string& path, int depth) {
   const std::vector<std::string> names = children(path);
   // Step and time of elements that share them are not repeated.
   const bool elements = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    return hdf5::is_group(source_.get(), path + "/" + name, path) && is_element(path + "/" + name);
+    return hdf5::is_group(source_.get(), path + "/" + name, source_.place(path)) &&
+           is_element(path + "/" + name);
   });
   for (const std::string& name : names) {
     if (elements && (name == "step" || name == "time")) continue;

@@ -132,14 +132,28 @@ std::vector<std::string> split_fixed(const std::vector<char>& bytes, std::size_t
   return strings;
 }
 
+// Before memory is taken for them; see Source::require_possible().
+void require_possible_strings(hid_t object, std::size_t count, std::size_t length,
+                              const std::string& place) {
+  const Handle file(H5Iget_file_id(object), H5Fclose, place);
+  hsize_t file_bytes = 0;
+  check(H5Fget_filesize(file.get(), &file_bytes), place);
+  std::size_t bytes = 0;
+  const bool too_many = __builtin_mul_overflow(count, length, &bytes);
+  if (!too_many && is_possible_size(bytes, file_bytes)) return;
+  throw InputError(fmt::format("{}: {} texts of {} bytes: expected fewer in a file of {} bytes",
+                               place, count, length, file_bytes));
+}
+
 // Reads strings by calling `read(memory_type, buffer)`, because HDF5 has different functions for
 // attributes and datasets.
 template <class Read>
-std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::string& place,
-                                           Read read) {
+std::vector<std::string> read_strings_with(hid_t object, hid_t type, hid_t space,
+                                           const std::string& place, Read read) {
   if (H5Tget_class(type) != H5T_STRING) return {};
   const auto count = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), place));
   const Handle memory(H5Tcopy(type), H5Tclose, place);
+  require_possible_strings(object, count, std::max(H5Tget_size(type), sizeof(char*)), place);
   if (check(H5Tis_variable_str(type), place) == 0) {
     const std::size_t length = H5Tget_size(type);
     std::vector<char> bytes(count * length);
@@ -227,6 +241,13 @@ pid_t fork_process(const std::function<void()>& child) {
   H5Piterate(properties.get(), &first, fork_in_callback, &request);
   errno = request.error;
   return request.process;
+}
+
+bool is_possible_size(std::uint64_t bytes, std::uint64_t file_bytes) {
+  // Deflate shrinks nothing by more than a factor of 1032. Small datasets may be left out of a file
+  // altogether, which then stand for zeros.
+  constexpr std::uint64_t most_per_byte = 1032, always = std::uint64_t{1} << 23;
+  return bytes <= always || bytes / most_per_byte <= file_bytes;
 }
 
 std::string last_error() {
@@ -487,17 +508,18 @@ std::vector<std::string> read_strings_attribute(hid_t object, const std::string&
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, place);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose, place);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose, place);
-  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
-    return H5Aread(attribute.get(), memory, buffer);
-  });
+  return read_strings_with(
+      attribute.get(), type.get(), space.get(), place,
+      [&](hid_t memory, void* buffer) { return H5Aread(attribute.get(), memory, buffer); });
 }
 
 std::vector<std::string> read_strings(hid_t dataset, const std::string& place) {
   const Handle type(H5Dget_type(dataset), H5Tclose, place);
   const Handle space(H5Dget_space(dataset), H5Sclose, place);
-  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
-    return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
-  });
+  return read_strings_with(dataset, type.get(), space.get(), place,
+                           [&](hid_t memory, void* buffer) {
+                             return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+                           });
 }
 
 }  // namespace needlework::io::hdf5

@@ -167,6 +167,10 @@ Shape greatest_shape_of(hid_t dataset, const std::string& place);
 /// A number that is the same for all paths to one object of a file.
 std::uint64_t number_of(hid_t parent, const std::string& name, const std::string& place);
 
+/// Whether a file of this size can hold a dataset or an attribute of at least so many bytes, even
+/// compressed.
+bool is_possible_size(std::uint64_t bytes, std::uint64_t file_bytes);
+
 /// Whether an object exists at `path`, relative to `object`. Broken links count as absent, and so
 /// do links into other files, which nothing here follows: a file must not make the program open
 /// another one.

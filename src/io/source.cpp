@@ -58,10 +58,7 @@ Source::Source(const std::string& path) : path_(path) {
 }
 
 void Source::require_possible(std::uint64_t numbers, const std::string& dataset) const {
-  // Deflate shrinks nothing by more than a factor of 1032. Small datasets may be left out of a file
-  // altogether, which then stand for zeros.
-  constexpr std::uint64_t most_per_byte = 1032, always = std::uint64_t{1} << 23;
-  if (numbers <= always || numbers / most_per_byte <= bytes_) return;
+  if (hdf5::is_possible_size(numbers, bytes_)) return;  // of one byte each
   throw InputError(fmt::format("{}: {} numbers: expected fewer in a file of {} bytes",
                                place(dataset), numbers, bytes_));
 }

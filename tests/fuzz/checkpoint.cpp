@@ -105,7 +105,7 @@ void resume_a_little(const std::string& output) {
     runs::PreparedRun run(std::move(saved));
     Scene::Until until;
     until.collisions_per_needle = 20;
-    until.wall_s = 0.2;
+    until.wall_s = 0.1;
     fuzz::Silent silent;
     run.advance(until, silent);
   } catch (const InvalidStateError&) {

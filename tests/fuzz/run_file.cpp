@@ -16,7 +16,7 @@ using namespace needlework;
 
 namespace {
 
-void report(const std::string& path) {
+void show(const std::string& path) {
   const io::Contents contents(path);
   report::Arrays arrays;
   const bool sweep = contents.has("/sweep/grid");
@@ -35,6 +35,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   base.edit(path, data);
   fuzz::allow_bad_input([&] { io::describe(path); });
   fuzz::allow_bad_input([&] { io::read_run(path); });
-  fuzz::allow_bad_input([&] { report(path); });
+  fuzz::allow_bad_input([&] { show(path); });
   return 0;
 }

@@ -54,8 +54,8 @@ void run_a_little(const std::string& path) {
   try {
     Simulation simulation(loaded.scene, *loaded.initial);
     Scene::Until until;
-    until.collisions_per_needle = 20;
-    until.wall_s = 0.5;
+    until.collisions_per_needle = 5;
+    until.wall_s = 0.1;
     simulation.advance(until);
     fuzz::require(std::isfinite(simulation.totals().energy));
   } catch (const InvalidStateError&) {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -102,7 +101,7 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
   const std::string whole = bytes_of(make_run()), path = file("flipped.h5");
   std::mt19937_64 random(2);
   int refused = 0;
-  for (int n = 0; n < 300; ++n) {
+  for (int n = 0; n < 200; ++n) {
     std::string bytes = whole;
     const std::size_t range = n % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 4096);
     const std::size_t at = random() % range;
@@ -110,22 +109,24 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
     write_bytes(path, bytes);
     for (const std::string& verdict : verdicts(path)) refused += verdict != "read";
   }
-  EXPECT_GT(refused, 50);
+  EXPECT_GT(refused, 30);
 }
 
-// As in CVE-2021-37501: the size of an attribute overflows, HDF5 takes too little memory for it and
-// writes beyond. HDF5 1.10.8 has this defect.
-TEST_F(Hostile, SizesThatOverflowInHdf5AreRefused) {
+// As in CVE-2021-37501: the size of an attribute overflows, so that HDF5 takes too little memory
+// for it and writes beyond. HDF5 1.10.8 has this defect.
+TEST_F(Hostile, AttributesWhoseSizeOverflowsAreRefused) {
   constexpr std::uint64_t before = 0x1234, after = std::uint64_t{1} << 61;
   const std::string path = make([&](HandMade& made) {
     const hsize_t extent = before;
     const Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose, "");
     const Handle box(H5Gopen2(made.get(), "/particles/all/box", H5P_DEFAULT), H5Gclose, "");
+    const Handle text(H5Tcopy(H5T_C_S1), H5Tclose, "");
+    H5Tset_size(text.get(), 8);
     const Handle attribute(
-        H5Acreate2(box.get(), "boundary", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+        H5Acreate2(box.get(), "boundary", text.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
         H5Aclose, "");
-    const std::vector<double> values(before, 1);
-    H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, values.data());
+    const std::string texts(8 * before, 'x');
+    H5Awrite(attribute.get(), text.get(), texts.data());
   });
   std::string bytes = bytes_of(path);
   const std::string mark(reinterpret_cast<const char*>(&before), sizeof before);
@@ -135,7 +136,8 @@ TEST_F(Hostile, SizesThatOverflowInHdf5AreRefused) {
   }
   ASSERT_GT(found, 0);
   write_bytes(path, bytes);
-  EXPECT_NE(verdicts(path)[0], "read");
+  EXPECT_NE(complaint<InputError>(path).find("2305843009213693952 texts of 8 bytes"),
+            std::string::npos);
 }
 
 // Zeros, compressed twice: a file of some kilobytes that stands for gigabytes.
