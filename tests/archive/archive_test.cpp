@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "needlework/error.h"
+
 namespace needlework {
 
 struct Point {
