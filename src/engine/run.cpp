@@ -13,18 +13,14 @@
 #include "src/engine/space_order.h"
 #include "src/physics/director.h"
 #include "src/physics/mean_free_time.h"
+#include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/trajectory/exact_sum.h"
 
 namespace needlework {
 namespace {
 
-Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 std::array<double, 3> array(const Vec3d& a) { return {a.x, a.y, a.z}; }
-
-bool is_finite(const Vec3d& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
 
 void check_size(std::size_t actual, std::size_t expected, const char* what) {
   if (actual == expected || actual == 0) return;
@@ -109,10 +105,10 @@ Gas make_gas(const Scene& scene, const State& initial) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t from = order[i];
     kernels::Flight& flight = gas.records[i].flight;
-    flight.r = vector(initial.position[from]);
-    flight.v = vector(initial.velocity[from]);
-    flight.u = vector(initial.orientation[from]);
-    flight.w = vector(initial.angular_velocity[from]);
+    flight.r = vector_of(initial.position[from]);
+    flight.v = vector_of(initial.velocity[from]);
+    flight.u = vector_of(initial.orientation[from]);
+    flight.w = vector_of(initial.angular_velocity[from]);
     gas.ids[i] = {initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from]};
     if (i > 0 && gas.ids[i] == gas.ids[i - 1]) {
       throw InputError("state: id " + std::to_string(gas.ids[i].value) +

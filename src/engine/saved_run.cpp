@@ -8,6 +8,7 @@
 #include "src/archive/archive.h"
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
+#include "src/physics/vectors.h"
 
 namespace needlework {
 
@@ -28,10 +29,6 @@ void transfer(Archive& archive, Flight& flight) {
 }  // namespace kernels
 
 namespace {
-
-bool is_finite(const Vec3d& a) {
-  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
-}
 
 // The square enters the energy.
 bool has_finite_square(const Vec3d& a) { return std::isfinite(dot(a, a)); }

@@ -12,6 +12,7 @@
 #include "src/engine/make_loop.h"
 #include "src/engine/zones.h"
 #include "src/physics/permutation.h"
+#include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/search/choice.h"
@@ -45,8 +46,6 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
                         multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))},
           .replaced = {}};
 }
-
-Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 // Its square enters the energy.
 bool has_finite_square(const std::array<double, 3>& a) {
@@ -118,8 +117,9 @@ struct Simulation::Implementation {
     check_velocities(angular_velocity, run.gas.size(), "angular velocity");
     const std::vector<Needle> ranks = ranks_of(by_id());
     loop.reset();  // all of its contents depend on the velocities
-    replaced = run.replace_velocities([&](Needle i) { return vector(velocity[ranks[i]]); },
-                                      [&](Needle i) { return vector(angular_velocity[ranks[i]]); });
+    replaced =
+        run.replace_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
+                               [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
     begin_loop();
   }
 

@@ -19,7 +19,7 @@ using kernels::NeedleBlock;
 constexpr double overlap_of_side = 0.2;
 // Cells that a search may choose to have, by needles: those around a cloud are empty, and take half
 // a kilobyte each.
-constexpr double most_cells = 2;
+constexpr double cells_per_needle = 2;
 constexpr double roundup = 1 + 0x1p-20;
 
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
@@ -27,7 +27,7 @@ CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind)
   const double density = setup.density.value_or(reduced_density(gas));
   const double side =
       kind == BoundingVolume::cell ? auto_cell_side(density) : auto_side_for_capsules(density);
-  return CellGrid(gas.box, side * gas.longest, gas.size(), setup.count_multiples, most_cells);
+  return CellGrid(gas.box, side * gas.longest, gas.size(), setup.count_multiples, cells_per_needle);
 }
 
 double radius_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {

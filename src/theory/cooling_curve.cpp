@@ -25,6 +25,8 @@ enum Component { rotational_share, log_energy, collisions, component_count };
 
 Temperatures split(double share) { return {.t_tr = (1.0 - share) / 1.5, .t_rot = share}; }
 
+}  // namespace
+
 /// The gas as a function of time, in units where the initial energy per needle is 1. At first the
 /// ratio of the temperatures relaxes within a few collisions per needle, which is integrated
 /// numerically. From then on the rates change only because the energy decays, and the rest of the
@@ -118,6 +120,8 @@ class CoolingGas {
   odeint::result_of::make_controlled<Stepper>::type stepper_ =
       odeint::make_controlled<Stepper>(absolute_tolerance, relative_tolerance);
 };
+
+namespace {
 
 /// The temperatures in the units of `initial`. Exactly those at tau = 0.
 Temperatures temperatures(const State& state, Temperatures initial, double tau) {
