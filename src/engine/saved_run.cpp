@@ -31,7 +31,7 @@ void transfer(Archive& archive, Flight& flight) {
 namespace {
 
 // The square enters the energy.
-bool has_finite_square(const Vec3d& a) { return std::isfinite(dot(a, a)); }
+bool square_is_finite(const Vec3d& a) { return std::isfinite(dot(a, a)); }
 
 void require(bool condition) {
   if (!condition) Archive::throw_damaged();
@@ -80,7 +80,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   archive(touches);
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
-  require(is_finite(f.r) && has_finite_square(f.v) && is_finite(f.u) && has_finite_square(f.w) &&
+  require(is_finite(f.r) && square_is_finite(f.v) && is_finite(f.u) && square_is_finite(f.w) &&
           is_finite(f.p) && std::abs(dot(f.u, f.u) - 1) < 1e-6 && std::isfinite(f.omega) &&
           f.omega >= 0);
   require(record.species < gas.species.size());
