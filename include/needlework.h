@@ -12,11 +12,15 @@
  * The message of a function with a simulation is needlework_message(simulation), that of a function
  * without one is written to the needlework_error passed to it (NULL: not wanted). The library
  * throws no exception to its caller, never ends the process, prints nothing, and changes no signal
- * handler and no setting of OpenMP or HDF5. It computes in the default floating-point environment,
- * whatever that of the caller is, and leaves the caller's as it was. A function that fails changes
- * nothing, except where it says so. If memory runs out while a simulation runs, or a defect of the
- * library is found in the middle of an event, every function on it returns NEEDLEWORK_INVALID_STATE
- * from then on; what its file holds stays.
+ * handler and no setting of OpenMP or HDF5 beyond a call. Calls that read an HDF5 file (a scene
+ * with initial.file, needlework_resume()) fork: the file is read in a child process with limits of
+ * memory and time, which ends before the call returns and for which the caller gets a SIGCHLD.
+ * Where the environment variable NEEDLEWORK_FORK is 0 they do not, and a file made to crash HDF5
+ * then ends the process. It computes in the default floating-point environment, whatever that of
+ * the caller is, and leaves the caller's as it was. A function that fails changes nothing, except
+ * where it says so. If memory runs out while a simulation runs, or a defect of the library is found
+ * in the middle of an event, every function on it returns NEEDLEWORK_INVALID_STATE from then on;
+ * what its file holds stays.
  *
  * Threads. Each function says in square brackets which calls may run at the same time:
  *   [any]     with every other function

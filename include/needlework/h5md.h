@@ -121,6 +121,16 @@ class Writer {
   std::unique_ptr<Implementation> implementation_;
 };
 
+/// Whether FrameFile and the functions below read files in child processes, which they do unless
+/// this is called with false, or the environment variable NEEDLEWORK_FORK is 0. For programs that
+/// must not fork, such as those of MPI.
+///
+/// The child process is a fork of the calling thread. It answers until the FrameFile is destroyed,
+/// or the function returns, and has limits of memory and time, so that a file on which HDF5
+/// crashes, hangs or takes all memory is an IoError or an InputError. Without it such a file ends
+/// the program. In both cases HDF5 loads no plugins and follows no links into other files.
+void set_reading_apart(bool apart);
+
 /// The frames of any H5MD file that has position, velocity, orientation and angular_velocity in
 /// /particles/needles, or in the only group under /particles, whatever its name.
 ///

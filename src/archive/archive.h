@@ -50,8 +50,13 @@ class Archive {
 
   void pass_bytes(void* values, std::size_t size);
 
+  // Numbers, and arrays of them, whose bytes are those of their elements.
   template <class T>
-  static constexpr bool is_plain = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
+  struct Plain : std::bool_constant<std::is_arithmetic_v<T> && !std::is_same_v<T, bool>> {};
+  template <class T, std::size_t size>
+  struct Plain<std::array<T, size>> : Plain<T> {};
+  template <class T>
+  static constexpr bool is_plain = Plain<T>::value;
 
   template <class T>
   void pass(T& value) {

@@ -93,6 +93,7 @@ void write_audit_state(const std::string& path, const AuditIdentity& identity,
 std::optional<audit::Checkpoint> read_audit_state(const std::string& path,
                                                   const AuditIdentity& identity) {
   if (!std::filesystem::exists(path)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(path)) throw IoError(path + ": not a regular file");
   std::ifstream file(path);
   if (!file) throw IoError(path + ": cannot be read");
   try {

@@ -194,6 +194,7 @@ Exit codes:
   75  stopped by a signal or a time limit, after saving if there is a file
 
 Environment:
+  NEEDLEWORK_FORK  0: HDF5 files are read without a child process
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
   NO_COLOR         if set and not empty, run --watch draws without colours
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");

@@ -4,6 +4,8 @@
 #include <istream>
 #include <nlohmann/json.hpp>
 
+#include "src/serve/shallow_json.h"
+
 namespace needlework::cli {
 
 using Json = nlohmann::ordered_json;
@@ -14,6 +16,6 @@ std::string json_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-Json parse_json(std::istream& text) { return Json::parse(text); }
+Json parse_json(std::istream& text) { return serve::parse_shallow<Json>(text); }
 
 }  // namespace needlework::cli

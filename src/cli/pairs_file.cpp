@@ -7,14 +7,15 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <cstdio>
 #include <iostream>
+#include <memory>
+#include <streambuf>
 #include <system_error>
 
 #include "needlework/error.h"
 #include "src/io/decimal.h"
+#include "src/scene/text_input.h"
 
 namespace needlework {
 namespace {
@@ -133,13 +134,51 @@ bool looks_like_a_header(const Line& line) {
   return line.fields.size() > 2 && std::none_of(line.fields.begin(), line.fields.end(), is_number);
 }
 
+// A pair takes some 600 bytes. What has no ends of lines is not a list, but could take all memory.
+constexpr std::size_t longest_line = 1 << 16;
+
+// The next line without its end; false after the last.
+bool read_line(std::istream& in, std::string& line, std::string_view name, std::size_t number) {
+  line.clear();
+  for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
+    if (c == '\n') return true;
+    if (line.size() == longest_line) {
+      throw InputError(
+          fmt::format("{}: line {}: more than {} bytes: expected the 28 columns of a "
+                      "pair",
+                      name, number, longest_line));
+    }
+    line += static_cast<char>(c);
+  }
+  return !line.empty();
+}
+
+// Reads a file as a stream.
+class FileBuffer : public std::streambuf {
+ public:
+  explicit FileBuffer(const std::string& path) : file_(open_text(path)) {}
+
+ protected:
+  int_type underflow() override {
+    const std::size_t count = std::fread(bytes_.data(), 1, bytes_.size(), file_.get());
+    // An exception sets the stream's badbit.
+    if (std::ferror(file_.get())) throw IoError(std::generic_category().message(errno));
+    setg(bytes_.data(), bytes_.data(), bytes_.data() + count);
+    return count == 0 ? traits_type::eof() : traits_type::to_int_type(bytes_[0]);
+  }
+
+ private:
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::array<char, 1 << 16> bytes_{};
+};
+
 }  // namespace
 
 std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
   std::vector<PairLine> pairs;
   bool header_allowed = true;
   std::string text;
-  for (std::size_t number = 1; std::getline(in, text); ++number) {
+  for (std::size_t number = 1; read_line(in, text, name, number); ++number) {
     std::string_view line = trimmed(text);
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (number == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(3);
@@ -164,11 +203,8 @@ std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
 
 std::vector<PairLine> read_pairs(const std::string& path) {
   if (path == "-") return read_pairs(std::cin, "stdin");
-  std::ifstream file(path);
-  if (!file) throw IoError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  if (std::filesystem::is_directory(path)) {
-    throw IoError(fmt::format("{}: cannot be read: Is a directory", path));
-  }
+  FileBuffer buffer(path);
+  std::istream file(&buffer);
   return read_pairs(file, path);
 }
 

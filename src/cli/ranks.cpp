@@ -11,6 +11,7 @@
 #include <initializer_list>
 
 #include "needlework/error.h"
+#include "needlework/h5md.h"
 #include "src/cli/messages.h"
 #include "src/runs/failure.h"
 
@@ -51,6 +52,8 @@ Ranks::Ranks() {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &offered);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
+  // Open MPI advises against forks: with some networks they corrupt what is being sent.
+  if (count_ > 1) io::set_reading_apart(false);
 }
 
 Ranks::~Ranks() {

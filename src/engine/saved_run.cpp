@@ -31,6 +31,9 @@ void transfer(Archive& archive, Flight& flight) {
 
 namespace {
 
+// The square enters the energy.
+bool square_is_finite(const Vec3d& a) { return std::isfinite(dot(a, a)); }
+
 void require(bool condition) {
   if (!condition) Archive::throw_damaged();
 }
@@ -50,7 +53,7 @@ bool equal(const Vec3d& a, const Vec3d& b) { return a.x == b.x && a.y == b.y && 
 
 // What follows from velocities follows again, to the same bits.
 void require_flight(const kernels::Flight& f) {
-  require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w));
+  require(is_finite(f.r) && square_is_finite(f.v) && is_finite(f.u) && square_is_finite(f.w));
   require(std::abs(dot(f.u, f.u) - 1) < 1e-6);
   const double largest = std::max({std::abs(f.w.x), std::abs(f.w.y), std::abs(f.w.z)});
   require(std::abs(dot(f.u, f.w)) <= 1e-6 * largest + 1e-300);
@@ -120,8 +123,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 // known twice.
 void Run::require_consistent() const {
   require(is_time(gas.clock, now) && is_time(gas.clock, window_end) && now.epoch >= 0);
-  require(std::isfinite(initial_energy) && initial_energy >= 0 &&
-          std::isfinite(drift_of_windows_));
+  require(std::isfinite(initial_energy) && initial_energy >= 0 && std::isfinite(drift_of_windows_));
   require(std::isfinite(energy_at_window_) && energy_at_window_ >= 0 && mean_free_time > 0);
   const Scales scales = scales_of_window();
   require(quantum_ == scales.quantum && window_span_ == scales.window_span &&
@@ -136,6 +138,8 @@ void Run::require_consistent() const {
   // Where nothing can happen, time passes without windows.
   if (!nothing_can_happen()) {
     require(now <= window_end && window_end <= gas.clock.add(now, window_span_));
+    const auto is_to_come = [&](Time time) { return time >= now; };
+    require(std::ranges::all_of(gas.records, is_to_come, &Record::renewal));
   }
   Totals sums;
   sum_energies(sums);

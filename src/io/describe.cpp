@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/apart.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -80,6 +82,7 @@ class Overview {
 
   Source source_;
   std::string text_;
+  std::map<std::uint64_t, std::string> groups_shown_;  // paths by number; links can form a cycle
   std::set<std::string> ranges_shown_;  // of times and steps, which elements need not repeat
 };
 
@@ -153,6 +156,7 @@ void Overview::add_datasets() {
     add("Each row of GROUP/value has its time in GROUP/time and the collisions so far in "
         "GROUP/step.");
   }
+  groups_shown_.emplace(hdf5::number_of(source_.get(), "/", source_.path()), "/");
   for (const std::string& name : children("/")) {
     if (name == "h5md" || name == "parameters") continue;
     add("");
@@ -162,7 +166,7 @@ void Overview::add_datasets() {
 
 std::string Overview::description(const std::string& path) const {
   const std::string place = source_.place(path);
-  const Handle object(H5Oopen(source_.get(), path.c_str(), H5P_DEFAULT), H5Oclose, place);
+  const Handle object = hdf5::open_object(source_.get(), path, place);
   if (hdf5::check(H5Aexists(object.get(), "description"), place) == 0) return {};
   const auto texts = hdf5::read_strings_attribute(object.get(), "description", place);
   return texts.empty() ? "" : texts.front();
@@ -183,12 +187,12 @@ bool Overview::is_element(const std::string& path) const {
 }
 
 void Overview::add_group(const std::string& path, int depth) {
-  const std::vector<std::string> names = children(path);
-  // Links can form a cycle.
   if (depth > 6) return;
+  const std::vector<std::string> names = children(path);
   // Step and time of elements that share them are not repeated.
   const bool elements = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-    return hdf5::is_group(source_.get(), path + "/" + name, path) && is_element(path + "/" + name);
+    return hdf5::is_group(source_.get(), path + "/" + name, source_.place(path)) &&
+           is_element(path + "/" + name);
   });
   for (const std::string& name : names) {
     if (elements && (name == "step" || name == "time")) continue;
@@ -205,7 +209,10 @@ void Overview::add_object(const std::string& path, const std::string& name, int 
   } else if (is_element(path)) {
     add_dataset(path + "/value", name + "/value", depth);
   } else {
-    add("{:{}}{}", "", 2 * depth, name);
+    const auto [shown, is_new] =
+        groups_shown_.emplace(hdf5::number_of(source_.get(), path, place), path);
+    add("{:{}}{}{}", "", 2 * depth, name, is_new ? "" : ": the same as " + shown->second);
+    if (!is_new) return;
     add_description(path, depth);
     add_group(path, depth + 1);
   }
@@ -262,8 +269,7 @@ void Overview::add_parameters() {
 }  // namespace
 
 std::string describe(const std::string& path) {
-  const hdf5::Session session;
-  return Overview(path).write();
+  return read_apart(path, [&] { return Overview(path).write(); });
 }
 
 }  // namespace needlework::io

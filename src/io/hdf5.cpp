@@ -1,8 +1,11 @@
 #include "src/io/hdf5.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -50,16 +53,58 @@ class CallerErrors {
   void* data_ = nullptr;
 };
 
+// Whether HDF5 loads plugins, as it was at the construction.
+class CallerPlugins {
+ public:
+  CallerPlugins() {
+    if (H5PLget_loading_state(&kinds_) < 0) kinds_ = H5PL_ALL_PLUGIN;
+    H5PLset_loading_state(0);
+  }
+  void restore() { H5PLset_loading_state(kinds_); }
+
+ private:
+  unsigned kinds_ = 0;
+};
+
+struct Caller {
+  CallerErrors errors;
+  CallerPlugins plugins;
+};
+
 // What the sessions of the process share. The mutex protects the other members.
 struct Shared {
   std::recursive_mutex mutex;
   int sessions = 0;  // open ones, all of the thread that holds the mutex
-  std::optional<CallerErrors> caller;
+  std::optional<Caller> caller;
 };
 
-Shared& shared() {
-  static Shared shared;
+Shared*& shared_pointer() {
+  static Shared* shared = new Shared;
   return shared;
+}
+
+Shared& shared() { return *shared_pointer(); }
+
+// What fork_process() passes through HDF5.
+struct Fork {
+  const std::function<void()>& child;
+  pid_t process = -1;
+  int error = ENOSYS;
+};
+
+herr_t fork_in_callback(hid_t, const char*, void* data) {
+  Fork& request = *static_cast<Fork*>(data);
+  request.process = fork();
+  request.error = errno;
+  if (request.process != 0) return 1;
+  // The mutex is that of a thread that does not exist here.
+  shared_pointer() = new Shared;
+  try {
+    request.child();
+  } catch (...) {
+    std::terminate();
+  }
+  _exit(0);
 }
 
 herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
@@ -87,14 +132,28 @@ std::vector<std::string> split_fixed(const std::vector<char>& bytes, std::size_t
   return strings;
 }
 
+// Before memory is taken for them; see Source::require_possible().
+void require_possible_strings(hid_t object, std::size_t count, std::size_t length,
+                              const std::string& place) {
+  const Handle file(H5Iget_file_id(object), H5Fclose, place);
+  hsize_t file_bytes = 0;
+  check(H5Fget_filesize(file.get(), &file_bytes), place);
+  std::size_t bytes = 0;
+  const bool too_many = __builtin_mul_overflow(count, length, &bytes);
+  if (!too_many && is_possible_size(bytes, file_bytes)) return;
+  throw InputError(fmt::format("{}: {} texts of {} bytes: expected fewer in a file of {} bytes",
+                               place, count, length, file_bytes));
+}
+
 // Reads strings by calling `read(memory_type, buffer)`, because HDF5 has different functions for
 // attributes and datasets.
 template <class Read>
-std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::string& place,
-                                           Read read) {
+std::vector<std::string> read_strings_with(hid_t object, hid_t type, hid_t space,
+                                           const std::string& place, Read read) {
   if (H5Tget_class(type) != H5T_STRING) return {};
   const auto count = static_cast<std::size_t>(check(H5Sget_simple_extent_npoints(space), place));
   const Handle memory(H5Tcopy(type), H5Tclose, place);
+  require_possible_strings(object, count, std::max(H5Tget_size(type), sizeof(char*)), place);
   if (check(H5Tis_variable_str(type), place) == 0) {
     const std::size_t length = H5Tget_size(type);
     std::vector<char> bytes(count * length);
@@ -109,9 +168,53 @@ std::vector<std::string> read_strings_with(hid_t type, hid_t space, const std::s
   return strings;
 }
 
+herr_t refuse_link(const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) {
+  return -1;
+}
+
+// Access properties of this kind (H5P_LINK_ACCESS or what is derived from it) with which no link is
+// followed into another file, neither directly nor by way of a soft link.
+Handle within_file(hid_t kind, const std::string& place) {
+  Handle properties(H5Pcreate(kind), H5Pclose, place);
+  check(H5Pset_elink_cb(properties.get(), refuse_link, nullptr), place);
+  return properties;
+}
+
 H5I_type_t kind_of(hid_t parent, const std::string& name, const std::string& place) {
-  const Handle object(H5Oopen(parent, name.c_str(), H5P_DEFAULT), H5Oclose, place);
-  return H5Iget_type(object.get());
+  return H5Iget_type(open_object(parent, name, place).get());
+}
+
+H5L_type_t type_of_link(hid_t parent, const std::string& name, const std::string& place) {
+  const Handle access = within_file(H5P_LINK_ACCESS, place);
+  H5L_info_t info;
+  check(H5Lget_info(parent, name.c_str(), &info, access.get()), place);
+  return info.type;
+}
+
+// Throws InputError unless the values are in the file itself, and can be read. To be called before
+// HDF5 is asked for the shape: for that of a virtual dataset it opens other files.
+void require_own_values(hid_t dataset, const std::string& place) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose, place);
+  const bool is_virtual = H5Pget_layout(creation.get()) == H5D_VIRTUAL;
+  if (is_virtual || H5Pget_external_count(creation.get()) > 0) {
+    throw InputError(place +
+                     ": a dataset whose values are in other files: expected them in the file "
+                     "itself");
+  }
+  const int filters = H5Pget_nfilters(creation.get());
+  for (int n = 0; n < filters; ++n) {
+    unsigned flags = 0, settings = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter =
+        check(H5Pget_filter2(creation.get(), static_cast<unsigned>(n), &flags, &values, nullptr, 0,
+                             nullptr, &settings),
+              place);
+    if (H5Zfilter_avail(filter) > 0) continue;
+    throw InputError(fmt::format(
+        "{}: stored with filter {} of HDF5, for which a plugin would be needed: expected gzip or "
+        "another filter that HDF5 itself has (h5repack can change it)",
+        place, static_cast<int>(filter)));
+  }
 }
 
 }  // namespace
@@ -122,8 +225,29 @@ Session::Session() : lock_(shared().mutex) {
 
 Session::~Session() {
   if (--shared().sessions > 0) return;
-  shared().caller->restore();
+  shared().caller->plugins.restore();
+  shared().caller->errors.restore();
   shared().caller.reset();
+}
+
+// HDF5 locks its mutex, if it has one, while it calls a function of the caller, and the new process
+// inherits the lock along with its owner, this thread. A fork outside of a callback could leave the
+// new process with a mutex that is locked by another thread, which does not exist there.
+pid_t fork_process(const std::function<void()>& child) {
+  const Session session;
+  const Handle properties(H5Pcreate(H5P_LINK_ACCESS), H5Pclose, "fork");
+  Fork request{.child = child};
+  int first = 0;
+  H5Piterate(properties.get(), &first, fork_in_callback, &request);
+  errno = request.error;
+  return request.process;
+}
+
+bool is_possible_size(std::uint64_t bytes, std::uint64_t file_bytes) {
+  // Deflate shrinks nothing by more than a factor of 1032. Small datasets may be left out of a file
+  // altogether, which then stand for zeros.
+  constexpr std::uint64_t most_per_byte = 1032, always = std::uint64_t{1} << 23;
+  return bytes <= always || bytes / most_per_byte <= file_bytes;
 }
 
 std::string last_error() {
@@ -187,11 +311,26 @@ Handle create_group(hid_t parent, const std::string& name, const std::string& pl
 }
 
 Handle open_group(hid_t parent, const std::string& name, const std::string& place) {
-  return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, place};
+  const Handle access = within_file(H5P_GROUP_ACCESS, place);
+  return {H5Gopen2(parent, name.c_str(), access.get()), H5Gclose, place};
 }
 
 Handle open_dataset(hid_t parent, const std::string& name, const std::string& place) {
-  return {H5Dopen2(parent, name.c_str(), H5P_DEFAULT), H5Dclose, place};
+  const Handle access = within_file(H5P_DATASET_ACCESS, place);
+  Handle dataset(H5Dopen2(parent, name.c_str(), access.get()), H5Dclose, place);
+  require_own_values(dataset.get(), place);
+  return dataset;
+}
+
+Handle open_object(hid_t parent, const std::string& name, const std::string& place) {
+  const Handle access = within_file(H5P_LINK_ACCESS, place);
+  return {H5Oopen(parent, name.c_str(), access.get()), H5Oclose, place};
+}
+
+std::uint64_t number_of(hid_t parent, const std::string& name, const std::string& place) {
+  hobj_ref_t reference = 0;
+  check(H5Rcreate(&reference, parent, name.c_str(), H5R_OBJECT, -1), place);
+  return reference;
 }
 
 void write_attribute(hid_t object, const std::string& name, const std::string& value,
@@ -310,19 +449,40 @@ Shape greatest_shape_of(hid_t dataset, const std::string& place) {
   return extents_of(dataset, place).second;
 }
 
-bool exists(hid_t object, const std::string& path, const std::string& place) {
-  // H5Lexists fails if the object before the last link is missing or not a group, so each link is
-  // tested in turn.
+namespace {
+
+enum class Presence { present, absent, elsewhere };
+
+// H5Lexists fails if the object before the last link is missing or not a group, so each link is
+// tested in turn.
+Presence presence_of(hid_t object, const std::string& path, const std::string& place) {
+  const Handle access = within_file(H5P_LINK_ACCESS, place);
   for (auto end = path.find('/');; end = path.find('/', end + 1)) {
     const std::string part = path.substr(0, end);
     const bool last = end == std::string::npos;
-    if (!part.empty()) {
-      if (check(H5Lexists(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
-      if (check(H5Oexists_by_name(object, part.c_str(), H5P_DEFAULT), place) == 0) return false;
-      if (!last && kind_of(object, part, place) != H5I_GROUP) return false;
+    if (!part.empty() && part != "/") {
+      if (check(H5Lexists(object, part.c_str(), access.get()), place) == 0) return Presence::absent;
+      const H5L_type_t type = type_of_link(object, part, place);
+      if (type == H5L_TYPE_EXTERNAL) return Presence::elsewhere;
+      const htri_t leads = H5Oexists_by_name(object, part.c_str(), access.get());
+      if (leads < 0 && type == H5L_TYPE_SOFT) return Presence::elsewhere;
+      if (check(leads, place) == 0) return Presence::absent;
+      if (!last && kind_of(object, part, place) != H5I_GROUP) return Presence::absent;
     }
-    if (last) return true;
+    if (last) return Presence::present;
   }
+}
+
+}  // namespace
+
+bool exists(hid_t object, const std::string& path, const std::string& place) {
+  return presence_of(object, path, place) == Presence::present;
+}
+
+std::string why_absent(hid_t object, const std::string& path, const std::string& place) {
+  return presence_of(object, path, place) == Presence::elsewhere
+             ? "a link that leads out of the file, or to itself"
+             : "missing";
 }
 
 std::vector<std::string> children(hid_t group, const std::string& place) {
@@ -348,17 +508,18 @@ std::vector<std::string> read_strings_attribute(hid_t object, const std::string&
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, place);
   const Handle type(H5Aget_type(attribute.get()), H5Tclose, place);
   const Handle space(H5Aget_space(attribute.get()), H5Sclose, place);
-  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
-    return H5Aread(attribute.get(), memory, buffer);
-  });
+  return read_strings_with(
+      attribute.get(), type.get(), space.get(), place,
+      [&](hid_t memory, void* buffer) { return H5Aread(attribute.get(), memory, buffer); });
 }
 
 std::vector<std::string> read_strings(hid_t dataset, const std::string& place) {
   const Handle type(H5Dget_type(dataset), H5Tclose, place);
   const Handle space(H5Dget_space(dataset), H5Sclose, place);
-  return read_strings_with(type.get(), space.get(), place, [&](hid_t memory, void* buffer) {
-    return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
-  });
+  return read_strings_with(dataset, type.get(), space.get(), place,
+                           [&](hid_t memory, void* buffer) {
+                             return H5Dread(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer);
+                           });
 }
 
 }  // namespace needlework::io::hdf5

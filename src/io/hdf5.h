@@ -2,8 +2,10 @@
 #pragma once
 
 #include <hdf5.h>
+#include <sys/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <string>
@@ -18,6 +20,8 @@ namespace needlework::io::hdf5 {
 /// - The caller's error handling stays as it was. During a session HDF5 calls no error handler, so
 ///   that failures are reported by exceptions only. The end of the outermost session restores the
 ///   error handler of the caller, its client data and the errors on the caller's error stack.
+/// - No plugin is loaded: a file that names a filter which HDF5 does not have is refused instead.
+///   The end of the outermost session restores the caller's choice.
 class Session {
  public:
   Session();
@@ -28,6 +32,11 @@ class Session {
  private:
   std::unique_lock<std::recursive_mutex> lock_;
 };
+
+/// Calls `child` in a new process, which ends when that returns or throws, and returns the number
+/// of the process in this one, or -1 with errno. In the new process HDF5 can be used: the fork
+/// waits until no other thread uses it, also threads of the caller that know nothing of sessions.
+pid_t fork_process(const std::function<void()>& child);
 
 /// The reason why the last HDF5 call failed, in one line: the message of the operating system if
 /// there is one, and otherwise the innermost message on the error stack of HDF5.
@@ -111,8 +120,13 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, hid_t s
                       const std::string& place);
 
 Handle create_group(hid_t parent, const std::string& name, const std::string& place);
+/// Links into other files are not followed: see exists().
 Handle open_group(hid_t parent, const std::string& name, const std::string& place);
+/// Throws InputError for a dataset whose values are in other files, and for one that is stored with
+/// a filter which HDF5 does not have.
 Handle open_dataset(hid_t parent, const std::string& name, const std::string& place);
+/// An object of any kind, of which only attributes are to be read.
+Handle open_object(hid_t parent, const std::string& name, const std::string& place);
 
 /// Writes an attribute of fixed-length strings, which H5MD demands: one string, or several strings
 /// of the same length.
@@ -150,8 +164,19 @@ Shape shape_of(hid_t dataset, const std::string& place);
 /// The extents that a dataset may grow to, H5S_UNLIMITED if there is no limit.
 Shape greatest_shape_of(hid_t dataset, const std::string& place);
 
-/// Whether an object exists at `path`, relative to `object`. Broken links count as absent.
+/// A number that is the same for all paths to one object of a file.
+std::uint64_t number_of(hid_t parent, const std::string& name, const std::string& place);
+
+/// Whether a file of this size can hold a dataset or an attribute of at least so many bytes, even
+/// compressed.
+bool is_possible_size(std::uint64_t bytes, std::uint64_t file_bytes);
+
+/// Whether an object exists at `path`, relative to `object`. Broken links count as absent, and so
+/// do links into other files, which nothing here follows: a file must not make the program open
+/// another one.
 bool exists(hid_t object, const std::string& path, const std::string& place);
+/// Why nothing exists at `path`: "missing", or that it is a link into another file.
+std::string why_absent(hid_t object, const std::string& path, const std::string& place);
 /// The names of the links in a group, in alphabetical order.
 std::vector<std::string> children(hid_t group, const std::string& place);
 bool is_group(hid_t parent, const std::string& name, const std::string& place);

@@ -10,9 +10,19 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/apart.h"
 #include "src/io/frame_rows.h"
 #include "src/io/needle_check.h"
 #include "src/io/source.h"
+
+namespace needlework {
+
+static void transfer(Archive& archive, State& state) {
+  archive(state.box, state.position, state.velocity, state.orientation, state.angular_velocity,
+          state.image, state.id);
+}
+
+}  // namespace needlework
 
 namespace needlework::io {
 
@@ -295,31 +305,28 @@ void FrameReader::require_needles(const State& state) {
 }
 
 struct FrameFile::Implementation {
-  explicit Implementation(const std::string& path) : reader(path) {}
+  explicit Implementation(const std::string& path)
+      : reader(path, [&] { return std::make_unique<FrameReader>(path); }) {}
 
-  FrameReader reader;
+  Apart<FrameReader> reader;
+  std::size_t count = reader.call<&FrameReader::count>();
+  std::size_t needles = reader.call<&FrameReader::needles>();
 };
 
-FrameFile::FrameFile(const std::string& path) {
-  const hdf5::Session session;
-  implementation_ = std::make_unique<Implementation>(path);
-}
+FrameFile::FrameFile(const std::string& path)
+    : implementation_(std::make_unique<Implementation>(path)) {}
 
-FrameFile::~FrameFile() {
-  const hdf5::Session session;
-  implementation_.reset();
-}
+FrameFile::~FrameFile() = default;
 
-std::size_t FrameFile::count() const { return implementation_->reader.count(); }
-std::size_t FrameFile::needles() const { return implementation_->reader.needles(); }
+std::size_t FrameFile::count() const { return implementation_->count; }
+std::size_t FrameFile::needles() const { return implementation_->needles; }
 
 std::optional<double> FrameFile::time(std::size_t frame) const {
-  return implementation_->reader.time(frame);
+  return implementation_->reader.call<&FrameReader::time>(frame);
 }
 
 State FrameFile::read(std::size_t frame) const {
-  const hdf5::Session session;
-  return implementation_->reader.read(frame);
+  return implementation_->reader.call<&FrameReader::read>(frame);
 }
 
 State read_last_frame(const std::string& path) {

@@ -3,7 +3,9 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/apart.h"
 #include "src/io/source.h"
+#include "src/trajectory/saved_totals.h"
 
 namespace needlework::io {
 namespace {
@@ -37,8 +39,13 @@ void read_series(const Source& source, const std::string& name, std::vector<Tota
 
 }  // namespace
 
-RecordedRun read_run(const std::string& path, bool with_series) {
-  const hdf5::Session session;
+// Adding a member fails to compile here.
+static void transfer(Archive& archive, RecordedRun& run) {
+  auto& [scene, version, needles, series] = run;
+  archive(scene, version, needles, series);
+}
+
+static RecordedRun read_run_here(const std::string& path, bool with_series) {
   const Source source(path);
   RecordedRun run;
   run.scene = read_text(source, "/parameters/scene");
@@ -63,6 +70,10 @@ RecordedRun read_run(const std::string& path, bool with_series) {
     std::copy_n(value, 3, sample.momentum.begin());
   });
   return run;
+}
+
+RecordedRun read_run(const std::string& path, bool with_series) {
+  return read_apart(path, [&] { return read_run_here(path, with_series); });
 }
 
 }  // namespace needlework::io

@@ -58,10 +58,7 @@ Source::Source(const std::string& path) : path_(path) {
 }
 
 void Source::require_possible(std::uint64_t numbers, const std::string& dataset) const {
-  // Deflate shrinks nothing by more than a factor of 1032. Small datasets may be left out of a file
-  // altogether, which then stand for zeros.
-  constexpr std::uint64_t most_per_byte = 1032, always = std::uint64_t{1} << 23;
-  if (numbers <= always || numbers / most_per_byte <= bytes_) return;
+  if (hdf5::is_possible_size(numbers, bytes_)) return;  // of one byte each
   throw InputError(fmt::format("{}: {} numbers: expected fewer in a file of {} bytes",
                                place(dataset), numbers, bytes_));
 }
@@ -73,7 +70,8 @@ Element::Element(const Source& source, const std::string& path)
   name_ = is_group_ ? path + "/value" : path;
   const std::string place = source.place(name_);
   if (!hdf5::is_dataset(source.get(), name_, place)) {
-    throw InputError(fmt::format("{}: missing: expected a dataset", place));
+    throw InputError(fmt::format("{}: {}: expected a dataset", place,
+                                 hdf5::why_absent(source.get(), name_, place)));
   }
   value_ = hdf5::open_dataset(source.get(), name_, place);
   const Handle type(H5Dget_type(value_.get()), H5Tclose, place);
@@ -164,7 +162,8 @@ std::string find_particles(const Source& source) {
   const std::string root = "/particles";
   const std::string place = source.place(root);
   if (!hdf5::is_group(source.get(), root, place)) {
-    throw InputError(place + ": missing: expected a group, as in H5MD files");
+    throw InputError(fmt::format("{}: {}: expected a group, as in H5MD files", place,
+                                 hdf5::why_absent(source.get(), root, place)));
   }
   if (hdf5::is_group(source.get(), root + "/needles", place)) return root + "/needles";
   const Handle group = hdf5::open_group(source.get(), root, place);

@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <set>
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/io/hdf5.h"
 #include "src/io/system_calls.h"
 
 namespace needlework::io {
@@ -52,6 +54,13 @@ bool is_locked_by_writer(int descriptor) {
 
 constexpr const char* is_being_written = ": another program has the file open for writing";
 
+// Those of all locks of the process. Used in a session, so that no other thread is about to change
+// them when hdf5::fork_process() forks.
+std::set<int>& descriptors() {
+  static std::set<int>* const descriptors = new std::set<int>;
+  return *descriptors;
+}
+
 }  // namespace
 
 void require_not_being_written(const std::string& name, const std::string& place) {
@@ -69,12 +78,24 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
   if (descriptor_ < 0) fail_lock(place_, errno);
   struct stat status;
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  if (regular && lock_against_hdf5(descriptor_) && lock_against_writers(descriptor_)) return;
+  if (regular && lock_against_hdf5(descriptor_) && lock_against_writers(descriptor_)) {
+    const hdf5::Session session;
+    descriptors().insert(descriptor_);
+    return;
+  }
   close(descriptor_);
   throw IoError(place_ + (regular ? is_being_written : ": not a regular file"));
 }
 
-WriteLock::~WriteLock() { close(descriptor_); }
+WriteLock::~WriteLock() {
+  const hdf5::Session session;
+  descriptors().erase(descriptor_);
+  close(descriptor_);
+}
+
+void WriteLock::leave_to_parent() {
+  for (const int descriptor : descriptors()) close(descriptor);
+}
 
 void WriteLock::sync() {
   if (const int error = sync_file(descriptor_)) fail_lock(place_, error);

@@ -29,6 +29,10 @@ class WriteLock {
   /// Throws IoError unless `name` leads to this file: what is written could not be found there.
   void require_named(const std::string& name) const;
 
+  /// In a process that has just been forked: closes the descriptors of all locks, which would
+  /// outlast them in the parent. They cannot be used here any more.
+  static void leave_to_parent();
+
  private:
   std::string place_;
   int descriptor_;

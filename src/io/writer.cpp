@@ -12,6 +12,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "src/io/apart.h"
 #include "src/io/atomic_file.h"
 #include "src/io/continuation.h"
 #include "src/io/hdf5.h"
@@ -79,7 +80,11 @@ void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, cons
                                     const std::function<void()>& approve) {
   file.emplace(path, path);
   if (approve) approve();
-  require_continuable(Source(path), scene, run, from);
+  // Before this process opens the file, which another one may have damaged.
+  read_apart(path, [&] {
+    require_continuable(Source(path), scene, run, from);
+    return true;
+  });
   shorten(*file, path, from);
   position = from;
   open_datasets(scene, run);

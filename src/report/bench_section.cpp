@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "needlework/error.h"
+#include "src/io/formats/input_text.h"
+#include "src/serve/shallow_json.h"
 
 namespace needlework::report {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+// Results are some hundred kilobytes; a parsed number takes about ten times its text.
+constexpr std::size_t most_bytes = std::size_t{1} << 26;
 
 constexpr std::array units = {"us_per_collision", "ns_per_item"};
 
@@ -82,10 +87,8 @@ Json section_of(const Json& results) {
 }  // namespace
 
 Json bench_section(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw IoError(path + ": cannot be read");
   try {
-    Json out = section_of(Json::parse(file));
+    Json out = section_of(serve::parse_shallow<Json>(io::read_text_file(path, most_bytes)));
     out["file"] = path;
     return out;
   } catch (const InputError& error) {

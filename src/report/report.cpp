@@ -27,6 +27,10 @@ constexpr const char* accepted =
 
 std::string first_bytes(const std::string& path) {
   std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored) &&
+      !std::filesystem::is_regular_file(path, ignored)) {
+    throw IoError(path + ": cannot be read: not a regular file");
+  }
   if (std::filesystem::is_directory(path, ignored)) {
     throw InputError(fmt::format("{}: is a folder: {}", path, accepted));
   }

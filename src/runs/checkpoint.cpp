@@ -16,10 +16,10 @@
 #include "src/io/atomic_file.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
-#include "src/runs/saved_totals.h"
 #include "src/scene/printable.h"
 #include "src/scene/saved_scene.h"
 #include "src/scene/scene_values.h"
+#include "src/trajectory/saved_totals.h"
 
 namespace needlework {
 

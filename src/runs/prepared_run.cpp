@@ -11,9 +11,9 @@
 #include "needlework/error.h"
 #include "src/observe/cooling_theory.h"
 #include "src/runs/failure.h"
-#include "src/runs/saved_totals.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
+#include "src/trajectory/saved_totals.h"
 
 namespace needlework::runs {
 

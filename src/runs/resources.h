@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "src/memory/available_memory.h"
+
 namespace needlework::runs {
 
-/// Memory that the process can expect to get [bytes]: what the machine has available, or the limit
-/// of its control group if that is less. Infinity where neither is known.
-double available_memory();
+using needlework::available_memory;
 
 /// Most memory that the process has held so far [bytes].
 std::uint64_t peak_memory();

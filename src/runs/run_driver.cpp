@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "src/runs/loaded_scene.h"
-#include "src/runs/saved_totals.h"
+#include "src/trajectory/saved_totals.h"
 
 namespace needlework::runs {
 namespace {

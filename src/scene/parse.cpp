@@ -15,6 +15,7 @@
 #include "src/scene/document.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
+#include "src/scene/text_input.h"
 
 namespace needlework {
 namespace {
@@ -244,16 +245,15 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
 }
 
 std::string read_scene_text(const std::string& path) {
+  const auto file = open_text(path);
   // One byte more than allowed shows that the text is too long.
-  constexpr std::size_t bytes = max_scene_bytes + 1;
+  std::string text(max_scene_bytes + 1, '\0');
   errno = 0;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-      std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  std::string text(file ? bytes : 0, '\0');
-  if (file) text.resize(std::fread(text.data(), 1, bytes, file.get()));
-  if (!file || std::ferror(file.get()))
+  text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+  if (std::ferror(file.get())) {
     throw IoError(fmt::format("{}: cannot be read: {}", printable(path),
                               std::generic_category().message(errno)));
+  }
   return text;
 }
 

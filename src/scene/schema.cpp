@@ -239,7 +239,9 @@ const SceneKey keys[] = {
     {"engine", "threads", "a whole number in digits, from 1 to 1024",
      [](Scene& s, V v) { return store(s.engine.threads, whole_number(v, 1, most_threads)); }},
     {"engine", "team", R"("auto" or "all")",
-     [](Scene& s, V v) { return store(s.engine.team, one_of(v, {"auto", "all"})); }},
+     [](Scene& s, V v) {
+       return store(s.engine.team, one_of(v, {"auto", "all"}));
+     }},
     {"engine", "isa", R"("auto", "scalar", "sse4", "avx2" or "avx512")",
      [](Scene& s, V v) {
        return store(s.engine.isa, one_of(v, {"auto", "scalar", "sse4", "avx2", "avx512"}));

@@ -15,6 +15,7 @@
 #include "needlework/error.h"
 #include "src/runs/failure.h"
 #include "src/serve/requests.h"
+#include "src/serve/shallow_json.h"
 
 namespace needlework::serve {
 namespace {
@@ -43,21 +44,11 @@ struct Line {
   bool asks_for(const char* what) const { return request.value("do", Json()) == what; }
 };
 
-/// Greatest depth of a request; one that is understood has 1, and what `id` has.
-constexpr int most_levels = 100;
-
 Line parse(std::uint64_t number, const std::string& text) {
   Line line{.number = number, .request = Json::object(), .misunderstood = {}};
   const std::string place = "line " + std::to_string(number) + ": ";
-  // Deep values would be copied and printed by recursion.
-  const auto within_depth = [](int depth, Json::parse_event_t, const Json&) {
-    if (depth > most_levels) {
-      throw RequestError("expected values in at most " + std::to_string(most_levels) + " levels");
-    }
-    return true;
-  };
   try {
-    Json parsed = Json::parse(text, within_depth);
+    Json parsed = parse_shallow<Json>(text);
     if (!parsed.is_object()) throw RequestError("expected a JSON object");
     line.request = std::move(parsed);
   } catch (const Json::parse_error& error) {
@@ -65,7 +56,7 @@ Line parse(std::uint64_t number, const std::string& text) {
         place + "no JSON at byte " + std::to_string(error.byte) + ": expected a JSON object";
   } catch (const Json::exception&) {
     line.misunderstood = place + "expected numbers that a double can hold";
-  } catch (const RequestError& error) {
+  } catch (const std::runtime_error& error) {  // InputError, RequestError
     line.misunderstood = place + error.what();
   }
   return line;

@@ -215,6 +215,23 @@ TEST(Checkpoint, CutShortOrWithMoreBytesIsRefused) {
   EXPECT_THROW(Simulation(scene, Checkpoint{saved.bytes + '\0'}), InputError);
 }
 
+// Found by fuzzing: the sum of the energies was then that of numbers beyond all integers.
+TEST(Checkpoint, WithASquareThatOverflowsIsRefused) {
+  const Scene scene = test::scene_of(3, 3, 1);
+  const Simulation simulation(scene);
+  const Checkpoint saved = simulation.checkpoint();
+  const State state = simulation.copy();
+  for (const double speed : {state.velocity[1][2], state.angular_velocity[1][2]}) {
+    Checkpoint changed = saved;
+    const std::string bytes(reinterpret_cast<const char*>(&speed), sizeof speed);
+    const auto at = changed.bytes.find(bytes);
+    ASSERT_NE(at, std::string::npos);
+    const double large = 1e200;
+    changed.bytes.replace(at, sizeof large, reinterpret_cast<const char*>(&large), sizeof large);
+    EXPECT_THROW(Simulation(scene, changed), InputError);
+  }
+}
+
 TEST(Checkpoint, OfNoNeedlesAndOfOneContinues) {
   for (const std::uint64_t count : {0, 1}) {
     const Scene scene = test::scene_of(count, 3, 1);

@@ -26,7 +26,7 @@ LAYERS = [
     Layer("theory", ["src/theory"], ["theory.h"], ["base"]),
     Layer("trajectory", ["src/trajectory"],
           ["collision.h", "totals.h", "series.h", "counters.h", "stop.h"],
-          ["base", "kernels"]),
+          ["base", "archive", "kernels"]),
     Layer("scene", ["src/scene"], ["scene.h", "parse.h", "state.h", "initial_state.h"],
           ["base", "archive"], ["kernels"]),
     Layer("physics", ["src/physics"], ["predict.h"], ["base", "memory", "kernels"]),
@@ -37,11 +37,12 @@ LAYERS = [
            "calendar"]),
     Layer("observe", ["src/observe"], [],
           ["archive", "scene"], ["base", "theory", "trajectory", "engine"]),
-    Layer("io", ["src/io"], ["h5md.h"], [], ["base", "trajectory", "scene", "engine"]),
+    Layer("io", ["src/io"], ["h5md.h"], ["memory", "archive", "trajectory"],
+          ["base", "scene", "engine"]),
     Layer("audit", ["src/audit"], [], [], ["base", "trajectory", "scene", "engine"]),
     Layer("runs", ["src/runs"], [],
-          ["base", "archive", "kernels", "trajectory", "scene", "search", "calendar", "observe",
-           "io"],
+          ["base", "memory", "archive", "kernels", "trajectory", "scene", "search", "calendar",
+           "observe", "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
     # The figures and claims of the paper: a client of the library.
@@ -71,7 +72,7 @@ LIBRARIES = [
     (r"nlohmann/.*", ["program", "bindings", "report", "reproduce"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
-    (r"csignal|signal\.h", ["program"]),
+    (r"csignal|signal\.h", ["io", "program"]),
 ]
 
 SOURCES = (".h", ".hpp", ".cpp", ".c")

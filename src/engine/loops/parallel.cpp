@@ -7,8 +7,9 @@ namespace needlework {
 std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
                                          int threads, bool all_threads) {
   return with_model(run.effects, [&]<Model M>() -> std::unique_ptr<Loop> {
-    return std::make_unique<ParallelLoop<NearSearch, M>>(
-        run, std::move(search), std::move(replaced), threads, ParallelTuning{.by_cost = !all_threads});
+    return std::make_unique<ParallelLoop<NearSearch, M>>(run, std::move(search),
+                                                         std::move(replaced), threads,
+                                                         ParallelTuning{.by_cost = !all_threads});
   });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/io/apart.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -39,8 +40,12 @@ std::optional<double> read_positive(const Source& source, const std::string& pat
 
 }  // namespace
 
-Material read_material(const std::string& path) {
-  const hdf5::Session session;
+static void transfer(Archive& archive, Material& material) {
+  auto& [name, length, mass, k, epsilon, beta] = material;
+  archive(name, length, mass, k, epsilon, beta);
+}
+
+static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
   material.length = read_positive(source, "/parameters/length");
@@ -49,6 +54,10 @@ Material read_material(const std::string& path) {
   material.epsilon = read_number(source, "/parameters/epsilon");
   material.beta = read_number(source, "/parameters/beta");
   return material;
+}
+
+Material read_material(const std::string& path) {
+  return read_apart(path, [&] { return read_material_here(path); });
 }
 
 void require_complete(const Material& material, const std::string& path) {

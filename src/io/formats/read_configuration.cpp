@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "needlework/error.h"
 #include "src/io/formats/dynamo.h"
@@ -24,6 +26,8 @@ constexpr Format formats[] = {{is_dynamo, read_dynamo},
 
 // Empty for what cannot be read.
 std::string beginning_of(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
   std::ifstream file(path, std::ios::binary);
   std::string text(4096, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));

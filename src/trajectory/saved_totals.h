@@ -1,4 +1,4 @@
-// Totals as part of a checkpoint.
+// Totals as part of a checkpoint, or on their way from another process.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,156 @@
+// Reading in a child process: what it answers, and how it ends.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "src/io/apart.h"
+#include "tests/io/support.h"
+
+namespace needlework::io {
+namespace {
+
+class ReadingApart : public InFolder {
+ protected:
+  std::string make() {
+    const std::string path = file("made.h5");
+    HandMade made(path);
+    made.put_needles("all", 3);
+    made.put("/particles/all/box/edges", {3}, {10, 11, 12});
+    return path;
+  }
+  // What a child that does this is said to have done, without the name of the file.
+  template <class Error, class Read>
+  std::string end_of(Read read) {
+    return message_of<Error>([&] { read_apart("f.h5", read); });
+  }
+};
+
+ReaderProcess::Service reading(std::function<void()> action) {
+  return [action](std::string_view) { return action(), std::string(); };
+}
+
+TEST_F(ReadingApart, ErrorsOfTheChildAreThoseOfItsCaller) {
+  EXPECT_EQ(end_of<InputError>([]() -> int { throw InputError("bad"); }), "bad");
+  EXPECT_EQ(end_of<IoError>([]() -> int { throw IoError("gone"); }), "gone");
+  EXPECT_EQ(end_of<std::invalid_argument>([]() -> int { throw std::invalid_argument("no"); }),
+            "no");
+  EXPECT_EQ(read_apart("f.h5", [] { return std::string("fine"); }), "fine");
+}
+
+TEST_F(ReadingApart, ACrashIsAnError) {
+  EXPECT_EQ(end_of<IoError>([]() -> int { return raise(SIGSEGV); }),
+            "f.h5: damaged: HDF5 crashed while it read the file (signal 11, Segmentation fault)");
+  EXPECT_EQ(end_of<IoError>([]() -> int { std::abort(); }),
+            "f.h5: damaged: HDF5 crashed while it read the file (signal 6, Aborted)");
+  EXPECT_EQ(end_of<IoError>([]() -> int { _exit(1); }),
+            "f.h5: the process that read it ended before it was done");
+}
+
+TEST_F(ReadingApart, AfterACrashEveryRequestFails) {
+  ReaderProcess process("f.h5", {1u << 30, 5}, [] { return reading([] { raise(SIGBUS); }); });
+  for (int n = 0; n < 2; ++n) {
+    EXPECT_NE(message_of<IoError>([&] { process.ask("anything"); }).find("signal 7"),
+              std::string::npos);
+  }
+}
+
+TEST_F(ReadingApart, AHangIsAnError) {
+  ReaderProcess process("f.h5", {1u << 30, 0}, [] {
+    return reading([] {
+      std::atomic<int> n = 0;
+      while (n < 1) n = 0;
+    });
+  });
+  EXPECT_EQ(message_of<IoError>([&] { process.ask("anything"); }),
+            "f.h5: damaged: reading it took more than 0 s");
+}
+
+TEST_F(ReadingApart, TakingAllMemoryIsAnError) {
+  ReaderProcess process("f.h5", {100 << 20, 60}, [] {
+    return reading([] {
+      std::vector<std::string> all;
+      for (;;) all.emplace_back(10 << 20, 'x');
+    });
+  });
+  EXPECT_EQ(message_of<InputError>([&] { process.ask("anything"); }),
+            "f.h5: reading it takes more than 0.1 GB of memory: expected less, for its size and on "
+            "this machine");
+}
+
+TEST_F(ReadingApart, WithoutAChildTheSameIsRead) {
+  const std::string path = make();
+  const State apart = read_last_frame(path);
+  set_reading_apart(false);
+  EXPECT_FALSE(reading_apart());
+  expect_same(read_last_frame(path), apart);
+  set_reading_apart(true);
+  setenv("NEEDLEWORK_FORK", "0", 1);
+  EXPECT_FALSE(reading_apart());
+  unsetenv("NEEDLEWORK_FORK");
+  EXPECT_TRUE(reading_apart());
+}
+
+// Programs that want to know nothing of their children, or wait for any of them.
+TEST_F(ReadingApart, TheProgramMayIgnoreItsChildren) {
+  const std::string path = make();
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(read_last_frame(path).size(), 2u);
+  EXPECT_EQ(end_of<IoError>([]() -> int { std::abort(); }),
+            "f.h5: the process that read it ended before it was done");
+  signal(SIGCHLD, before);
+}
+
+TEST_F(ReadingApart, NoProcessIsLeft) {
+  const std::string path = make();
+  read_last_frame(path);
+  { const FrameFile file(path); }
+  EXPECT_THROW(read_last_frame(file("none.h5")), IoError);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+// A child that held the lock of a file would keep its writer from opening it again.
+TEST_F(ReadingApart, ChildrenHoldNoLocksOfTheProgram) {
+  const std::string path = make(), written = file("run.h5");
+  Writer writer(written, true, make_scene(2), {});
+  writer.write_frame(make_totals(0), make_state(2));
+  writer.flush();
+  const FrameFile open(path);
+  const auto position = writer.position();
+  writer.close();
+  Writer::resume(written, make_scene(2), {}, position).close();
+}
+
+// The fork waits until no other thread uses HDF5, which the child could never use otherwise.
+TEST_F(ReadingApart, OtherThreadsMayUseHdf5) {
+  const std::string path = make();
+  std::atomic<bool> done = false;
+  std::thread host([&] {
+    while (!done) H5Fis_hdf5(path.c_str());
+  });
+  for (int n = 0; n < 100; ++n) EXPECT_EQ(read_last_frame(path).size(), 2u);
+  done = true;
+  host.join();
+}
+
+TEST_F(ReadingApart, SeveralThreadsReadAtTheSameTime) {
+  const std::string path = make();
+  std::vector<std::thread> threads;
+  std::atomic<int> read = 0;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&] {
+      for (int n = 0; n < 20; ++n) read += read_last_frame(path).size() == 2;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(read, 80);
+}
+
+}  // namespace
+}  // namespace needlework::io
