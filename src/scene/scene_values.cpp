@@ -84,7 +84,7 @@ void put_gas(const Scene& scene, std::vector<KeyValue>& out) {
 
 void put_engine(const Scene::Engine& engine, std::vector<KeyValue>& out) {
   const auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance,
-               sampling_step, threads, isa, cell_side, capsule_radius, storage] = engine;
+               sampling_step, threads, team, isa, cell_side, capsule_radius, storage] = engine;
   Section section(out, "engine");
   section("search", search);
   section("queue", queue);
@@ -95,6 +95,7 @@ void put_engine(const Scene::Engine& engine, std::vector<KeyValue>& out) {
   section("root_tolerance", root_tolerance);
   section("sampling_step", sampling_step);
   section("threads", threads);
+  section("team", team);
   section("isa", isa);
   section("cell_side", cell_side);
   section("capsule_radius", capsule_radius);
