@@ -2,7 +2,7 @@
 
 import struct
 
-MARK = b"needlework checkpoint 1\n"
+MARK = b"needlework checkpoint 2\n"
 TYPES = {"u8": "<B", "i8": "<b", "i16": "<h", "i32": "<i", "u32": "<I", "u64": "<Q", "i64": "<q",
          "f64": "<d"}
 
@@ -52,6 +52,7 @@ class Fields:
         for name in ("frames", "samples", "events"):
             self.one(f"position.{name}", "u64")
         self.observation()
+        self.one("has_failure", "u8")
         assert self.at == len(content), "the checkpoint has another layout than this test knows"
 
     def one(self, name, kind):
@@ -115,6 +116,7 @@ class Fields:
         for name in ("root_tolerance", "sampling_step"):
             self.optional(f"engine.{name}", self.f64)
         self.optional("engine.threads", lambda name: self.one(name, "i32"))
+        self.text("engine.team")
         self.text("engine.isa")
         for name in ("cell_side", "capsule_radius"):
             self.optional(f"engine.{name}", self.f64)
@@ -166,9 +168,10 @@ class Fields:
                      "initial_energy", "energy_at_window", "quantum"):
             self.f64(name)
         self.one("quanta_at_window", "u64")
+        self.f64("drift_of_windows")
         for name in ("collisions", "tc_collisions", "quanta", "hash", "hash"):
             self.one(f"tally.{name}", "u64")
-        self.several("counters", "u64", 23)
+        self.several("counters", "u64", 24)
         self.time("instant")
         self.one("at_instant", "u64")
         assert self.at == end

@@ -195,7 +195,7 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
   const std::string of_needles = "expected one of count, box, k, seed";
   const std::string of_engine =
       "expected one of search, queue, accuracy, isolation, escalation, filter, root_tolerance, "
-      "sampling_step, threads, isa, cell_side, capsule_radius, storage";
+      "sampling_step, threads, team, isa, cell_side, capsule_radius, storage";
   expect_messages({
       {"[needles]\ncuont = 100\n",
        "s.toml: line 2: needles.cuont = 100: " + of_needles + ", did you mean count?"},

@@ -73,7 +73,7 @@ struct SavedGas {
       if (has_contact_time) archive(n.last_collision);
     }
     archive(now, window_end, window_span, mean_free_time, contact_time, search_span, initial_energy,
-            energy_at_window, quantum, quanta_at_window);
+            energy_at_window, quantum, quanta_at_window, drift_of_windows);
     archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
             tally.instant, tally.at_instant);
   }
@@ -87,6 +87,7 @@ struct SavedGas {
   double window_span = 0, mean_free_time = 0, contact_time = 0, search_span = 0;
   double initial_energy = 0, energy_at_window = 0, quantum = 1;
   std::uint64_t quanta_at_window = 0;
+  double drift_of_windows = 0;
   Tally tally;
 };
 
