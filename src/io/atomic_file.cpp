@@ -96,4 +96,10 @@ void sync_name(const std::string& path) {
   if (const int failure = sync_folder(folder)) fail(path, failure);
 }
 
+std::string absolute_name(const std::string& name) {
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(name, error);
+  return error ? name : absolute.string();
+}
+
 }  // namespace needlework::io

@@ -37,4 +37,8 @@ class AtomicFile {
 /// file. Throws IoError if it cannot be written.
 void sync_name(const std::string& path);
 
+/// The name of a file wherever the process goes; as it is where that is unknown, as for an empty
+/// one.
+std::string absolute_name(const std::string& name);
+
 }  // namespace needlework::io

@@ -5,7 +5,6 @@
 // the file can contain a part of a frame. Steps are written after everything else has reached the
 // file; a reader that reads as many rows as there are steps reads complete frames only. A file that
 // is continued is shortened to complete rows first, and then grows in the same way.
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -37,7 +36,7 @@ constexpr std::size_t numbers_block = 131072;
 
 struct Writer::Implementation {
   explicit Implementation(const std::string& name)
-      : path(name), absolute_path(std::filesystem::absolute(name)) {}
+      : path(name), absolute_path(absolute_name(name)) {}
 
   void create(bool force, const Scene& scene, const RunInfo& run);
   void resume(const Scene& scene, const RunInfo& run, const Position& from,

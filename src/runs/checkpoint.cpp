@@ -233,14 +233,17 @@ void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
 }
 
 void CheckpointFiles::remove() {
-  for (const std::string& file : {newest_, older_, bundle_}) {
-    for (const std::string& path : {file, unfinished(file)}) {
-      std::error_code error, ignored;
-      std::filesystem::remove(path, error);
-      if (error && std::filesystem::exists(path, ignored)) {
-        throw IoError(fmt::format("{}: cannot be removed: {}", path, error.message()));
-      }
+  for (const std::string& path : {newest_, older_, unfinished(newest_)}) {
+    std::error_code error, ignored;
+    std::filesystem::remove(path, error);
+    if (error && std::filesystem::exists(path, ignored)) {
+      throw IoError(fmt::format("{}: cannot be removed: {}", path, error.message()));
     }
+  }
+  // No run continues from it.
+  for (const std::string& path : {bundle_, unfinished(bundle_)}) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
   }
 }
 

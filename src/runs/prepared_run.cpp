@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/io/atomic_file.h"
 #include "src/observe/cooling_theory.h"
 #include "src/runs/failure.h"
 #include "src/runs/state_file.h"
@@ -51,7 +51,7 @@ template <class Open>
 void PreparedRun::open_output(Open&& open) {
   const std::string& file = scene_.output.file;
   if (file.empty()) return;
-  output_file_ = std::filesystem::absolute(file);
+  output_file_ = io::absolute_name(file);
   observe();
   try {
     io::RunInfo info = run_info(simulation_, scene_);
@@ -158,7 +158,7 @@ Simulation PreparedRun::continue_simulation(const RunCheckpoint& saved) {
   }
 }
 
-CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_.string()); }
+CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_); }
 
 std::string PreparedRun::why_not_saved() const {
   if (scene_.output.file.empty()) {
@@ -232,7 +232,7 @@ void PreparedRun::write_bundle(const RunFailure& failure) {
 PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                                             const InvalidStateError::Needles& needles) {
   if (!writer_) return {message, {}};
-  const std::string bundle = checkpoints().bundle();
+  const std::string bundle = CheckpointFiles(scene_.output.file).bundle();
   try {
     write_bundle({.message = message,
                   .needles = needles,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -96,9 +95,9 @@ class PreparedRun {
 
   Scene scene_;
   Saves saves_;
-  std::filesystem::path output_file_;  ///< absolute, as the process may go to another folder
-  bool cut_off_ = false;               ///< whether an event was, by an error in the middle of it
-  bool drawn_;                         ///< whether the initial state was drawn
+  std::string output_file_;  ///< absolute, as the process may go to another folder
+  bool cut_off_ = false;     ///< whether an event was, by an error in the middle of it
+  bool drawn_;               ///< whether the initial state was drawn
   Stopwatch setup_;
   Simulation simulation_;
   Totals initial_;                                   ///< at the start of the run
