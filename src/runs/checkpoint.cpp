@@ -137,10 +137,11 @@ void restore(Scene& scene) {
   for (auto& [key, place] : scene.places) place = printable(place);
 }
 
-// The file to which a symbolic link leads, or the name itself if it is none.
+// The ordinary file to which a symbolic link leads, or else the name itself.
 std::string behind_links(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_symlink(path, error)) return path;
+  if (!std::filesystem::is_regular_file(path, error)) return path;
   const std::filesystem::path file = std::filesystem::canonical(path, error);
   return error ? path : file.string();
 }
