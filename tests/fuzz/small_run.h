@@ -14,7 +14,7 @@ namespace needlework::fuzz {
 /// Wants to see nothing.
 class Silent : public runs::RunMonitor {
   bool is_due(double) const override { return false; }
-  void show(double, double, const Totals&, double) override {}
+  void show(const runs::Progress&) override {}
 };
 
 /// Runs a scene, which names its output file.
