@@ -23,7 +23,7 @@ namespace {
 std::array<double, 3> array(const Vec3d& a) { return {a.x, a.y, a.z}; }
 
 void check_size(std::size_t actual, std::size_t expected, const char* what) {
-  if (actual == expected || actual == 0) return;
+  if (actual == expected) return;
   throw InputError(std::string("state: ") + std::to_string(actual) + " rows of " + what +
                    ": expected " + std::to_string(expected));
 }
@@ -81,8 +81,8 @@ Gas make_gas(const Scene& scene, const State& initial) {
   check_size(initial.velocity.size(), count, "velocity");
   check_size(initial.orientation.size(), count, "orientation");
   check_size(initial.angular_velocity.size(), count, "angular velocity");
-  check_size(initial.image.size(), count, "image");
-  check_size(initial.id.size(), count, "id");
+  if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
+  if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
   for (const double edge : initial.box) {
     const double least = 2.01 * species_of(scene).length;
     if (!(edge >= least) || !std::isfinite(edge)) {

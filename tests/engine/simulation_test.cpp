@@ -323,6 +323,18 @@ TEST(Simulation, RefusesVelocitiesWhoseSquaresOverflow) {
   EXPECT_THROW(Simulation(scene, state), InputError);
 }
 
+TEST(Simulation, RefusesStatesWithoutDirectorsOrVelocities) {
+  Scene scene;
+  scene.needles.count = 10;
+  scene.needles.box = {6, 6, 6};
+  const State whole = draw_initial_state(scene);
+  for (auto part : {&State::velocity, &State::orientation, &State::angular_velocity}) {
+    State state = whole;
+    (state.*part).clear();
+    EXPECT_THROW(Simulation(scene, state), InputError);
+  }
+}
+
 // Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2e9.
 TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
   const Scene scene = test::scene_of(1, 4);
