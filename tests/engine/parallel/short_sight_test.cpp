@@ -19,7 +19,8 @@ Scene::Until mean_collisions(double mean) {
 double redone(const Scene& scene, const char* search, int threads, double sight,
               const Scene::Until& until, const std::string& truth) {
   Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  const auto loop = test::make_parallel_loop<Effects{}>(run, search, threads, {.sight = sight});
+  const auto loop =
+      test::make_parallel_loop<Effects{}>(run, search, threads, {.sight = sight, .by_cost = false});
   EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
   const Tally& tally = run.tally;
   EXPECT_EQ(tally.hash.hex(), truth) << threads << " threads";
