@@ -55,8 +55,8 @@ def reason_of(kind):
 
 
 class Faults:
-    def __init__(self, program, library, folder):
-        self.program, self.library = program, library
+    def __init__(self, program, shim, folder):
+        self.program, self.shim = program, shim
         self.top = Path(folder)
         self.work = self.top / "work"
         self.scene = self.top / "scene.toml"
@@ -86,7 +86,7 @@ class Faults:
         log = self.top / "calls"
         log.unlink(missing_ok=True)
         self.copy.unlink(missing_ok=True)
-        environment = dict(os.environ, LD_PRELOAD=str(self.library), FAULT_FOLDER=str(self.work),
+        environment = dict(os.environ, LD_PRELOAD=str(self.shim), FAULT_FOLDER=str(self.work),
                            FAULT_LOG=str(log), FAULT_WATCH=str(self.file),
                            FAULT_COPY=str(self.copy), **faults)
         # AddressSanitizer wants to be the first library.
