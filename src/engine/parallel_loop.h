@@ -56,7 +56,7 @@ struct ParallelTuning {
 };
 
 /// Wall time since it was made [s].
-class Stopwatch {
+class WallTime {
  public:
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -200,7 +200,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
     const bool together = stretch.together && keys_resolve(next);
-    const Stopwatch watch;
+    const WallTime time;
     double preparing = 0;
     std::optional<Stop> stop;
     if (together) {
@@ -208,12 +208,12 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     } else {
       if (!ordered_) cell_calendar_.order_again();
       ordered_ = true;
-      preparing = watch.seconds();
+      preparing = time.seconds();
       stop = this->run_alone(limits, stretch.end);
     }
     const auto collisions = static_cast<double>(run_.tally.collisions - before);
     if (!together) run_.tally.counters.alone += run_.tally.collisions - before;
-    team_.took(together, collisions, watch.seconds() - preparing, preparing);
+    team_.took(together, collisions, time.seconds() - preparing, preparing);
     if (stop) return stop;
     if (!together && run_.tally.collisions >= limits.pause) return std::nullopt;
     plan_.counted(collisions, thermal_rate() * run_.gas.clock.difference(stretch.end, next));

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "needlework/error.h"
