@@ -93,7 +93,7 @@ typedef struct needlework_const_vectors {
 } needlework_const_vectors;
 
 /* The state to start from. The scene's count and box, where given, must agree with it. Positions
- * beyond the box are moved into it, and images count from 0. */
+ * beyond the box are moved into it, which counts as crossings of its borders. */
 typedef struct needlework_initial {
   size_t count;
   double box[3];                             /* edges; all 0: those of the scene */
@@ -116,11 +116,16 @@ NEEDLEWORK_API needlework_simulation* needlework_create(const char* scene, unsig
 NEEDLEWORK_API needlework_simulation* needlework_open(const char* path, unsigned flags,
                                                       needlework_error* error);
 /* The same from a state of the caller's, which is copied. The scene must have neither initial.file
- * nor temperatures, and needs neither needles.count nor needles.box. [any] */
+ * nor temperatures, and needs neither needles.count nor needles.box. Images count from 0. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_create_from(const char* scene,
                                                              const needlework_initial* initial,
                                                              unsigned flags,
                                                              needlework_error* error);
+/* The same with images that go on from image[initial->count][3], by the rows of `initial`, such as
+ * those of needlework_get_state(): from -(2^31 - 1) to 2^31 - 1. NULL: they count from 0. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_create_with_images(
+    const char* scene, const needlework_initial* initial, const int32_t* image, unsigned flags,
+    needlework_error* error);
 
 /* Makes a simulation that continues the run of an output file from its last checkpoint, beside it:
  * the same collisions, to the last bit, as if the run had never ended, and the same file goes on.

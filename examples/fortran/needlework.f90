@@ -88,6 +88,16 @@ module needlework
       type(needlework_error), intent(out) :: error
     end function
 
+    ! `image` has three numbers for each needle, image(3, N).
+    type(c_ptr) function needlework_create_with_images(scene, initial, image, flags, error) bind(c)
+      import :: c_ptr, c_char, c_int, c_int32_t, needlework_error, needlework_initial
+      character(kind=c_char), intent(in) :: scene(*)
+      type(needlework_initial), intent(in) :: initial
+      integer(c_int32_t), intent(in) :: image(3, *)
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out) :: error
+    end function
+
     ! `file`, an output file, ends with c_null_char. The result is a null pointer on failure.
     type(c_ptr) function needlework_resume(file, error) bind(c)
       import :: c_ptr, c_char, needlework_error

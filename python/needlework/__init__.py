@@ -19,10 +19,11 @@ from .errors import Error, InputError, InvalidStateError, IoError
 from .gsd_file import to_gsd
 from .reading import Events, Frame, Frames, Recording, Series, read
 from .simulation import Counters, SceneWarning, Simulation, Totals
+from .state import State
 from .values import Table, Values
 
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Error", "Events", "FirstContacts",
            "Frame", "Frames", "InputError", "InvalidStateError", "IoError", "Recording",
-           "SceneWarning", "Series", "Simulation", "Table", "Totals", "Values", "plot", "predict",
-           "read", "theory", "to_gsd", "__version__"]
+           "SceneWarning", "Series", "Simulation", "State", "Table", "Totals", "Values", "plot",
+           "predict", "read", "theory", "to_gsd", "__version__"]
 

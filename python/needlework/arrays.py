@@ -16,6 +16,20 @@ def numbers(name: str, values: ArrayLike) -> np.ndarray:
         raise InputError(f"{name}: expected an array of numbers: {error}") from None
 
 
+def whole_numbers(name: str, values: ArrayLike, shape: tuple[int, ...], least: int,
+                  most: int) -> np.ndarray:
+    """The values as whole numbers from least to most, of this shape."""
+    array = numbers(name, values)  # whole numbers are exact up to 2^53
+    if array.shape != shape:
+        raise InputError(f"{name}: shape {array.shape}: expected {shape}")
+    bad = ~((array >= least) & (array <= most) & (array == np.floor(array)))
+    if bad.any():
+        place = tuple(int(index) for index in np.argwhere(bad)[0])
+        raise InputError(f"{name}[{', '.join(map(str, place))}] = {np.asarray(values)[place]}: "
+                         f"expected a whole number from {least} to {most}")
+    return array.astype(np.int64)
+
+
 def vectors(name: str, values: ArrayLike) -> np.ndarray:
     """The values in double precision, of any shape [..., 3]."""
     array = numbers(name, values)

@@ -16,6 +16,7 @@ import numpy as np
 
 from .collisions import RECORDED_COLLISION
 from .errors import InputError, IoError
+from .state import ARRAYS, State
 from .values import Table, Values, html_table, pandas_table
 
 if TYPE_CHECKING:
@@ -109,6 +110,12 @@ class Frame:
     def id(self) -> np.ndarray:
         """Ids of the needles, [N], the same in all frames."""
         return self._needles["id"][:]
+
+    @property
+    def state(self) -> State:
+        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
+        id by name, from which ``Simulation(scene, **state)`` starts."""
+        return State.of(getattr(self, name) for name in ARRAYS)
 
     def __repr__(self) -> str:
         return f"<Frame {self._index} at time {self.time:g}, {self.collisions} collisions>"

@@ -6,17 +6,18 @@ import operator
 import os
 import warnings
 from collections.abc import Callable
-from typing import NamedTuple, Optional
+from typing import Optional
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from .arrays import rows_of_vectors
+from .arrays import rows_of_vectors, whole_numbers
 from .collisions import COLLISION, COLLISION_WITH_STATES
 from .errors import Error, InputError
 from .progress import progress_line
 from .scene_text import SceneLike, scene_text
+from .state import State
 from .values import Values, html_table
 
 Callback = Callable[[np.ndarray], object]
@@ -50,17 +51,6 @@ class Counters(Values):
     on them."""
 
 
-class Snapshot(NamedTuple):
-    """All needles at one instant, in order of id. The arrays never change."""
-
-    position: np.ndarray
-    velocity: np.ndarray
-    orientation: np.ndarray
-    angular_velocity: np.ndarray
-    image: np.ndarray
-    id: np.ndarray
-
-
 class Simulation:
     """A gas of hard needles, simulated collision by collision.
 
@@ -73,8 +63,15 @@ class Simulation:
     position, velocity, orientation, angular_velocity : arrays [N, 3], optional
         The state to start from: centres in the box or not [L], velocities [L / time], directors
         of any length but 0, which are made unit vectors, and angular velocities, whose part normal
-        to the directors counts [1 / time]. Positions and directors need each other; velocities are 0 if they are not given. The scene then needs no needles.count, and
-        temperatures in it are an error.
+        to the directors counts [1 / time]. Positions and directors need each other; velocities are
+        0 if they are not given. The scene then needs no needles.count, and temperatures in it are
+        an error.
+    image : array [N, 3] of whole numbers, optional
+        Boxes crossed by these needles before, from which their images go on; 0 if not given.
+    id : array [N] of whole numbers, optional
+        Distinct ids of these needles; 0 to N - 1 if not given. The needles are put in their order.
+        ``Simulation(scene, **other.state)`` starts from the state of another simulation, and
+        ``**needlework.read(path).frames[-1].state`` from that in a file.
     force : bool
         Whether output.file may replace an existing file.
 
@@ -93,10 +90,11 @@ class Simulation:
 
     def __init__(self, scene: SceneLike, *, position: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
-                 angular_velocity: ArrayLike | None = None, force: bool = False) -> None:
+                 angular_velocity: ArrayLike | None = None, image: ArrayLike | None = None,
+                 id: ArrayLike | None = None, force: bool = False) -> None:
         text, name, has_lines = scene_text(scene)
         state = _state({"position": position, "velocity": velocity, "orientation": orientation,
-                        "angular_velocity": angular_velocity})
+                        "angular_velocity": angular_velocity}, image, id)
         self._run = _core.Run(text, name, has_lines, state, force)
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -250,35 +248,43 @@ class Simulation:
     # The present state
 
     @property
+    def state(self) -> State:
+        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
+        id by name, from which ``Simulation(scene, **state)`` starts."""
+        if self._copy is None:
+            self._copy = State.of(self._run.state())
+        return self._copy
+
+    @property
     def position(self) -> np.ndarray:
         """Centres in the box, [N, 3] [L]. Like all arrays of the state: in order of id,
         read-only, valid for good, and copied from the simulation once for each advance."""
-        return self._snapshot.position
+        return self.state.position
 
     @property
     def velocity(self) -> np.ndarray:
         """Velocities of the centres, [N, 3] [L / time]."""
-        return self._snapshot.velocity
+        return self.state.velocity
 
     @property
     def orientation(self) -> np.ndarray:
         """Unit directors, [N, 3]."""
-        return self._snapshot.orientation
+        return self.state.orientation
 
     @property
     def angular_velocity(self) -> np.ndarray:
         """Angular velocities, normal to the directors, [N, 3] [1 / time]."""
-        return self._snapshot.angular_velocity
+        return self.state.angular_velocity
 
     @property
     def image(self) -> np.ndarray:
         """Number of box edges to add to each centre to follow its path, [N, 3]."""
-        return self._snapshot.image
+        return self.state.image
 
     @property
     def id(self) -> np.ndarray:
         """Ids of the needles, [N]."""
-        return self._snapshot.id
+        return self.state.id
 
     @property
     def time(self) -> float:
@@ -363,14 +369,8 @@ class Simulation:
 
     # The copies of the state that are handed out
 
-    @property
-    def _snapshot(self) -> Snapshot:
-        if self._copy is None:
-            self._copy = Snapshot(*self._run.state())
-        return self._copy
-
     def _forget(self) -> None:
-        self._copy: Optional[Snapshot] = None
+        self._copy: Optional[State] = None
         self._totals: Optional[Totals] = None
 
     def _drive(self, call: Callable[..., str], progress: bool | None,
@@ -386,18 +386,24 @@ class Simulation:
                 line.clear()
 
 
-def _state(arrays: dict[str, ArrayLike | None]) -> tuple[np.ndarray, ...] | None:
-    """The four arrays of an initial state, or None if there are none."""
+def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
+           ids: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
+    """The six arrays of an initial state, or None if there are none."""
     given = {name: values for name, values in arrays.items() if values is not None}
-    if not given:
+    if not given and image is None and ids is None:
         return None
     for name in ("position", "orientation"):
         if name not in given:
             raise InputError(f"{name} is missing: expected position and orientation, where a "
                              "state is given")
     first = rows_of_vectors("position", given["position"])
-    return tuple(rows_of_vectors(name, given.get(name, np.zeros_like(first)), len(first))
-                 for name in arrays)
+    count, most = len(first), 2**31 - 1
+    return (*(rows_of_vectors(name, given.get(name, np.zeros_like(first)), count)
+              for name in arrays),
+            None if image is None else
+            whole_numbers("image", image, (count, 3), -most, most).astype(np.int32),
+            None if ids is None else
+            whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32))
 
 
 def _number(name: str, value: float | None) -> float | None:

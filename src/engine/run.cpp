@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -26,6 +27,17 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
   if (actual == expected) return;
   throw InputError(std::string("state: ") + std::to_string(actual) + " rows of " + what +
                    ": expected " + std::to_string(expected));
+}
+
+// The numbers that add_boxes() counts to.
+void check_image(const Shift& image, Id id) {
+  constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t boxes : image) {
+    if (boxes >= -most) continue;
+    throw InputError(
+        fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}", id.value,
+                    boxes, -most, most));
+  }
 }
 
 // Exact sums over all needles of terms(record), an array of numbers.
@@ -114,7 +126,10 @@ Gas make_gas(const Scene& scene, const State& initial) {
       throw InputError("state: id " + std::to_string(gas.ids[i].value) +
                        " twice: expected distinct ids");
     }
-    if (!initial.image.empty()) gas.images[i] = initial.image[from];
+    if (!initial.image.empty()) {
+      gas.images[i] = initial.image[from];
+      check_image(gas.images[i], gas.ids[i]);
+    }
     const bool finite =
         is_finite(flight.r) && is_finite(flight.u) && is_finite(flight.v) && is_finite(flight.w);
     if (!finite || flight.u == Vec3d{}) {

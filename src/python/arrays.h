@@ -16,13 +16,15 @@ using Column = pybind11::array_t<double, pybind11::array::c_style | pybind11::ar
 /// One vector for each needle, [N][3]. The Python side has checked the shape.
 using Rows = Column;
 
-inline std::array<double, 3> row(const Rows& rows, std::size_t i) {
-  const double* begin = rows.data() + 3 * i;
+template <class Number, int flags>
+std::array<Number, 3> row(const pybind11::array_t<Number, flags>& rows, std::size_t i) {
+  const Number* begin = rows.data() + 3 * i;
   return {begin[0], begin[1], begin[2]};
 }
 
-inline std::vector<std::array<double, 3>> vectors(const Rows& rows) {
-  std::vector<std::array<double, 3>> out(static_cast<std::size_t>(rows.size()) / 3);
+template <class Number, int flags>
+std::vector<std::array<Number, 3>> vectors(const pybind11::array_t<Number, flags>& rows) {
+  std::vector<std::array<Number, 3>> out(static_cast<std::size_t>(rows.size()) / 3);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = row(rows, i);
   return out;
 }

@@ -16,8 +16,11 @@ namespace py = pybind11;
 using namespace pybind11::literals;
 using OptionalNumber = std::optional<double>;
 
-/// Position, velocity, orientation and angular velocity, [N][3] each.
-using Arrays = std::tuple<Rows, Rows, Rows, Rows>;
+/// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], and ids, [N],
+/// which may be absent.
+using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
+using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -25,6 +28,8 @@ State state_of(const Arrays& arrays) {
   state.velocity = vectors(std::get<1>(arrays));
   state.orientation = vectors(std::get<2>(arrays));
   state.angular_velocity = vectors(std::get<3>(arrays));
+  if (const Images& image = std::get<4>(arrays)) state.image = vectors(*image);
+  if (const Ids& id = std::get<5>(arrays)) state.id.assign(id->data(), id->data() + id->size());
   return state;
 }
 

@@ -5,7 +5,6 @@
 #include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/dataflow_exception.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
-#include <stdexcept>
 
 namespace needlework::serve {
 namespace {
@@ -46,17 +45,6 @@ std::vector<std::byte> bytes_of(std::string_view base64) {
   } catch (const iterators::dataflow_exception&) {
     throw std::invalid_argument("expected base64");
   }
-}
-
-std::vector<std::array<double, 3>> rows_of(std::string_view base64) {
-  const std::vector<std::byte> bytes = bytes_of(base64);
-  constexpr std::size_t row = 3 * sizeof(double);
-  if (bytes.size() % row != 0) {
-    throw std::invalid_argument("expected three numbers of 8 bytes for each needle, in base64");
-  }
-  std::vector<std::array<double, 3>> rows(bytes.size() / row);
-  if (!rows.empty()) std::memcpy(rows.data(), bytes.data(), bytes.size());
-  return rows;
 }
 
 }  // namespace needlework::serve

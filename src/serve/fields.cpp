@@ -22,6 +22,18 @@ RequestError wrong(const char* field, const Json& value, std::string_view expect
   return RequestError(fmt::format("{} = {}: expected {}", field, shown(value), expected));
 }
 
+/// The array in a field, with rows as messages describe them.
+template <class Row>
+std::optional<std::vector<Row>> rows_in(const Json& request, const char* field, const char* row) {
+  const std::optional<std::string> text = text_in(request, field);
+  if (!text) return std::nullopt;
+  try {
+    return rows_of<Row>(*text, row);
+  } catch (const std::invalid_argument& error) {
+    throw RequestError(fmt::format("{} = {}: {}", field, shown(*text), error.what()));
+  }
+}
+
 /// Null if the field is absent.
 const Json* find(const Json& request, const char* field) {
   const auto found = request.find(field);
@@ -60,13 +72,16 @@ bool flag_in(const Json& request, const char* field) {
 
 std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
                                                              const char* field) {
-  const std::optional<std::string> text = text_in(request, field);
-  if (!text) return std::nullopt;
-  try {
-    return rows_of(*text);
-  } catch (const std::invalid_argument& error) {
-    throw RequestError(fmt::format("{} = {}: {}", field, shown(*text), error.what()));
-  }
+  return rows_in<std::array<double, 3>>(request, field, "three numbers of 8 bytes");
+}
+
+std::optional<std::vector<std::array<std::int32_t, 3>>> images_in(const Json& request,
+                                                                  const char* field) {
+  return rows_in<std::array<std::int32_t, 3>>(request, field, "three whole numbers of 4 bytes");
+}
+
+std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char* field) {
+  return rows_in<std::uint32_t>(request, field, "one whole number of 4 bytes");
 }
 
 void require_only(const Json& request, std::initializer_list<const char*> fields) {

@@ -17,9 +17,12 @@ std::optional<double> number_in(const Json& request, const char* field);
 std::optional<std::uint64_t> count_in(const Json& request, const char* field);
 std::optional<std::string> text_in(const Json& request, const char* field);
 bool flag_in(const Json& request, const char* field);
-/// Vectors in base64, one row for each needle.
+/// Arrays in base64, one row for each needle.
 std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
                                                              const char* field);
+std::optional<std::vector<std::array<std::int32_t, 3>>> images_in(const Json& request,
+                                                                  const char* field);
+std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char* field);
 
 /// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
 void require_only(const Json& request, std::initializer_list<const char*> fields);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "needlework/error.h"
@@ -39,21 +40,31 @@ Json summary_of(const runs::PreparedRun& run) {
 /// The state that the request carries; none if it carries no array.
 std::optional<State> state_in(const Json& request) {
   State state;
-  const auto read = [&](const char* field, auto& rows) {
-    auto given = vectors_in(request, field);
+  const auto read = [](auto given, auto& rows) {
     if (given) rows = std::move(*given);
     return given.has_value();
   };
-  const bool position = read("position", state.position);
-  const bool orientation = read("orientation", state.orientation);
-  const bool velocity = read("velocity", state.velocity);
-  const bool angular_velocity = read("angular_velocity", state.angular_velocity);
-  if (!position && !orientation && !velocity && !angular_velocity) return std::nullopt;
+  const bool position = read(vectors_in(request, "position"), state.position);
+  const bool orientation = read(vectors_in(request, "orientation"), state.orientation);
+  const bool velocity = read(vectors_in(request, "velocity"), state.velocity);
+  const bool angular_velocity =
+      read(vectors_in(request, "angular_velocity"), state.angular_velocity);
+  const bool image = read(images_in(request, "image"), state.image);
+  const bool id = read(ids_in(request, "needle_id"), state.id);
+  if (!(position || orientation || velocity || angular_velocity || image || id)) {
+    return std::nullopt;
+  }
   if (!position || !orientation) {
     throw RequestError("position, orientation: expected both, where a state is given");
   }
   if (!velocity) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
+  // A state takes no rows of these for absent ones.
+  for (const auto& [field, given, rows] :
+       {std::tuple("image", image, state.image.size()), {"needle_id", id, state.id.size()}}) {
+    if (!given || rows == state.size()) continue;
+    throw RequestError(fmt::format("{}: {} rows: expected {}", field, rows, state.size()));
+  }
   return state;
 }
 
@@ -157,7 +168,7 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity"});
+                         "angular_velocity", "image", "needle_id"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, "\"force\": true");
@@ -227,7 +238,7 @@ Json Requests::state(const Json& request, const Connection&) {
           {"orientation", text_of(state.orientation)},
           {"angular_velocity", text_of(state.angular_velocity)},
           {"image", text_of(state.image)},
-          {"id", text_of(state.id)}};
+          {"needle_id", text_of(state.id)}};
 }
 
 Json Requests::velocities(const Json& request, const Connection&) {

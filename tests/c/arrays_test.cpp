@@ -123,6 +123,25 @@ TEST(CArrays, ComeBackByIncreasingId) {
   EXPECT_EQ(arrays.position, (std::vector<double>{2, 2, 2, 3, 3, 3, 1, 1, 1}));
 }
 
+TEST(CArrays, GoOnFromTheirImages) {
+  const CSimulation drawn(cooling);
+  drawn.run_to(100);
+  const Arrays arrays(drawn);
+  EXPECT_NE(arrays.image, std::vector<std::int32_t>(180));
+  const CSimulation given(rule, arrays.initial(5), arrays.image);
+  ASSERT_NE(given, nullptr) << given.error.message;
+  expect_same_start(Arrays(given), arrays);
+  EXPECT_EQ(Arrays(given).image, arrays.image);
+  const CSimulation from_0(rule, arrays.initial(5));
+  EXPECT_EQ(Arrays(from_0).image, std::vector<std::int32_t>(180));
+  given.run_to(200);
+  from_0.run_to(200);
+  EXPECT_EQ(given.hash(), from_0.hash());
+  std::vector<std::int32_t> sum = Arrays(from_0).image;
+  for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += arrays.image[n];
+  EXPECT_EQ(Arrays(given).image, sum);
+}
+
 // What cannot be simulated is refused with what is wrong about it.
 class CArraysRefused : public testing::Test {
  protected:
@@ -166,6 +185,15 @@ TEST_F(CArraysRefused, ForABoxThatIsMissingWrongOrNoNumber) {
 TEST_F(CArraysRefused, ForIdsThatAreNotDistinct) {
   arrays_.id[5] = arrays_.id[50];
   expect_refused(rule, arrays_.initial(5), NEEDLEWORK_INPUT, "id 50 twice");
+}
+
+TEST_F(CArraysRefused, ForAnImageWithoutAnOpposite) {
+  arrays_.image[3 * 7 + 1] = std::numeric_limits<std::int32_t>::min();
+  const CSimulation simulation(rule, arrays_.initial(5), arrays_.image);
+  EXPECT_EQ(simulation.error.code, NEEDLEWORK_INPUT);
+  EXPECT_STREQ(simulation.error.message,
+               "state: needle 7: image = -2147483648: expected a whole number from -2147483647 to "
+               "2147483647");
 }
 
 TEST_F(CArraysRefused, ForNumbersThatAreNone) {

@@ -22,6 +22,9 @@ class CSimulation {
       : handle_(needlework_create(scene.c_str(), flags, &error)) {}
   CSimulation(const std::string& scene, const needlework_initial& initial)
       : handle_(needlework_create_from(scene.c_str(), &initial, 0, &error)) {}
+  CSimulation(const std::string& scene, const needlework_initial& initial,
+              const std::vector<std::int32_t>& image)
+      : handle_(needlework_create_with_images(scene.c_str(), &initial, image.data(), 0, &error)) {}
   /// Continues the run of a file.
   static CSimulation resumed(const std::string& file) { return CSimulation(File{file}); }
   ~CSimulation() { needlework_destroy(handle_); }

@@ -67,6 +67,36 @@ class Scenes(unittest.TestCase):
                      **{**arrays, "orientation": rows})
         self.rejects(scene, "^position: expected an array of numbers", position="abc", **arrays)
 
+    def test_images_and_ids_are_checked(self):
+        zeros = np.zeros((3, 3))
+        scene = {"needles": {"box": 20}}
+        whole = {"position": zeros, "orientation": zeros + [1, 0, 0]}
+        for name in ("image", "id"):
+            self.rejects(scene, "^position is missing: expected position and orientation",
+                         **{name: zeros})
+        images = "expected a whole number from -2147483647 to 2147483647$"
+        ids = "expected a whole number from 0 to 4294967295$"
+        for image, message in (
+                (zeros[:2], r"^image: shape \(2, 3\): expected \(3, 3\)$"),
+                (zeros[0], r"^image: shape \(3,\): expected \(3, 3\)$"),
+                ("abc", "^image: expected an array of numbers"),
+                ([[0] * 3, [0, 2**31, 0], [0] * 3], rf"^image\[1, 1\] = 2147483648: {images}"),
+                ([[0] * 3, [0] * 3, [0, 0, -2**31]], rf"^image\[2, 2\] = -2147483648: {images}"),
+                (zeros + np.uint64(2**64 - 1), rf"^image\[0, 0\] = .*: {images}"),
+                (zeros + 0.5, rf"^image\[0, 0\] = 0.5: {images}"),
+                (zeros + np.nan, rf"^image\[0, 0\] = nan: {images}")):
+            self.rejects(scene, message, image=image, **whole)
+        for id, message in (
+                (zeros, r"^id: shape \(3, 3\): expected \(3,\)$"),
+                ([1, 2], r"^id: shape \(2,\): expected \(3,\)$"),
+                ([1, 2, -3], rf"^id\[2\] = -3: {ids}"),
+                ([1, 2**32, 3], rf"^id\[1\] = 4294967296: {ids}"),
+                ([1, 2, 2.5], rf"^id\[2\] = 2.5: {ids}"),
+                ([7, 2, 7], "^state: id 7 twice: expected distinct ids$")):
+            self.rejects(scene, message, id=id, **whole)
+        most = [[2**31 - 1, 1 - 2**31, 0]] * 3
+        np.testing.assert_array_equal(Simulation(scene, image=most, **whole).image, most)
+
     def test_classes_are_those_of_python_too(self):
         self.assertTrue(issubclass(InputError, (needlework.Error, ValueError)))
         self.assertTrue(issubclass(InputError, ValueError))

@@ -150,6 +150,44 @@ class State(unittest.TestCase):
         np.testing.assert_array_equal(sim.id, np.arange(200))
         self.assertEqual(sim.run(), "collisions")
 
+    def test_a_state_is_handed_over_with_ids_and_images(self):
+        ids = np.random.default_rng(1).permutation(1000)[:200] + 2**32 - 1000
+        drawn = Simulation(GAS).state
+        first = Simulation(gas(needles={"count": None}),
+                           **{**drawn, "id": ids, "image": np.arange(600).reshape(200, 3) - 300})
+        order = np.argsort(ids)
+        np.testing.assert_array_equal(first.id, ids[order])
+        np.testing.assert_array_equal(first.image, drawn.image[order] + 3 * order[:, None]
+                                      + np.arange(3) - 300)
+        first.advance(collisions=2000)
+        self.assertTrue(np.any(first.image != Simulation(GAS).image))
+        again = Simulation(gas(needles={"count": None}), **first.state)
+        self.assertEqual(list(again.state), list(first.state))
+        for name in ("id", "image", "position", "velocity"):
+            np.testing.assert_array_equal(again.state[name], first.state[name])
+        for name in ("orientation", "angular_velocity"):  # normalised, projected
+            np.testing.assert_allclose(again.state[name], first.state[name], rtol=1e-12,
+                                       atol=1e-15)
+
+    def test_displacements_go_on_in_a_simulation_of_a_state(self):
+        elastic = {"needles": {"box": 6.0}}
+        whole = Simulation(ELASTIC)
+        whole.advance(time=5)
+        part = Simulation(elastic, **whole.state)
+        for sim in (whole, part):
+            sim.advance(time=0.5)
+        self.assertGreater(part.totals.collisions, 10)
+        self.assertTrue(np.any(part.image != 0))
+        np.testing.assert_allclose(part.position + part.image * part.box,
+                                   whole.position + whole.image * whole.box, rtol=0, atol=1e-9)
+
+    def test_positions_beyond_the_box_count_on_from_their_images(self):
+        for image in ([[4, 0, -2]], [[4.0, 0.0, -2.0]]):
+            sim = Simulation({"needles": {"box": 3.0}}, position=[[7, 1, -1]],
+                             orientation=[[0, 0, 1]], image=image)
+            np.testing.assert_array_equal(sim.position, [[1, 1, 2]])
+            np.testing.assert_array_equal(sim.image, [[6, 0, -3]])
+
     def test_shapes_and_types(self):
         sim = Simulation(GAS)
         for name in ("position", "velocity", "orientation", "angular_velocity"):

@@ -1,8 +1,11 @@
 // What a front end over a pipe gets: the runs of the program, and an answer to every line.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -70,17 +73,34 @@ TEST(Serve, GoesOnFromAStateThatItHasGiven) {
                                  {{"do", "advance"}, {"simulation", 1}, {"collisions", 30}},
                                  {{"do", "state"}, {"simulation", 1}}});
   const Json& state = first[2];
-  EXPECT_EQ(rows_of(state["position"].get<std::string>()).size(), 60u);
-  EXPECT_EQ(bytes_of(state["id"].get<std::string>()).size(), 60u * 4);
+  EXPECT_EQ(bytes_of(state["position"].get<std::string>()).size(), 60u * 24);
+  EXPECT_EQ(bytes_of(state["needle_id"].get<std::string>()).size(), 60u * 4);
   EXPECT_EQ(bytes_of(state["image"].get<std::string>()).size(), 60u * 12);
 
   Json again{{"do", "create"}, {"scene", "[needles]\nbox = 5\n"}};
-  for (const char* name : {"position", "velocity", "orientation", "angular_velocity"}) {
+  for (const char* name :
+       {"position", "velocity", "orientation", "angular_velocity", "image", "needle_id"}) {
     again[name] = state[name];
   }
-  const auto second = answers_to({again, {{"do", "totals"}, {"simulation", 1}}});
+  std::vector<std::uint32_t> ids(60);
+  std::iota(ids.rbegin(), ids.rend(), 1000);
+  Json other = again;
+  other["needle_id"] = text_of(ids);
+  const auto second = answers_to({again,
+                                  {{"do", "totals"}, {"simulation", 1}},
+                                  {{"do", "state"}, {"simulation", 1}, {"id", "kept"}},
+                                  other,
+                                  {{"do", "state"}, {"simulation", 2}}});
   EXPECT_EQ(second[0]["needles"], 60) << second[0];
   EXPECT_EQ(second[1]["energy"], first[1]["energy"]);
+  for (const char* name : {"position", "velocity", "image", "needle_id"}) {
+    EXPECT_EQ(second[2][name], state[name]) << name;
+  }
+  EXPECT_NE(state["image"], text_of(std::vector<std::array<std::int32_t, 3>>(60)));
+  EXPECT_EQ(second[2]["id"], "kept");
+  std::reverse(ids.begin(), ids.end());
+  EXPECT_EQ(second[4]["needle_id"], text_of(ids)) << "by increasing id";
+  EXPECT_NE(second[4]["position"], state["position"]);
 }
 
 TEST(Serve, ReplacesVelocities) {
@@ -230,6 +250,30 @@ TEST(Serve, NamesTheFieldThatIsWrong) {
             "velocity = \"AAA!\": expected base64");
   EXPECT_EQ(message({{"do", "velocities"}, {"velocity", "AAAA"}}),
             "velocity = \"AAAA\": expected three numbers of 8 bytes for each needle, in base64");
+  const std::vector<std::array<double, 3>> ones(2, {1, 0, 0});
+  const Json state{{"do", "create"},
+                   {"scene", "[needles]\nbox = 5\n"},
+                   {"position", text_of(ones)},
+                   {"orientation", text_of(ones)}};
+  const auto message_with = [&](const char* field, const std::string& text) {
+    Json request = state;
+    request[field] = text;
+    return answers_to({request})[0].value("message", "");
+  };
+  EXPECT_EQ(message_with("image", ""), "image: 0 rows: expected 2");
+  EXPECT_EQ(message_with("image", "AAAA"),
+            "image = \"AAAA\": expected three whole numbers of 4 bytes for each needle, in base64");
+  EXPECT_EQ(message_with("needle_id", text_of(std::vector<std::uint32_t>{1})),
+            "needle_id: 1 rows: expected 2");
+  EXPECT_EQ(
+      message_with("needle_id", "AAAA"),
+      "needle_id = \"AAAA\": expected one whole number of 4 bytes for each needle, in base64");
+  EXPECT_EQ(message_with("needle_id", text_of(std::vector<std::uint32_t>{7, 7})),
+            "state: id 7 twice: expected distinct ids");
+  EXPECT_EQ(message_with("image", text_of(std::vector<std::array<std::int32_t, 3>>(
+                                      2, {0, std::numeric_limits<std::int32_t>::min(), 0}))),
+            "state: needle 0: image = -2147483648: expected a whole number from -2147483647 to "
+            "2147483647");
   const auto answers =
       answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = -5\nbox = 5"}}});
   EXPECT_EQ(answers[0]["code"], 3);
