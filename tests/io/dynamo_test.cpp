@@ -1,7 +1,6 @@
 // Configurations of DynamO: what is read from them, what is refused, and what is written.
 #include "src/io/formats/dynamo.h"
 
-#include <bzlib.h>
 #include <fmt/format.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -10,6 +9,7 @@
 
 #include "src/io/formats/input_text.h"
 #include "tests/io/complaints.h"
+#include "tests/io/compressed.h"
 #include "tests/io/dynamo_text.h"
 #include "tests/io/support.h"
 
@@ -35,15 +35,6 @@ class Dynamo : public InFolder {
     return message.substr(std::min(message.size(), path.size() + 2));
   }
 };
-
-std::string compressed(std::string text) {
-  std::string out(text.size() + text.size() / 100 + 600, '\0');
-  auto size = static_cast<unsigned>(out.size());
-  EXPECT_EQ(BZ_OK, BZ2_bzBuffToBuffCompress(out.data(), &size, text.data(),
-                                            static_cast<unsigned>(text.size()), 9, 0, 0));
-  out.resize(size);
-  return out;
-}
 
 TEST_F(Dynamo, ConfigurationIsReadWithoutRescaling) {
   const Configuration read = this->read(dynamo_text);

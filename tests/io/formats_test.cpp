@@ -1,6 +1,7 @@
 // Exports of frames: what is written is read back bit for bit, what cannot be read is named, and
 // nothing is left after a failure.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include "src/io/formats/read_configuration.h"
 #include "src/io/formats/xyz.h"
 #include "tests/io/complaints.h"
+#include "tests/io/compressed.h"
 #include "tests/io/dynamo_text.h"
 #include "tests/io/support.h"
 
@@ -72,6 +74,58 @@ TEST_F(Formats, LastFrameIsReadBackBitForBit) {
     const Configuration data = read_configuration(put("a.data", {last}));
     expect_same(data.state, completed(last, !last.image.empty()));
     EXPECT_EQ(text_of(data.material), text_of(material));
+  }
+}
+
+// A block of 1 MiB ends within a line, and the last frame begins within a block.
+TEST_F(Formats, FilesOfManyBlocksAreReadWhetherCompressedOrNot) {
+  const State last = make_state(9000, 2);
+  for (const char* name : {"a.xyz", "a.dump", "a.data"}) {
+    std::vector<State> frames{make_state(12000, 1), last};
+    if (name == std::string("a.data")) frames.erase(frames.begin());
+    put(name, frames);
+    const std::string text = text_of_file(name);
+    ASSERT_GT(text.size(), std::size_t{1} << 20);
+    const State expected = completed(last, name != std::string("a.xyz"));
+    expect_same(read_configuration(file(name)).state, expected);
+    std::ofstream(file("b"), std::ios::binary) << compressed(text);
+    expect_same(read_configuration(file("b")).state, expected);
+    if (frames.size() == 1) continue;  // whose needles are not in one line each
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    const auto place = fmt::format("line {}: ", lines);
+    const std::string bad = text.substr(0, text.rfind(' ')) + " x\n";
+    EXPECT_TRUE(complaint(bad).starts_with(place)) << complaint(bad);
+    EXPECT_TRUE(complaint(compressed(bad)).starts_with(place)) << complaint(compressed(bad));
+  }
+}
+
+TEST_F(Formats, FramesBeforeTheLastTakeNoMemory) {
+  for (const char* name : {"a.xyz", "a.dump"}) {
+    put(name, {make_state(1, 1)});
+    const std::string one = text_of_file(name);
+    {
+      std::ofstream out(file("long"), std::ios::binary);
+      for (std::size_t n = 0; n < (std::size_t{24} << 20) / one.size(); ++n) out << one;
+    }
+    const auto peak = [] {
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      return usage.ru_maxrss;  // KiB
+    };
+    const auto before = peak();
+    EXPECT_EQ(read_configuration(file("long")).state.size(), 1u);
+    EXPECT_LT(peak() - before, 8 << 10);
+  }
+}
+
+TEST_F(Formats, LinesThatDoNotFitABlockAreRefused) {
+  const std::string spaces(std::size_t{1} << 20, ' ');
+  for (const char* name : {"a.xyz", "a.dump"}) {
+    put(name, {make_state(3)});
+    const std::string text = text_of_file(name);
+    const std::size_t second = text.find('\n') + 1;
+    EXPECT_EQ(complaint(text.substr(0, second) + spaces + text.substr(second)),
+              "line 2: more than 1048576 bytes: expected a shorter line");
   }
 }
 

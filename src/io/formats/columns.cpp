@@ -54,6 +54,17 @@ void require_all_vectors(const Columns& columns, const Row& head) {
   }
 }
 
+void reserve_needles(State& state, const Columns& columns, std::int64_t count, std::size_t bytes) {
+  // A digit and a blank, or the end of the line, for each column.
+  const std::size_t n = std::min(static_cast<std::size_t>(count), bytes / (2 * columns.count) + 1);
+  state.position.reserve(n);
+  state.velocity.reserve(n);
+  state.orientation.reserve(n);
+  state.angular_velocity.reserve(n);
+  if (columns.image) state.image.reserve(n);
+  if (columns.id) state.id.reserve(n);
+}
+
 void read_needle(const Row& row, const Columns& columns, Configuration& configuration) {
   if (row.fields.size() != columns.count) {
     row.reject(fmt::format("{} columns: expected {}", row.fields.size(), columns.count));

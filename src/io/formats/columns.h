@@ -28,6 +28,10 @@ struct Columns {
 /// position, velocity, orientation and angular velocity.
 void require_all_vectors(const Columns& columns, const Row& head);
 
+/// Takes memory for so many needles that follow, but for no more than a text of so many bytes can
+/// hold.
+void reserve_needles(State& state, const Columns& columns, std::int64_t count, std::size_t bytes);
+
 /// Appends the needle in a row. Throws InputError if a number cannot be used, if the
 /// director is not a unit vector or if the angular velocity is not normal to it, and if its length
 /// or mass is not that of the needles before.

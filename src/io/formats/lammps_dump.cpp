@@ -57,6 +57,20 @@ Columns read_columns(const Lines& lines) {
   return columns;
 }
 
+PartOfFile find_last_frame(InputText& file, const std::string& path) {
+  Lines lines(file, path);
+  PartOfFile last;
+  bool found = false;
+  while (lines.pass_if_any()) {
+    if (!lines.line().starts_with(begin_of_frame)) continue;
+    last.begin = lines.place();
+    found = true;
+  }
+  if (!found) last.begin = lines.next_place();
+  last.end = lines.next_place().offset;
+  return last;
+}
+
 class DumpWriter : public FrameWriter {
  public:
   DumpWriter(const std::string& path, bool force, const Material& material)
@@ -95,9 +109,9 @@ class DumpWriter : public FrameWriter {
 bool is_lammps_dump(std::string_view beginning) { return beginning.starts_with("ITEM: "); }
 
 Configuration read_lammps_dump(const std::string& path) {
-  const std::string text = read_text_file(path);
-  const std::size_t last = text.rfind(begin_of_frame);
-  Lines lines(text, path, last == text.npos ? text.size() : last);
+  InputText file(path);
+  const PartOfFile frame = find_last_frame(file, path);
+  Lines lines(file, path, frame.begin);
   lines.advance(begin_of_frame);
   Configuration configuration;
   std::int64_t count = -1;
@@ -118,8 +132,10 @@ Configuration read_lammps_dump(const std::string& path) {
     lines.reject(fmt::format("no box: expected {} before", begin_of_box));
   }
   const Columns columns = read_columns(lines);
+  reserve_needles(configuration.state, columns, count, frame.bytes());
+  const std::string expected = fmt::format("{} atoms", count);
   for (std::int64_t i = 0; i < count; ++i) {
-    lines.advance(fmt::format("{} atoms", count));
+    lines.advance(expected);
     read_needle(lines.row(), columns, configuration);
   }
   while (lines.advance_if_any()) {

@@ -11,6 +11,9 @@
 namespace needlework::io {
 namespace {
 
+// The part of a file that is in memory.
+constexpr std::size_t longest_line = std::size_t{1} << 20;
+
 bool separates(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
@@ -67,20 +70,47 @@ void Row::reject(std::string_view reason) const {
   throw InputError(fmt::format("{}: line {}: {}", path, number, reason));
 }
 
-Lines::Lines(std::string_view text, std::string_view path, std::size_t from)
-    : text_(text), next_(from) {
+Lines::Lines(InputText& file, std::string_view path, PlaceInText from)
+    : file_(&file), next_(from.offset) {
+  file.seek(from.offset);
   row_.path = path;
-  row_.number = static_cast<std::size_t>(std::count(text.begin(), text.begin() + from, '\n'));
+  row_.number = from.lines;
+}
+
+// Puts more of the file behind the rest of the block; false at its end.
+bool Lines::read_block() {
+  if (!file_) return false;
+  if (rest_.size() == longest_line) {
+    ++row_.number;
+    reject(fmt::format("more than {} bytes: expected a shorter line", longest_line));
+  }
+  block_.erase(0, block_.size() - rest_.size());
+  const std::size_t kept = block_.size();
+  block_.resize(longest_line);
+  block_.resize(kept + file_->read(block_.data() + kept, longest_line - kept));
+  rest_ = block_;
+  return block_.size() > kept;
+}
+
+bool Lines::pass_if_any() {
+  std::size_t end = rest_.find('\n');
+  while (end == rest_.npos) {
+    const std::size_t searched = rest_.size();
+    if (!read_block()) break;
+    end = rest_.find('\n', searched);
+  }
+  if (rest_.empty()) return false;
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(line_.size() + 1, rest_.size()));
+  offset_ = next_;
+  next_ += line_.size() + 1;
+  ++row_.number;
+  row_.fields.clear();
+  return true;
 }
 
 bool Lines::advance_if_any() {
-  if (next_ >= text_.size()) return false;
-  offset_ = next_;
-  const std::size_t end = std::min(text_.find('\n', next_), text_.size());
-  line_ = text_.substr(next_, end - next_);
-  next_ = end + 1;
-  ++row_.number;
-  row_.fields.clear();
+  if (!pass_if_any()) return false;
   for (std::size_t i = 0; i < line_.size();) {
     const std::size_t begin = i;
     while (i < line_.size() && !separates(line_[i])) ++i;
@@ -90,8 +120,12 @@ bool Lines::advance_if_any() {
   return true;
 }
 
-void Lines::advance(std::string_view expected) {
-  if (advance_if_any()) return;
+void Lines::advance(std::string_view expected) { require(advance_if_any(), expected); }
+
+void Lines::pass(std::string_view expected) { require(pass_if_any(), expected); }
+
+void Lines::require(bool found, std::string_view expected) const {
+  if (found) return;
   throw InputError(
       fmt::format("{}: cut short after line {}: expected {}", row_.path, row_.number, expected));
 }

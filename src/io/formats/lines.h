@@ -1,4 +1,4 @@
-// Walks through the lines of a text and the fields of a line.
+// Walks through the lines of a text, in memory or in a file, and the fields of a line.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "src/io/formats/input_text.h"
 
 namespace needlework::io {
 
@@ -25,32 +27,58 @@ struct Row {
   [[noreturn]] void reject(std::string_view reason) const;
 };
 
+/// Where a line begins.
+struct PlaceInText {
+  std::size_t offset = 0;
+  std::size_t lines = 0;  ///< before it
+};
+
 /// The lines of a text, one after the other.
 class Lines {
  public:
-  /// Begins at the offset `from` of the text, which must outlive this object.
-  Lines(std::string_view text, std::string_view path, std::size_t from = 0);
+  /// The text and the path must outlive this object.
+  Lines(std::string_view text, std::string_view path) : rest_(text) { row_.path = path; }
+  /// Reads the file as it goes, of which a block is in memory at a time. The line and its fields
+  /// are valid until the next one. Throws InputError for a line longer than a block, 1 MiB.
+  Lines(InputText& file, std::string_view path, PlaceInText from = {});
 
   /// Goes to the next line. Throws InputError if there is none: "cut short: expected EXPECTED".
   void advance(std::string_view expected);
   /// The same, but returns false at the end of the text.
   bool advance_if_any();
+  /// The same two without the fields, which are those of no line then.
+  void pass(std::string_view expected);
+  bool pass_if_any();
 
   std::string_view line() const { return line_; }
   const Row& row() const { return row_; }
   const std::vector<std::string_view>& fields() const { return row_.fields; }
   bool is_blank() const { return row_.fields.empty(); }
-  /// Offset of the line in the text.
-  std::size_t offset() const { return offset_; }
+  /// Where the line begins, and where the next one does.
+  PlaceInText place() const { return {offset_, row_.number - 1}; }
+  PlaceInText next_place() const { return {next_, row_.number}; }
 
   [[noreturn]] void reject(std::string_view reason) const { row_.reject(reason); }
 
  private:
-  std::string_view text_;
+  bool read_block();
+  void require(bool found, std::string_view expected) const;
+
+  InputText* file_ = nullptr;  ///< null: the text is in memory
+  std::string block_;          ///< the part of the file that rest_ refers to
+  std::string_view rest_;      ///< of the text, or of the block, after the line
   std::string_view line_;
   Row row_;
   std::size_t offset_ = 0;
   std::size_t next_ = 0;
+};
+
+/// Where a frame is in a file.
+struct PartOfFile {
+  PlaceInText begin;
+  std::size_t end = 0;  ///< offset
+
+  std::size_t bytes() const { return end - begin.offset; }
 };
 
 /// The text as messages quote it: the beginning of a long one.

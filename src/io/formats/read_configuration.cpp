@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <system_error>
-
 #include "needlework/error.h"
 #include "src/io/formats/dynamo.h"
+#include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
 #include "src/io/formats/xyz.h"
 
@@ -24,14 +21,10 @@ constexpr Format formats[] = {{is_dynamo, read_dynamo},
                               {is_lammps_dump, read_lammps_dump},
                               {is_lammps_data, read_lammps_data}};
 
-// Empty for what cannot be read.
+// Of the text, decompressed if need be.
 std::string beginning_of(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return {};
-  std::ifstream file(path, std::ios::binary);
   std::string text(4096, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  text.resize(InputText(path).read(text.data(), text.size()));
   return text;
 }
 
@@ -49,7 +42,6 @@ Configuration read_configuration(const std::string& path) {
   for (const Format& format : formats) {
     if (format.fits(beginning)) return format.read(path);
   }
-  if (beginning.empty()) return read_dynamo(path);  // which says why there is nothing to read
   throw InputError(fmt::format(
       "{}: expected a configuration of DynamO, extended XYZ, or a dump or data file of LAMMPS",
       path));

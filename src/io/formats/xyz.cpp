@@ -98,10 +98,9 @@ std::int64_t read_count(const Lines& lines) {
   return lines.row().read_whole(0, "number of needles", 0, most_needles);
 }
 
-// The offset in the text at which the last frame begins.
-std::size_t find_last_frame(std::string_view text, const std::string& path) {
-  Lines lines(text, path);
-  std::size_t last = 0;
+PartOfFile find_last_frame(InputText& file, const std::string& path) {
+  Lines lines(file, path);
+  PartOfFile last;
   while (lines.advance_if_any()) {
     if (lines.is_blank()) {  // blank lines may end the file
       while (lines.advance_if_any()) {
@@ -109,11 +108,11 @@ std::size_t find_last_frame(std::string_view text, const std::string& path) {
       }
       break;
     }
-    last = lines.offset();
+    last.begin = lines.place();
     const std::int64_t count = read_count(lines);
-    for (std::int64_t i = 0; i <= count; ++i) {
-      lines.advance(fmt::format("the comment and {} needles", count));
-    }
+    const std::string expected = fmt::format("the comment and {} needles", count);
+    for (std::int64_t i = 0; i <= count; ++i) lines.pass(expected);
+    last.end = lines.next_place().offset;
   }
   return last;
 }
@@ -157,15 +156,18 @@ bool is_xyz(std::string_view beginning) {
 }
 
 Configuration read_xyz(const std::string& path) {
-  const std::string text = read_text_file(path);
-  Lines lines(text, path, find_last_frame(text, path));
+  InputText file(path);
+  const PartOfFile frame = find_last_frame(file, path);
+  Lines lines(file, path, frame.begin);
   lines.advance("the number of needles");
   const std::int64_t count = read_count(lines);
   lines.advance("a comment");
   Configuration configuration;
   const Columns columns = read_comment(lines, configuration);
+  reserve_needles(configuration.state, columns, count, frame.bytes());
+  const std::string expected = fmt::format("{} needles", count);
   for (std::int64_t i = 0; i < count; ++i) {
-    lines.advance(fmt::format("{} needles", count));
+    lines.advance(expected);
     read_needle(lines.row(), columns, configuration);
   }
   require_distinct_ids(configuration.state, columns.first_id, path);
