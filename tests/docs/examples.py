@@ -45,6 +45,13 @@ def main(needlework, readme_program):
         run(needlework, "import", "lines.xml", "--out", "lines")
         run(needlework, "run", "lines/scene.toml", "--set", "until.collisions_per_needle=1")
 
+        for language in ("xyz", "lammps"):
+            text, = blocks("docs/formats.md", language)
+            Path(folder, "two").write_text(text)
+            run(needlework, "import", "two", "--out", language)
+            printed = run(needlework, "run", f"{language}/scene.toml")
+            assert "2 needles in a box of 6 x 6 x 6, elastic" in printed, printed
+
         for document in ("README.md", "docs/scenes.md", "docs/user-guide.md"):
             for text in blocks(document, "toml"):
                 Path(folder, "gas.toml").write_text(text)
