@@ -76,7 +76,8 @@ class Simulation:
         to the directors counts [1 / time]. Positions and directors need each other; velocities are 0 if they are not given. The scene then needs no needles.count, and
         temperatures in it are an error.
     force : bool
-        Whether output.file may replace an existing file.
+        Whether output.file may replace an existing file. One that a program or another simulation
+        is writing is not replaced: close() that simulation first.
 
     Units: the length and the mass of needles are 1 unless the scene says otherwise, temperatures
     are energies, and time is in L sqrt(m / T).

@@ -423,7 +423,8 @@ TEST_F(Continuing, AFileCanBeReadMeanwhile) {
 
 TEST_F(Continuing, OneProgramWritesAtATime) {
   const std::string path = file("a.h5");
-  const std::string refusal = path + ": another program has the file open for writing";
+  const std::string refusal =
+      path + ": another program or simulation has the file open for writing";
   const auto message = [&] { return message_of<IoError>([&] { resume(path, small, {}); }); };
   std::optional<Writer> writer;
   writer.emplace(path, false, small.scene(), Plan::info());
