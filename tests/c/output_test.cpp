@@ -98,7 +98,7 @@ TEST_F(COutput, DoesNotReplaceAFileThatIsBeingWritten) {
   const std::string file = path("gas.h5");
   EXPECT_EQ(needlework_write_state(without_file, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_IO);
   EXPECT_TRUE(contains(without_file.message(), refusal)) << without_file.message();
-  EXPECT_EQ(files(), (std::vector<std::string>{"gas.h5", "gas.h5.checkpoint"}));
+  EXPECT_EQ(files(), (std::vector<std::string>{"gas.h5", "gas.h5.checkpoint", "small.toml"}));
   EXPECT_EQ(needlework_close(first), NEEDLEWORK_OK) << "its file is still there";
   const CSimulation third(scene_with_file(), NEEDLEWORK_REPLACE);
   EXPECT_NE(third, nullptr) << third.error.message;

@@ -178,7 +178,7 @@ class Faults:
         counts = Counter(call for call, _ in calls)
         print(f"{name}: {len(calls)} calls ({', '.join(f'{n} {c}' for c, n in counts.items())}), "
               f"{len(chosen)} of {len(cases)} faults", flush=True)
-        return counts
+        return Counter((call, Path(path).name) for call, path in calls)
 
     def prepare_half(self):
         """A run that was killed in the middle, between its checkpoints."""
@@ -200,8 +200,12 @@ def main():
         faults = Faults(program, library, folder)
         made = faults.all_faults("run", faults.run(), faults.empty, every, 0)
         made += faults.all_faults("resume", faults.resume(), faults.prepare_half, every, every // 2)
-        for call in ("open", "pwrite", "ftruncate", "fsync", "close", "rename"):
-            assert made[call] > 0, f"{call}: never called: the faults do not reach it"
+        file, checkpoint = faults.file.name, f"{faults.file.name}.checkpoint.part"
+        for call, where in (("open", checkpoint), ("pwrite", file), ("pwrite", checkpoint),
+                            ("ftruncate", file), ("fsync", file), ("fsync", checkpoint),
+                            ("fsync", faults.work.name), ("close", checkpoint),
+                            ("rename", f"{file}.checkpoint"), ("rename", f"{file}.checkpoint.old")):
+            assert made[call, where] > 0, f"{call} of {where}: never called, or out of reach"
         assert min(faults.ends[end] for end in ("went on", "failed", "killed")) > 0, faults.ends
         print(dict(faults.ends))
 
