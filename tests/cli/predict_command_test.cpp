@@ -115,8 +115,8 @@ TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver) {
   for (const std::string pair : {".9,.1,.2,.3,.7,-.1,0,0,0,1,1,.7,0,0,0,.3,.7,-.1,0,0,0,1,1,.7,0",
                                  "0,0,.5,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,-711.3,0",
                                  "0,0,.9,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,0,0"}) {
-    write("pairs.csv", "1,,1e9," + pair + "\n");
     for (const std::string accuracy : {"standard", "rigorous"}) {
+      write("pairs.csv", "1,,1e9," + pair + "\n");
       // The limit of the CPU time, in seconds, ends a program that hangs.
       const Outcome outcome =
           shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv --accuracy " +
