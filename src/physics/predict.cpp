@@ -22,7 +22,7 @@ constexpr double farthest = 1e150, fastest = 1e300;
 // unit of the pair's own time, as stretches without any take time too.
 constexpr double most_work = 0x1p22, work_of_escalation = 8;
 // Time between looks at the work, in the pair's own unit.
-constexpr double stretch = 0x1p10;
+constexpr double stretch = 0x1p4;
 // In that unit, too. Times in double are farther apart later on than the intervals of the search.
 constexpr double latest = 0x1p50;
 
