@@ -77,7 +77,8 @@ NEEDLEWORK_API int needlework_has(const char* capability);
 typedef struct needlework_simulation needlework_simulation;
 
 enum needlework_flag {
-  NEEDLEWORK_REPLACE = 1 /* replace a file that exists; without it that is NEEDLEWORK_IO */
+  NEEDLEWORK_REPLACE = 1 /* replace a file that exists; without it that is NEEDLEWORK_IO, as it is
+                            for a file that a program or another simulation is writing */
 };
 
 /* One vector for each needle: data[n * row + axis * column] is the component `axis` of needle n.

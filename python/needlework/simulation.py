@@ -73,7 +73,8 @@ class Simulation:
         ``Simulation(scene, **other.state)`` starts from the state of another simulation, and
         ``**needlework.read(path).frames[-1].state`` from that in a file.
     force : bool
-        Whether output.file may replace an existing file.
+        Whether output.file may replace an existing file. One that a program or another simulation
+        is writing is not replaced: close() that simulation first.
 
     Units: the length and the mass of needles are 1 unless the scene says otherwise, temperatures
     are energies, and time is in L sqrt(m / T).

@@ -12,6 +12,7 @@
 
 #include "needlework/error.h"
 #include "src/io/system_calls.h"
+#include "src/io/write_lock.h"
 
 namespace needlework::io {
 namespace {
@@ -67,6 +68,7 @@ AtomicFile::AtomicFile(std::string path, bool force)
     if (!S_ISREG(status.st_mode)) fail(path_, "not a regular file");
     if (!force_) fail_existing(path_);
     if (link) target_ = std::filesystem::canonical(path_).string();
+    require_not_being_written(target_, path_ + ": cannot be replaced");
   } else if (errno != ENOENT) {
     fail(path_, errno);
   }

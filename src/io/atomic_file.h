@@ -11,9 +11,9 @@ namespace needlework::io {
 class AtomicFile {
  public:
   /// Creates the temporary file, which is empty. Throws IoError if `path` exists and `force` is
-  /// false, if `path` is a directory, a device or anything else that is not a regular file, and if
-  /// the folder cannot be written. If `path` is a symbolic link to a file and `force` is true, that
-  /// file is replaced and the link stays.
+  /// false, if it is open for writing elsewhere (see write_lock.h), if it is a directory, a device
+  /// or anything else that is not a regular file, and if the folder cannot be written. If `path` is
+  /// a symbolic link to a file and `force` is true, that file is replaced and the link stays.
   AtomicFile(std::string path, bool force);
   /// Removes the temporary file unless it was published.
   ~AtomicFile();

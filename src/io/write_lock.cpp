@@ -52,7 +52,8 @@ bool is_locked_by_writer(int descriptor) {
 #endif
 }
 
-constexpr const char* is_being_written = ": another program has the file open for writing";
+constexpr const char* is_being_written =
+    ": another program or simulation has the file open for writing";
 
 // Those of all locks of the process. Used in a session, so that no other thread is about to change
 // them when hdf5::fork_process() forks.

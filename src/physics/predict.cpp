@@ -17,8 +17,14 @@ namespace {
 // scaled before they are squared.
 constexpr double farthest = 1e150, fastest = 1e300;
 
-// The search needs some microseconds for each radian by which the needles turn near each other.
-constexpr double most_turned = 0x1p22;
+// Needles may turn near each other for ever and never touch. A search is given up when it has taken
+// this much work, about a second: an evaluation of the contact function in double is 1, and so is a
+// unit of the pair's own time, as stretches without any take time too.
+constexpr double most_work = 0x1p22, work_of_escalation = 8;
+// Time between looks at the work, in the pair's own unit.
+constexpr double stretch = 0x1p4;
+// In that unit, too. Times in double are farther apart later on than the intervals of the search.
+constexpr double latest = 0x1p50;
 
 Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
   for (double x : a) {
@@ -64,6 +70,40 @@ NearInterval near_interval(const kernels::Pair& pair) {
   return {std::max(0.0, nearest - half) / scale, std::max(0.0, nearest + half) / scale};
 }
 
+// The first contact in (0, horizon]. How long the search takes does not depend on the length of
+// time alone, so that it goes on stretch by stretch.
+kernels::Contact search(const kernels::Pair& pair, double horizon,
+                        kernels::EvaluationCounters& counters, const Accuracy& accuracy) {
+  const NearInterval near = near_interval(pair);
+  const double last = std::min(horizon, near.exit);
+  const kernels::PairScale scale = kernels::scale_of(pair);
+  if (!scale.moves || std::isinf(near.enter)) return {};
+  for (double begin = near.enter; begin <= last;) {
+    if (begin * scale.per_time > latest) {
+      throw InputError(
+          fmt::format("no contact by time {:g}, after which the times that a double can hold are "
+                      "too far apart: expected needles that come near each other before",
+                      begin));
+    }
+    const double end = begin + stretch * scale.per_rate;
+    const auto contact =
+        kernels::first_contact(pair, begin, std::min(last, end), counters, accuracy);
+    if (contact.found || end >= last) return contact;
+    const double work = (end - near.enter) * scale.per_time +
+                        static_cast<double>(counters.evaluated) +
+                        work_of_escalation * static_cast<double>(counters.escalated);
+    if (work > most_work) {
+      throw InputError(fmt::format(
+          "no contact by time {:g}, after {} steps of the search and {:.3g} radians that the "
+          "needles have turned near each other: expected a horizon that ends before",
+          end, counters.evaluated + counters.escalated,
+          (end - near.enter) * (pair.first->omega + pair.second->omega)));
+    }
+    begin = end;
+  }
+  return {};
+}
+
 }  // namespace
 
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
@@ -80,22 +120,15 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
   }
-  const NearInterval near = near_interval(pair);
-  const double end = near.enter + most_turned / (a.omega + b.omega);
-  const kernels::Contact contact =
-      kernels::first_contact(pair, 0, std::min(horizon, end), counters, accuracy);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  FirstContact out{std::numeric_limits<double>::infinity(), nan, nan, 0, 0};
+  FirstContact out{infinity, nan, nan, 0, 0};
+  const kernels::Contact contact = search(pair, horizon, counters, accuracy);
   if (contact.found) {
     const kernels::ContactGeometry geometry = contact_geometry(pair, contact.elapsed);
     out.time = contact.elapsed.hi;
     out.arm_first = geometry.arm_first;
     out.arm_second = geometry.arm_second;
-  } else if (std::min(horizon, near.exit) > end) {
-    throw InputError(
-        fmt::format("no contact by time {:g}, after which the needles have turned by {:g} radians "
-                    "near each other: expected a horizon that ends before",
-                    end, most_turned));
   }
   out.evaluations = counters.evaluated;
   out.escalations = counters.escalated;

@@ -88,10 +88,10 @@ std::vector<std::string> all_warnings(const Scene& scene) {
   std::vector<std::string> all = warnings(scene);
   const int threads = scene.engine.threads.value_or(1);
   if (threads > cores()) {
-    all.push_back(fmt::format(
-        "{}: expected at most {}, the number of cores here: more threads than cores make a run "
-        "slower, not faster",
-        place_of(scene, "engine.threads", fmt::to_string(threads)), cores()));
+    all.push_back(
+        fmt::format("{}: expected at most {}, the number of cores here: threads beyond these {}",
+                    place_of(scene, "engine.threads", fmt::to_string(threads)), cores(),
+                    scene.engine.team == "all" ? "make a run slower" : "are not used"));
   }
   return all;
 }

@@ -86,6 +86,24 @@ TEST_F(COutput, KeepsAFileThatExistsUnlessItIsToBeReplaced) {
   EXPECT_TRUE(contains(info("gas.h5"), "60 particles"));
 }
 
+TEST_F(COutput, DoesNotReplaceAFileThatIsBeingWritten) {
+  const CSimulation first(scene_with_file());
+  first.run_to(10);
+  const CSimulation second(scene_with_file(), NEEDLEWORK_REPLACE);
+  EXPECT_EQ(second, nullptr);
+  EXPECT_EQ(second.error.code, NEEDLEWORK_IO);
+  const std::string refusal = "cannot be replaced: another program or simulation has the file open";
+  EXPECT_TRUE(contains(second.error.message, refusal)) << second.error.message;
+  const CSimulation without_file(cooling);
+  const std::string file = path("gas.h5");
+  EXPECT_EQ(needlework_write_state(without_file, file.c_str(), NEEDLEWORK_REPLACE), NEEDLEWORK_IO);
+  EXPECT_TRUE(contains(without_file.message(), refusal)) << without_file.message();
+  EXPECT_EQ(files(), (std::vector<std::string>{"gas.h5", "gas.h5.checkpoint", "small.toml"}));
+  EXPECT_EQ(needlework_close(first), NEEDLEWORK_OK) << "its file is still there";
+  const CSimulation third(scene_with_file(), NEEDLEWORK_REPLACE);
+  EXPECT_NE(third, nullptr) << third.error.message;
+}
+
 TEST_F(COutput, ToAFolderThatDoesNotExistIsAnError) {
   const CSimulation simulation(cooling + "output.file = \"" + path("none/gas.h5") + "\"\n");
   EXPECT_EQ(simulation, nullptr);

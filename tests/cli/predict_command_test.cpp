@@ -104,12 +104,43 @@ TEST_F(PredictCommand, RefusesPairsThatWouldTakeTooLong) {
   EXPECT_TRUE(run_on(line("1", "1e308", "0")).complains("pairs.csv: line 1: velocity"));
   EXPECT_EQ(run_on(line("1", "1e300", "0")).exit_code, 0);
   EXPECT_EQ(run_on(line("1e-290", "1", "1e299")).exit_code, 3);
-  const Outcome turning = run_on(line("1e9", "0", "1e3"), "--accuracy fast");
-  EXPECT_EQ(turning.exit_code, 3);
-  EXPECT_TRUE(turning.complains("line 1: no contact by time 4194.3"));
   // Far apart, or soon apart again, needles may turn as they like.
   EXPECT_EQ(run_on("1,,1e300,5,0,0,1,0,0,0,1,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,0,0").exit_code, 0);
   EXPECT_EQ(run_on(line("1e9", "1", "1e3")).exit_code, 0);
+}
+
+// Needles in one plane that is tilted, up to rounding; needles that turn in parallel planes; and a
+// needle that turns beside one at rest.
+TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver) {
+  for (const std::string pair : {".9,.1,.2,.3,.7,-.1,0,0,0,1,1,.7,0,0,0,.3,.7,-.1,0,0,0,1,1,.7,0",
+                                 "0,0,.5,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,-711.3,0",
+                                 "0,0,.9,1,0,0,0,0,0,0,0,1e3,0,0,0,0,1,0,0,0,0,0,0,0,0"}) {
+    for (const std::string accuracy : {"standard", "rigorous"}) {
+      write("pairs.csv", "1,,1e9," + pair + "\n");
+      // The limit of the CPU time, in seconds, ends a program that hangs.
+      const Outcome outcome =
+          shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv --accuracy " +
+                accuracy + "; }");
+      EXPECT_EQ(outcome.exit_code, 3) << accuracy << ": " << pair << ": " << outcome.err;
+      EXPECT_TRUE(outcome.complains("pairs.csv: line 1: no contact by time ")) << outcome.err;
+      EXPECT_TRUE(outcome.complains(": expected a horizon that ends before")) << outcome.err;
+      EXPECT_EQ(run_on("1,,1," + pair, "--accuracy " + accuracy).out, "1,inf,nan,nan\n");
+    }
+  }
+}
+
+// Contacts are found as far away as a double can hold their times.
+TEST_F(PredictCommand, FindsContactsFarAwayOrRefusesToLookForThem) {
+  const auto at = [&](const std::string& distance) {
+    write("pairs.csv",
+          "1,,1e300," + distance + ",0,0,0,1,0,-1,0,0,0,0,0,0,0,0,0,0,1,0,0,0,0,0,0,0\n");
+    return shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv; }");
+  };
+  EXPECT_EQ(at("1e14").out, "1,100000000000000,0,0\n");
+  const Outcome too_far = at("1e17");
+  EXPECT_EQ(too_far.exit_code, 3);
+  EXPECT_TRUE(too_far.complains("pairs.csv: line 1: no contact by time 1e+17, after which"))
+      << too_far.err;
 }
 
 TEST_F(PredictCommand, WarnsOfAFileWithoutPairs) {

@@ -181,9 +181,10 @@ TEST_F(ResumeCommand, IsNotReplacedWhileAnotherProgramWritesIt) {
       "run gas.toml --quiet --out a.h5 --set until.collisions_per_needle=1e9", "sh second", "INT");
   EXPECT_EQ(first.exit_code, 75) << first.err;
   EXPECT_EQ(read("code"), "5\n");
-  EXPECT_EQ(read("refused"),
-            "needlework: --out a.h5: cannot be replaced: another program has the file open for "
-            "writing\n");
+  EXPECT_EQ(
+      read("refused"),
+      "needlework: --out a.h5: cannot be replaced: another program or simulation has the file "
+      "open for writing\n");
   hash_of("run gas.toml --force --out a.h5");
 }
 

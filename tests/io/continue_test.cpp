@@ -421,9 +421,18 @@ TEST_F(Continuing, AFileCanBeReadMeanwhile) {
   expect_same(full, read_contents(file("a.h5")));
 }
 
+TEST_F(Continuing, NoticesAtTheEndThatTheFileHasBeenRemoved) {
+  const std::string path = file("a.h5");
+  Writer writer(path, false, small.scene(), Plan::info());
+  std::filesystem::remove(path);
+  EXPECT_EQ(message_of<IoError>([&] { writer.close(); }),
+            path + ": the file has been removed, renamed or replaced while it was written");
+}
+
 TEST_F(Continuing, OneProgramWritesAtATime) {
   const std::string path = file("a.h5");
-  const std::string refusal = path + ": another program has the file open for writing";
+  const std::string refusal =
+      path + ": another program or simulation has the file open for writing";
   const auto message = [&] { return message_of<IoError>([&] { resume(path, small, {}); }); };
   std::optional<Writer> writer;
   writer.emplace(path, false, small.scene(), Plan::info());

@@ -148,6 +148,8 @@ class Runs(unittest.TestCase):
                 Simulation(scene)
             self.assertEqual(path.read_text(), "precious")
             with Simulation(scene, force=True) as sim:
+                with self.assertRaisesRegex(IoError, "another .* simulation has the file open for"):
+                    Simulation(scene, force=True)
                 sim.run()
             with needlework.read(path) as recording:
                 self.assertEqual(recording.series.collisions[-1], 2000)

@@ -33,6 +33,10 @@
 
 static int calls;
 
+// Calls of processes that it forks are made as if there were no faults: each would count its own.
+static pid_t process;
+__attribute__((constructor)) static void remember_process(void) { process = getpid(); }
+
 static long number(const char* variable, long otherwise) {
   const char* text = getenv(variable);
   return text ? atol(text) : otherwise;
@@ -67,7 +71,7 @@ enum Fate { passes, fails, is_short, fills_page, dies };
 // Counts a call and says what happens to it; sets errno if it fails.
 static enum Fate fate_of(const char* name, const char* path) {
   const char* folder = getenv("FAULT_FOLDER");
-  if (!folder || strncmp(path, folder, strlen(folder)) != 0) return passes;
+  if (getpid() != process || !folder || strncmp(path, folder, strlen(folder)) != 0) return passes;
   const long call = calls++;
   log_call(name, path);
   const long first = number("FAULT_AT", -1);

@@ -1,6 +1,7 @@
 // Scenes made ready to run.
 #include "src/runs/loaded_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "needlework/error.h"
@@ -54,6 +55,20 @@ TEST(LoadedScene, HasAnEngineThatIsOnOffer) {
   Scene scene = test::scene_of(3, 3);
   scene.engine.isa = "bogus";
   EXPECT_THROW(complete_scene(scene), InputError);
+}
+
+TEST(LoadedScene, WarnsOfMoreThreadsThanCoresInWordsThatFitTheTeam) {
+  Scene scene = test::scene_of(3, 3);
+  scene.engine.threads = cores();
+  EXPECT_TRUE(all_warnings(scene).empty());
+  scene.engine.threads = cores() + 1;
+  const std::string beginning = fmt::format(
+      "engine.threads = {}: expected at most {}, the number of cores here: threads "
+      "beyond these ",
+      cores() + 1, cores());
+  EXPECT_EQ(all_warnings(scene).back(), beginning + "are not used");
+  scene.engine.team = "all";
+  EXPECT_EQ(all_warnings(scene).back(), beginning + "make a run slower");
 }
 
 }  // namespace

@@ -93,6 +93,15 @@ TEST(HostileScene, WhiteSpaceThatIsNoneIsRefused) {
   EXPECT_EQ(parse_scene("", "s.toml", overrides).output.file, "\u00e9t\u00e9.h5");
 }
 
+// They fail assertions of the parser, in builds that have them.
+TEST(HostileScene, DatesWithoutAnHourAndBracketsWithoutAKeyAreErrors) {
+  EXPECT_EQ(message("\nuntil.time = 1979-05-27Tx7:32:00"),
+            "s.toml: line 2: bad time: expected 2-digit hour, saw 'x'");
+  EXPECT_EQ(
+      message("\n[[[needles]]]"),
+      "s.toml: line 2: bad key: expected bare key starting character or string delimiter, saw '['");
+}
+
 TEST(HostileScene, BytesThatAreNoTextAreRefused) {
   EXPECT_EQ(message("title = \"\xff\""), "s.toml: line 1: Encountered invalid utf-8 sequence");
   EXPECT_EQ(message(std::string("title = 'a\0b'", 13)),

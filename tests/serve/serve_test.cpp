@@ -167,6 +167,24 @@ TEST(Serve, ContinuesTheRunOfAFile) {
   EXPECT_EQ(third[1]["trajectory_hash"], hash_of_whole_run());
 }
 
+TEST(Serve, DoesNotReplaceAFileThatIsBeingWritten) {
+  const test::TemporaryFolder folder;
+  const std::string output = folder.path() / "run.h5";
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  run["force"] = true;
+  const Json save{{"do", "state"}, {"simulation", 2}, {"file", output}, {"force", true}};
+  const auto answers =
+      answers_to({run, run, create(), save, {{"do", "close"}, {"simulation", 1}}, save, run});
+  const std::string refusal = "cannot be replaced: another program or simulation has the file open";
+  for (const std::size_t refused : {1, 3}) {
+    EXPECT_EQ(answers[refused]["code"], 5) << answers[refused];
+    EXPECT_NE(answers[refused].dump().find(refusal), std::string::npos) << answers[refused];
+  }
+  for (const std::size_t done : {0, 2, 4, 5, 6})
+    EXPECT_EQ(answers[done]["ok"], true) << answers[done];
+}
+
 TEST(Serve, SaysWhyARunCannotBeSavedOrContinued) {
   const auto answers = answers_to({create(),
                                    {{"do", "checkpoint"}, {"simulation", 1}},
