@@ -321,6 +321,7 @@ std::optional<Root> RootFinder<isolation, escalation>::search_interval(const Int
     case Shape::unknown:
       break;
   }
+  if (values_.counters().is_spent()) return std::nullopt;
   const double middle = interval.middle();
   if (interval.depth >= last_depth || middle == interval.begin || middle == interval.end) {
     const int before = values_.sign_at(interval.begin), after = values_.sign_at(interval.end);

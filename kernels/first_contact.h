@@ -21,6 +21,13 @@ namespace needlework::kernels {
 struct EvaluationCounters {
   std::uint64_t evaluated = 0;  ///< evaluations of f in double
   std::uint64_t escalated = 0;  ///< evaluations of f in double-double
+  /// Work after which first_contact() halves no more intervals; what it returns then is worth
+  /// nothing.
+  std::uint64_t most_work = ~std::uint64_t{0};
+
+  /// In evaluations in double; those in double-double take some eight times as long.
+  std::uint64_t work() const { return evaluated + 8 * escalated; }
+  bool is_spent() const { return work() > most_work; }
 };
 
 struct Contact {

@@ -20,7 +20,7 @@ constexpr double farthest = 1e150, fastest = 1e300;
 // Needles may turn near each other for ever and never touch. A search is given up when it has taken
 // this much work, about a second: an evaluation of the contact function in double is 1, and so is a
 // unit of the pair's own time, as stretches without any take time too.
-constexpr double most_work = 0x1p22, work_of_escalation = 8;
+constexpr double most_work = 0x1p22;
 // Time between looks at the work, in the pair's own unit.
 constexpr double stretch = 0x1p4;
 // In that unit, too. Times in double are farther apart later on than the intervals of the search.
@@ -88,15 +88,14 @@ kernels::Contact search(const kernels::Pair& pair, double horizon,
     const double end = begin + stretch * scale.per_rate;
     const auto contact =
         kernels::first_contact(pair, begin, std::min(last, end), counters, accuracy);
-    if (contact.found || end >= last) return contact;
+    if (!counters.is_spent() && (contact.found || end >= last)) return contact;
     const double work = (end - near.enter) * scale.per_time +
-                        static_cast<double>(counters.evaluated) +
-                        work_of_escalation * static_cast<double>(counters.escalated);
-    if (work > most_work) {
+                        static_cast<double>(counters.work());
+    if (work > most_work || counters.is_spent()) {
       throw InputError(fmt::format(
           "no contact by time {:g}, after {} steps of the search and {:.3g} radians that the "
           "needles have turned near each other: expected a horizon that ends before",
-          end, counters.evaluated + counters.escalated,
+          counters.is_spent() ? begin : end, counters.evaluated + counters.escalated,
           (end - near.enter) * (pair.first->omega + pair.second->omega)));
     }
     begin = end;
@@ -115,7 +114,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
   kernels::Pair pair;
   pair.first = &a;
   pair.second = &b;
-  kernels::EvaluationCounters counters;
+  kernels::EvaluationCounters counters{.most_work = static_cast<std::uint64_t>(most_work)};
   if (just_collided) {
     const int side = kernels::side_after(pair);
     pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
