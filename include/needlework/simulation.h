@@ -34,9 +34,9 @@ class Simulation {
   explicit Simulation(const Scene& scene);
   /// Starts from the given state; box, count and temperatures of the scene are ignored.
   Simulation(const Scene& scene, const State& initial);
-  /// Continues a run from a checkpoint of it, with the same collisions to the last bit. Needles,
-  /// collisions and accuracy of the scene must be those of the run; its search, calendar, threads
-  /// and instruction set may be others. Throws InputError if they are not, or for damaged bytes.
+  /// Continues a run from a checkpoint of it, with the same collisions to the last bit. Box,
+  /// needles, collisions and accuracy of the scene must be those of the run; search, calendar,
+  /// threads and instruction set may be others. Throws InputError if not, or for damaged bytes.
   Simulation(const Scene& scene, const Checkpoint& checkpoint);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

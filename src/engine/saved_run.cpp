@@ -67,7 +67,10 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   constexpr double absent = -1;
   const Species& species = run.gas.species.front();
   const Accuracy accuracy = run.accuracy;
-  return {species.length,
+  return {run.gas.box[0],
+          run.gas.box[1],
+          run.gas.box[2],
+          species.length,
           species.mass,
           species.k,
           run.restitution.epsilon,
@@ -150,7 +153,7 @@ void Run::require_consistent() const {
 // Needles are saved in order of id, whatever their order in storage.
 void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   double epoch_length = gas.clock.epoch_length();
-  archive(gas.box, epoch_length);
+  archive(epoch_length);
   if (archive.reads()) {
     require(std::isfinite(epoch_length) && epoch_length > 0);
     gas.clock = Clock(epoch_length);
@@ -193,10 +196,11 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   std::vector<double> physics;
   std::uint64_t count;
   archive(physics, count);
+  gas.box = scene.needles.box;
   if (physics != physics_of(*this, scene)) {
     throw InputError(
-        "the saved state is of other needles, collisions or accuracy than those of the scene: "
-        "expected the same");
+        "the saved state is of another box, or of other needles, collisions or accuracy than those "
+        "of the scene: expected the same");
   }
   require(count <= saved.bytes.size() / least_bytes_of_a_needle);
   gas.records.resize(count);

@@ -43,7 +43,7 @@ static void transfer(Archive& archive, RunFailure& failure) {
 namespace {
 
 // To be changed whenever what is saved changes, here or in any function `transfer`.
-constexpr std::string_view mark = "needlework checkpoint 2\n";
+constexpr std::string_view mark = "needlework checkpoint 3\n";
 
 // Follows the mark.
 struct Header {

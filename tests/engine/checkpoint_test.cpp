@@ -200,6 +200,7 @@ TEST(Checkpoint, OfOtherPhysicsIsRefused) {
   expect_refused([](Scene& s) { s.collisions.tc_relative = 2e-2; });
   expect_refused([](Scene& s) { s.collisions.tc_relative = {}; });
   expect_refused([](Scene& s) { s.needles.k = 5; });
+  expect_refused([](Scene& s) { s.needles.box[1] = 12; });
   expect_refused([](Scene& s) { s = test::with_species(s, 1, 2); });
   expect_refused([](Scene& s) { s.engine.accuracy = "rigorous"; });
   EXPECT_NO_THROW(Simulation(scene, saved));

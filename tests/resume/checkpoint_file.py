@@ -2,7 +2,7 @@
 
 import struct
 
-MARK = b"needlework checkpoint 2\n"
+MARK = b"needlework checkpoint 3\n"
 TYPES = {"u8": "<B", "i8": "<b", "i16": "<h", "i32": "<i", "u32": "<I", "u64": "<Q", "i64": "<q",
          "f64": "<d"}
 
@@ -146,9 +146,10 @@ class Fields:
 
     def simulation(self):
         end = self.one("simulation.size", "u64") + self.at
-        self.sequence("physics", self.f64)
-        count = self.one("count", "u64")
+        size = self.one("physics.size", "u64")
         self.several("box", "f64", 3)
+        self.several("physics", "f64", size - 3)
+        count = self.one("count", "u64")
         self.f64("epoch_length")
         for _ in range(count):
             self.one("id", "u32")

@@ -69,6 +69,13 @@ class Forger:
         old, = struct.unpack_from(TYPES[kind], content, place)
         return content[:place] + self.number(kind, old) + content[place + size:]
 
+    def with_other_edges(self, content):
+        """With another box, which is possible but not that of the scene."""
+        edge = struct.pack("<d", self.draw.choice([2.5, 6.0, 1e9, 1e30, 1e300]))
+        for _, _, place in self.names["box"]:
+            content = content[:place] + edge + content[place + 8:]
+        return content
+
     def garbled(self, content):
         """Bytes cut out, put in, or exchanged."""
         at, size = self.draw.randrange(len(content)), self.draw.choice([1, 8, 189, 1000])
@@ -83,6 +90,8 @@ class Forger:
         """What was done, and the file."""
         if self.draw.random() < 0.1:
             return "garbled", sealed(self.garbled(self.content))
+        if self.draw.random() < 0.05:
+            return "all edges", sealed(self.with_other_edges(self.content))
         content, done = self.content, []
         # From the end on, so that places stay.
         chosen = [self.draw.choice(self.names[self.draw.choice(sorted(self.names))])
@@ -146,6 +155,8 @@ def main():
                 if code != 0:
                     assert errors.startswith("needlework: ") and errors.count("\n") == 1
                     assert "unexpected" not in errors and errors[:-1].isprintable()
+                if what == "all edges":
+                    assert code == 3, "a box that is not that of the scene"
                 if code == 3:
                     assert str(checkpoint) in errors or str(file) in errors
                     assert file.read_bytes() == rows, "a refused file was changed"

@@ -113,7 +113,7 @@ TEST_F(CheckpointFile, BeforeTheNewestIsKeptAndUsedWhenThatIsDamaged) {
   // The program was killed between the two renames.
   fs::rename(files.newest(), folder.path() / "aside");
   EXPECT_EQ(files.read().checkpoint.observation, sample(1).observation);
-  put("needlework checkpoint 2\nnot this");
+  put("needlework checkpoint 3\nnot this");
   const auto [read, warning] = files.read();
   EXPECT_EQ(read.observation, sample(1).observation);
   EXPECT_EQ(warning,
@@ -145,7 +145,7 @@ TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged) {
 TEST_F(CheckpointFile, OfAnotherVersionIsNamed) {
   put("needlework checkpoint 0\n" + std::string(100, 'x'));
   EXPECT_EQ(complaint(), files.newest() +
-                             ": expected \"needlework checkpoint 2\": a run is continued by the "
+                             ": expected \"needlework checkpoint 3\": a run is continued by the "
                              "version of the program that began it");
 }
 

@@ -66,7 +66,7 @@ struct SavedGas {
 
   void transfer(Archive& archive) {
     std::uint64_t count = needles.size();
-    archive(physics, count, box, epoch_length);
+    archive(physics, count, epoch_length);
     needles.resize(count);
     for (SavedNeedle& n : needles) {
       archive(n.id, n.image, n.time, n.flight, n.renewal, n.serial, n.species, n.touches);
@@ -79,8 +79,7 @@ struct SavedGas {
   }
 
   bool has_contact_time;
-  std::vector<double> physics;
-  std::array<double, 3> box{};
+  std::vector<double> physics;  ///< the box comes first
   double epoch_length = 1;
   std::vector<SavedNeedle> needles;
   Time now, window_end;

@@ -1,0 +1,56 @@
+// Runs that continue from checkpoints: what is accepted, and what is left when something fails.
+#include <gtest/gtest.h>
+
+#include "needlework/error.h"
+#include "src/runs/prepared_run.h"
+#include "tests/support/runs.h"
+#include "tests/support/saved_gas.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+struct Silent : RunMonitor {
+  bool is_due(double) const override { return false; }
+  void show(const Progress&) override {}
+};
+
+class ContinuedRun : public testing::Test {
+ protected:
+  ContinuedRun() {
+    scene.collisions.epsilon = 0.9;
+    scene.until.collisions_per_needle = 8;
+    scene.output.file = folder.path() / "run.h5";
+  }
+  // The checkpoint of a run that has ended.
+  RunCheckpoint ended() {
+    PreparedRun(complete_scene(scene), true, "scene").drive(monitor);
+    return CheckpointFiles(scene.output.file).read().checkpoint;
+  }
+  static std::string complaint_about(RunCheckpoint checkpoint) {
+    try {
+      PreparedRun run(std::move(checkpoint));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const test::TemporaryFolder folder;
+  Scene scene = test::scene_of(60, 5);
+  Silent monitor;
+};
+
+TEST_F(ContinuedRun, HasTheBoxOfItsScene) {
+  RunCheckpoint saved = ended();
+  test::SavedGas gas(saved.scene, saved.simulation);
+  gas.physics[0] = 10;
+  saved.simulation = gas.checkpoint();
+  EXPECT_EQ(complaint_about(saved),
+            saved.origin.path +
+                ": the saved state is of another box, or of other needles, collisions or accuracy "
+                "than those of the scene: expected the same");
+}
+
+}  // namespace
+}  // namespace needlework::runs
