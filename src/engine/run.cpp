@@ -174,26 +174,19 @@ void Run::open_window() {
   energy_at_window_ = sums.energy * count;
   quanta_at_window_ = tally.energy;
   mean_free_time = mean_free_time_of(gas, sums);
-  const Scales scales = scales_of_window();
-  quantum_ = scales.quantum;
-  per_quantum_ = 1 / quantum_;
-  contact_time = scales.contact_time;
-  window_span_ = scales.window_span;
+  set_scales();
   window_end = gas.clock.add(now, window_span_);
-  search_span = scales.search_span;
 }
 
-Run::Scales Run::scales_of_window() const {
-  const bool endless = !std::isfinite(mean_free_time);
-  const double span = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+void Run::set_scales() {
   // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
   const int quantum = energy_at_window_ > 0 ? exponent_of(energy_at_window_) - 58 : 0;
-  return {.quantum = times_power_of_two(1, quantum),
-          .contact_time = tc_            ? *tc_
-                          : tc_relative_ ? *tc_relative_ * mean_free_time
-                                         : 0,
-          .window_span = span,
-          .search_span = 4 * span};
+  quantum_ = times_power_of_two(1, quantum);
+  per_quantum_ = 1 / quantum_;
+  contact_time = tc_ ? *tc_ : tc_relative_ ? *tc_relative_ * mean_free_time : 0;
+  const bool endless = !std::isfinite(mean_free_time);
+  window_span_ = endless ? mean_free_time : std::ldexp(1.0, std::ilogb(mean_free_time));
+  search_span = 4 * window_span_;
 }
 
 void Run::pass_window() {

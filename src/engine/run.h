@@ -103,11 +103,9 @@ class Run {
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 
-  /// What follows from the mean free time and the energy at the start of a window.
-  struct Scales {
-    double quantum, contact_time, window_span, search_span;
-  };
-  Scales scales_of_window() const;
+  /// Computes what follows from the mean free time and the energy at the start of a window: energy
+  /// quantum, contact time and spans.
+  void set_scales();
 
   std::optional<double> tc_, tc_relative_;
   double window_span_ = 0;

@@ -155,18 +155,15 @@ class Fields:
             self.one("id", "u32")
             self.several("image", "i32", 3)
             self.time("record.time")
-            for part in "rvuwp":
+            for part in "rvuw":
                 self.several(f"record.{part}", "f64", 3)
-            self.f64("record.omega")
-            self.time("record.renewal")
             self.one("record.serial", "u32")
             self.one("record.species", "u8")
             self.sequence("touch", self.touch)
             self.time("last_collision")  # a scene with the t_c rule
         self.time("now")
         self.time("window_end")
-        for name in ("window_span", "mean_free_time", "contact_time", "search_span",
-                     "initial_energy", "energy_at_window", "quantum"):
+        for name in ("mean_free_time", "initial_energy", "energy_at_window"):
             self.f64(name)
         self.one("quanta_at_window", "u64")
         self.f64("drift_of_windows")

@@ -27,7 +27,6 @@ struct SavedNeedle {
   std::array<std::int32_t, 3> image{};
   Time time;
   kernels::Flight flight;
-  Time renewal;
   std::uint32_t serial = 0;
   std::uint8_t species = 0;
   std::vector<RecordedTouch> touches;
@@ -56,7 +55,6 @@ struct SavedGas {
     };
     for (SavedNeedle& needle : needles) {
       pass(needle.time);
-      pass(needle.renewal);
       if (has_contact_time) pass(needle.last_collision);
     }
     pass(now);
@@ -69,11 +67,11 @@ struct SavedGas {
     archive(physics, count, epoch_length);
     needles.resize(count);
     for (SavedNeedle& n : needles) {
-      archive(n.id, n.image, n.time, n.flight, n.renewal, n.serial, n.species, n.touches);
+      archive(n.id, n.image, n.time, n.flight, n.serial, n.species, n.touches);
       if (has_contact_time) archive(n.last_collision);
     }
-    archive(now, window_end, window_span, mean_free_time, contact_time, search_span, initial_energy,
-            energy_at_window, quantum, quanta_at_window, drift_of_windows);
+    archive(now, window_end, mean_free_time, initial_energy, energy_at_window, quanta_at_window,
+            drift_of_windows);
     archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
             tally.instant, tally.at_instant);
   }
@@ -83,8 +81,7 @@ struct SavedGas {
   double epoch_length = 1;
   std::vector<SavedNeedle> needles;
   Time now, window_end;
-  double window_span = 0, mean_free_time = 0, contact_time = 0, search_span = 0;
-  double initial_energy = 0, energy_at_window = 0, quantum = 1;
+  double mean_free_time = 0, initial_energy = 0, energy_at_window = 0;
   std::uint64_t quanta_at_window = 0;
   double drift_of_windows = 0;
   Tally tally;
