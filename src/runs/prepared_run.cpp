@@ -94,7 +94,7 @@ PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path
       [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
   // Those of an older run, whose file has just been replaced.
   if (writer_) checkpoints().remove();
-  driver_.emplace(simulation_, scene_, output(), path != nullptr);
+  driver_.emplace(simulation_, scene_, initial_, output(), path != nullptr);
 }
 
 PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
@@ -111,11 +111,11 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
       CheckpointFiles::require_unchanged(saved.origin);
       if (scene_.output.checkpoint_every > 0) checkpoints().require_writable();
       // Whether it can be restored has to be known as well.
-      RunDriver driver(simulation_, scene_, {}, true);
+      RunDriver driver(simulation_, scene_, initial_, {}, true);
       restore(saved, driver);
     });
   });
-  driver_.emplace(simulation_, scene_, output(), true);
+  driver_.emplace(simulation_, scene_, initial_, output(), true);
   restore(saved, *driver_);
 }
 

@@ -44,8 +44,10 @@ class Timed {
 
 }  // namespace
 
-RunDriver::RunDriver(Simulation& simulation, const Scene& scene, Output output, bool keeps_course)
+RunDriver::RunDriver(Simulation& simulation, const Scene& scene, const Totals& initial,
+                     Output output, bool keeps_course)
     : simulation_(simulation), scene_(scene), output_(output), keeps_course_(keeps_course) {
+  course_.initial = initial;
   if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
   series_ = series_schedule(scene.output, start);
@@ -103,7 +105,6 @@ void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
 void RunDriver::begin(RunMonitor* monitor) {
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
   listen_to_collisions();
-  course_.initial = simulation_.totals();
   if (samples()) {
     sample(!last_sample_, !last_frame_);
     series_.pass(0);
@@ -116,8 +117,7 @@ void RunDriver::begin(RunMonitor* monitor) {
 void RunDriver::transfer(Archive& archive) {
   if (failure_) std::rethrow_exception(failure_);  // what was lost must not count as saved
   bool has_rate = rate_.has_value();
-  archive(begun_, series_, frames_, last_sample_, last_frame_, course_.initial, course_.samples,
-          has_rate);
+  archive(begun_, series_, frames_, last_sample_, last_frame_, course_.samples, has_rate);
   if (archive.reads()) {
     require_restored(archive);
     rate_.reset();
@@ -132,8 +132,9 @@ void RunDriver::require_restored(const Archive& archive) const {
   const double now = simulation_.time() * (1 - 0x1p-50);
   archive.require(series_.is_rest_of(series_schedule(scene_.output, 1), now) &&
                   frames_.is_rest_of(frame_schedule(scene_.output, 1), now));
-  archive.require(are_possible(course_.initial) &&
-                  std::ranges::all_of(course_.samples, are_possible));
+  archive.require(std::ranges::all_of(course_.samples, are_possible));
+  // A run begins with a sample, with which that of its end is compared.
+  archive.require(!begun_ || last_sample_);
 }
 
 void RunDriver::listen_to_collisions() {

@@ -45,10 +45,11 @@ struct Output {
 /// them. Neither changes the trajectory.
 class RunDriver {
  public:
-  /// All must live as long as the driver. `keeps_course` says whether someone
-  /// wants the samples and the rate of the Course; without that and without output, the driver
-  /// takes no samples.
-  RunDriver(Simulation& simulation, const Scene& scene, Output output, bool keeps_course);
+  /// Simulation, scene and output must live as long as the driver. `initial` are the totals at the
+  /// start of the run. `keeps_course` says whether someone wants the samples and the rate of the
+  /// Course; without that and without output, the driver takes no samples.
+  RunDriver(Simulation& simulation, const Scene& scene, const Totals& initial, Output output,
+            bool keeps_course);
 
   /// Advances until the first of the conditions is met or the monitor asks to stop. The conditions
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()

@@ -209,7 +209,6 @@ class Fields:
         self.schedule("frames")
         self.optional("last_sample", self.totals)
         self.optional("last_frame", self.f64)
-        self.totals("course.initial")
         self.sequence("course.sample", self.totals)
         self.one("has_rate", "u8")
         assert self.at == end

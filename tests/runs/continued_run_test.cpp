@@ -3,6 +3,7 @@
 
 #include "needlework/error.h"
 #include "src/runs/prepared_run.h"
+#include "src/trajectory/saved_totals.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 #include "tests/support/temporary_folder.h"
@@ -50,6 +51,24 @@ TEST_F(ContinuedRun, HasTheBoxOfItsScene) {
             saved.origin.path +
                 ": the saved state is of another box, or of other needles, collisions or accuracy "
                 "than those of the scene: expected the same");
+}
+
+// With which the end of the run would be compared.
+TEST_F(ContinuedRun, HasTheLastSampleOfARunThatHasBegun) {
+  RunCheckpoint saved = ended();
+  std::string one, none;
+  // The last row is that of the end, before which the run was saved.
+  const std::optional<Totals> sample = io::read_run(scene.output.file).series.rbegin()[1];
+  const auto put = [](std::string& bytes, std::optional<Totals> totals) {
+    Archive archive = Archive::to(bytes);
+    archive(totals);
+  };
+  put(one, sample);
+  put(none, {});
+  const auto at = saved.observation.find(one);
+  ASSERT_NE(at, std::string::npos);
+  saved.observation.replace(at, one.size(), none);
+  EXPECT_NE(complaint_about(saved).find("its parts do not belong together"), std::string::npos);
 }
 
 }  // namespace
