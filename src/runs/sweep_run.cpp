@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <system_error>
 
 #include "needlework/error.h"
 #include "src/runs/estimates.h"
@@ -71,18 +73,27 @@ class MemberMonitor : public RunMonitor {
   double cost_, reported_ = 0, next_ = 1;
 };
 
-// Continues a member from its last checkpoint, if there is one of the same scene.
+bool is_missing(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found;
+}
+
+// Continues a member from its last checkpoint, if there is one of the same scene, and begins it
+// again if file or checkpoints are damaged or missing. What cannot be read at present, or is being
+// written by another program, may be whole: it is kept, and the error passed on.
 std::unique_ptr<PreparedRun> begin_or_continue(LoadedScene loaded, const std::string& grid) {
+  const CheckpointFiles checkpoints(loaded.scene.output.file);
   try {
-    RunCheckpoint saved = CheckpointFiles(loaded.scene.output.file).read().checkpoint;
-    if (saved.scene.text == loaded.scene.text) {
-      saved.scene.output.file = loaded.scene.output.file;
-      saved.scene.engine = loaded.scene.engine;
-      return std::make_unique<PreparedRun>(std::move(saved), Saves::when_stopped);
+    if (checkpoints.exist() && !is_missing(loaded.scene.output.file)) {
+      RunCheckpoint saved = checkpoints.read().checkpoint;
+      if (saved.scene.text == loaded.scene.text) {
+        saved.scene.output.file = loaded.scene.output.file;
+        saved.scene.engine = loaded.scene.engine;
+        return std::make_unique<PreparedRun>(std::move(saved), Saves::when_stopped);
+      }
     }
   } catch (const InputError&) {
-    // There is none, or it is damaged: from the beginning.
-  } catch (const IoError&) {
+    // Damaged, or of another version.
   }
   return std::make_unique<PreparedRun>(std::move(loaded), true, grid, Saves::when_stopped);
 }
@@ -99,14 +110,11 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
   const Course course = [&] {
     try {
       return begin_or_continue(complete_scene(std::move(scene)), runs.grid.name)->drive(monitor);
-    } catch (const IoError&) {
-      // What can be continued when there is room again is kept.
+    } catch (...) {
+      // What can be continued later, as when there is room again, is kept.
       if (!CheckpointFiles(folder.unfinished_file(member)).exist()) {
         folder.remove_unfinished(member);
       }
-      throw;
-    } catch (...) {
-      folder.remove_unfinished(member);
       throw;
     }
   }();

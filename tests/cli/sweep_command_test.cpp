@@ -1,4 +1,8 @@
 // `needlework sweep`: what it computes, and how it continues after it was stopped.
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -176,6 +180,26 @@ TEST_F(SweepCommand, GoesOnAfterSignals) {
     EXPECT_EQ(count_of_files(signal, unfinished) + count_of_files(signal, ".lock"), 0u);
     EXPECT_TRUE(read(signal + "/summary.h5") == read("whole/summary.h5"));
   }
+}
+
+// What can be continued, but not now, must not be begun again.
+TEST_F(SweepCommand, KeepsAMemberThatAnotherProgramHasOpen) {
+  run_and_signal("sweep --threads 1 long.toml --out locked", "ls locked/*.h5.part", "INT");
+  const std::filesystem::directory_iterator files(path("locked"));
+  const auto part = std::find_if(begin(files), end(files), [](const auto& file) {
+    return file.path().string().ends_with(".h5.part");
+  });
+  ASSERT_NE(part, end(files));
+  const std::string name = "locked/" + part->path().filename().string(), before = read(name);
+  const int file = open(path(name).c_str(), O_RDONLY);
+  ASSERT_EQ(flock(file, LOCK_EX), 0);
+  const Outcome refused = run("sweep long.toml --out locked");
+  close(file);
+  EXPECT_EQ(refused.exit_code, 5);
+  EXPECT_NE(refused.err.find("has the file open for writing"), std::string::npos) << refused.err;
+  EXPECT_TRUE(read(name) == before);
+  EXPECT_TRUE(exists(name + ".checkpoint"));
+  EXPECT_EQ(result("long.toml --out locked")["missing"], 0);
 }
 
 TEST_F(SweepCommand, TwoSweepsOfOneFolderDoNotRunTheSame) {
