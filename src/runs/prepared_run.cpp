@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <new>
+#include <exception>
 #include <utility>
 
 #include "needlework/error.h"
@@ -190,9 +190,12 @@ void PreparedRun::save_checkpoint() {
   checkpoints().write(saved);
 }
 
-// What a failed run leaves: the message with a hint at the bundle, and its name, or none.
+// What a failed run leaves: the message, the needles that it is about, and the name of the bundle,
+// or none; then the message says why.
 struct PreparedRun::Kept {
-  std::string message, bundle;
+  std::string message;
+  InvalidStateError::Needles needles;
+  std::string bundle;
 };
 
 // The last checkpoint in a file, or else the start; nothing if the start is not known any more.
@@ -230,7 +233,7 @@ void PreparedRun::write_bundle(const RunFailure& failure) {
 
 PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                                             const InvalidStateError::Needles& needles) {
-  if (!writer_) return {message, {}};
+  if (!writer_) return {message, needles, {}};
   const std::string bundle = CheckpointFiles(scene_.output.file).bundle();
   try {
     write_bundle({.message = message,
@@ -239,13 +242,15 @@ PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                   .collisions = simulation_.collisions(),
                   .trajectory_hash = simulation_.trajectory_hash(),
                   .version = NEEDLEWORK_VERSION});
-    return {message, bundle};
+    return {message, needles, bundle};
   } catch (const std::exception& error) {
-    return {fmt::format("{}; no bundle for needlework replay: {}", message, error.what()), {}};
+    return {
+        fmt::format("{}; no bundle for needlework replay: {}", message, error.what()), needles, {}};
   }
 }
 
-// Keeps the exception being handled, or throws it again if it is not about the state of the run.
+// Notes whether the exception being handled, which has ended an advance, came in the middle of an
+// event, and keeps it. Throws it again if it is not about the state of the run.
 PreparedRun::Kept PreparedRun::keep_current_failure() {
   InvalidStateError::Needles needles;
   try {
@@ -255,12 +260,28 @@ PreparedRun::Kept PreparedRun::keep_current_failure() {
     needles = error.needles;
   } catch (const InvalidStateError& error) {
     needles = error.needles;
+  } catch (const InputError&) {  // of the conditions, before any event
+    throw;
+  } catch (const IoError&) {  // of the output, after an event
+    throw;
   } catch (...) {
     cut_off_ = true;
   }
   const Failure failure = current_failure();
   if (failure.exit_code != invalid_state) throw;
   return keep_failure(failure.message, needles);
+}
+
+// What a front end is told of the exception being handled.
+std::exception_ptr PreparedRun::error_for_caller() {
+  try {
+    auto [message, needles, bundle] = keep_current_failure();
+    if (!bundle.empty()) message += fmt::format("; needlework replay {} shows it again", bundle);
+    if (cut_off_) return std::make_exception_ptr(UnfinishedEventError(message, needles));
+    return std::make_exception_ptr(InvalidStateError(message, needles));
+  } catch (...) {
+    return std::current_exception();
+  }
 }
 
 Course PreparedRun::drive(RunMonitor& monitor) {
@@ -287,26 +308,19 @@ Course PreparedRun::drive(RunMonitor& monitor) {
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   if (cut_off_) throw InvalidStateError(cut_off_by_an_error);
   Stop stop{};
+  std::exception_ptr failure;
   try {
     stop = driver_->advance(until, monitor);
-  } catch (const std::bad_alloc&) {
-    // In the middle of an event: neither to be replaced by an error of the caller, nor to be saved.
-    cut_off_ = true;
-    throw;
-  } catch (const InvalidStateError& error) {
-    const Kept kept = keep_current_failure();
-    if (batches_) batches_->flush();
-    std::string message = kept.message;
-    if (!kept.bundle.empty()) {
-      message += fmt::format("; needlework replay {} shows it again", kept.bundle);
-    }
-    if (cut_off_) throw UnfinishedEventError(message, error.needles);
-    throw InvalidStateError(message, error.needles);
   } catch (...) {
-    if (batches_) batches_->flush();
-    throw;
+    failure = error_for_caller();
   }
-  if (batches_) batches_->flush();
+  try {
+    if (batches_) batches_->flush();
+  } catch (...) {
+    // An error of the caller does not replace that of the run.
+    if (!failure) failure = std::current_exception();
+  }
+  if (failure) std::rethrow_exception(failure);
   return stop;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -51,10 +52,10 @@ class PreparedRun {
   Course drive(RunMonitor& monitor);
 
   /// Advances until the first of the conditions is met, which count from the start of the run. The
-  /// function of on_collisions() has seen all collisions when this returns. Throws what
-  /// RunDriver::advance() throws, and what that function has thrown. The message of an
-  /// InvalidStateError names the bundle that has been written beside the output file, if there is
-  /// one.
+  /// function of on_collisions() has seen all collisions when this returns or throws. Throws what
+  /// RunDriver::advance() throws, and else what that function has thrown. Defects of the program
+  /// become an UnfinishedEventError. The message of an InvalidStateError names the bundle that has
+  /// been written beside the output file, if there is one.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
   /// of each advance those that are left; see CollisionBatches.
@@ -89,6 +90,7 @@ class PreparedRun {
   struct Kept;
   Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);
   Kept keep_current_failure();
+  std::exception_ptr error_for_caller();
   void write_bundle(const RunFailure& failure);
   std::optional<RunCheckpoint> before_failure() const;
   CheckpointFiles checkpoints() const;

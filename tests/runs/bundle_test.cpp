@@ -106,6 +106,32 @@ TEST_F(Bundle, OfAnyDefectIsKeptAndAReplayWithoutItPasses) {
   EXPECT_EQ(again.last.back().number, 62u);
 }
 
+// As drive() does: the state is not saved, and the bundle is named.
+TEST_F(Bundle, OfADefectInARunInPiecesIsNamedInTheError) {
+  PreparedRun run(complete_scene(scene), false);
+  run.advance(from_now({.collisions = 20}, run.simulation()), monitor);
+  run.simulation().on_collision([](const Collision&) { throw std::logic_error("a defect"); });
+  try {
+    run.advance(scene.until, monitor);
+    FAIL() << "expected an error";
+  } catch (const UnfinishedEventError& error) {
+    EXPECT_EQ(error.what(), "unexpected error: a defect; needlework replay " + scene.output.file +
+                                ".failure shows it again");
+  }
+  EXPECT_NE(run.why_not_saved(), "");
+  run.close();
+  const CheckpointFiles files(scene.output.file);
+  EXPECT_EQ(files.read().checkpoint.output.samples, 1u) << "the checkpoint before the first event";
+  EXPECT_EQ(Replay(files.bundle(), 0).failure()->collisions, 21u);
+}
+
+TEST_F(Bundle, IsNotReplacedByAnErrorOfTheCaller) {
+  PreparedRun run(far_away(), false);
+  run.on_collisions(1000000,
+                    [](std::span<const Collision>) { throw std::runtime_error("of the caller"); });
+  EXPECT_THROW(run.advance(scene.until, monitor), UnfinishedEventError);
+}
+
 TEST_F(Bundle, NeedsAStartThatIsKnown) {
   scene.output.checkpoint_every = 0;
   const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
