@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -168,7 +169,7 @@ RunCheckpoint CheckpointFiles::read(const std::string& path) {
   } catch (const InputError& error) {
     throw damaged(path, error.what());
   }
-  out.origin = {path, header.checksum};
+  out.origin = {.path = path, .checksum = header.checksum};
   return out;
 }
 
@@ -188,9 +189,11 @@ void CheckpointFiles::require_writable() const {
   std::filesystem::remove(unfinished(newest_), ignored);
 }
 
-void CheckpointFiles::write(const RunCheckpoint& checkpoint) {
+void CheckpointFiles::write(const RunCheckpoint& checkpoint, Newest present) {
   write_durably(unfinished(newest_), bytes_of(checkpoint));
-  move_file(newest_, older_, IfMissing::do_nothing);
+  if (present == Newest::becomes_older) {
+    move_file(newest_, older_, IfMissing::do_nothing);
+  }
   move_file(unfinished(newest_), newest_);
   io::sync_name(newest_);
 }
@@ -208,25 +211,38 @@ void CheckpointFiles::move_bundle(const std::string& output_file) const {
 CheckpointFiles::Read CheckpointFiles::read() const {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  std::string warning;
-  if (fs::exists(newest_, ignored)) {
-    try {
-      return {read(newest_), {}};
-    } catch (const InputError& error) {
-      if (!fs::exists(older_, ignored)) throw;
-      warning = fmt::format("{}; continuing from {}", error.what(), older_);
-    }
-  }
-  if (!fs::exists(older_, ignored)) {
+  const bool has_newest = fs::exists(newest_, ignored), has_older = fs::exists(older_, ignored);
+  if (!has_newest && !has_older) {
     throw InputError(fmt::format(
         "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
   }
-  return {read(older_), std::move(warning)};
+  // Without the newest, the program was stopped between two renames.
+  if (!has_newest) return {read(older_), {}};
+  try {
+    return {read(newest_), {}};
+  } catch (const std::runtime_error& error) {  // InputError or IoError
+    try {
+      if (has_older) return instead_of_newest(error.what());
+    } catch (const InputError&) {
+      // What is wrong with the newest says more.
+    }
+    throw;
+  }
 }
 
-void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
+CheckpointFiles::Read CheckpointFiles::instead_of_newest(const char* reason) const {
+  Read out{read(older_), fmt::format("{}; continuing from {}", reason, older_)};
+  out.checkpoint.origin.instead_of_newest = true;
+  return out;
+}
+
+void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) const {
   try {
-    if (open_checkpoint(origin.path).second.checksum == origin.checksum) return;
+    // One that has replaced the newest may have left the one before as it was.
+    const std::uint64_t checksum = origin.instead_of_newest
+                                       ? read().checkpoint.origin.checksum
+                                       : open_checkpoint(origin.path).second.checksum;
+    if (checksum == origin.checksum) return;
   } catch (const InputError&) {
     // It is another one, or gone.
   }

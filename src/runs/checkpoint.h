@@ -39,6 +39,7 @@ struct RunCheckpoint {
   struct Origin {
     std::string path;
     std::uint64_t checksum = 0;
+    bool instead_of_newest = false;  ///< it is the one before, as the newest cannot be read
   };
   Origin origin;
 };
@@ -61,9 +62,11 @@ class CheckpointFiles {
   /// Throws IoError if none could be written here.
   void require_writable() const;
 
+  /// What becomes of the newest one when there is a newer one.
+  enum class Newest { becomes_older, is_replaced };
   /// Makes this one the newest. It is on the disk when this returns. Throws IoError, and keeps
   /// those before.
-  void write(const RunCheckpoint& checkpoint);
+  void write(const RunCheckpoint& checkpoint, Newest present = Newest::becomes_older);
 
   /// Writes the bundle, in the same way.
   void write_bundle(const RunCheckpoint& checkpoint);
@@ -74,19 +77,21 @@ class CheckpointFiles {
     RunCheckpoint checkpoint;
     std::string warning;  ///< why it is not the newest, or empty
   };
-  /// The newest one that is whole. Throws InputError if there is none, or if it is of another
-  /// version of the program; IoError if it cannot be read.
+  /// The newest one that is whole and can be read. If there is none, throws IoError if one cannot
+  /// be read, and InputError if they are missing, damaged or of another version of the program.
   Read read() const;
   /// The checkpoint or bundle in a file of any name. Throws as read() does.
   static RunCheckpoint read(const std::string& path);
 
   /// Throws IoError if another program has written a newer one since this one was read.
-  static void require_unchanged(const RunCheckpoint::Origin& origin);
+  void require_unchanged(const RunCheckpoint::Origin& origin) const;
 
   /// Removes them, if there are any. Throws IoError if that is not possible.
   void remove();
 
  private:
+  Read instead_of_newest(const char* reason) const;
+
   std::string newest_, older_, bundle_;
 };
 

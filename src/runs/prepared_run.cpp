@@ -108,7 +108,7 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
   open_output([&](const io::RunInfo& info) {
     // While the file is locked, and before it is changed.
     return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
-      CheckpointFiles::require_unchanged(saved.origin);
+      checkpoints().require_unchanged(saved.origin);
       if (scene_.output.checkpoint_every > 0) checkpoints().require_writable();
       // Whether it can be restored has to be known as well.
       RunDriver driver(simulation_, scene_, initial_, {}, true);
@@ -117,6 +117,8 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
   });
   driver_.emplace(simulation_, scene_, initial_, output(), true);
   restore(saved, *driver_);
+  // The only whole one is kept until there is another.
+  if (saved.origin.instead_of_newest) save_checkpoint(CheckpointFiles::Newest::is_replaced);
 }
 
 void PreparedRun::require_consistent(const RunCheckpoint& saved) const {
@@ -173,7 +175,9 @@ std::string PreparedRun::why_not_saved() const {
   return {};
 }
 
-void PreparedRun::save_checkpoint() {
+void PreparedRun::save_checkpoint() { save_checkpoint(CheckpointFiles::Newest::becomes_older); }
+
+void PreparedRun::save_checkpoint(CheckpointFiles::Newest present) {
   if (!why_not_saved().empty()) return;
   // First the rows that the checkpoint counts.
   writer_->sync();
@@ -187,7 +191,7 @@ void PreparedRun::save_checkpoint() {
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);
-  checkpoints().write(saved);
+  checkpoints().write(saved, present);
 }
 
 // What a failed run leaves: the message, the needles that it is about, and the name of the bundle,

@@ -87,6 +87,7 @@ class PreparedRun {
   void open_output(Open&& open);
   void observe();
   Output output();
+  void save_checkpoint(CheckpointFiles::Newest present);
   struct Kept;
   Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);
   Kept keep_current_failure();

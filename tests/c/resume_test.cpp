@@ -164,6 +164,10 @@ TEST_F(CResume, UsesTheCheckpointBeforeADamagedOneAndWarns) {
     second.run_to(100);
     EXPECT_EQ(second.hash(), hash_at(100));
   }
+  // It has been replaced by a whole one.
+  std::filesystem::remove(checkpoint + ".old");
+  EXPECT_EQ(CSimulation::resumed(file).totals().collisions, 50u);
+  std::filesystem::resize_file(checkpoint, 1000);
   std::filesystem::remove(checkpoint + ".old");
   const CSimulation third = CSimulation::resumed(file);
   EXPECT_EQ(third, nullptr);

@@ -1,6 +1,8 @@
 // Runs that continue from checkpoints: what is accepted, and what is left when something fails.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "needlework/error.h"
 #include "src/runs/prepared_run.h"
 #include "src/trajectory/saved_totals.h"
@@ -69,6 +71,31 @@ TEST_F(ContinuedRun, HasTheLastSampleOfARunThatHasBegun) {
   ASSERT_NE(at, std::string::npos);
   saved.observation.replace(at, one.size(), none);
   EXPECT_NE(complaint_about(saved).find("its parts do not belong together"), std::string::npos);
+}
+
+// The damaged one must not take the place of the one before.
+TEST_F(ContinuedRun, HasTwoCheckpointsAgainAfterOneWasDamaged) {
+  ended();
+  const CheckpointFiles files(scene.output.file);
+  std::filesystem::resize_file(files.newest(), 1000);
+  auto [saved, warning] = files.read();
+  EXPECT_NE(warning, "");
+  const std::string start = saved.observation;
+  PreparedRun run(std::move(saved));
+  EXPECT_EQ(CheckpointFiles::read(files.older()).observation, start);
+  EXPECT_EQ(CheckpointFiles::read(files.newest()).observation, start);
+  run.drive(monitor);
+  EXPECT_EQ(CheckpointFiles::read(files.older()).observation, start);
+  EXPECT_EQ(files.read().warning, "");
+}
+
+TEST_F(ContinuedRun, IsNotContinuedTwiceAfterACheckpointWasDamaged) {
+  ended();
+  const CheckpointFiles files(scene.output.file);
+  std::filesystem::resize_file(files.newest(), 1000);
+  RunCheckpoint first = files.read().checkpoint, second = first;
+  PreparedRun(std::move(first)).drive(monitor);
+  EXPECT_THROW(PreparedRun(std::move(second)), IoError);
 }
 
 }  // namespace
