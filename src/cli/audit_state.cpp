@@ -1,12 +1,9 @@
 #include "src/cli/audit_state.h"
 
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
 
 #include "needlework/error.h"
 #include "src/cli/json.h"
@@ -82,12 +79,8 @@ audit::Checkpoint checkpoint_of(const Json& from) {
 
 void write_audit_state(const std::string& path, const AuditIdentity& identity,
                        const audit::Checkpoint& checkpoint) {
-  const std::string draft = path + ".part";
-  runs::write_durably(
-      draft, json_text(Json{{"audit", identity}, {"state", checkpoint_json(checkpoint)}}) + '\n');
-  if (std::rename(draft.c_str(), path.c_str()) != 0) {
-    throw IoError(path + ": " + std::generic_category().message(errno));
-  }
+  runs::replace_durably(
+      path, json_text(Json{{"audit", identity}, {"state", checkpoint_json(checkpoint)}}) + '\n');
 }
 
 std::optional<audit::Checkpoint> read_audit_state(const std::string& path,

@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "needlework/error.h"
-#include "src/io/atomic_file.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/scene/printable.h"
@@ -119,12 +118,8 @@ std::string bytes_of(const RunCheckpoint& checkpoint) {
 
 std::string unfinished(const std::string& path) { return path + ".part"; }
 
-enum class IfMissing { fail, do_nothing };
-
-void move_file(const std::string& from, const std::string& to,
-               IfMissing if_missing = IfMissing::fail) {
-  if (std::rename(from.c_str(), to.c_str()) == 0) return;
-  if (errno == ENOENT && if_missing == IfMissing::do_nothing) return;
+void move_if_present(const std::string& from, const std::string& to) {
+  if (std::rename(from.c_str(), to.c_str()) == 0 || errno == ENOENT) return;
   throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
 }
 
@@ -191,21 +186,16 @@ void CheckpointFiles::require_writable() const {
 
 void CheckpointFiles::write(const RunCheckpoint& checkpoint, Newest present) {
   write_durably(unfinished(newest_), bytes_of(checkpoint));
-  if (present == Newest::becomes_older) {
-    move_file(newest_, older_, IfMissing::do_nothing);
-  }
-  move_file(unfinished(newest_), newest_);
-  io::sync_name(newest_);
+  if (present == Newest::becomes_older) move_if_present(newest_, older_);
+  rename_durably(unfinished(newest_), newest_);
 }
 
 void CheckpointFiles::write_bundle(const RunCheckpoint& checkpoint) {
-  write_durably(unfinished(bundle_), bytes_of(checkpoint));
-  move_file(unfinished(bundle_), bundle_);
-  io::sync_name(bundle_);
+  replace_durably(bundle_, bytes_of(checkpoint));
 }
 
 void CheckpointFiles::move_bundle(const std::string& output_file) const {
-  move_file(bundle_, CheckpointFiles(output_file).bundle_, IfMissing::do_nothing);
+  move_if_present(bundle_, CheckpointFiles(output_file).bundle_);
 }
 
 CheckpointFiles::Read CheckpointFiles::read() const {

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
 #include "src/runs/checkpoint.h"
+#include "src/runs/durable_file.h"
 
 namespace needlework::runs {
 namespace {
@@ -122,7 +122,9 @@ void SweepFolder::keep(const sweep::Member& member, State as) const {
   const std::string from = unfinished_file(member);
   const std::string to =
       as == State::failed ? failed_file(member) : path_ + "/" + member.name + ".h5";
-  if (std::rename(from.c_str(), to.c_str()) != 0) throw IoError(to + ": " + reason(errno));
+  // The checkpoints, from which it could be made again, are removed only when it is on the disk.
+  sync_bytes(from);
+  rename_durably(from, to);
   CheckpointFiles(from).move_bundle(to);
   CheckpointFiles(from).remove();
 }
