@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/scene/scene_members.h"
 #include "src/scene/schema.h"
 
 namespace needlework {
@@ -39,83 +40,27 @@ Value toml_of(const std::vector<T>& values) {
   return array_of(values);
 }
 
-// Collects the values of one section.
-class Section {
+// Collects the values of members.
+class Collected {
  public:
-  Section(std::vector<KeyValue>& out, std::string_view name) : out_(out), name_(name) {}
-
   template <class T>
-  void operator()(std::string_view key, const T& value) {
-    out_.push_back({name_, key, toml_of(value)});
+  void operator()(std::string_view section, std::string_view key, const T& value) {
+    values.push_back({section, key, toml_of(value)});
   }
   template <class T>
-  void operator()(std::string_view key, const std::optional<T>& value) {
-    if (value) (*this)(key, *value);
+  void operator()(std::string_view section, std::string_view key, const std::optional<T>& value) {
+    if (value) (*this)(section, key, *value);
+  }
+  void operator()(std::string_view section, std::string_view key, const std::string& text) {
+    const bool is_given = section != "initial" || !text.empty();  // initial.file has no empty value
+    if (is_given) values.push_back({section, key, toml_of(text)});
+  }
+  void operator()(std::string_view, std::string_view, const std::vector<Scene::Species>& all) {
+    for (const Scene::Species& species : all) visit_species(species, *this);
   }
 
- private:
-  std::vector<KeyValue>& out_;
-  std::string_view name_;
+  std::vector<KeyValue> values;
 };
-
-void put_gas(const Scene& scene, std::vector<KeyValue>& out) {
-  const auto& [count, box, k, seed] = scene.needles;
-  const auto& [t_tr, t_rot, file] = scene.initial;
-  Section needles(out, "needles"), initial(out, "initial");
-  needles("box", box);
-  needles("seed", seed);
-  if (!file.empty()) initial("file", file);
-  for (const Scene::Species& species : scene.species) {
-    const auto& [name, its_count, length, mass, its_k, its_t_tr, its_t_rot] = species;
-    Section section(out, "species");
-    section("name", name);
-    section("count", its_count);
-    section("length", length);
-    section("mass", mass);
-    section("k", its_k);
-    section("t_tr", its_t_tr);
-    section("t_rot", its_t_rot);
-  }
-  needles("count", count);
-  needles("k", k);
-  initial("t_tr", t_tr);
-  initial("t_rot", t_rot);
-}
-
-void put_engine(const Scene::Engine& engine, std::vector<KeyValue>& out) {
-  const auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance,
-               sampling_step, threads, team, isa, cell_side, capsule_radius, storage] = engine;
-  Section section(out, "engine");
-  section("search", search);
-  section("queue", queue);
-  section("accuracy", accuracy);
-  section("isolation", isolation);
-  section("escalation", escalation);
-  section("filter", filter);
-  section("root_tolerance", root_tolerance);
-  section("sampling_step", sampling_step);
-  section("threads", threads);
-  section("team", team);
-  section("isa", isa);
-  section("cell_side", cell_side);
-  section("capsule_radius", capsule_radius);
-  section("storage", storage);
-}
-
-void put_output(const Scene::Output& output, std::vector<KeyValue>& out) {
-  const auto& [file, series_per_decade, series_every, frame_times, frames_per_decade, observables,
-               grid, events, checkpoint_every] = output;
-  Section section(out, "output");
-  section("file", file);
-  section("series_per_decade", series_per_decade);
-  section("series_every", series_every);
-  section("frames", frame_times);
-  section("frames", frames_per_decade);
-  section("observables", observables);
-  section("grid", grid);
-  section("events", events);
-  section("checkpoint_every", checkpoint_every);
-}
 
 void refuse(std::string_view name, std::string_view expected) {
   throw InputError(fmt::format("the scene: {}: expected {}", name, expected));
@@ -139,24 +84,9 @@ void require_agreement(const Scene& scene) {
 }  // namespace
 
 std::vector<KeyValue> values_of(const Scene& scene) {
-  std::vector<KeyValue> out;
-  out.push_back({"", "title", toml_of(scene.title)});
-  put_gas(scene, out);
-  const auto& [epsilon, beta, tc, tc_relative] = scene.collisions;
-  Section collisions(out, "collisions");
-  collisions("epsilon", epsilon);
-  collisions("beta", beta);
-  collisions("tc", tc);
-  collisions("tc_relative", tc_relative);
-  put_engine(scene.engine, out);
-  const auto& [time, collisions_per_needle, energy_ratio, wall_s] = scene.until;
-  Section until(out, "until");
-  until("time", time);
-  until("collisions_per_needle", collisions_per_needle);
-  until("energy_ratio", energy_ratio);
-  until("wall_s", wall_s);
-  put_output(scene.output, out);
-  return out;
+  Collected collected;
+  visit_members(scene, collected);
+  return std::move(collected.values);
 }
 
 void require_valid(const Scene& scene) {

@@ -98,8 +98,6 @@ class Fields:
             self.text(name)
 
         self.sequence("species", species)
-        self.text("text")
-        self.sequence("places", place)
         self.one("needles.count", "u64")
         self.several("needles.box", "f64", 3)
         self.f64("needles.k")
@@ -132,6 +130,8 @@ class Fields:
         self.optional("output.grid", lambda name: self.several(name, "i32", 3))
         self.one("output.events", "u8")
         self.f64("output.checkpoint_every")
+        self.text("text")
+        self.sequence("places", place)
 
     def time(self, name):
         self.one(f"{name}.epoch", "i64")

@@ -1,0 +1,93 @@
+// The members of a scene, with the names of their keys.
+#pragma once
+
+#include <string_view>
+
+#include "needlework/scene.h"
+
+namespace needlework {
+
+// Each structured binding names all members of its struct, so that this file does not compile when
+// one is added and forgotten here.
+
+/// Calls visit(section, key, member) for each member of Scene::Species, constant or not.
+template <class Species, class Visit>
+void visit_species(Species& species, Visit&& visit) {
+  auto& [name, count, length, mass, k, t_tr, t_rot] = species;
+  visit("species", "name", name);
+  visit("species", "count", count);
+  visit("species", "length", length);
+  visit("species", "mass", mass);
+  visit("species", "k", k);
+  visit("species", "t_tr", t_tr);
+  visit("species", "t_rot", t_rot);
+}
+
+/// The same for each member of a Scene, or of its parts. That of all species has the key "". Text
+/// and places, which say where a scene comes from, are left out.
+template <class AnyScene, class Visit>
+void visit_members(AnyScene& scene, Visit&& visit) {
+  auto& [title, needles, species, initial, collisions, engine, until, output, text, places] = scene;
+  visit("", "title", title);
+  visit("species", "", species);
+  {
+    auto& [count, box, k, seed] = needles;
+    visit("needles", "count", count);
+    visit("needles", "box", box);
+    visit("needles", "k", k);
+    visit("needles", "seed", seed);
+  }
+  {
+    auto& [t_tr, t_rot, file] = initial;
+    visit("initial", "t_tr", t_tr);
+    visit("initial", "t_rot", t_rot);
+    visit("initial", "file", file);
+  }
+  {
+    auto& [epsilon, beta, tc, tc_relative] = collisions;
+    visit("collisions", "epsilon", epsilon);
+    visit("collisions", "beta", beta);
+    visit("collisions", "tc", tc);
+    visit("collisions", "tc_relative", tc_relative);
+  }
+  {
+    auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,
+           threads, team, isa, cell_side, capsule_radius, storage] = engine;
+    visit("engine", "search", search);
+    visit("engine", "queue", queue);
+    visit("engine", "accuracy", accuracy);
+    visit("engine", "isolation", isolation);
+    visit("engine", "escalation", escalation);
+    visit("engine", "filter", filter);
+    visit("engine", "root_tolerance", root_tolerance);
+    visit("engine", "sampling_step", sampling_step);
+    visit("engine", "threads", threads);
+    visit("engine", "team", team);
+    visit("engine", "isa", isa);
+    visit("engine", "cell_side", cell_side);
+    visit("engine", "capsule_radius", capsule_radius);
+    visit("engine", "storage", storage);
+  }
+  {
+    auto& [time, collisions_per_needle, energy_ratio, wall_s] = until;
+    visit("until", "time", time);
+    visit("until", "collisions_per_needle", collisions_per_needle);
+    visit("until", "energy_ratio", energy_ratio);
+    visit("until", "wall_s", wall_s);
+  }
+  {
+    auto& [file, series_per_decade, series_every, frame_times, frames_per_decade, observables, grid,
+           events, checkpoint_every] = output;
+    visit("output", "file", file);
+    visit("output", "series_per_decade", series_per_decade);
+    visit("output", "series_every", series_every);
+    visit("output", "frames", frame_times);
+    visit("output", "frames", frames_per_decade);
+    visit("output", "observables", observables);
+    visit("output", "grid", grid);
+    visit("output", "events", events);
+    visit("output", "checkpoint_every", checkpoint_every);
+  }
+}
+
+}  // namespace needlework
