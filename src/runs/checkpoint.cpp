@@ -1,6 +1,9 @@
 #include "src/runs/checkpoint.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
@@ -8,12 +11,14 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/io/system_calls.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/scene/printable.h"
@@ -42,10 +47,11 @@ static void transfer(Archive& archive, RunFailure& failure) {
 
 namespace {
 
-// To be changed whenever what is saved changes, here or in any function `transfer`.
-constexpr std::string_view mark = "needlework checkpoint 3\n";
+// The first line. Its number is to be changed whenever what is saved changes, here or in any
+// function `transfer`. The version is there because the trajectory may change without that.
+constexpr std::string_view mark = "needlework checkpoint 3 of " NEEDLEWORK_VERSION "\n";
 
-// Follows the mark.
+// Follows the first line.
 struct Header {
   std::uint64_t size = 0;      // of what follows the header
   std::uint64_t checksum = 0;  // of the same
@@ -60,45 +66,121 @@ InputError damaged(const std::string& path, std::string_view how) {
   return InputError(fmt::format("{}: damaged: {}", path, how));
 }
 
+IoError unreadable(const std::string& path, int error) {
+  return IoError(
+      fmt::format("{}: cannot be read: {}", path, std::generic_category().message(error)));
+}
+
+struct Closes {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Closes>;
+
+// Null if there is no such file.
+File open_file(const std::string& path) {
+  // Not waiting for a program that would write to a pipe.
+  const int descriptor =
+      io::uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
+  if (descriptor < 0 && errno == ENOENT) return nullptr;
+  if (descriptor < 0) throw unreadable(path, errno);
+  File file(fdopen(descriptor, "rb"));
+  if (!file) {
+    const int error = errno;
+    close(descriptor);
+    throw unreadable(path, error);
+  }
+  return file;
+}
+
 // Reads the next `size` bytes.
 std::string read_bytes(std::FILE* file, std::size_t size, const std::string& path) {
   std::string bytes(size, '\0');
   bytes.resize(std::fread(bytes.data(), 1, size, file));
-  if (std::ferror(file)) {
-    throw IoError(
-        fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
-  }
+  if (std::ferror(file)) throw unreadable(path, errno);
   return bytes;
 }
 
-void require_mark(const std::string& path, std::string_view begin) {
-  if (begin == mark) return;
-  constexpr std::string_view any_version = "needlework checkpoint ";
-  if (!begin.starts_with(any_version)) throw damaged(path, "expected a checkpoint");
-  throw InputError(fmt::format(
-      "{}: expected \"{}\": a run is continued by the version of the program that began it", path,
-      mark.substr(0, mark.size() - 1)));
+std::string read_line(std::FILE* file, const std::string& path) {
+  constexpr std::size_t longest = 100;
+  std::string line;
+  while (line.size() < longest && !line.ends_with('\n')) {
+    const std::string next = read_bytes(file, 1, path);
+    if (next.empty()) break;
+    line += next;
+  }
+  return line;
 }
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+void require_mark(const std::string& path, std::string_view line) {
+  if (line == mark) return;
+  constexpr std::string_view any_version = "needlework checkpoint ";
+  if (!line.starts_with(any_version)) throw damaged(path, "expected a checkpoint");
+  const auto quoted = [](std::string_view text) {
+    return printable(text.substr(0, text.find('\n')));
+  };
+  throw InputError(fmt::format(
+      "{}: \"{}\": expected \"{}\": a run is continued by the version of the program that began it",
+      path, quoted(line), quoted(mark)));
+}
 
-// Opens a file and reads what stands before its content.
-std::pair<File, Header> open_checkpoint(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError(path + ": expected an ordinary file");
-  }
-  File file(std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  if (!file) {
-    throw IoError(
-        fmt::format("{}: cannot be read: {}", path, std::generic_category().message(errno)));
-  }
-  require_mark(path, read_bytes(file.get(), mark.size(), path));
+// A checksum says nothing about a file that somebody has made.
+void validate(Scene& scene) {
+  // The name of the output file may be any: options give it, and callers replace it.
+  std::string file = std::exchange(scene.output.file, {});
+  require_valid(scene);
+  scene.output.file = std::move(file);
+  // They become parts of messages.
+  for (auto& [key, place] : scene.places) place = printable(place);
+}
+
+// A checkpoint that has been read up to its content.
+struct OpenCheckpoint {
+  File file;
+  Header header;
+  std::uint64_t size;  // of the content, by that of the file
+};
+
+// None if there is no such file.
+std::optional<OpenCheckpoint> open_checkpoint(const std::string& path) {
+  File file = open_file(path);
+  if (!file) return std::nullopt;
+  struct stat status;
+  if (fstat(fileno(file.get()), &status) != 0) throw unreadable(path, errno);
+  if (!S_ISREG(status.st_mode)) throw InputError(path + ": expected an ordinary file");
+  require_mark(path, read_line(file.get(), path));
   Header header;
   const std::string head = read_bytes(file.get(), sizeof header, path);
-  if (head.size() < sizeof header) throw damaged(path, "it is cut short");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  constexpr std::uint64_t begin = mark.size() + sizeof header;
+  if (head.size() < sizeof header || size < begin) throw damaged(path, "it is cut short");
   std::memcpy(&header, head.data(), sizeof header);
-  return {std::move(file), header};
+  return OpenCheckpoint{std::move(file), header, size - begin};
+}
+
+// None if there is no such file.
+std::optional<RunCheckpoint> read_if_present(const std::string& path) {
+  const auto opened = open_checkpoint(path);
+  if (!opened) return std::nullopt;
+  const auto& [file, header, size] = *opened;
+  // Before memory is taken for it.
+  if (size != header.size) {
+    throw damaged(path, fmt::format("{} bytes: expected {}", size, header.size));
+  }
+  const std::string bytes = read_bytes(file.get(), size, path);
+  if (bytes.size() != size || checksum_of(bytes) != header.checksum) {
+    throw damaged(path, "its checksum is wrong");
+  }
+  RunCheckpoint out;
+  try {
+    Archive archive = Archive::from(bytes);
+    transfer(archive, out);
+    archive.require_end();
+    validate(out.scene);
+  } catch (const InputError& error) {
+    throw damaged(path, error.what());
+  }
+  out.origin = {.path = path, .checksum = header.checksum};
+  return out;
 }
 
 std::string bytes_of(const RunCheckpoint& checkpoint) {
@@ -123,16 +205,6 @@ void move_if_present(const std::string& from, const std::string& to) {
   throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
 }
 
-// A checksum says nothing about a file that somebody has made.
-void restore(Scene& scene) {
-  // The name of the output file may be any: options give it, and callers replace it.
-  std::string file = std::exchange(scene.output.file, {});
-  require_valid(scene);
-  scene.output.file = std::move(file);
-  // They become parts of messages.
-  for (auto& [key, place] : scene.places) place = printable(place);
-}
-
 // The ordinary file to which a symbolic link leads, or else the name itself.
 std::string behind_links(const std::string& path) {
   std::error_code error;
@@ -145,27 +217,8 @@ std::string behind_links(const std::string& path) {
 }  // namespace
 
 RunCheckpoint CheckpointFiles::read(const std::string& path) {
-  const auto [file, header] = open_checkpoint(path);
-  // Before memory is taken for it.
-  const std::uint64_t size = std::filesystem::file_size(path) - mark.size() - sizeof header;
-  if (size != header.size) {
-    throw damaged(path, fmt::format("{} bytes: expected {}", size, header.size));
-  }
-  const std::string bytes = read_bytes(file.get(), size, path);
-  if (bytes.size() != size || checksum_of(bytes) != header.checksum) {
-    throw damaged(path, "its checksum is wrong");
-  }
-  RunCheckpoint out;
-  try {
-    Archive archive = Archive::from(bytes);
-    transfer(archive, out);
-    archive.require_end();
-    restore(out.scene);
-  } catch (const InputError& error) {
-    throw damaged(path, error.what());
-  }
-  out.origin = {.path = path, .checksum = header.checksum};
-  return out;
+  if (auto checkpoint = read_if_present(path)) return *std::move(checkpoint);
+  throw InputError(path + ": missing: expected the checkpoint or the bundle of a run");
 }
 
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
@@ -174,8 +227,11 @@ CheckpointFiles::CheckpointFiles(const std::string& output_file)
       bundle_(behind_links(output_file) + ".failure") {}
 
 bool CheckpointFiles::exist() const {
-  std::error_code ignored;
-  return std::filesystem::exists(newest_, ignored) || std::filesystem::exists(older_, ignored);
+  const auto may_exist = [](const std::string& path) {
+    std::error_code ignored;
+    return std::filesystem::status(path, ignored).type() != std::filesystem::file_type::not_found;
+  };
+  return may_exist(newest_) || may_exist(older_);
 }
 
 void CheckpointFiles::require_writable() const {
@@ -198,41 +254,30 @@ void CheckpointFiles::move_bundle(const std::string& output_file) const {
   move_if_present(bundle_, CheckpointFiles(output_file).bundle_);
 }
 
-CheckpointFiles::Read CheckpointFiles::read() const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const bool has_newest = fs::exists(newest_, ignored), has_older = fs::exists(older_, ignored);
-  if (!has_newest && !has_older) {
-    throw InputError(fmt::format(
-        "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
-  }
-  // Without the newest, the program was stopped between two renames.
-  if (!has_newest) return {read(older_), {}};
+CheckpointFiles::Latest CheckpointFiles::latest() const {
   try {
-    return {read(newest_), {}};
+    if (auto newest = read_if_present(newest_)) return {*std::move(newest), {}};
   } catch (const std::runtime_error& error) {  // InputError or IoError
     try {
-      if (has_older) return instead_of_newest(error.what());
+      if (auto older = read_if_present(older_)) {
+        older->origin.instead_of_newest = true;
+        return {*std::move(older), fmt::format("{}; continuing from {}", error.what(), older_)};
+      }
     } catch (const InputError&) {
       // What is wrong with the newest says more.
     }
     throw;
   }
+  // The program was stopped between two renames.
+  if (auto older = read_if_present(older_)) return {*std::move(older), {}};
+  throw InputError(fmt::format(
+      "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
 }
 
-CheckpointFiles::Read CheckpointFiles::instead_of_newest(const char* reason) const {
-  Read out{read(older_), fmt::format("{}; continuing from {}", reason, older_)};
-  out.checkpoint.origin.instead_of_newest = true;
-  return out;
-}
-
-void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) const {
+void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
   try {
-    // One that has replaced the newest may have left the one before as it was.
-    const std::uint64_t checksum = origin.instead_of_newest
-                                       ? read().checkpoint.origin.checksum
-                                       : open_checkpoint(origin.path).second.checksum;
-    if (checksum == origin.checksum) return;
+    const auto now = open_checkpoint(origin.path);
+    if (now && now->header.checksum == origin.checksum) return;
   } catch (const InputError&) {
     // It is another one, or gone.
   }

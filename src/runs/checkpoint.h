@@ -27,21 +27,21 @@ struct RunFailure {
 
 /// A run at one instant.
 struct RunCheckpoint {
-  Scene scene;                  ///< complete: engine chosen, count and box filled in
-  bool drawn = false;           ///< whether the initial state was drawn
-  Totals initial;               ///< at the start of the run
-  Checkpoint simulation;        ///< the state of the gas; without bytes: that of the scene
-  io::Writer::Position output;  ///< the rows that the output file had
-  std::string observation;      ///< what observables and schedules remember
+  Scene scene = {};                  ///< complete: engine chosen, count and box filled in
+  bool drawn = false;                ///< whether the initial state was drawn
+  Totals initial = {};               ///< at the start of the run
+  Checkpoint simulation = {};        ///< the state of the gas; without bytes: that of the scene
+  io::Writer::Position output = {};  ///< the rows that the output file had
+  std::string observation = {};      ///< what observables and schedules remember
   std::optional<RunFailure> failure = {};  ///< of a bundle: how the run failed after this instant
 
   /// The file that it was read from, and its checksum.
   struct Origin {
-    std::string path;
+    std::string path = {};
     std::uint64_t checksum = 0;
     bool instead_of_newest = false;  ///< it is the one before, as the newest cannot be read
   };
-  Origin origin;
+  Origin origin = {};
 };
 
 /// The checkpoints of one output file, in files beside it: the newest, "FILE.checkpoint", and the
@@ -57,7 +57,7 @@ class CheckpointFiles {
   const std::string& newest() const { return newest_; }
   const std::string& older() const { return older_; }
   const std::string& bundle() const { return bundle_; }
-  /// Whether there is one to continue from.
+  /// Whether there is one to continue from, as far as can be told.
   bool exist() const;
   /// Throws IoError if none could be written here.
   void require_writable() const;
@@ -73,25 +73,23 @@ class CheckpointFiles {
   /// Moves the bundle, if there is one, beside the new name of the output file.
   void move_bundle(const std::string& output_file) const;
 
-  struct Read {
+  struct Latest {
     RunCheckpoint checkpoint;
     std::string warning;  ///< why it is not the newest, or empty
   };
   /// The newest one that is whole and can be read. If there is none, throws IoError if one cannot
   /// be read, and InputError if they are missing, damaged or of another version of the program.
-  Read read() const;
-  /// The checkpoint or bundle in a file of any name. Throws as read() does.
+  Latest latest() const;
+  /// The checkpoint or bundle in a file of any name. Throws as latest() does.
   static RunCheckpoint read(const std::string& path);
 
   /// Throws IoError if another program has written a newer one since this one was read.
-  void require_unchanged(const RunCheckpoint::Origin& origin) const;
+  static void require_unchanged(const RunCheckpoint::Origin& origin);
 
   /// Removes them, if there are any. Throws IoError if that is not possible.
   void remove();
 
  private:
-  Read instead_of_newest(const char* reason) const;
-
   std::string newest_, older_, bundle_;
 };
 

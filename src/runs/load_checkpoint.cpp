@@ -4,15 +4,15 @@
 
 namespace needlework::runs {
 
-CheckpointFiles::Read load_checkpoint(const std::string& output_file,
-                                      const std::function<void(Scene&)>& change) {
-  CheckpointFiles::Read read = CheckpointFiles(output_file).read();
-  Scene& scene = read.checkpoint.scene;
+CheckpointFiles::Latest load_checkpoint(const std::string& output_file,
+                                        const std::function<void(Scene&)>& change) {
+  CheckpointFiles::Latest latest = CheckpointFiles(output_file).latest();
+  Scene& scene = latest.checkpoint.scene;
   scene.output.file = scene.places["output.file"] = output_file;
   scene.engine.isa = "auto";
   if (change) change(scene);
   choose_engine(scene);
-  return read;
+  return latest;
 }
 
 }  // namespace needlework::runs

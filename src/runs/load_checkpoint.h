@@ -12,8 +12,8 @@ namespace needlework::runs {
 /// Reads the last checkpoint of the run that this output file holds. Its scene names this file,
 /// which may have been moved, and has the engine that choose_engine() finds here, which may be
 /// another machine: the instruction set of before does not count. `change` may set ends and engine
-/// before the choice. Throws what CheckpointFiles::read() and choose_engine() throw.
-CheckpointFiles::Read load_checkpoint(const std::string& output_file,
-                                      const std::function<void(Scene&)>& change = {});
+/// before the choice. Throws what CheckpointFiles::latest() and choose_engine() throw.
+CheckpointFiles::Latest load_checkpoint(const std::string& output_file,
+                                        const std::function<void(Scene&)>& change = {});
 
 }  // namespace needlework::runs

@@ -108,7 +108,7 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
   open_output([&](const io::RunInfo& info) {
     // While the file is locked, and before it is changed.
     return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
-      checkpoints().require_unchanged(saved.origin);
+      CheckpointFiles::require_unchanged(saved.origin);
       if (scene_.output.checkpoint_every > 0) checkpoints().require_writable();
       // Whether it can be restored has to be known as well.
       RunDriver driver(simulation_, scene_, initial_, {}, true);
@@ -185,9 +185,7 @@ void PreparedRun::save_checkpoint(CheckpointFiles::Newest present) {
                       .drawn = drawn_,
                       .initial = initial_,
                       .simulation = simulation_.checkpoint(),
-                      .output = writer_->position(),
-                      .observation = {},
-                      .origin = {}};
+                      .output = writer_->position()};
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);
@@ -205,19 +203,12 @@ struct PreparedRun::Kept {
 // The last checkpoint in a file, or else the start; nothing if the start is not known any more.
 std::optional<RunCheckpoint> PreparedRun::before_failure() const {
   try {
-    return checkpoints().read().checkpoint;
+    return checkpoints().latest().checkpoint;
   } catch (const InputError&) {
   } catch (const IoError&) {
   }
   if (!drawn_ && scene_.initial.file.empty()) return std::nullopt;
-  return RunCheckpoint{.scene = {},
-                       .drawn = drawn_,
-                       .initial = initial_,
-                       .simulation = {},
-                       .output = {},
-                       .observation = {},
-                       .failure = {},
-                       .origin = {}};
+  return RunCheckpoint{.drawn = drawn_, .initial = initial_};
 }
 
 // Keeps a bundle that shows the same failure: it may begin earlier.

@@ -85,7 +85,7 @@ std::unique_ptr<PreparedRun> begin_or_continue(LoadedScene loaded, const std::st
   const CheckpointFiles checkpoints(loaded.scene.output.file);
   try {
     if (checkpoints.exist() && !is_missing(loaded.scene.output.file)) {
-      RunCheckpoint saved = checkpoints.read().checkpoint;
+      RunCheckpoint saved = checkpoints.latest().checkpoint;
       if (saved.scene.text == loaded.scene.text) {
         saved.scene.output.file = loaded.scene.output.file;
         saved.scene.engine = loaded.scene.engine;

@@ -18,8 +18,6 @@ using namespace needlework;
 
 namespace {
 
-constexpr std::size_t head_size = 24 + 16;  // mark, size, checksum; see src/runs/checkpoint.cpp
-
 struct Base {
   std::string output;   // file that the run has written, to be copied
   std::string content;  // of its checkpoint, behind the head
@@ -33,8 +31,10 @@ std::string bytes_of(const std::string& path) {
 
 Base base_of(const std::string& output) {
   const std::string bytes = bytes_of(output + ".checkpoint");
-  fuzz::require(bytes.size() > head_size);
-  return {output, bytes.substr(head_size), bytes.substr(0, 24)};
+  const std::size_t mark = bytes.find('\n') + 1;  // the first line; see src/runs/checkpoint.cpp
+  const std::size_t content = mark + 16;          // behind size and checksum
+  fuzz::require(bytes.size() > content);
+  return {output, bytes.substr(content), bytes.substr(0, mark)};
 }
 
 std::string run_plain() {

@@ -2,7 +2,6 @@
 
 import struct
 
-MARK = b"needlework checkpoint 3\n"
 TYPES = {"u8": "<B", "i8": "<b", "i16": "<h", "i32": "<i", "u32": "<I", "u64": "<Q", "i64": "<q",
          "f64": "<d"}
 
@@ -27,15 +26,22 @@ def checksum(data):
     return crc ^ 2**64 - 1
 
 
-def sealed(content):
+def mark_of(file):
+    """Its first line, which names the version of the program."""
+    mark = file[:file.index(b"\n") + 1]
+    assert mark.startswith(b"needlework checkpoint 3 of "), mark
+    return mark
+
+
+def sealed(mark, content):
     """A file of this content, with the right size and checksum."""
-    return MARK + struct.pack("<QQ", len(content), checksum(content)) + content
+    return mark + struct.pack("<QQ", len(content), checksum(content)) + content
 
 
 def content_of(file):
-    assert file.startswith(MARK)
-    size, crc = struct.unpack_from("<QQ", file, len(MARK))
-    content = file[len(MARK) + 16:]
+    begin = len(mark_of(file))
+    size, crc = struct.unpack_from("<QQ", file, begin)
+    content = file[begin + 16:]
     assert len(content) == size and checksum(content) == crc
     return content
 

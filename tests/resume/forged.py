@@ -19,7 +19,7 @@ import time
 from collections import Counter, defaultdict
 from pathlib import Path
 
-from checkpoint_file import TYPES, Fields, content_of, sealed
+from checkpoint_file import TYPES, Fields, content_of, mark_of, sealed
 from files import command
 
 SCENE = """
@@ -42,10 +42,11 @@ TEXTS = [b"", b"auto", b"all-pairs", b"x" * 100, b"\x1b[2J", b"\xff\xfe", b"/dev
 
 
 class Forger:
-    def __init__(self, content, seed):
-        self.content, self.draw = content, random.Random(seed)
+    def __init__(self, file, seed):
+        self.mark, self.content = mark_of(file), content_of(file)
+        self.draw = random.Random(seed)
         self.names = defaultdict(list)
-        for field in Fields(content).found:
+        for field in Fields(self.content).found:
             self.names[field[0]].append(field)
 
     def number(self, kind, old):
@@ -89,9 +90,9 @@ class Forger:
     def forge(self):
         """What was done, and the file."""
         if self.draw.random() < 0.1:
-            return "garbled", sealed(self.garbled(self.content))
+            return "garbled", sealed(self.mark, self.garbled(self.content))
         if self.draw.random() < 0.05:
-            return "all edges", sealed(self.with_other_edges(self.content))
+            return "all edges", sealed(self.mark, self.with_other_edges(self.content))
         content, done = self.content, []
         # From the end on, so that places stay.
         chosen = [self.draw.choice(self.names[self.draw.choice(sorted(self.names))])
@@ -100,7 +101,7 @@ class Forger:
         for field in sorted(chosen, key=begin, reverse=True):
             content = self.changed(content, field)
             done.append(field[0])
-        return ", ".join(done), sealed(content)
+        return ", ".join(done), sealed(self.mark, content)
 
 
 def run_limited(arguments):
@@ -138,8 +139,8 @@ def main():
         rows = file.read_bytes()
         good = checkpoint.read_bytes()
         (folder / "run.h5.checkpoint.old").unlink()
-        forger = Forger(content_of(good), seed)
-        assert sealed(forger.content) == good
+        forger = Forger(good, seed)
+        assert sealed(forger.mark, forger.content) == good
         for _ in range(count):
             what, forged = forger.forge()
             checkpoint.write_bytes(forged)

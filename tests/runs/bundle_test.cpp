@@ -61,7 +61,7 @@ TEST_F(Bundle, AnUnfinishedEventIsNotSaved) {
   const Course course = run.drive(monitor);
   EXPECT_GT(course.last.collisions, 0u);
   EXPECT_NE(run.why_not_saved(), "");
-  const RunCheckpoint saved = CheckpointFiles(scene.output.file).read().checkpoint;
+  const RunCheckpoint saved = CheckpointFiles(scene.output.file).latest().checkpoint;
   EXPECT_EQ(saved.output.samples, 1u) << "the checkpoint before the first collision";
   const Course again = PreparedRun(saved).drive(monitor);
   EXPECT_EQ(again.failure, course.failure);
@@ -85,7 +85,7 @@ TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
   EXPECT_TRUE(Replay(scene.output.file + ".failure", 0).drive(monitor).same);
   EXPECT_THROW(run.advance(scene.until, monitor), InvalidStateError) << "it cannot go on";
   run.close();
-  EXPECT_EQ(CheckpointFiles(scene.output.file).read().checkpoint.output.samples, 1u);
+  EXPECT_EQ(CheckpointFiles(scene.output.file).latest().checkpoint.output.samples, 1u);
 }
 
 // A defect outside the engine, which a replay does not meet.
@@ -121,7 +121,8 @@ TEST_F(Bundle, OfADefectInARunInPiecesIsNamedInTheError) {
   EXPECT_NE(run.why_not_saved(), "");
   run.close();
   const CheckpointFiles files(scene.output.file);
-  EXPECT_EQ(files.read().checkpoint.output.samples, 1u) << "the checkpoint before the first event";
+  EXPECT_EQ(files.latest().checkpoint.output.samples, 1u)
+      << "the checkpoint before the first event";
   EXPECT_EQ(Replay(files.bundle(), 0).failure()->collisions, 21u);
 }
 

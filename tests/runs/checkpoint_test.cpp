@@ -51,7 +51,7 @@ class CheckpointFile : public testing::Test {
  protected:
   std::string complaint() const {
     try {
-      files.read();
+      files.latest();
     } catch (const InputError& error) {
       return error.what();
     }
@@ -61,6 +61,7 @@ class CheckpointFile : public testing::Test {
     std::ifstream in(files.newest(), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
+  static std::string mark_of(const std::string& bytes) { return bytes.substr(0, bytes.find('\n')); }
   void put(const std::string& bytes) const {
     std::ofstream(files.newest(), std::ios::binary) << bytes;
   }
@@ -74,7 +75,7 @@ TEST_F(CheckpointFile, IsReadAsItWasWritten) {
   EXPECT_FALSE(files.exist());
   files.write(written);
   EXPECT_TRUE(files.exist());
-  const auto [read, warning] = files.read();
+  const auto [read, warning] = files.latest();
   EXPECT_EQ(warning, "");
   EXPECT_EQ(read.simulation.bytes, written.simulation.bytes);
   EXPECT_EQ(read.output, written.output);
@@ -108,16 +109,33 @@ TEST_F(CheckpointFile, IsReadAsItWasWritten) {
 TEST_F(CheckpointFile, BeforeTheNewestIsKeptAndUsedWhenThatIsDamaged) {
   files.write(sample(1));
   files.write(sample(2));
-  EXPECT_EQ(files.read().checkpoint.observation, sample(2).observation);
+  EXPECT_EQ(files.latest().checkpoint.observation, sample(2).observation);
   EXPECT_TRUE(fs::exists(files.older()));
+  const std::string whole = bytes();
   // The program was killed between the two renames.
   fs::rename(files.newest(), folder.path() / "aside");
-  EXPECT_EQ(files.read().checkpoint.observation, sample(1).observation);
-  put("needlework checkpoint 3\nnot this");
-  const auto [read, warning] = files.read();
+  EXPECT_EQ(files.latest().checkpoint.observation, sample(1).observation);
+  put(mark_of(whole) + "\nnot this");
+  const auto [read, warning] = files.latest();
   EXPECT_EQ(read.observation, sample(1).observation);
   EXPECT_EQ(warning,
             files.newest() + ": damaged: it is cut short; continuing from " + files.older());
+}
+
+TEST_F(CheckpointFile, BeforeTheNewestIsUsedWhenThatCannotBeRead) {
+  files.write(sample(1));
+  fs::rename(files.newest(), files.older());
+  fs::create_symlink(files.newest(), files.newest());
+  const auto [read, warning] = files.latest();
+  EXPECT_EQ(read.observation, sample(1).observation);
+  EXPECT_EQ(warning, files.newest() + ": cannot be read: Too many levels of symbolic links; " +
+                         "continuing from " + files.older());
+  // Neither of the two may be begun again: the newest may be whole.
+  std::ofstream(files.older()) << "damaged";
+  EXPECT_THROW(files.latest(), IoError);
+  fs::remove(files.older());
+  EXPECT_TRUE(files.exist());
+  EXPECT_THROW(files.latest(), IoError);
 }
 
 TEST_F(CheckpointFile, CutShortAtAnyByteIsDamaged) {
@@ -143,10 +161,14 @@ TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged) {
 }
 
 TEST_F(CheckpointFile, OfAnotherVersionIsNamed) {
-  put("needlework checkpoint 0\n" + std::string(100, 'x'));
-  EXPECT_EQ(complaint(), files.newest() +
-                             ": expected \"needlework checkpoint 3\": a run is continued by the "
-                             "version of the program that began it");
+  files.write(sample(1));
+  const std::string whole = bytes(), mark = mark_of(whole);
+  for (const std::string other : {"needlework checkpoint 0", "needlework checkpoint 3 of 0.0.1"}) {
+    put(other + whole.substr(mark.size()));
+    EXPECT_EQ(complaint(),
+              files.newest() + ": \"" + other + "\": expected \"" + mark +
+                  "\": a run is continued by the version of the program that began it");
+  }
 }
 
 TEST_F(CheckpointFile, IsAnOrdinaryFileThatExists) {
@@ -170,7 +192,7 @@ TEST_F(CheckpointFile, ThatCannotBeWrittenKeepsTheOneBefore) {
   // A folder in the place of the file that is written first.
   fs::create_directory(files.newest() + ".part");
   EXPECT_THROW(files.write(sample(2)), IoError);
-  EXPECT_EQ(files.read().checkpoint.observation, sample(1).observation);
+  EXPECT_EQ(files.latest().checkpoint.observation, sample(1).observation);
 }
 
 TEST_F(CheckpointFile, IsRemovedInAllGenerations) {

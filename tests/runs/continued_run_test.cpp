@@ -28,7 +28,7 @@ class ContinuedRun : public testing::Test {
   // The checkpoint of a run that has ended.
   RunCheckpoint ended() {
     PreparedRun(complete_scene(scene), true, "scene").drive(monitor);
-    return CheckpointFiles(scene.output.file).read().checkpoint;
+    return CheckpointFiles(scene.output.file).latest().checkpoint;
   }
   static std::string complaint_about(RunCheckpoint checkpoint) {
     try {
@@ -78,7 +78,7 @@ TEST_F(ContinuedRun, HasTwoCheckpointsAgainAfterOneWasDamaged) {
   ended();
   const CheckpointFiles files(scene.output.file);
   std::filesystem::resize_file(files.newest(), 1000);
-  auto [saved, warning] = files.read();
+  auto [saved, warning] = files.latest();
   EXPECT_NE(warning, "");
   const std::string start = saved.observation;
   PreparedRun run(std::move(saved));
@@ -86,14 +86,14 @@ TEST_F(ContinuedRun, HasTwoCheckpointsAgainAfterOneWasDamaged) {
   EXPECT_EQ(CheckpointFiles::read(files.newest()).observation, start);
   run.drive(monitor);
   EXPECT_EQ(CheckpointFiles::read(files.older()).observation, start);
-  EXPECT_EQ(files.read().warning, "");
+  EXPECT_EQ(files.latest().warning, "");
 }
 
 TEST_F(ContinuedRun, IsNotContinuedTwiceAfterACheckpointWasDamaged) {
   ended();
   const CheckpointFiles files(scene.output.file);
   std::filesystem::resize_file(files.newest(), 1000);
-  RunCheckpoint first = files.read().checkpoint, second = first;
+  RunCheckpoint first = files.latest().checkpoint, second = first;
   PreparedRun(std::move(first)).drive(monitor);
   EXPECT_THROW(PreparedRun(std::move(second)), IoError);
 }

@@ -120,7 +120,7 @@ TEST(PreparedRun, IsNotContinuedFromACheckpointThatIsNoLongerTheNewest) {
   const std::string file = folder.path() / "run.h5";
   Silent monitor;
   PreparedRun(complete_scene(cooling_scene(file)), false, "scene").drive(monitor);
-  RunCheckpoint first = CheckpointFiles(file).read().checkpoint, second = first;
+  RunCheckpoint first = CheckpointFiles(file).latest().checkpoint, second = first;
   {
     PreparedRun run(std::move(first));
     run.advance(from_now({.collisions = 100}, run.simulation()), monitor);
