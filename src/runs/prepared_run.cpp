@@ -115,7 +115,8 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
       restore(saved, driver);
     });
   });
-  driver_.emplace(simulation_, scene_, initial_, output(), true);
+  // A run that is saved again keeps its course for the one who continues it next.
+  driver_.emplace(simulation_, scene_, initial_, output(), writer_.has_value());
   restore(saved, *driver_);
   // The only whole one is kept until there is another.
   if (saved.origin.instead_of_newest) save_checkpoint(CheckpointFiles::Newest::is_replaced);

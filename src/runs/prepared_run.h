@@ -40,8 +40,8 @@ class PreparedRun {
   /// For advance(): takes samples for the output file only.
   PreparedRun(LoadedScene loaded, bool force);
   /// Continues a run, with the output file that its scene names, or without output if it names
-  /// none. Throws InputError if the file is not that of the run, and IoError if it cannot be
-  /// written.
+  /// none; then its Course has no samples and no rate. Throws InputError if the file is not that of
+  /// the run, and IoError if it cannot be written.
   explicit PreparedRun(RunCheckpoint saved, Saves saves = Saves::start_and_end);
   PreparedRun(const PreparedRun&) = delete;
   PreparedRun& operator=(const PreparedRun&) = delete;

@@ -124,6 +124,10 @@ void RunDriver::transfer(Archive& archive) {
     if (has_rate) rate_.emplace(simulation_.mean_free_time());
   }
   if (rate_) rate_->transfer(archive);
+  if (archive.reads() && !keeps_course_) {
+    rate_.reset();
+    course_.samples.clear();
+  }
   if (archive.reads() && begun_) listen_to_collisions();
 }
 
