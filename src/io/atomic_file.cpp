@@ -104,4 +104,12 @@ std::string absolute_name(const std::string& name) {
   return error ? name : absolute.string();
 }
 
+std::string name_from_here(const std::string& absolute) {
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::current_path(error);
+  if (error) return absolute;
+  const std::filesystem::path name = std::filesystem::path(absolute).lexically_relative(here);
+  return name.empty() || *name.begin() == ".." ? absolute : name.string();
+}
+
 }  // namespace needlework::io

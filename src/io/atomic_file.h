@@ -41,4 +41,8 @@ void sync_name(const std::string& path);
 /// one.
 std::string absolute_name(const std::string& name);
 
+/// The shortest name of the same file for a message: relative if it is below the folder in which
+/// the process is now.
+std::string name_from_here(const std::string& absolute);
+
 }  // namespace needlework::io

@@ -230,7 +230,6 @@ void PreparedRun::write_bundle(const RunFailure& failure) {
 PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                                             const InvalidStateError::Needles& needles) {
   if (!writer_) return {message, needles, {}};
-  const std::string bundle = CheckpointFiles(scene_.output.file).bundle();
   try {
     write_bundle({.message = message,
                   .needles = needles,
@@ -238,7 +237,7 @@ PreparedRun::Kept PreparedRun::keep_failure(const std::string& message,
                   .collisions = simulation_.collisions(),
                   .trajectory_hash = simulation_.trajectory_hash(),
                   .version = NEEDLEWORK_VERSION});
-    return {message, needles, bundle};
+    return {message, needles, io::name_from_here(checkpoints().bundle())};
   } catch (const std::exception& error) {
     return {
         fmt::format("{}; no bundle for needlework replay: {}", message, error.what()), needles, {}};

@@ -1,6 +1,7 @@
 // Runs that fail in the middle of an event: what is left can be continued and replayed.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
@@ -124,6 +125,22 @@ TEST_F(Bundle, OfADefectInARunInPiecesIsNamedInTheError) {
   EXPECT_EQ(files.latest().checkpoint.output.samples, 1u)
       << "the checkpoint before the first event";
   EXPECT_EQ(Replay(files.bundle(), 0).failure()->collisions, 21u);
+}
+
+TEST_F(Bundle, IsNamedFromTheFolderOfTheProcess) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const auto bundle_after_moving_to = [&](const std::filesystem::path& end) {
+    std::filesystem::current_path(folder.path());
+    scene.output.file = "run.h5";
+    PreparedRun run(far_away(), true, "scene");
+    std::filesystem::current_path(end);
+    return run.drive(monitor).bundle;
+  };
+  const std::string here = bundle_after_moving_to(folder.path());
+  const std::string elsewhere = bundle_after_moving_to(before);
+  std::filesystem::current_path(before);
+  EXPECT_EQ(here, "run.h5.failure");
+  EXPECT_EQ(elsewhere, folder.path() / "run.h5.failure");
 }
 
 TEST_F(Bundle, IsNotReplacedByAnErrorOfTheCaller) {
