@@ -89,8 +89,7 @@ kernels::Contact search(const kernels::Pair& pair, double horizon,
     const auto contact =
         kernels::first_contact(pair, begin, std::min(last, end), counters, accuracy);
     if (!counters.is_spent() && (contact.found || end >= last)) return contact;
-    const double work = (end - near.enter) * scale.per_time +
-                        static_cast<double>(counters.work());
+    const double work = (end - near.enter) * scale.per_time + static_cast<double>(counters.work());
     if (work > most_work || counters.is_spent()) {
       throw InputError(fmt::format(
           "no contact by time {:g}, after {} steps of the search and {:.3g} radians that the "
