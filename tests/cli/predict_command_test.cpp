@@ -133,8 +133,9 @@ TEST_F(PredictCommand, GivesUpPairsThatTurnNearEachOtherForEver) {
 TEST_F(PredictCommand, GivesUpAPairThatItCannotDecide) {
   for (const std::string accuracy : {"standard", "rigorous"}) {
     write("pairs.csv", "1,,1e300,0,0,0,1,0,0,1,0,0,0,1e300,0,0,0.1,0,0,1,0,-1,0,0,0,0,1,0\n");
-    const Outcome outcome = shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM
-                                  "' predict pairs.csv --accuracy " + accuracy + "; }");
+    const Outcome outcome =
+        shell("{ ulimit -t 20; exec '" NEEDLEWORK_PROGRAM "' predict pairs.csv --accuracy " +
+              accuracy + "; }");
     EXPECT_EQ(outcome.exit_code, 3) << accuracy << ": " << outcome.err;
     EXPECT_TRUE(outcome.complains("pairs.csv: line 1: no contact by time 0, after "));
   }
