@@ -40,7 +40,7 @@ void check_image(const Shift& image, Id id) {
   }
 }
 
-// Exact sums over all needles of terms(record), an array of numbers.
+// Exact sums over all needles of terms(record), an array of numbers; infinite where a term is.
 template <class Terms>
 auto sums_of(const Gas& gas, Terms&& terms) {
   decltype(terms(gas.records[0])) largest{}, out;
@@ -53,9 +53,13 @@ auto sums_of(const Gas& gas, Terms&& terms) {
   std::vector<ExactSum> sums(largest.begin(), largest.end());
   for (const Record& record : gas.records) {
     const auto term = terms(record);
-    for (std::size_t n = 0; n < term.size(); ++n) sums[n].add(term[n]);
+    for (std::size_t n = 0; n < term.size(); ++n) {
+      if (std::isfinite(largest[n])) sums[n].add(term[n]);
+    }
   }
-  for (std::size_t n = 0; n < out.size(); ++n) out[n] = sums[n].value();
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n] = std::isfinite(largest[n]) ? sums[n].value() : largest[n];
+  }
   return out;
 }
 
