@@ -3,14 +3,17 @@
 #   tests/fuzz/run.sh SECONDS [TARGET...]      all targets by default: the folders of tests/fuzz/corpus
 # What ends a target is written to build/fuzz/found/TARGET-KIND-HASH, and build/fuzz/fuzz_TARGET FILE
 # shows it again. Exit code 1 if anything is found. New inputs are kept in build/fuzz/inputs/TARGET.
+# A clean build tries the same inputs each time, so that what ends a target comes from a change; another
+# seed, NEEDLEWORK_FUZZ_SEED, tries others.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 source cmake/setup.sh
 build=$PWD/build/fuzz  # absolute: targets may change the folder
 
 run_target() { # SECONDS TARGET
-  local options=(-max_total_time="$1" -timeout=20 -rss_limit_mb=2048 -verbosity=0
-    -artifact_prefix="$build/found/$2-") dictionary=$PWD/tests/fuzz/$2.dict log=$build/found/$2.log
+  local options=(-max_total_time="$1" -seed="${NEEDLEWORK_FUZZ_SEED:-1}" -timeout=20
+    -rss_limit_mb=2048 -verbosity=0 -artifact_prefix="$build/found/$2-")
+  local dictionary=$PWD/tests/fuzz/$2.dict log=$build/found/$2.log
   [[ -e $dictionary ]] && options+=(-dict="$dictionary")
   mkdir -p "$build/inputs/$2"
   if "$build/fuzz_$2" "${options[@]}" -print_final_stats=1 "$build/inputs/$2" "$PWD/tests/fuzz/corpus/$2" >"$log" 2>&1; then

@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 
 #include "src/serve/server.h"
+#include "src/serve/shallow_json.h"
 #include "tests/fuzz/target.h"
 
 using namespace needlework;
@@ -28,6 +30,18 @@ bool is_tame(const Json& value) {
   return std::all_of(value.begin(), value.end(), is_tame);
 }
 
+// The same for a line. One that cannot be read, or is too deep, is the server's to refuse.
+bool is_tame_line(const std::string& line) {
+  if (line.size() > 3000) return false;
+  try {
+    return is_tame(serve::parse_shallow<Json>(line));
+  } catch (const std::runtime_error&) {
+    return true;
+  } catch (const Json::exception&) {
+    return true;
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -37,8 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string requests;
   std::size_t lines = 0;
   for (std::string line; std::getline(given, line) && lines < 20;) {
-    const Json json = Json::parse(line, nullptr, false);
-    if (line.size() > 3000 || (!json.is_discarded() && !is_tame(json))) continue;
+    if (!is_tame_line(line)) continue;
     requests += line + "\n";
     ++lines;
   }
