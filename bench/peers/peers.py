@@ -35,10 +35,6 @@ SCENES = {name + suffix: (*versus.SCENES[name], epsilon)  # needles, box, collis
 TOLERANCE = 0.05  # of rates: several times their scatter in these scenes
 
 
-class Failure(Exception):
-    pass
-
-
 @dataclass
 class Run:
     """What a run took, as a whole process, and what it did."""
@@ -79,10 +75,9 @@ def execute(command, folder):
     child.returncode = os.waitstatus_to_exitcode(status)
     printed, errors = ((folder / name).read_text(errors="replace") for name in ("stdout", "stderr"))
     if child.returncode != 0:
-        lines = (printed + "\n" + errors).split("\n")
-        last = "\n".join([line for line in lines if line.strip()][-5:])
-        raise Failure(f"{' '.join(map(str, command))}: exit code {child.returncode}; its last "
-                      f"lines are\n{last}")
+        lines = [line for line in (printed + "\n" + errors).split("\n") if line.strip()]
+        raise ValueError(f"{' '.join(map(str, command))}: exit code {child.returncode}; its last "
+                         "lines are\n" + "\n".join(lines[-5:]))
     return usage.ru_utime + usage.ru_stime, wall_s, printed
 
 
@@ -119,7 +114,7 @@ def run_dynamo(dynarun, events, needles, counts=False):
     data = (needles.folder / "data.xml").read_text()
     found = re.search(r'<Duration\b[^>]* TwoParticleEvents="(\d+)"[^>]* Time="([^"]+)"', data)
     if not found:
-        raise Failure(f"{dynarun}: expected TwoParticleEvents and Time in <Duration> of its output")
+        raise ValueError(f"{dynarun}: expected TwoParticleEvents and Time in its <Duration>")
     collisions, end = int(found[1]), float(found[2])
     return Run(cpu_s, wall_s, collisions, 2 * collisions / (needles.count * end))
 
@@ -171,8 +166,8 @@ def run_edmd(md, needles):
     cpu_s, wall_s, printed = execute([md], needles.folder)
     found = re.findall(r"Simtime: ([\d.]+), Collisions: (\d+)", printed)
     if "fcc crystal" in printed or len(found) < 3:
-        raise Failure(f"{md}: expected a build that reads init.sph (initialconfig = 0) and prints "
-                      "time and collisions at least three times (writeinterval below maxtime / 2)")
+        raise ValueError(f"{md}: expected a build that reads init.sph (initialconfig = 0) and "
+                         "prints time and collisions three times or more (writeinterval)")
     times, collisions = [float(t) for t, _ in found], [int(n) for _, n in found]
     half = len(found) // 2
     rate = 2 * (collisions[-1] - collisions[half]) / (needles.count * (times[-1] - times[half]))
@@ -203,37 +198,32 @@ def with_interval(values):
     return f"{measured.number(statistics.median(values))} ({low}–{high})"
 
 
-def rows_of(scene, sides):
-    ratios = ["1", with_interval(measured.quotients(sides[1].cpu, sides[0].cpu))]
-    return [[scene, side.engine, side.version, side.last.collisions, measured.number(side.last.rate),
-             with_interval(side.cpu), with_interval(side.wall), ratio]
-            for side, ratio in zip(sides, ratios)]
-
-
 def report(compared, about, repetitions):
     """The table, and whether the rates agree in all scenes."""
-    parts = [
-        "# Beside other engines",
-        "Made by `bench/peers/peers.py`, which is described in `bench/peers/README.md`. Figures are "
-        f"medians of {repetitions} interleaved repetitions, with an interval that holds the true "
-        "median in 95 of 100 cases or more; rates are collisions of a particle in a unit of time. "
-        f"Needlework {about['version']}, commit {about['commit']}, {about['compiler']}, "
-        f"{about['flags']}; {about['machine']}, {about['cores']} cores, each engine on one thread; "
-        f"{time.strftime('%Y-%m-%d', time.gmtime())}.",
-        measured.table(["scene", "engine", "version", "collisions", "rate", "CPU us per collision",
-                        "wall us per collision", "CPU theirs / ours"],
-                       [row for scene, sides in compared for row in rows_of(scene, sides)]).rstrip()]
-    if any("spheres" in sides[1].engine for _, sides in compared):
-        parts.append("Spheres are another problem, simpler than needles: the time of a collision "
-                     "stands beside that of needles at the same number and rate.")
-    agree = True
+    rows, notes = [], []
     for scene, (ours, theirs) in compared:
+        ratio = with_interval(measured.quotients(theirs.cpu, ours.cpu))
+        rows += [[scene, side.engine, side.version, side.last.collisions,
+                  measured.number(side.last.rate), with_interval(side.cpu),
+                  with_interval(side.wall), "1" if side is ours else ratio]
+                 for side in (ours, theirs)]
         difference = theirs.last.rate / ours.last.rate - 1
         if not abs(difference) <= TOLERANCE:
-            agree = False
-            parts.append(f"**{scene}, {theirs.engine}: its rate differs from ours by "
-                         f"{100 * difference:+.1f} %, more than {100 * TOLERANCE:.0f} %. The two did "
-                         "not do the same, and their times cannot be compared.**")
+            notes.append(f"**{scene}, {theirs.engine}: its rate differs from ours by "
+                         f"{100 * difference:+.1f} %, more than {100 * TOLERANCE:.0f} %. The two "
+                         "did not do the same, and their times cannot be compared.**")
+    agree = not notes
+    if any("spheres" in row[1] for row in rows):
+        notes.append("Spheres are another problem, simpler than needles: the time of a collision "
+                     "stands beside that of needles at the same number and rate.")
+    origin = (f"`bench/peers/peers.py`: medians of {repetitions} interleaved repetitions, with an "
+              "interval that holds the true median in 95 of 100 cases or more. Rates are "
+              f"collisions of a particle in a unit of time. Needlework at commit {about['commit']}, "
+              f"{about['compiler']}, {about['flags']}; {about['machine']}, {about['cores']} cores, "
+              f"each engine on one thread; {time.strftime('%Y-%m-%d', time.gmtime())}.")
+    header = ["scene", "engine", "version", "collisions", "rate", "CPU us per collision",
+              "wall us per collision", "CPU theirs / ours"]
+    parts = ["# Beside other engines", origin, measured.table(header, rows).rstrip(), *notes]
     return "\n\n".join(parts) + "\n", agree
 
 
@@ -304,7 +294,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except KeyboardInterrupt:
-        sys.exit("peers.py: stopped")
-    except (Failure, OSError, ValueError, subprocess.CalledProcessError) as error:
+    except (OSError, ValueError, subprocess.CalledProcessError) as error:
         sys.exit(f"peers.py: {error}")
