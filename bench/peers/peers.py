@@ -218,9 +218,9 @@ def report(compared, about, repetitions):
                      "stands beside that of needles at the same number and rate.")
     origin = (f"`bench/peers/peers.py`: medians of {repetitions} interleaved repetitions, with an "
               "interval that holds the true median in 95 of 100 cases or more. Rates are "
-              f"collisions of a particle in a unit of time. Needlework at commit {about['commit']}, "
-              f"{about['compiler']}, {about['flags']}; {about['machine']}, {about['cores']} cores, "
-              f"each engine on one thread; {time.strftime('%Y-%m-%d', time.gmtime())}.")
+              "collisions of a particle in a unit of time. Needlework at commit "
+              f"{about['commit']}, {about['compiler']}, {about['flags']}; {about['machine']}, "
+              f"{about['cores']} cores, each engine on one thread; {time.strftime('%Y-%m-%d', time.gmtime())}.")
     header = ["scene", "engine", "version", "collisions", "rate", "CPU us per collision",
               "wall us per collision", "CPU theirs / ours"]
     parts = ["# Beside other engines", origin, measured.table(header, rows).rstrip(), *notes]

@@ -94,6 +94,8 @@ class Peers(unittest.TestCase):
 
         calls = self.log.read_text().splitlines()
         self.assertTrue(all("--threads 1" in call for call in calls if call.startswith("ours run")))
+        for epsilon in ("1.0", "0.98"):
+            self.assertEqual(sum(f"collisions.epsilon={epsilon} " in call for call in calls), 14)
         begin = next(i for i, call in enumerate(calls) if call.startswith("dynarun")) + 1
         self.assertNotIn("-E", calls[begin - 1])
         names = {"ours": ["ours run", "ours run least"], "theirs": ["dynarun 2000", "dynarun 1"]}
