@@ -220,7 +220,8 @@ def report(compared, about, repetitions):
               "interval that holds the true median in 95 of 100 cases or more. Rates are "
               "collisions of a particle in a unit of time. Needlework at commit "
               f"{about['commit']}, {about['compiler']}, {about['flags']}; {about['machine']}, "
-              f"{about['cores']} cores, each engine on one thread; {time.strftime('%Y-%m-%d', time.gmtime())}.")
+              f"{about['cores']} cores, each engine on one thread; "
+              f"{time.strftime('%Y-%m-%d', time.gmtime())}.")
     header = ["scene", "engine", "version", "collisions", "rate", "CPU us per collision",
               "wall us per collision", "CPU theirs / ours"]
     parts = ["# Beside other engines", origin, measured.table(header, rows).rstrip(), *notes]
