@@ -16,6 +16,7 @@
 #include "src/physics/mean_free_time.h"
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
+#include "src/scene/box_edges.h"
 #include "src/trajectory/exact_sum.h"
 
 namespace needlework {
@@ -100,9 +101,10 @@ Gas make_gas(const Scene& scene, const State& initial) {
   if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
   for (const double edge : initial.box) {
-    const double least = 2.01 * species_of(scene).length;
-    if (!(edge >= least) || !std::isfinite(edge)) {
-      throw InputError(fmt::format("state: box edge {}: expected at least {:.10g}", edge, least));
+    const double least = least_edge(species_of(scene).length);
+    if (!(edge >= least && edge <= largest_edge)) {
+      throw InputError(fmt::format("state: box edge {}: expected from {:.10g} to {:.10g}", edge,
+                                   least, largest_edge));
     }
   }
   Gas gas;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/scene/box_edges.h"
 #include "src/scene/document.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
@@ -135,10 +136,9 @@ void require_what_is_needed(const Scene& scene, const Document& document,
                            "wall_s");
 }
 
-// Only in boxes of at least twice the needle length is the nearest image the one in contact.
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
   const double length = scene.species.empty() ? 1 : scene.species.front().length;
-  const double least = 2.01 * length;
+  const double least = least_edge(length);
   const auto& edges = scene.needles.box;
   if (std::all_of(edges.begin(), edges.end(), [&](double edge) { return edge >= least; })) return;
   throw document.error(

@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/scene/box_edges.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/schema.h"
 
@@ -75,7 +76,7 @@ void require_agreement(const Scene& scene) {
   if (species.count != scene.needles.count || species.k != scene.needles.k) {
     refuse("species", "the count and k of [needles]");
   }
-  const double least = 2.01 * species.length;
+  const double least = least_edge(species.length);
   if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; })) {
     refuse("needles.box", "edges of at least 2.01 needle lengths");
   }

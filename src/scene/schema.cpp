@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/scene/box_edges.h"
 #include "src/scene/observable_names.h"
 #include "src/scene/printable.h"
 #include "src/scene/suggest.h"
@@ -24,10 +25,9 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double smallest_positive = std::numeric_limits<double>::denorm_min();
 
+constexpr double shortest_edge = least_edge(1e-6);  // of the shortest needles; see require_room()
 // Limits beyond which squares and products of physical quantities would exceed the range of a
-// double, or positions could not resolve a needle.
-constexpr double largest_edge = 1e9;
-constexpr double least_edge = 2.01e-6;  // of the shortest needles; see require_room()
+// double.
 constexpr double least_temperature = 1e-200;
 constexpr double largest_temperature = 1e200;
 constexpr double most_per_decade = 1e6;
@@ -79,7 +79,7 @@ std::optional<std::string> one_of(const Value& value,
 }
 
 std::optional<double> box_edge(const Value& value) {
-  return number(value, least_edge, largest_edge);
+  return number(value, shortest_edge, largest_edge);
 }
 
 std::optional<std::array<double, 3>> box(const Value& value) {

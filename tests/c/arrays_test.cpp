@@ -175,6 +175,8 @@ TEST_F(CArraysRefused, ForABoxThatIsMissingWrongOrNoNumber) {
   expect_refused(rule, arrays_.initial(1), NEEDLEWORK_INPUT, "box edge 1");
   expect_refused(rule, arrays_.initial(-5), NEEDLEWORK_INPUT, "box edge -5");
   expect_refused(rule, arrays_.initial(nan_), NEEDLEWORK_INPUT, "box edge nan");
+  expect_refused(rule, arrays_.initial(1.1e9), NEEDLEWORK_INPUT,
+                 "box edge 1100000000: expected from 2.01 to 1000000000");
   expect_refused(rule, arrays_.initial(std::numeric_limits<double>::infinity()), NEEDLEWORK_INPUT,
                  "box edge inf");
   expect_refused("needles.box = 6\n" + rule, arrays_.initial(5), NEEDLEWORK_INPUT, "needles.box");
