@@ -17,12 +17,14 @@ namespace needlework {
 /// One needle of a processed event: its position at the event, and its speed before.
 struct Done {
   TimeKey key;
-  Vec3d r;       ///< not wrapped into the box [L]
-  double speed;  ///< [L/time]
-  bool has_partner;
-  Id lower_id, higher_id;  ///< of the event's two needles
+  Vec3d r;                 ///< not wrapped into the box [L]
+  double speed;            ///< [L/time]
+  Id lower_id, higher_id;  ///< of the event's two needles, or twice that of one alone
   Time time;               ///< the exact time, of which the key has 53 bits
+
+  bool has_partner() const { return lower_id != higher_id; }
 };
+static_assert(sizeof(Done) == 64);
 
 /// The processed events, grouped by the cell in which they took place. Several threads may use it
 /// at once, as long as none adds to cells that another reads or adds to.
@@ -30,22 +32,26 @@ class DoneLog {
  public:
   /// `longest`: length of the longest needles. [L]
   DoneLog(const CellGrid& grid, const std::array<double, 3>& box, double longest = 1)
-      : grid_(grid), box_(box), longest_(longest), done_(grid.size()), latest_(grid.size()) {}
+      : grid_(grid), box_(box), longest_(longest), cells_(grid.size()) {}
 
   void clear() {
-    std::fill(latest_.begin(), latest_.end(), TimeKey{0});
-    for (std::vector<Done>& events : done_) events.clear();
+    for (Cell& cell : cells_) cell.clear();
   }
   /// Prefetches the memory that add() will access.
-  void prefetch(const Vec3d& r) const {
-    const std::size_t cell = grid_.index_of(grid_.cell_of(r));
-    needlework::prefetch(&done_[cell]);
-    needlework::prefetch(&latest_[cell]);
+  void prefetch(const Vec3d& r) const { needlework::prefetch(&cells_[cell_of(r)]); }
+  /// No event before `hindmost` is expected any more, so that earlier entries can be forgotten. If
+  /// one comes nevertheless, all needles of forgotten entries may have been met.
+  void add(const Done& done, TimeKey hindmost) {
+    Cell& cell = cells_[cell_of(done.r)];
+    if (cell.events.size() == cell.events.capacity()) cell.forget_before(hindmost);
+    cell.events.push_back(done);
+    cell.latest = std::max(cell.latest, done.key);
   }
-  void add(const Done& done) {
-    const std::size_t cell = grid_.index_of(grid_.cell_of(done.r));
-    done_[cell].push_back(done);
-    latest_[cell] = std::max(latest_[cell], done.key);
+
+  std::size_t entries() const {
+    std::size_t out = 0;
+    for (const Cell& cell : cells_) out += cell.events.size();
+    return out;
   }
 
   /// Distance [L] beyond which two needles cannot have met between `from` and `until`. The
@@ -62,9 +68,11 @@ class DoneLog {
   /// event has already been processed, before that later event. Looks no farther than `farthest`
   /// along each axis.
   bool may_have_met(const Done& mine, double speed, double farthest) const {
-    return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t cell) {
-      if (latest_[cell] < mine.key) return false;
-      return std::any_of(done_[cell].begin(), done_[cell].end(), [&](const Done& other) {
+    return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t index) {
+      const Cell& cell = cells_[index];
+      if (cell.latest < mine.key) return false;
+      if (mine.key <= cell.forgotten) return true;
+      return std::any_of(cell.events.begin(), cell.events.end(), [&](const Done& other) {
         return comes_after(other, mine) &&
                are_nearer(other.r, mine.r,
                           reach(mine.key, other.key, speed + other.speed, longest_));
@@ -73,11 +81,32 @@ class DoneLog {
   }
 
  private:
+  struct Cell {
+    std::vector<Done> events;
+    TimeKey latest = 0;     ///< of all events of the phase
+    TimeKey forgotten = 0;  ///< latest of those that are no longer among them
+
+    void clear() {
+      events.clear();
+      latest = forgotten = 0;
+    }
+    void forget_before(TimeKey hindmost) {
+      std::erase_if(events, [&](const Done& done) {
+        if (done.key >= hindmost) return false;
+        forgotten = std::max(forgotten, done.key);
+        return true;
+      });
+    }
+  };
+
+  std::size_t cell_of(const Vec3d& r) const { return grid_.index_of(grid_.cell_of(r)); }
   static bool comes_after(const Done& a, const Done& b) {
     if (a.time != b.time) return a.time > b.time;
     // The order of two searches at the same time does not matter.
-    return (a.has_partner || b.has_partner) && std::tie(a.has_partner, a.lower_id, a.higher_id) >
-                                                   std::tie(b.has_partner, b.lower_id, b.higher_id);
+    const auto order = [](const Done& done) {
+      return std::tuple(done.has_partner(), done.lower_id, done.higher_id);
+    };
+    return (a.has_partner() || b.has_partner()) && order(a) > order(b);
   }
   bool are_nearer(const Vec3d& a, const Vec3d& b, double distance) const {
     double squares = 0;
@@ -92,8 +121,7 @@ class DoneLog {
   CellGrid grid_;
   std::array<double, 3> box_;
   double longest_;
-  std::vector<std::vector<Done>> done_;  ///< by cell
-  std::vector<TimeKey> latest_;          ///< latest key in each cell
+  std::vector<Cell> cells_;
 };
 
 }  // namespace needlework

@@ -51,21 +51,27 @@ class Fronts {
     return in_order;
   }
 
-  /// Whether another thread is so far behind an event that in the time between them needles could
-  /// come together from farther apart than `sight`, where the check does not look. Counts with
-  /// twice the way that they can fly, because threads go on meanwhile. Never true for the thread
-  /// that is farthest behind.
-  bool is_too_far_ahead(TimeKey key) const {
+  /// The earliest event that another thread has still to process.
+  TimeKey next_of_others(std::size_t thread) const {
     look_away();
-    TimeKey hindmost = key;
+    TimeKey out = ~TimeKey{0};
+    for (std::size_t t = 0; t < fronts_.size(); ++t) {
+      if (t != thread) out = std::min(out, fronts_[t].next.load(std::memory_order_relaxed));
+    }
+    return out;
+  }
+  /// Whether the earliest event that is still to be processed is so far behind another one that in
+  /// the time between them needles could come together from farther apart than `sight`, where the
+  /// check does not look. Counts with twice the way that they can fly, because threads go on
+  /// meanwhile.
+  bool is_too_far_ahead(TimeKey key, TimeKey hindmost) const {
+    if (hindmost >= key) return false;
     double fastest = expected_;
     for (const Front& front : fronts_) {
-      hindmost = std::min(hindmost, front.next.load(std::memory_order_relaxed));
       fastest = std::max(fastest, front.fastest.load(std::memory_order_relaxed));
     }
     constexpr double room = 2;
-    return hindmost < key &&
-           is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest, longest_));
+    return is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest, longest_));
   }
 
   /// Take a needle that has an event at `key` and flies with `speed` afterwards, and all later

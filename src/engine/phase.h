@@ -53,7 +53,12 @@ struct Phase {
   CellCounts apart;             ///< events farther apart never access the same data
   std::vector<CellCounts> places;   ///< cell of each block
   std::vector<std::uint8_t> inner;  ///< for each block: no other thread accesses data near it
-  std::vector<std::uint8_t> ours;   ///< for each block: all blocks within reach are in its zone
+  /// For each block: the blocks of other zones within reach, in rows from `first` to `end` - 1.
+  struct Row {
+    Block first, end;
+  };
+  std::vector<Row> foreign;
+  std::vector<std::uint32_t> foreign_from;  ///< where the rows of a block begin in `foreign`
   Claims claims;
   DoneLog done;
   Fronts fronts;
@@ -111,7 +116,20 @@ void Phase<S>::divide() {
   const std::vector<std::uint32_t> zone = divide_box(cells, run.gas.box, weight, threads);
   calendar.divide(zone, threads);
   inner = inner_cells(cells, zone, apart);
-  ours = inner_cells(cells, zone, reach.reach());
+  const std::vector<std::uint8_t> ours = inner_cells(cells, zone, reach.reach());
+  foreign.clear();
+  foreign_from = {0};
+  for (Block b = 0; b < calendar.blocks(); ++b) {
+    if (!ours[b]) {
+      reach.any_row(places[b], [&](Block first, Block end) {
+        // Zones are boxes, so that two cells suffice.
+        const bool own = zone[first] == zone[b] && zone[end - 1] == zone[b];
+        if (!own) foreign.push_back({first, end});
+        return false;
+      });
+    }
+    foreign_from.push_back(static_cast<std::uint32_t>(foreign.size()));
+  }
 }
 
 template <Search S>

@@ -96,6 +96,8 @@ class alignas(128) ZoneThread {
   EventProcessor<S, M> processor_;
   UndoLog undo_;
   std::vector<Held> held_;
+  TimeKey next_of_others_ = 0;  ///< earliest event of other zones, as last seen
+  TimeKey hindmost_ = 0;        ///< earliest event of all zones, as last seen
   std::vector<Collision> reports_;
 };
 
@@ -138,7 +140,9 @@ void ZoneThread<S, M>::work(TimeKey end) {
     phase_.fronts.publish_next(zone_, front);
     // Held events may be waiting for an earlier one that has appeared since.
     const bool may_start = held_.size() < most_held || key == front;
-    if (key < end && may_start && !phase_.fronts.is_too_far_ahead(key)) {
+    next_of_others_ = phase_.fronts.next_of_others(zone_);
+    hindmost_ = std::min(front, next_of_others_);
+    if (key < end && may_start && !phase_.fronts.is_too_far_ahead(key, hindmost_)) {
       const Outcome outcome = attempt(phase_.calendar.winner(zone_), key);
       if (outcome == Outcome::done) go_on();
       if (outcome == Outcome::again) wait();
@@ -159,6 +163,7 @@ void ZoneThread<S, M>::work(TimeKey end) {
 template <Search S, Model M>
 auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   const bool alone = phase_.inner[block] && held_.empty();
+  processor_.prefetch(phase_.calendar.likely_next_in(zone_));
   const auto give_up = [&](Block for_block) {
     phase_.claims.drop(zone_);
     return for_block == nobody ? Outcome::again : hold(block, key, for_block);
@@ -178,7 +183,6 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     }
   }
   const Event event = phase_.calendar.top_of(block);
-  processor_.prefetch(phase_.calendar.likely_next_in(zone_));
   if (event.has_partner()) {
     phase_.calendar.prefetch_place(event.partner);
     processor_.prefetch(event.partner);
@@ -227,7 +231,7 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   const auto record = [&](Needle i, const Done& taken) {
     const double speed = speed_of(phase_.run.gas.records[i]);
     if (may_have_met(taken, speed, in_order, alone)) phase_.amiss = true;
-    phase_.done.add(taken);
+    phase_.done.add(taken, hindmost_);
   };
   record(event.owner, owner);
   if (changes_partner) record(event.partner, partner);
@@ -304,20 +308,23 @@ auto ZoneThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) co
     }
   }
   Block found = nobody;
-  if (phase_.ours[centre] && phase_.calendar.zone_of(centre) == zone_) return found;
-  phase_.reach.any_row(phase_.places[centre], [&](Block first, Block last) {
-    // Zones are boxes, so that two cells suffice.
-    if (phase_.calendar.zone_of(first) == zone_ && phase_.calendar.zone_of(last - 1) == zone_) {
-      return false;
-    }
-    for (Block b = first; b < last; ++b) {
+  if (key < next_of_others_) return found;
+  const auto has_earlier = [&](Block first, Block end) {
+    for (Block b = first; b < end; ++b) {
       const TimeKey published = phase_.calendar.published_key(b);
       if (published > key || (published == key && b >= block)) continue;
       found = b;
       return true;
     }
     return false;
-  });
+  };
+  if (phase_.calendar.zone_of(centre) != zone_) {
+    phase_.reach.any_row(phase_.places[centre], has_earlier);
+    return found;
+  }
+  for (std::uint32_t n = phase_.foreign_from[centre]; n < phase_.foreign_from[centre + 1]; ++n) {
+    if (has_earlier(phase_.foreign[n].first, phase_.foreign[n].end)) break;
+  }
   return found;
 }
 
@@ -325,13 +332,9 @@ template <Search S, Model M>
 auto ZoneThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Done {
   const Record& record = phase_.run.gas.records[i];
   const double elapsed = phase_.run.gas.clock.difference(event.time, record.time);
-  return {key,
-          model_.centre(record, elapsed),
-          speed_of(record),
-          event.has_partner(),
-          event.lower_id,
-          event.higher_id,
-          event.time};
+  return {
+      key,       model_.centre(record, elapsed), speed_of(record), event.lower_id, event.higher_id,
+      event.time};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

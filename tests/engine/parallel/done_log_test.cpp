@@ -13,7 +13,7 @@ TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
 
 Done at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
         std::uint32_t higher = 1) {
-  return {key_at(time), r, speed, lower != higher, Id{lower}, Id{higher}, {0, time}};
+  return {key_at(time), r, speed, Id{lower}, Id{higher}, {0, time}};
 }
 
 const std::array<double, 3> box{8, 9, 10};
@@ -30,7 +30,7 @@ bool may_have_met(const Done& mine, double speed, const Done& other) {
     Done a = mine, b = other;
     a.r = a.r + move;
     b.r = b.r + move;
-    log.add(b);
+    log.add(b, 0);
     const bool met = log.may_have_met(a, speed, far);
     EXPECT_EQ(met, out.value_or(met)) << "moved by " << move.x << ' ' << move.y << ' ' << move.z;
     out = met;
@@ -66,7 +66,7 @@ TEST(DoneLog, FindsThoseThatMayHaveMet) {
 
 TEST(DoneLog, FindsAnImage) {
   DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(2, {0.1, 8.9, 0.1}, 0));
+  log.add(at(2, {0.1, 8.9, 0.1}, 0), 0);
   EXPECT_TRUE(log.may_have_met(at(1, {7.6, 0.4, 9.7}, 0), 0, far));   // 0.5, 0.5, 0.4
   EXPECT_FALSE(log.may_have_met(at(1, {7.4, 0.4, 9.5}, 0), 0, far));  // 0.7, 0.5, 0.6
   EXPECT_TRUE(log.may_have_met(at(1, {8.6, -0.6, 0.4}, 0), 0, far));  // not wrapped
@@ -90,15 +90,30 @@ TEST(DoneLog, DistinguishesTimesOfOneKey) {
 
 TEST(DoneLog, LooksAtAllLaterEvents) {
   DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0));
-  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0));  // does not hide the one before it
+  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0), 0);
+  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0), 0);  // does not hide the one before it
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
   log.clear();
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(1, here, 0, 5, 5));
+  log.add(at(1, here, 0, 5, 5), 0);
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5));
+  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5), 0);
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
+}
+
+// What is before all events to come is forgotten, so that the log stays small. An event that comes
+// nevertheless may have met what is forgotten.
+TEST(DoneLog, ForgetsWhatIsBeforeAllEventsToCome) {
+  DoneLog log(CellGrid(box, 0.7, 1000), box);
+  const Vec3d apart{far - just, 0, 0};  // farther than needles come in these times
+  for (int n = 0; n < 1000; ++n) log.add(at(1 + n * 0.01, here, 0, 1, 2), key_at(1 + n * 0.01));
+  EXPECT_LT(log.entries(), 10u);
+  const double last = 1 + 999 * 0.01;
+  EXPECT_FALSE(log.may_have_met(at(last - 1e-3, here + apart, 0), 0, far));
+  EXPECT_TRUE(log.may_have_met(at(last - 1e-3, here, 0), 0, far));
+  EXPECT_TRUE(log.may_have_met(at(2, here + apart, 0), 0, far));
+  log.clear();
+  EXPECT_FALSE(log.may_have_met(at(2, here, 0), 0, far));
 }
 
 // Events of one key, in the order of Event.
@@ -123,7 +138,7 @@ TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
 // `farthest` is a bound that the caller knows; a larger one gives the same result.
 TEST(DoneLog, SearchesToTheGivenDistance) {
   DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
+  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1), 0);
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, 100));
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 2, 0.1));

@@ -11,34 +11,45 @@ namespace {
 
 TimeKey key(double time) { return std::bit_cast<TimeKey>(time); }
 
+TEST(Fronts, KnowTheNextEventOfOthers) {
+  Fronts fronts(3, 1.2);
+  fronts.begin(0.5);
+  EXPECT_EQ(fronts.next_of_others(0), 0u);  // no thread has published its next event
+  fronts.publish_next(0, key(7));
+  fronts.publish_next(1, key(9));
+  fronts.publish_next(2, key(8));
+  EXPECT_EQ(fronts.next_of_others(0), key(8));
+  EXPECT_EQ(fronts.next_of_others(1), key(7));
+  EXPECT_EQ(fronts.next_of_others(2), key(7));
+  fronts.publish_next(2, key(6));
+  EXPECT_EQ(fronts.next_of_others(0), key(6));
+  fronts.begin(0.5);
+  EXPECT_EQ(fronts.next_of_others(0), 0u);
+}
+
 // Needles have speeds up to 0.5 and are seen up to 1.2. Centres of touching needles are within 1,
 // which leaves a margin of 0.2, half of it for what has not been seen yet.
 TEST(Fronts, AreTooFarAheadWhereOthersCouldComeNear) {
   Fronts fronts(2, 1.2);
   fronts.begin(0.5);
-  fronts.publish_next(0, key(7));
-  fronts.publish_next(1, key(9));
-  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
-  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.11)));
-  fronts.publish_next(0, key(9.5));
-  EXPECT_FALSE(fronts.is_too_far_ahead(key(9.09)));
-  EXPECT_TRUE(fronts.is_too_far_ahead(key(9.11)));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09), key(7)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.11), key(7)));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(9.09), key(9)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(9.11), key(9)));
 }
 
 TEST(Fronts, GoByTheFastestNeedleThereIs) {
   Fronts fronts(3, 1.2);
   fronts.begin(0.5);
   EXPECT_EQ(fronts.fastest(), 0);
-  for (std::size_t t = 0; t < 3; ++t) fronts.publish_next(t, key(7));
-  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09)));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.09), key(7)));
   fronts.publish_event(2, key(7), 5);
   fronts.publish_event(2, key(7), 1);
   EXPECT_EQ(fronts.fastest(), 5);
-  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.009)));
-  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.011)));
+  EXPECT_FALSE(fronts.is_too_far_ahead(key(7.009), key(7)));
+  EXPECT_TRUE(fronts.is_too_far_ahead(key(7.011), key(7)));
   fronts.begin(0.5);
   EXPECT_EQ(fronts.fastest(), 0);
-  EXPECT_TRUE(fronts.is_too_far_ahead(key(7)));  // no thread has published its next event
 }
 
 // Otherwise all threads would wait for ever. Also if the resolution of time is coarser than the
@@ -49,10 +60,8 @@ TEST(Fronts, TheLastIsNeverAhead) {
                                std::numeric_limits<double>::quiet_NaN()}) {
       Fronts fronts(2, 1.2);
       fronts.begin(speed);
-      fronts.publish_next(0, key(time));
-      fronts.publish_next(1, key(2 * time));
       fronts.publish_event(0, key(time), speed);
-      EXPECT_FALSE(fronts.is_too_far_ahead(key(time))) << time << ", " << speed;
+      EXPECT_FALSE(fronts.is_too_far_ahead(key(time), key(time))) << time << ", " << speed;
     }
   }
 }
