@@ -273,7 +273,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
     return;
   }
   plan_.kept();
-  for (const auto& thread : threads_) run_.now = std::max(run_.now, thread.now());
+  for (const auto& thread : threads_) run_.now = std::max(run_.now, thread.latest());
   report();
 }
 

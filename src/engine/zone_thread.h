@@ -54,7 +54,8 @@ class alignas(128) ZoneThread {
   void forget() { processor_.forget(); }
 
   // Results of the phase.
-  Time now() const { return processor_.now(); }
+  /// The time of the latest event processed, which need not be the last one processed.
+  Time latest() const { return latest_; }
   Tally& tally() { return tally_; }
   const std::vector<Collision>& reports() const { return reports_; }
 
@@ -99,6 +100,7 @@ class alignas(128) ZoneThread {
   TimeKey next_of_others_ = 0;  ///< earliest event of other zones, as last seen
   TimeKey hindmost_ = 0;        ///< earliest event of all zones, as last seen
   std::vector<Collision> reports_;
+  Time latest_;
 };
 
 template <Search S, Model M>
@@ -106,7 +108,8 @@ void ZoneThread<S, M>::begin() {
   undo_.clear();
   reports_.clear();
   held_.clear();
-  processor_.set_now(phase_.run.now);
+  latest_ = phase_.run.now;
+  processor_.set_now(latest_);
   processor_.reports = phase_.run.callback ? &reports_ : nullptr;
 }
 
@@ -227,6 +230,7 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   processor_.watch_reading_ahead();
 #endif
   processor_.process(event, stale);
+  latest_ = std::max(latest_, event.time);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.amiss = true;
   const auto record = [&](Needle i, const Done& taken) {
     const double speed = speed_of(phase_.run.gas.records[i]);

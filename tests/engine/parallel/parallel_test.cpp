@@ -319,6 +319,24 @@ TEST(Parallel, CanBeInterrupted) {
   EXPECT_EQ(simulation.advance({.wall_s = 0.05}), Stop::interrupted);
 }
 
+// The last event that a thread processes in a phase need not be the latest, as it may have been
+// held. A run that is interrupted between two phases must not be at a time before its records.
+TEST(Parallel, IsInterruptedAfterAllItsRecords) {
+  const Scene scene = scene_of({"", 1000, {11, 11, 11}, 1, -1, 0, 6, 0});
+  const Scene::Until until{.collisions_per_needle = 1000};
+  for (const int threads : {2, 3}) {
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    const auto loop = make_rough_tc_loop(run, "linked-cells", threads, test::short_phases, {});
+    run.callback = [&](const Collision&) { run.interrupted = true; };
+    for (int n = 0; n < 8; ++n) {
+      run.interrupted = false;
+      ASSERT_EQ(loop->advance(Limits(run, until)), Stop::interrupted);
+      for (const Record& record : run.gas.records) ASSERT_LE(record.time, run.now) << threads;
+    }
+    EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone);
+  }
+}
+
 TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {
   Scene scene = scene_of({"", 100, {8, 8, 8}, 1, -1, 0, 6, 0});
   scene.engine.threads = 2;
