@@ -199,7 +199,9 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
-    const bool together = stretch.together && keys_resolve(next);
+    const bool together =
+        stretch.together && keys_resolve(next) &&
+        cell_calendar_.key_of(next) < cell_calendar_.key_of(stretch.end);  // else nobody works
     const WallTime time;
     double preparing = 0;
     std::optional<Stop> stop;
@@ -266,7 +268,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
     ++run_.tally.counters.redone;
     undo();
     if (phase_.too_many) {
-      plan_.had_too_many();
+      plan_.had_too_many(run_.now, end);
     } else if (!phase_.too_slow) {
       plan_.undone(run_.now, end);
     }

@@ -64,7 +64,12 @@ class PhasePlan {
     most_ = std::min(2 * most_, usual_most);
     in_vain_ = 0;
   }
-  void had_too_many() { pace_ = std::min(4 * pace_, fastest_pace); }
+  /// To be called when the phase between these times had too many collisions. The next ones are
+  /// shorter. Where that does not help, as in a collapse at one instant, one thread works alone.
+  void had_too_many(Time from, Time end) {
+    if (pace_ == fastest_pace) return undone(from, end);
+    pace_ = std::min(4 * pace_, fastest_pace);
+  }
   /// To be called when the phase between these times was undone. One thread repeats it. If phases
   /// are undone repeatedly, because several threads can hardly be synchronised, they are tried
   /// more and more rarely.

@@ -207,6 +207,11 @@ auto ZoneThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
       if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
       phase_.calendar.prefetch_keys(other);
       stale = processor_.is_stale(event);
+      if (!stale && phase_.calendar.of(event.partner) < event) {
+        // The event would replace one that comes before it, by less than keys can tell.
+        phase_.amiss = true;
+        return give_up(nobody);
+      }
     }
   }
   const bool changes_partner = event.has_partner() && !stale;

@@ -119,12 +119,20 @@ TEST_F(PhasePlanTest, GoesByTheCollisionsThatThereAre) {
 TEST_F(PhasePlanTest, TriesLessAtOnceAfterTooManyCollisions) {
   EXPECT_GT(plan.most_of_a_thread(), 0x1p16);
   EXPECT_LT(plan.most_of_a_thread(), 0x1p17);
-  plan.had_too_many();
+  plan.had_too_many(at(0), at(1));
   expect_together(outlook(0, 0x1p13), 1);
-  for (int n = 0; n < 50; ++n) plan.had_too_many();
+  for (int n = 0; n < 14; ++n) plan.had_too_many(at(0), at(1));
   expect_together(outlook(0, 0x1p15 * 1e-9), 1);
   plan.undone(at(0), at(1));
   EXPECT_LT(plan.most_of_a_thread(), 0x1p15);
+}
+
+// All at one instant: no phase is short enough.
+TEST_F(PhasePlanTest, LeavesACollapseToOneThread) {
+  for (int n = 0; n < 15; ++n) plan.had_too_many(at(0), at(1));
+  EXPECT_TRUE(plan.next(outlook(0, 1)).together);
+  plan.had_too_many(at(0), at(1));
+  EXPECT_FALSE(plan.next(outlook(0, 1)).together);
 }
 
 }  // namespace
