@@ -15,7 +15,7 @@
 namespace needlework {
 
 /// One needle of a processed event: its position at the event, and its speed before.
-struct Done {
+struct LoggedEvent {
   TimeKey key;
   Vec3d r;                 ///< not wrapped into the box [L]
   double speed;            ///< [L/time]
@@ -24,14 +24,14 @@ struct Done {
 
   bool has_partner() const { return lower_id != higher_id; }
 };
-static_assert(sizeof(Done) == 64);
+static_assert(sizeof(LoggedEvent) == 64);
 
 /// The processed events, grouped by the cell in which they took place. Several threads may use it
 /// at once, as long as none adds to cells that another reads or adds to.
-class DoneLog {
+class CausalityLog {
  public:
   /// `longest`: length of the longest needles. [L]
-  DoneLog(const CellGrid& grid, const std::array<double, 3>& box, double longest = 1)
+  CausalityLog(const CellGrid& grid, const std::array<double, 3>& box, double longest = 1)
       : grid_(grid), box_(box), longest_(longest), cells_(grid.size()) {}
 
   void clear() {
@@ -41,11 +41,11 @@ class DoneLog {
   void prefetch(const Vec3d& r) const { needlework::prefetch(&cells_[cell_of(r)]); }
   /// No event before `hindmost` is expected any more, so that earlier entries can be forgotten. If
   /// one comes nevertheless, all needles of forgotten entries may have been met.
-  void add(const Done& done, TimeKey hindmost) {
-    Cell& cell = cells_[cell_of(done.r)];
+  void add(const LoggedEvent& event, TimeKey hindmost) {
+    Cell& cell = cells_[cell_of(event.r)];
     if (cell.events.size() == cell.events.capacity()) cell.forget_before(hindmost);
-    cell.events.push_back(done);
-    cell.latest = std::max(cell.latest, done.key);
+    cell.events.push_back(event);
+    cell.latest = std::max(cell.latest, event.key);
   }
 
   std::size_t entries() const {
@@ -67,12 +67,12 @@ class DoneLog {
   /// Whether the needle of event `mine`, with `speed` since, may have met a needle whose later
   /// event has already been processed, before that later event. Looks no farther than `farthest`
   /// along each axis.
-  bool may_have_met(const Done& mine, double speed, double farthest) const {
+  bool may_have_met(const LoggedEvent& mine, double speed, double farthest) const {
     return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t index) {
       const Cell& cell = cells_[index];
       if (cell.latest < mine.key) return false;
       if (mine.key <= cell.forgotten) return true;
-      return std::any_of(cell.events.begin(), cell.events.end(), [&](const Done& other) {
+      return std::any_of(cell.events.begin(), cell.events.end(), [&](const LoggedEvent& other) {
         return comes_after(other, mine) &&
                are_nearer(other.r, mine.r,
                           reach(mine.key, other.key, speed + other.speed, longest_));
@@ -82,7 +82,7 @@ class DoneLog {
 
  private:
   struct Cell {
-    std::vector<Done> events;
+    std::vector<LoggedEvent> events;
     TimeKey latest = 0;     ///< of all events of the phase
     TimeKey forgotten = 0;  ///< latest of those that are no longer among them
 
@@ -91,20 +91,20 @@ class DoneLog {
       latest = forgotten = 0;
     }
     void forget_before(TimeKey hindmost) {
-      std::erase_if(events, [&](const Done& done) {
-        if (done.key >= hindmost) return false;
-        forgotten = std::max(forgotten, done.key);
+      std::erase_if(events, [&](const LoggedEvent& event) {
+        if (event.key >= hindmost) return false;
+        forgotten = std::max(forgotten, event.key);
         return true;
       });
     }
   };
 
   std::size_t cell_of(const Vec3d& r) const { return grid_.index_of(grid_.cell_of(r)); }
-  static bool comes_after(const Done& a, const Done& b) {
+  static bool comes_after(const LoggedEvent& a, const LoggedEvent& b) {
     if (a.time != b.time) return a.time > b.time;
     // The order of two searches at the same time does not matter.
-    const auto order = [](const Done& done) {
-      return std::tuple(done.has_partner(), done.lower_id, done.higher_id);
+    const auto order = [](const LoggedEvent& event) {
+      return std::tuple(event.has_partner(), event.lower_id, event.higher_id);
     };
     return (a.has_partner() || b.has_partner()) && order(a) > order(b);
   }
