@@ -17,15 +17,15 @@
 namespace needlework {
 
 /// A block holds the keys of the events of its needles, and knows its next event. Blocks are
-/// divided among zones, initially one, and each zone has a tournament of its own blocks.
+/// divided among subdomains, initially one, and each subdomain has a tournament of its own blocks.
 ///
-/// With `set` alone it is a calendar like the others. Several threads, each with a zone, use it in
-/// three steps. `put` changes blocks that no other thread reads or writes at the time. `publish`
-/// makes the keys of their next events visible; all threads may read these at any time. `follow`,
-/// called by the thread of the zone, updates the tournament.
+/// With `set` alone it is a calendar like the others. Several threads, each with a subdomain, use
+/// it in three steps. `put` changes blocks that no other thread reads or writes at the time.
+/// `publish` makes the keys of their next events visible; all threads may read these at any time.
+/// `follow`, called by the thread of the subdomain, updates the tournament.
 ///
 /// `set` is O(1) on average for an event that does not become the next one, else O(log n). `top`
-/// is O(number of zones). About 110 bytes per needle.
+/// is O(number of subdomains). About 110 bytes per needle.
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
@@ -46,14 +46,14 @@ class CellCalendar {
   const Event& of(Needle i) const { return events_[i]; }
   const Event& top() const {
     std::uint32_t best = 0;
-    for (std::uint32_t z = 1; z < zones_.size(); ++z) {
+    for (std::uint32_t z = 1; z < subdomains_.size(); ++z) {
       if (earlier(winner(z), winner(best))) best = z;
     }
     return top_of(winner(best));
   }
   Needle likely_next() const { return likely_next_in(0); }
-  Needle likely_next_in(std::uint32_t zone) const {
-    const Zone& of = zones_[zone];
+  Needle likely_next_in(std::uint32_t subdomain) const {
+    const Subdomain& of = subdomains_[subdomain];
     if (of.blocks.empty()) return Needle(0);
     const Needle i = blocks_[of.blocks[of.order.second()]].next;
     events_.prefetch(i);
@@ -69,7 +69,7 @@ class CellCalendar {
     }
   }
 
-  // Blocks and zones.
+  // Blocks and subdomains.
 
   Block blocks() const { return static_cast<Block>(blocks_.size()); }
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
@@ -81,21 +81,21 @@ class CellCalendar {
     return published_keys_[b].load(std::memory_order_acquire);
   }
   TimeKey key_of(Time time) const { return events_.key_of(time); }
-  std::uint32_t zone_of(Block b) const { return owners_[b].zone; }
+  std::uint32_t subdomain_of(Block b) const { return owners_[b].subdomain; }
   std::size_t needles_in(Block b) const { return blocks_[b].keys.size(); }
 
-  /// Assigns block b to zone `zone_of[b]`, and sets up all tournaments.
-  void divide(const std::vector<std::uint32_t>& zone_of, std::uint32_t zones) {
+  /// Assigns block b to subdomain `subdomain_of[b]`, and sets up all tournaments.
+  void divide(const std::vector<std::uint32_t>& subdomain_of, std::uint32_t subdomains) {
     owners_.resize(blocks_.size());
-    zones_.clear();
-    std::vector<std::vector<Block>> parts(zones);
+    subdomains_.clear();
+    std::vector<std::vector<Block>> parts(subdomains);
     for (Block b = 0; b < blocks(); ++b) {
-      owners_[b] = {zone_of[b], static_cast<std::uint32_t>(parts[zone_of[b]].size())};
-      parts[zone_of[b]].push_back(b);
+      owners_[b] = {subdomain_of[b], static_cast<std::uint32_t>(parts[subdomain_of[b]].size())};
+      parts[subdomain_of[b]].push_back(b);
     }
     for (auto& part : parts) {
       const std::size_t size = std::max<std::size_t>(part.size(), 1);
-      zones_.push_back({WinnerTree(size, no_event), std::move(part)});
+      subdomains_.push_back({WinnerTree(size, no_event), std::move(part)});
     }
     for (Block b = 0; b < blocks(); ++b) {
       publish(b);
@@ -151,21 +151,21 @@ class CellCalendar {
   }
   void publish(Block b) { published_keys_[b].store(next_key(b), std::memory_order_release); }
 
-  /// The block of a zone whose event is next, according to the keys that the tournament has been
-  /// given.
+  /// The block of a subdomain whose event is next, according to the keys that the tournament has
+  /// been given.
   Block winner(std::uint32_t z) const {
-    const Zone& zone = zones_[z];
-    return zone.blocks.empty() ? 0 : zone.blocks[zone.order.winner()];
+    const Subdomain& subdomain = subdomains_[z];
+    return subdomain.blocks.empty() ? 0 : subdomain.blocks[subdomain.order.winner()];
   }
   TimeKey winning_key(std::uint32_t z) const {
-    return zones_[z].order.key(zones_[z].order.winner());
+    return subdomains_[z].order.key(subdomains_[z].order.winner());
   }
-  /// Updates the tournament of the block's zone. Of equal keys the earlier event wins.
+  /// Updates the tournament of the block's subdomain. Of equal keys the earlier event wins.
   void follow(Block b) { follow(b, published_key(b)); }
   /// The same without reading events: of equal keys the lower block wins.
   void follow_by_key(Block b, TimeKey key) {
-    Zone& zone = zones_[owners_[b].zone];
-    zone.order.update(
+    Subdomain& subdomain = subdomains_[owners_[b].subdomain];
+    subdomain.order.update(
         owners_[b].rank, key, [](std::uint32_t x, std::uint32_t y) { return x < y; },
         [](std::uint32_t) {});
   }
@@ -199,9 +199,9 @@ class CellCalendar {
     Place(Place&& other) noexcept : block(other.block.load()), slot(other.slot) {}
   };
   struct Owner {
-    std::uint32_t zone, rank;
+    std::uint32_t subdomain, rank;
   };
-  struct Zone {
+  struct Subdomain {
     WinnerTree order;
     std::vector<Block> blocks;
   };
@@ -217,12 +217,14 @@ class CellCalendar {
   }
 
   void follow(Block b, TimeKey key) {
-    Zone& zone = zones_[owners_[b].zone];
-    zone.order.update(
+    Subdomain& subdomain = subdomains_[owners_[b].subdomain];
+    subdomain.order.update(
         owners_[b].rank, key,
-        [&](std::uint32_t x, std::uint32_t y) { return earlier(zone.blocks[x], zone.blocks[y]); },
+        [&](std::uint32_t x, std::uint32_t y) {
+          return earlier(subdomain.blocks[x], subdomain.blocks[y]);
+        },
         [&](std::uint32_t near) {
-          const Content& content = blocks_[zone.blocks[near]];
+          const Content& content = blocks_[subdomain.blocks[near]];
           if (!content.keys.empty()) events_.prefetch(content.next);
         });
   }
@@ -258,7 +260,7 @@ class CellCalendar {
   std::vector<Content> blocks_;
   std::vector<PublishedKey> published_keys_;
   std::vector<Owner> owners_;
-  std::vector<Zone> zones_;
+  std::vector<Subdomain> subdomains_;
   std::vector<Block> changed_;
 };
 

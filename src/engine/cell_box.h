@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "src/engine/zones.h"
+#include "src/engine/subdomains.h"
 #include "src/search/cell_grid.h"
 
 namespace needlework {

@@ -15,9 +15,9 @@
 #include "src/calendar/any_calendar.h"
 #include "src/engine/collapse.h"
 #include "src/engine/pair_predictor.h"
+#include "src/engine/rollback_log.h"
 #include "src/engine/run.h"
 #include "src/engine/tally.h"
-#include "src/engine/undo_log.h"
 #include "src/memory/prefetch.h"
 #include "src/physics/model.h"
 #include "src/search/search.h"
@@ -67,7 +67,7 @@ class EventProcessor {
   /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
-  UndoLog* undo = nullptr;                    ///< if not null, receives what the processor replaces
+  RollbackLog* rollback_log = nullptr;        ///< if not null, receives what the processor replaces
   std::vector<Collision>* reports = nullptr;  ///< if not null, receives collisions in place of the
                                               ///< callback
 #ifndef NDEBUG
@@ -128,9 +128,9 @@ void EventProcessor<S, M>::horizon(Needle i) {
 template <Search S, Model M>
 template <class Renew>
 Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
-  if (undo) {
-    undo->replaced(i, gas_.records[i], gas_.images[i],
-                   M::effects.contact_time ? run_.last_collision[i] : Time{});
+  if (rollback_log) {
+    rollback_log->replaced(i, gas_.records[i], gas_.images[i],
+                           M::effects.contact_time ? run_.last_collision[i] : Time{});
   }
   return predictor_.replace(i, renew);
 }
@@ -195,7 +195,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
 template <Search S, Model M>
 void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit) {
   ++tally_.counters.searches;
-  if (undo) undo->scheduled(i);
+  if (rollback_log) rollback_log->scheduled(i);
   const Time time = now();
   Event best;
   best.owner = i;

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "src/calendar/cell_calendar.h"
-#include "src/engine/patience.h"
+#include "src/engine/backoff.h"
 
 namespace needlework {
 
-/// A mailbox for each thread: blocks of its zone that other threads have changed. A thread without
-/// events left rests until mail arrives. When all threads rest, no mail is on its way.
+/// A mailbox for each thread: blocks of its subdomain that other threads have changed. A thread
+/// without events left rests until mail arrives. When all threads rest, no mail is on its way.
 class Mail {
  public:
   using Block = CellCalendar::Block;
@@ -53,14 +53,14 @@ class Mail {
 
   /// Waits for mail. For a thread without events left, which can get new ones only by mail.
   /// Returns false when there is mail, and true when all threads rest or `given_up` is set.
-  bool rest(std::size_t thread, const std::atomic<bool>& given_up, Patience patience) {
+  bool rest(std::size_t thread, const std::atomic<bool>& given_up, Backoff backoff) {
     {
       const std::lock_guard alone(meeting_);
       if (!boxes_[thread].blocks.empty()) return false;
       boxes_[thread].resting = true;
       if (++resting_ == boxes_.size()) finished_ = true;
     }
-    for (; !finished_.load() && !given_up.load(); patience.wait()) {
+    for (; !finished_.load() && !given_up.load(); backoff.wait()) {
       if (has_some(thread)) return false;
     }
     return true;

@@ -1,11 +1,12 @@
 // The event loop on several threads, with the same trajectory as on one.
 //
-// The box is divided into zones, one for each thread. A thread processes the events of the needles
-// in its zone, the earliest first. An event reads and writes only within some cells of its place,
-// so events that are far apart may be processed in any order, or at the same time. An event waits
-// while a block within reach has an earlier one; other events of the zone, far from the waiting
-// ones, go on. A thread also waits while another thread is very far behind in time. Near other
-// zones a thread claims the cells to which its event may write before it reads any.
+// The box is divided into subdomains, one for each thread. A thread processes the events of the
+// needles in its subdomain, the earliest first. An event reads and writes only within some cells of
+// its place, so events that are far apart may be processed in any order, or at the same time. An
+// event waits while a block within reach has an earlier one; other events of the subdomain, far
+// from the waiting ones, go on. A thread also waits while another thread is very far behind in
+// time. Near other subdomains a thread locks the cells to which its event may write before it reads
+// any.
 //
 // This is nearly always enough, but no such rule can be enough with certainty: a chain of
 // collisions may propagate in almost no time, from an event outside the reach to the place of one
@@ -13,13 +14,13 @@
 // near it. They do no harm if no needle of the one event can meet a needle of the other in
 // between: then neither event affects the other before the later time, and the contacts after it
 // have been searched with the new records of both. If they may meet, or if anything else has gone
-// wrong, the whole phase, which is the time since the threads last met, is undone, and one thread
-// processes it again. The counter `redone` counts such phases.
+// wrong, the whole phase, which is the time since the threads last met, is rolled back, and one
+// thread processes it again. The counter `redone` counts such phases.
 //
 // A limit that stops the run at one collision is handled in the same way: a phase that passes it
-// is undone, and one thread processes it again and stops there.
+// is rolled back, and one thread processes it again and stops there.
 //
-// zone_thread.h holds what one thread does in a phase, phase.h what all threads share.
+// subdomain_thread.h holds what one thread does in a phase, phase.h what all threads share.
 #pragma once
 
 #include <omp.h>
@@ -39,8 +40,8 @@
 #include "src/engine/event_loop.h"
 #include "src/engine/phase.h"
 #include "src/engine/phase_plan.h"
+#include "src/engine/subdomain_thread.h"
 #include "src/engine/team_choice.h"
-#include "src/engine/zone_thread.h"
 
 namespace needlework {
 
@@ -48,7 +49,7 @@ namespace needlework {
 /// tests.
 struct ParallelTuning {
   /// Distance from its cell within which an event looks for earlier ones. If it is shorter, phases
-  /// are undone repeatedly; if it is longer, events wait without need. [L]
+  /// are rolled back repeatedly; if it is longer, events wait without need. [L]
   double sight = 1.5;
   double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
                                           ///< shared
@@ -89,7 +90,7 @@ inline int team_of(int threads) {
 }
 
 /// More threads than cores only wait for each other.
-inline int zones_for(int threads, const ParallelTuning& tuning) {
+inline int subdomains_for(int threads, const ParallelTuning& tuning) {
   return tuning.by_cost ? std::min(threads, omp_get_num_procs()) : threads;
 }
 
@@ -113,7 +114,7 @@ class ParallelLoop final : public EventLoop<S, M> {
     divide();
   }
   void run_together(const Limits& limits, Time end);
-  void undo();
+  void roll_back();
   void report();
 
   static constexpr TeamChoice::Turn all_together{true, std::numeric_limits<double>::infinity()};
@@ -132,7 +133,7 @@ class ParallelLoop final : public EventLoop<S, M> {
 
   CellCalendar& cell_calendar_;
   Phase<S> phase_;
-  std::deque<ZoneThread<S, M>> threads_;
+  std::deque<SubdomainThread<S, M>> threads_;
   double fastest_to_thermal_;  ///< speed of the fastest needle of the previous phase, divided by
                                ///< thermal_speed()
   PhasePlan plan_;
@@ -147,7 +148,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
     : Base(run, std::move(search), std::make_unique<CalendarOf<CellCalendar>>(),
            std::move(replaced)),
       cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
-      phase_(run, search_, cell_calendar_, zones_for(threads, tuning), tuning.sight),
+      phase_(run, search_, cell_calendar_, subdomains_for(threads, tuning), tuning.sight),
       plan_(run.gas.clock, tuning.least),
       by_cost_(tuning.by_cost) {
   const int team = team_of(threads);
@@ -157,8 +158,8 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
                      ", which is all that OpenMP gives here (OMP_THREAD_LIMIT, "
                      "OMP_MAX_ACTIVE_LEVELS, or a parallel region around)");
   }
-  for (std::uint32_t zone = 0; zone < phase_.threads; ++zone)
-    threads_.emplace_back(phase_, this->model_, zone);
+  for (std::uint32_t subdomain = 0; subdomain < phase_.threads; ++subdomain)
+    threads_.emplace_back(phase_, this->model_, subdomain);
   phase_.may_be_too_slow = tuning.by_cost;
   double squares = 0;
   for (const Record& record : run.gas.records) {
@@ -199,7 +200,9 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
-    const bool together = stretch.together && keys_resolve(next);
+    const bool together =
+        stretch.together && keys_resolve(next) &&
+        cell_calendar_.key_of(next) < cell_calendar_.key_of(stretch.end);  // else nobody works
     const WallTime time;
     double preparing = 0;
     std::optional<Stop> stop;
@@ -221,8 +224,8 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
 }
 
 // Processes events before `end` on all threads. If the result may differ from that of one thread,
-// or if one thread would have stopped earlier, undoes the phase and leaves it to one thread. If
-// there are many more collisions than expected, undoes it and makes the next phases shorter.
+// or if one thread would have stopped earlier, rolls back the phase and leaves it to one thread. If
+// there are many more collisions than expected, rolls it back and makes the next phases shorter.
 template <Search S, Model M>
 void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   // The previous phase may have been long ago, so its largest speed is rescaled.
@@ -239,51 +242,51 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
       if (omp_get_num_threads() == threads) {
         // OpenMP's threads may have been made by a host program, with its choice of arithmetic.
         const kernels::DefaultArithmetic arithmetic;
-        const auto zone = static_cast<std::uint32_t>(omp_get_thread_num());
+        const auto subdomain = static_cast<std::uint32_t>(omp_get_thread_num());
         try {
-          threads_[zone].work(end_key);
+          threads_[subdomain].work(end_key);
         } catch (...) {
           // If the error is real, the thread that repeats the phase meets it too, after all earlier
           // events.
-          phase_.amiss = true;
+          phase_.must_roll_back = true;
         }
-        phase_.claims.drop(zone);
+        phase_.region_locks.release(subdomain);
       } else {
-        phase_.amiss = true;
+        phase_.must_roll_back = true;
       }
     }
   }
   assert(search_.volumes().base == base);  // no thread may rebase while others work
   ++run_.tally.counters.phases;
-  const double fastest = phase_.fronts.fastest();
+  const double fastest = phase_.local_times.fastest();
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
   const Tally before = run_.tally;
   for (auto& thread : threads_) run_.tally.take(thread.tally());
-  if (phase_.amiss || limits.reached(run_)) {
+  if (phase_.must_roll_back || limits.reached(run_)) {
     const Counters counters = run_.tally.counters;
     run_.tally = before;
     run_.tally.counters = counters;
     ++run_.tally.counters.redone;
-    undo();
+    roll_back();
     if (phase_.too_many) {
-      plan_.had_too_many();
+      plan_.had_too_many(run_.now, end);
     } else if (!phase_.too_slow) {
-      plan_.undone(run_.now, end);
+      plan_.rolled_back(run_.now, end);
     }
     return;
   }
   plan_.kept();
-  for (const auto& thread : threads_) run_.now = std::max(run_.now, thread.now());
+  for (const auto& thread : threads_) run_.now = std::max(run_.now, thread.latest());
   report();
 }
 
 template <Search S, Model M>
-void ParallelLoop<S, M>::undo() {
+void ParallelLoop<S, M>::roll_back() {
   std::vector<Needle> needles;
-  for (auto& thread : threads_) thread.undo(needles);
+  for (auto& thread : threads_) thread.roll_back(needles);
   std::sort(needles.begin(), needles.end());
   needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
-  cell_calendar_.order_again();  // they may include held events
+  cell_calendar_.order_again();  // they may include deferred events
   processor_.set_now(run_.now);
   processor_.forget();
   std::vector<Time> placed_until;

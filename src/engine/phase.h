@@ -11,19 +11,19 @@
 
 #include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
+#include "src/engine/causality_log.h"
 #include "src/engine/cell_box.h"
-#include "src/engine/claims.h"
-#include "src/engine/done_log.h"
-#include "src/engine/fronts.h"
+#include "src/engine/local_times.h"
 #include "src/engine/mail.h"
+#include "src/engine/region_locks.h"
 #include "src/engine/run.h"
-#include "src/engine/zones.h"
+#include "src/engine/subdomains.h"
 #include "src/search/search.h"
 
 namespace needlework {
 
-/// The data of a phase: zones, claims, the log of processed events, and the progress of each
-/// thread.
+/// The data of a phase: subdomains, region locks, the log of processed events, and the progress of
+/// each thread.
 template <Search S>
 struct Phase {
   using Block = CellCalendar::Block;
@@ -32,7 +32,7 @@ struct Phase {
   /// the longest needles.
   Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
 
-  /// Divides the box into zones by the present positions of the needles.
+  /// Divides the box into subdomains by the present positions of the needles.
   void divide();
   /// Starts a new phase. `fastest` is an estimate of the largest speed of a needle, `most` the
   /// largest number of collisions of one thread.
@@ -45,7 +45,7 @@ struct Phase {
   CellCalendar& calendar;
   const std::uint32_t threads;
   const CellCounts cells;
-  const double sight_of_done;   ///< no other thread writes to the log of processed events within
+  const double sight_of_log;    ///< no other thread writes to the log of processed events within
                                 ///< this distance [L]
   const CellCounts neighbours;  ///< cells that cover this distance; an event reads nothing farther
                                 ///< away
@@ -53,16 +53,22 @@ struct Phase {
   CellCounts apart;             ///< events farther apart never access the same data
   std::vector<CellCounts> places;   ///< cell of each block
   std::vector<std::uint8_t> inner;  ///< for each block: no other thread accesses data near it
-  std::vector<std::uint8_t> ours;   ///< for each block: all blocks within reach are in its zone
-  Claims claims;
-  DoneLog done;
-  Fronts fronts;
+  /// For each block: the blocks of other subdomains within reach, in rows from `first` to `end`
+  /// - 1.
+  struct Row {
+    Block first, end;
+  };
+  std::vector<Row> foreign;
+  std::vector<std::uint32_t> foreign_from;  ///< where the rows of a block begin in `foreign`
+  RegionLocks region_locks;
+  CausalityLog causality_log;
+  LocalTimes local_times;
   Mail mail;
-  alignas(128) std::atomic<bool> amiss = false;  ///< the phase must be undone
-  std::atomic<bool> too_many = false;            ///< a thread has had too many collisions
-  std::atomic<bool> too_slow = false;            ///< a thread has waited too long
-  std::uint64_t most_collisions = 0;             ///< of one thread
-  bool may_be_too_slow = false;                  ///< whether long waits end the phase
+  alignas(128) std::atomic<bool> must_roll_back = false;  ///< the phase must be rolled back
+  std::atomic<bool> too_many = false;                     ///< a thread has had too many collisions
+  std::atomic<bool> too_slow = false;                     ///< a thread has waited too long
+  std::uint64_t most_collisions = 0;                      ///< of one thread
+  bool may_be_too_slow = false;                           ///< whether long waits end the phase
   /// A thread that has waited for longer in a phase, and for most of the time, ends it. It is about
   /// a slice of the scheduler's time.
   static constexpr std::chrono::milliseconds longest_wait{4};
@@ -79,19 +85,19 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       threads(static_cast<std::uint32_t>(its_threads)),
       cells(search.grid().counts()),
       // Needles closer than this may meet before one of them is placed again; includes rounding.
-      sight_of_done(1.01 * run.gas.longest + 2 * search.drift()),
-      neighbours(cells_within(search.grid(), sight_of_done)),
+      sight_of_log(1.01 * run.gas.longest + 2 * search.drift()),
+      neighbours(cells_within(search.grid(), sight_of_log)),
       reach(search.grid(), sight * run.gas.longest),
-      claims(cells, neighbours, threads),
-      done(search.grid(), run.gas.box, run.gas.longest),
-      fronts(threads, sight_of_done, run.gas.longest),
+      region_locks(cells, neighbours, threads),
+      causality_log(search.grid(), run.gas.box, run.gas.longest),
+      local_times(threads, sight_of_log, run.gas.longest),
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
       spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
   const CellCounts moves = cells_within(search.grid(), search.drift() + search.radius());
   for (int axis = 0; axis < 3; ++axis) {
     apart[axis] = 3 * neighbours[axis] + 2 * moves[axis];
-    if (cells[axis] >= Claims::most_cells) {
+    if (cells[axis] >= RegionLocks::most_cells) {
       throw InputError("engine.threads = " + std::to_string(threads) +
                        ": expected 1 for a box of " + std::to_string(cells[axis]) +
                        " cells along an edge");
@@ -108,18 +114,31 @@ template <Search S>
 void Phase<S>::divide() {
   std::vector<std::size_t> weight(calendar.blocks());
   for (Block b = 0; b < calendar.blocks(); ++b) weight[b] = calendar.needles_in(b);
-  const std::vector<std::uint32_t> zone = divide_box(cells, run.gas.box, weight, threads);
-  calendar.divide(zone, threads);
-  inner = inner_cells(cells, zone, apart);
-  ours = inner_cells(cells, zone, reach.reach());
+  const std::vector<std::uint32_t> subdomain = divide_box(cells, run.gas.box, weight, threads);
+  calendar.divide(subdomain, threads);
+  inner = inner_cells(cells, subdomain, apart);
+  const std::vector<std::uint8_t> ours = inner_cells(cells, subdomain, reach.reach());
+  foreign.clear();
+  foreign_from = {0};
+  for (Block b = 0; b < calendar.blocks(); ++b) {
+    if (!ours[b]) {
+      reach.any_row(places[b], [&](Block first, Block end) {
+        // Subdomains are boxes, so that two cells suffice.
+        const bool own = subdomain[first] == subdomain[b] && subdomain[end - 1] == subdomain[b];
+        if (!own) foreign.push_back({first, end});
+        return false;
+      });
+    }
+    foreign_from.push_back(static_cast<std::uint32_t>(foreign.size()));
+  }
 }
 
 template <Search S>
 void Phase<S>::begin(double fastest, std::uint64_t most) {
-  done.clear();
+  causality_log.clear();
   mail.begin();
-  fronts.begin(fastest);
-  amiss = too_many = too_slow = false;
+  local_times.begin(fastest);
+  must_roll_back = too_many = too_slow = false;
   most_collisions = most;
 }
 

@@ -10,8 +10,8 @@
 
 namespace needlework {
 
-/// Plans phases from how previous ones went. After a phase that was undone, and which one thread
-/// repeats, phases are shorter.
+/// Plans phases from how previous ones went. After a phase that was rolled back, and which one
+/// thread repeats, phases are shorter.
 class PhasePlan {
  public:
   /// Usual number of collisions in a phase, and the least number for which several threads are
@@ -39,7 +39,8 @@ class PhasePlan {
   Stretch next(const Outlook& at) const {
     if (at.next < alone_until_) return {std::min(at.end, alone_until_), false};
     const Time end = at.together ? std::min(at.end, at.ready) : at.end;
-    // A limit on collisions is approached in ever shorter phases, so that little has to be undone.
+    // A limit on collisions is approached in ever shorter phases, so that little has to be rolled
+    // back.
     const double rate = pace_ * at.rate, to_end = rate * clock_.difference(end, at.next);
     const double most =
         at.together ? std::min({most_, std::max(at.most, least_), at.left / 2}) : at.most;
@@ -64,11 +65,16 @@ class PhasePlan {
     most_ = std::min(2 * most_, usual_most);
     in_vain_ = 0;
   }
-  void had_too_many() { pace_ = std::min(4 * pace_, fastest_pace); }
-  /// To be called when the phase between these times was undone. One thread repeats it. If phases
-  /// are undone repeatedly, because several threads can hardly be synchronised, they are tried
-  /// more and more rarely.
-  void undone(Time from, Time end) {
+  /// To be called when the phase between these times had too many collisions. The next ones are
+  /// shorter. Where that does not help, as in a collapse at one instant, one thread works alone.
+  void had_too_many(Time from, Time end) {
+    if (pace_ == fastest_pace) return rolled_back(from, end);
+    pace_ = std::min(4 * pace_, fastest_pace);
+  }
+  /// To be called when the phase between these times was rolled back. One thread repeats it. If
+  /// phases are rolled back repeatedly, because several threads can hardly be synchronised, they
+  /// are tried more and more rarely.
+  void rolled_back(Time from, Time end) {
     alone_until_ = clock_.add(end, in_vain_ * clock_.difference(end, from));
     in_vain_ = std::min(2 * in_vain_ + 1, most_in_vain);
     most_ = std::max(most_ / 4, least_);
@@ -79,9 +85,9 @@ class PhasePlan {
 
   const Clock& clock_;
   double least_;
-  double most_ = usual_most;  ///< collisions in a phase; fewer after phases that were undone
+  double most_ = usual_most;  ///< collisions in a phase; fewer after phases that were rolled back
   double pace_ = 1;           ///< number of collisions, relative to thermal flight
-  double in_vain_ = 0;        ///< time that one thread works alone after an undone phase, in
+  double in_vain_ = 0;        ///< time that one thread works alone after a rolled back phase, in
                               ///< lengths of the phase
   Time alone_until_;          ///< time until which one thread works alone
 };

@@ -10,7 +10,7 @@
 #include "needlework/initial_state.h"
 #include "src/calendar/choice.h"
 #include "src/engine/make_loop.h"
-#include "src/engine/zones.h"
+#include "src/engine/subdomains.h"
 #include "src/physics/permutation.h"
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"

@@ -32,7 +32,7 @@ class TeamChoice {
 
   /// To be called after each stretch, of whichever kind it became, with the number of its
   /// collisions and with wall times [s]: its own, and that of preparing it. Collisions that were
-  /// undone do not count, but their time does.
+  /// rolled back do not count, but their time does.
   void took(bool together, double collisions, double seconds, double preparing = 0) {
     since_trial_ += seconds + preparing;
     if (!together) {

@@ -6,7 +6,7 @@ void FurtherTouches::add(Id owner, std::uint32_t serial, std::size_t before,
                          const RecordedTouch& touch) {
   const std::lock_guard lock(mutex_);
   std::vector<RecordedTouch>& touches = touches_[key_of(owner, serial)];
-  // An undone record may have had the same number; its touches are removed.
+  // A rolled back record may have had the same number; its touches are removed.
   touches.resize(before);
   touches.push_back(touch);
 }

@@ -21,7 +21,10 @@ NeedleCells::Slot NeedleCells::enter(std::uint32_t cell) {
   for (; links_[b].size == kernels::block_size; ++chain) {
     if (links_[b].next == BlockLink::none) {
       links_[b].next = take_free_block();
-      if (chain + 1 > longest_chain_) longest_chain_ = chain + 1;
+      // Several threads may raise it at once.
+      std::size_t longest = longest_chain_;
+      while (longest < chain + 1 && !longest_chain_.compare_exchange_weak(longest, chain + 1)) {
+      }
     }
     b = links_[b].next;
   }

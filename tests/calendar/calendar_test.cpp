@@ -368,17 +368,17 @@ TEST(BucketCalendar, ChangesItsWidthOnlyAfterManyEvents) {
 
 TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
   constexpr int n = 200;
-  constexpr std::uint32_t blocks = 7, zones = 3;
+  constexpr std::uint32_t blocks = 7, subdomains = 3;
   CellCalendar calendar(n, Clock(), blocks);
   Random random(seed);
   std::vector<Time> time(n, Time::never());
-  std::vector<std::uint32_t> place(n), zone(blocks);
+  std::vector<std::uint32_t> place(n), subdomain(blocks);
   constexpr Needle end(n);
   for (Needle i{0}; i < end; ++i) place[i] = calendar.block_of(i);
   for (int step = 0; step < operations; ++step) {
     if (step % 1000 == 0) {
-      for (auto& z : zone) z = static_cast<std::uint32_t>(random.below(zones));
-      calendar.divide(zone, zones);
+      for (auto& z : subdomain) z = static_cast<std::uint32_t>(random.below(subdomains));
+      calendar.divide(subdomain, subdomains);
     }
     Event event;
     event.owner = draw_needle(random, n);
@@ -394,7 +394,7 @@ TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
       ASSERT_EQ(calendar.top_of(block).time, first[block]) << "step " << step;
       ASSERT_EQ(calendar.published_key(block), calendar.key_of(first[block]));
       ASSERT_GE(first[block], calendar.top().time);
-      ASSERT_GE(calendar.published_key(block), calendar.winning_key(zone[block]));
+      ASSERT_GE(calendar.published_key(block), calendar.winning_key(subdomain[block]));
     }
     ASSERT_EQ(calendar.top().time, *std::min_element(first.begin(), first.end()));
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/engine/undo_log.h"
+#include "src/engine/rollback_log.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 
@@ -180,7 +180,7 @@ TEST(LongRuns, PutRecordsBackWhoseNumbersHaveWrappedAround) {
   gas.images.resize(2);
   gas.records[0].serial = ~std::uint32_t{0};
   gas.records[0].flight.r.x = 1;
-  UndoLog log;
+  RollbackLog log;
   log.replaced(Needle(0), gas.records[0], gas.images[0], {});
   gas.records[0].serial += 1;
   gas.records[0].flight.r.x = 2;

@@ -15,7 +15,7 @@ constexpr double alone_cost = 6e-6;  // wall time of a collision [s]
 struct Course {
   double seconds = 0;
   double together = 0;  // collisions
-  int undone = 0;
+  int rolled_back = 0;
 };
 
 // A machine where one thread needs `alone(now)` for a collision and all together need
@@ -35,7 +35,7 @@ struct Machine {
         if (seconds > 5e-3 && together(course.seconds) > 3 * alone(course.seconds)) {
           done = 0;
           seconds = 5e-3;
-          ++course.undone;
+          ++course.rolled_back;
         }
         course.together += done;
       } else {
@@ -92,7 +92,7 @@ TEST(TeamChoice, AStretchThatWasOnceSlowIsForgotten) {
                           return paused(now) ? 70 * alone_cost : alone_cost / 1.6;
                         }};
   const Course course = machine.run(5e6);
-  EXPECT_GT(course.undone, 5);
+  EXPECT_GT(course.rolled_back, 5);
   EXPECT_LT(course.seconds, 1.25 * 5e6 * alone_cost / 1.6);
 }
 

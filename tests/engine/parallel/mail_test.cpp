@@ -11,7 +11,7 @@
 namespace needlework {
 namespace {
 
-const Patience patient(32);
+const Backoff backoff(32);
 
 TEST(Mail, ComesToItsThreadOnce) {
   Mail mail(3);
@@ -40,16 +40,16 @@ TEST(Mail, KeepsThreadsFromResting) {
   mail.begin();
   const std::atomic<bool> given_up = false;
   mail.send(0, 1);
-  EXPECT_FALSE(mail.rest(0, given_up, patient));
+  EXPECT_FALSE(mail.rest(0, given_up, backoff));
   (void)mail.take(0);
-  EXPECT_TRUE(mail.rest(0, given_up, patient));
+  EXPECT_TRUE(mail.rest(0, given_up, backoff));
 }
 
 TEST(Mail, IsNotWaitedForWhenThePhaseIsGivenUp) {
   Mail mail(2);
   mail.begin();
   const std::atomic<bool> given_up = true;
-  EXPECT_TRUE(mail.rest(0, given_up, patient));
+  EXPECT_TRUE(mail.rest(0, given_up, backoff));
 }
 
 // A rests first. B sends it work, which A does and then sends work back. Neither may stop before
@@ -67,7 +67,7 @@ TEST(Mail, EndsWhenAllRestAndNoneIsUnderWay) {
           got[me].push_back(block);
           if (block < last) mail.send(1 - me, block + 1);
         }
-      } while (!mail.rest(me, given_up, patient));
+      } while (!mail.rest(me, given_up, backoff));
     };
     mail.send(1, 0);
     std::thread other(work, 0);

@@ -160,8 +160,8 @@ TEST(Parallel, StopsWhereOneThreadStops) {
   }
 }
 
-// An end by energy cannot be foreseen: the phase in which it lies is undone.
-TEST(Parallel, UndoesWhatLiesBeyondTheEnd) {
+// An end by energy cannot be foreseen: the phase in which it lies is rolled back.
+TEST(Parallel, RollsBackWhatLiesBeyondTheEnd) {
   Scene scene = scene_of({"", 1000, {8, 8, 8}, 0.8, -1, 1e-3, 6, 0});
   scene.engine.threads = 2;
   scene.engine.team = "all";
@@ -188,9 +188,9 @@ TEST(Parallel, EndsAtTheNextCollision) {
 }
 
 // A run that is advanced in many short steps, as the program does, does not repeat a phase that has
-// been undone. Needles that slide, with many more collisions than in thermal flight, do not make a
-// phase endless.
-TEST(Parallel, UndoesAPhaseOnlyOnce) {
+// been rolled back. Needles that slide, with many more collisions than in thermal flight, do not
+// make a phase endless.
+TEST(Parallel, RollsBackAPhaseOnlyOnce) {
   Scene scene = scene_of({"", 2000, {7, 7, 7}, 0.6, -1, 1e-3, 6, 0});
   scene.initial.t_rot = 0;
   const auto run = [&](int threads, double wall) {
@@ -212,15 +212,15 @@ TEST(Parallel, UndoesAPhaseOnlyOnce) {
   const Counters& counters = seen->counters();
   EXPECT_GT(counters.phases, 2u);
   EXPECT_LE(counters.redone, 3u);
-  // A phase has at most 2^15 collisions, and twice as many if it is undone.
+  // A phase has at most 2^15 collisions, and twice as many if it is rolled back.
   EXPECT_LE(counters.events, 2 * truth->counters().events);
 }
 
 // In rare gases a mean free time is longer than the times that the search can represent in float,
-// so a phase ends before the search has to choose a new origin of time. Each end by energy undoes a
-// phase, which is only correct if the search's data of the needles that are not restored are valid
-// at the earlier time.
-TEST(Parallel, UndoesPhasesOfRareGasesCorrectly) {
+// so a phase ends before the search has to choose a new origin of time. Each end by energy rolls
+// back a phase, which is only correct if the search's data of the needles that are not restored are
+// valid at the earlier time.
+TEST(Parallel, RollsBackPhasesOfRareGasesCorrectly) {
   const Scene scene =
       scene_of({"", 130, {1763.7097770949067, 2.01, 2.01}, 0.95, 0.0945871625986503, 1e-3, 6, 0});
   const int ends = thin > 1 ? 3 : 12;
@@ -239,8 +239,8 @@ TEST(Parallel, UndoesPhasesOfRareGasesCorrectly) {
   }
 }
 
-// If zones hardly touch, only the comparison of their times keeps threads close enough in time to
-// check which needles may have met.
+// If subdomains hardly touch, only the comparison of their times keeps threads close enough in time
+// to check which needles may have met.
 TEST(Parallel, StaysTogetherInTimeInALongBox) {
   Scene scene = scene_of({"", 2000, {2000, 2.3, 2.3}, 1, -1, 0, 6, 0});
   scene.engine.threads = 3;
@@ -317,6 +317,24 @@ TEST(Parallel, CanBeInterrupted) {
   simulation.on_collision([&](const Collision&) { simulation.interrupt(); });
   EXPECT_EQ(simulation.advance({.collisions_per_needle = 1e6}), Stop::interrupted);
   EXPECT_EQ(simulation.advance({.wall_s = 0.05}), Stop::interrupted);
+}
+
+// The last event that a thread processes in a phase need not be the latest, as it may have been
+// deferred. A run that is interrupted between two phases must not be at a time before its records.
+TEST(Parallel, IsInterruptedAfterAllItsRecords) {
+  const Scene scene = scene_of({"", 1000, {11, 11, 11}, 1, -1, 0, 6, 0});
+  const Scene::Until until{.collisions_per_needle = 1000};
+  for (const int threads : {2, 3}) {
+    needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+    const auto loop = make_rough_tc_loop(run, "linked-cells", threads, test::short_phases, {});
+    run.callback = [&](const Collision&) { run.interrupted = true; };
+    for (int n = 0; n < 8; ++n) {
+      run.interrupted = false;
+      ASSERT_EQ(loop->advance(Limits(run, until)), Stop::interrupted);
+      for (const Record& record : run.gas.records) ASSERT_LE(record.time, run.now) << threads;
+    }
+    EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone);
+  }
 }
 
 TEST(Parallel, RefusesSearchesAndCalendarsOfOneThread) {

@@ -74,8 +74,8 @@ TEST_F(PhasePlanTest, ComesToAnEndByCollisionsInSmallerAndSmallerPhases) {
   expect_alone(outlook(24, 100, -5), 1e6);
 }
 
-TEST_F(PhasePlanTest, LeavesUndonePhasesToOneThread) {
-  plan.undone(at(2), at(4));
+TEST_F(PhasePlanTest, LeavesRolledBackPhasesToOneThread) {
+  plan.rolled_back(at(2), at(4));
   expect_alone(outlook(2, 0x1p13), 4);
   expect_alone(outlook(3.5, 0x1p13), 4);
   // The next one is a quarter as long.
@@ -89,18 +89,18 @@ TEST_F(PhasePlanTest, LeavesUndonePhasesToOneThread) {
 }
 
 TEST_F(PhasePlanTest, TriesMoreRarelyAfterRepeatedFailure) {
-  plan.undone(at(0), at(1));
+  plan.rolled_back(at(0), at(1));
   expect_alone(outlook(0, 0x1p13), 1);
-  plan.undone(at(1), at(2));
+  plan.rolled_back(at(1), at(2));
   expect_alone(outlook(1, 0x1p13), 3);
-  plan.undone(at(3), at(4));
+  plan.rolled_back(at(3), at(4));
   expect_alone(outlook(3, 0x1p13), 7);
-  for (int n = 0; n < 20; ++n) plan.undone(at(0), at(1));
+  for (int n = 0; n < 20; ++n) plan.rolled_back(at(0), at(1));
   expect_alone(outlook(0, 0x1p13), 1001);
   // Not shorter than what is worth sharing.
   expect_together(outlook(1001, 64), 1002);
   plan.kept();
-  plan.undone(at(1002), at(1003));
+  plan.rolled_back(at(1002), at(1003));
   expect_alone(outlook(1002, 0x1p13), 1003);
 }
 
@@ -119,12 +119,20 @@ TEST_F(PhasePlanTest, GoesByTheCollisionsThatThereAre) {
 TEST_F(PhasePlanTest, TriesLessAtOnceAfterTooManyCollisions) {
   EXPECT_GT(plan.most_of_a_thread(), 0x1p16);
   EXPECT_LT(plan.most_of_a_thread(), 0x1p17);
-  plan.had_too_many();
+  plan.had_too_many(at(0), at(1));
   expect_together(outlook(0, 0x1p13), 1);
-  for (int n = 0; n < 50; ++n) plan.had_too_many();
+  for (int n = 0; n < 14; ++n) plan.had_too_many(at(0), at(1));
   expect_together(outlook(0, 0x1p15 * 1e-9), 1);
-  plan.undone(at(0), at(1));
+  plan.rolled_back(at(0), at(1));
   EXPECT_LT(plan.most_of_a_thread(), 0x1p15);
+}
+
+// All at one instant: no phase is short enough.
+TEST_F(PhasePlanTest, LeavesACollapseToOneThread) {
+  for (int n = 0; n < 15; ++n) plan.had_too_many(at(0), at(1));
+  EXPECT_TRUE(plan.next(outlook(0, 1)).together);
+  plan.had_too_many(at(0), at(1));
+  EXPECT_FALSE(plan.next(outlook(0, 1)).together);
 }
 
 }  // namespace

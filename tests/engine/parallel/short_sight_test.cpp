@@ -1,5 +1,5 @@
-// Events processed in the wrong order are detected and undone. To provoke them, these loops have a
-// shorter sight for earlier events than usual.
+// Events processed in the wrong order are detected and rolled back. To provoke them, these loops
+// have a shorter sight for earlier events than usual.
 #include <gtest/gtest.h>
 
 #include "needlework/initial_state.h"
@@ -15,7 +15,7 @@ Scene::Until mean_collisions(double mean) {
   return until;
 }
 
-// How many of the phases were undone. The trajectory is right in any case.
+// How many of the phases were rolled back. The trajectory is right in any case.
 double redone(const Scene& scene, const char* search, int threads, double sight,
               const Scene::Until& until, const std::string& truth) {
   Run run(scene, make_gas(scene, draw_initial_state(scene)));
@@ -33,7 +33,7 @@ std::string hash_of_one_thread(const Scene& scene, const Scene::Until& until) {
   return simulation.trajectory_hash();
 }
 
-TEST(ParallelOutOfOrder, IsUndoneWithoutSight) {
+TEST(ParallelOutOfOrder, IsRolledBackWithoutSight) {
   const Scene::Until until = mean_collisions(4);
   const Scene dilute = test::scene_of(2000, 14, 3), dense = test::scene_of(2000, 5, 3);
   const std::string of_dilute = hash_of_one_thread(dilute, until);
@@ -44,7 +44,7 @@ TEST(ParallelOutOfOrder, IsUndoneWithoutSight) {
   }
 }
 
-// With this sight few phases are undone, but some must be.
+// With this sight few phases are rolled back, but some must be.
 TEST(ParallelOutOfOrder, IsDetectedWithShortSight) {
   const Scene::Until until = mean_collisions(12);
   const Scene scene = test::scene_of(2000, 5, 3);

@@ -1,4 +1,4 @@
-#include "src/engine/zones.h"
+#include "src/engine/subdomains.h"
 
 #include <gtest/gtest.h>
 
@@ -32,31 +32,32 @@ std::int32_t steps_between(std::int32_t a, std::int32_t b, std::int32_t n) {
   return std::min(d, n - d);
 }
 
-TEST(Zones, GetTheirShareOfTheNeedles) {
+TEST(Subdomains, GetTheirShareOfTheNeedles) {
   test::Random random(1);
   for (const CellCounts cells : {CellCounts{12, 12, 12}, {40, 3, 7}, {1, 1, 64}}) {
     std::vector<std::size_t> weight(size_of(cells));
     for (auto& w : weight) w = 5 + random.below(10);
     const std::size_t total = std::accumulate(weight.begin(), weight.end(), std::size_t{0});
-    for (const std::uint32_t zones : {1u, 2u, 3u, 8u}) {
-      const std::vector<std::uint32_t> zone = divide_box(cells, box_of(cells), weight, zones);
-      std::vector<std::size_t> share(zones);
-      for (std::size_t c = 0; c < zone.size(); ++c) share.at(zone[c]) += weight[c];
+    for (const std::uint32_t subdomains : {1u, 2u, 3u, 8u}) {
+      const std::vector<std::uint32_t> subdomain =
+          divide_box(cells, box_of(cells), weight, subdomains);
+      std::vector<std::size_t> share(subdomains);
+      for (std::size_t c = 0; c < subdomain.size(); ++c) share.at(subdomain[c]) += weight[c];
       for (const std::size_t s : share) {
-        EXPECT_NEAR(static_cast<double>(s) * zones / static_cast<double>(total), 1, 0.35)
-            << zones << " zones of " << cells[0];
+        EXPECT_NEAR(static_cast<double>(s) * subdomains / static_cast<double>(total), 1, 0.35)
+            << subdomains << " subdomains of " << cells[0];
       }
     }
   }
 }
 
-// If zones can have equal numbers of cells, they do, to within one cell.
-TEST(Zones, AreEqualWhereCellsAllowIt) {
+// If subdomains can have equal numbers of cells, they do, to within one cell.
+TEST(Subdomains, AreEqualWhereCellsAllowIt) {
   int seen = 0;
   for (const std::array<double, 3> box :
        {std::array{24.0, 24.0, 24.0}, {100, 4, 4}, {3, 50, 40}, {10, 20, 15}}) {
-    for (const std::uint32_t zones : {1u, 2u, 3u, 4u, 5u, 6u, 8u, 12u}) {
-      const CellCounts multiples = multiples_to_divide(box, zones);
+    for (const std::uint32_t subdomains : {1u, 2u, 3u, 4u, 5u, 6u, 8u, 12u}) {
+      const CellCounts multiples = multiples_to_divide(box, subdomains);
       EXPECT_LE(*std::max_element(multiples.begin(), multiples.end()), 12);
       const double longest = *std::max_element(box.begin(), box.end());
       for (int along = 12; along <= 40; ++along) {
@@ -65,12 +66,14 @@ TEST(Zones, AreEqualWhereCellsAllowIt) {
         for (int axis = 0; axis < 3; ++axis) rounded &= cells[axis] % multiples[axis] == 0;
         if (!rounded) continue;
         ++seen;
-        const std::vector<std::uint32_t> zone =
-            divide_box(cells, box, std::vector<std::size_t>(size_of(cells), 1), zones);
-        for (std::uint32_t z = 0; z < zones; ++z) {
-          ASSERT_EQ(static_cast<std::size_t>(std::count(zone.begin(), zone.end(), z)) * zones,
-                    zone.size())
-              << zones << " zones of " << cells[0] << " x " << cells[1] << " x " << cells[2];
+        const std::vector<std::uint32_t> subdomain =
+            divide_box(cells, box, std::vector<std::size_t>(size_of(cells), 1), subdomains);
+        for (std::uint32_t z = 0; z < subdomains; ++z) {
+          ASSERT_EQ(static_cast<std::size_t>(std::count(subdomain.begin(), subdomain.end(), z)) *
+                        subdomains,
+                    subdomain.size())
+              << subdomains << " subdomains of " << cells[0] << " x " << cells[1] << " x "
+              << cells[2];
         }
       }
     }
@@ -81,26 +84,26 @@ TEST(Zones, AreEqualWhereCellsAllowIt) {
   EXPECT_EQ(multiples_to_divide({900, 9, 9}, 7), (CellCounts{7, 1, 1}));
 }
 
-TEST(Zones, MayBeMoreThanTheCells) {
-  const std::vector<std::uint32_t> zone = divide_box({1, 1, 2}, {1, 1, 2}, {1, 1}, 8);
-  EXPECT_NE(zone[0], zone[1]);
-  EXPECT_LT(zone[0], 8u);
-  EXPECT_LT(zone[1], 8u);
+TEST(Subdomains, MayBeMoreThanTheCells) {
+  const std::vector<std::uint32_t> subdomain = divide_box({1, 1, 2}, {1, 1, 2}, {1, 1}, 8);
+  EXPECT_NE(subdomain[0], subdomain[1]);
+  EXPECT_LT(subdomain[0], 8u);
+  EXPECT_LT(subdomain[1], 8u);
 }
 
-TEST(Zones, KnowTheirInnerCells) {
+TEST(Subdomains, KnowTheirInnerCells) {
   const CellCounts cells{9, 8, 10}, distance{2, 1, 3};
-  const std::vector<std::uint32_t> zone =
+  const std::vector<std::uint32_t> subdomain =
       divide_box(cells, box_of(cells), std::vector<std::size_t>(size_of(cells), 1), 3);
-  const std::vector<std::uint8_t> inner = inner_cells(cells, zone, distance);
+  const std::vector<std::uint8_t> inner = inner_cells(cells, subdomain, distance);
   int count = 0;
-  for (std::size_t a = 0; a < zone.size(); ++a) {
+  for (std::size_t a = 0; a < subdomain.size(); ++a) {
     bool alone = true;
-    for (std::size_t b = 0; b < zone.size(); ++b) {
+    for (std::size_t b = 0; b < subdomain.size(); ++b) {
       const CellCounts x = place_of(a, cells), y = place_of(b, cells);
       bool close = true;
       for (int i = 0; i < 3; ++i) close &= steps_between(x[i], y[i], cells[i]) <= distance[i];
-      alone &= !close || zone[a] == zone[b];
+      alone &= !close || subdomain[a] == subdomain[b];
     }
     EXPECT_EQ(inner[a], alone) << a;
     count += inner[a];

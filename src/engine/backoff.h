@@ -12,9 +12,9 @@
 namespace needlework {
 
 /// Spins for a while, then yields the core, which the other thread may need.
-class Patience {
+class Backoff {
  public:
-  explicit Patience(int spins) : spins_(spins) {}
+  explicit Backoff(int spins) : spins_(spins) {}
 
   /// Returns whether the core was yielded.
   bool wait() {
@@ -77,8 +77,8 @@ inline void look_away() {
   const unsigned drawn = state >> 22;
   if (drawn < 64) std::this_thread::yield();
   if (drawn >= 1016) {
-    Patience patience(4096);
-    for (unsigned turns = (state >> 10) % 4096; turns > 0; --turns) patience.wait();
+    Backoff backoff(4096);
+    for (unsigned turns = (state >> 10) % 4096; turns > 0; --turns) backoff.wait();
   }
 #endif
 }

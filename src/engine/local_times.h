@@ -7,65 +7,71 @@
 #include <atomic>
 #include <vector>
 
-#include "src/engine/done_log.h"
-#include "src/engine/patience.h"
+#include "src/engine/backoff.h"
+#include "src/engine/causality_log.h"
 
 namespace needlework {
 
-class Fronts {
+class LocalTimes {
  public:
   /// `sight`: how far from an event a thread may look for later events that others have processed;
-  /// Phase::sight_of_done, not the `sight` of Phase. [L]
-  Fronts(std::size_t threads, double sight, double longest = 1)
-      : fronts_(threads), sight_(sight), longest_(longest) {}
+  /// Phase::sight_of_log, not the `sight` of Phase. [L]
+  LocalTimes(std::size_t threads, double sight, double longest = 1)
+      : times_(threads), sight_(sight), longest_(longest) {}
 
   /// Starts a new phase. `expected` is an estimate of the largest speed of its needles. [L/time]
   void begin(double expected) {
     expected_ = expected;
-    for (Front& front : fronts_) {
-      front.next = 0;
-      front.latest = 0;
-      front.fastest = 0;
+    for (LocalTime& each : times_) {
+      each.next = 0;
+      each.latest = 0;
+      each.fastest = 0;
     }
   }
   /// The largest speed of a needle of any event of the phase, just before the event. [L/time]
   double fastest() const {
     double out = 0;
-    for (const Front& front : fronts_) out = std::max(out, front.fastest.load());
+    for (const LocalTime& each : times_) out = std::max(out, each.fastest.load());
     return out;
   }
 
   /// Publishes the earliest event that a thread has still to process.
   void publish_next(std::size_t thread, TimeKey key) {
     look_away();
-    fronts_[thread].next.store(key, std::memory_order_relaxed);
+    times_[thread].next.store(key, std::memory_order_relaxed);
   }
   /// Publishes an event before the thread processes it. If two threads publish at the same time,
   /// the one that calls reach_of_later() last sees the event of the other. Returns whether the
   /// event is later than all that the thread has processed in this phase.
   bool publish_event(std::size_t thread, TimeKey key, double speed) {
-    Front& mine = fronts_[thread];
+    LocalTime& mine = times_[thread];
     const bool in_order = key > mine.latest;
     if (speed > mine.fastest) mine.fastest = speed;
     if (in_order) mine.latest = key;
     return in_order;
   }
 
-  /// Whether another thread is so far behind an event that in the time between them needles could
-  /// come together from farther apart than `sight`, where the check does not look. Counts with
-  /// twice the way that they can fly, because threads go on meanwhile. Never true for the thread
-  /// that is farthest behind.
-  bool is_too_far_ahead(TimeKey key) const {
+  /// The earliest event that another thread has still to process.
+  TimeKey next_of_others(std::size_t thread) const {
     look_away();
-    TimeKey hindmost = key;
+    TimeKey out = ~TimeKey{0};
+    for (std::size_t t = 0; t < times_.size(); ++t) {
+      if (t != thread) out = std::min(out, times_[t].next.load(std::memory_order_relaxed));
+    }
+    return out;
+  }
+  /// Whether the earliest event that is still to be processed is so far behind another one that in
+  /// the time between them needles could come together from farther apart than `sight`, where the
+  /// check does not look. Counts with twice the way that they can fly, because threads go on
+  /// meanwhile.
+  bool is_too_far_ahead(TimeKey key, TimeKey hindmost) const {
+    if (hindmost >= key) return false;
     double fastest = expected_;
-    for (const Front& front : fronts_) {
-      hindmost = std::min(hindmost, front.next.load(std::memory_order_relaxed));
-      fastest = std::max(fastest, front.fastest.load(std::memory_order_relaxed));
+    for (const LocalTime& each : times_) {
+      fastest = std::max(fastest, each.fastest.load(std::memory_order_relaxed));
     }
     constexpr double room = 2;
-    return hindmost < key &&
-           is_out_of_sight(DoneLog::reach(hindmost, key, room * 2 * fastest, longest_));
+    return is_out_of_sight(CausalityLog::reach(hindmost, key, room * 2 * fastest, longest_));
   }
 
   /// Take a needle that has an event at `key` and flies with `speed` afterwards, and all later
@@ -75,23 +81,23 @@ class Fronts {
   double reach_of_later(std::size_t thread, TimeKey key, double speed, bool in_order) const {
     TimeKey latest = 0;
     double fastest = speed;
-    for (std::size_t t = 0; t < fronts_.size(); ++t) {
+    for (std::size_t t = 0; t < times_.size(); ++t) {
       if (t == thread && in_order) continue;
-      latest = std::max(latest, fronts_[t].latest.load());
-      fastest = std::max(fastest, fronts_[t].fastest.load());
+      latest = std::max(latest, times_[t].latest.load());
+      fastest = std::max(fastest, times_[t].fastest.load());
     }
-    return latest < key ? 0 : DoneLog::reach(key, latest, speed + fastest, longest_);
+    return latest < key ? 0 : CausalityLog::reach(key, latest, speed + fastest, longest_);
   }
   bool is_out_of_sight(double distance) const { return !(distance < sight_); }
 
  private:
-  struct alignas(128) Front {
+  struct alignas(128) LocalTime {
     std::atomic<TimeKey> next = 0, latest = 0;
     std::atomic<double> fastest = 0;
-    Front() = default;
-    Front(Front&&) noexcept {}
+    LocalTime() = default;
+    LocalTime(LocalTime&&) noexcept {}
   };
-  std::vector<Front> fronts_;
+  std::vector<LocalTime> times_;
   double sight_;
   double longest_;  ///< length of the longest needles [L]
   double expected_ = 0;

@@ -1,5 +1,5 @@
 // Tests the check that no event processed out of order could have affected an earlier one.
-#include "src/engine/done_log.h"
+#include "src/engine/causality_log.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@ namespace {
 
 TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
 
-Done at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
-        std::uint32_t higher = 1) {
-  return {key_at(time), r, speed, lower != higher, Id{lower}, Id{higher}, {0, time}};
+LoggedEvent at(double time, const Vec3d& r, double speed, std::uint32_t lower = 1,
+               std::uint32_t higher = 1) {
+  return {key_at(time), r, speed, Id{lower}, Id{higher}, {0, time}};
 }
 
 const std::array<double, 3> box{8, 9, 10};
@@ -23,14 +23,14 @@ constexpr double just = 1e-5;
 
 // Whether a needle with an event may have met one with this other event. Gives the same result
 // with both moved by fractions of the box.
-bool may_have_met(const Done& mine, double speed, const Done& other) {
+bool may_have_met(const LoggedEvent& mine, double speed, const LoggedEvent& other) {
   std::optional<bool> out;
   for (const Vec3d& move : {Vec3d{0, 0, 0}, {3.9, 0, 0}, {0, 5.1, 0}, {0, 0, -3.8}, {-4, -4, -4}}) {
-    DoneLog log(CellGrid(box, 0.7, 1000), box);
-    Done a = mine, b = other;
+    CausalityLog log(CellGrid(box, 0.7, 1000), box);
+    LoggedEvent a = mine, b = other;
     a.r = a.r + move;
     b.r = b.r + move;
-    log.add(b);
+    log.add(b, 0);
     const bool met = log.may_have_met(a, speed, far);
     EXPECT_EQ(met, out.value_or(met)) << "moved by " << move.x << ' ' << move.y << ' ' << move.z;
     out = met;
@@ -42,16 +42,16 @@ bool may_have_met(const Done& mine, double speed, const Done& other) {
 // they come nearer by 3/4, and touch within 1.
 constexpr double reach = 1 + 0.25 * 3;
 
-TEST(DoneLog, KnowsHowFarNeedlesCanMeet) {
-  EXPECT_NEAR(DoneLog::reach(key_at(1), key_at(1.25), 3), reach, just);
-  EXPECT_GT(DoneLog::reach(key_at(1), key_at(1.25), 3), reach);
+TEST(CausalityLog, KnowsHowFarNeedlesCanMeet) {
+  EXPECT_NEAR(CausalityLog::reach(key_at(1), key_at(1.25), 3), reach, just);
+  EXPECT_GT(CausalityLog::reach(key_at(1), key_at(1.25), 3), reach);
   // Includes a margin for rounding, also of the times.
-  EXPECT_GT(DoneLog::reach(key_at(1), key_at(1), 0), 1);
-  EXPECT_GT(DoneLog::reach(key_at(0x1p40), key_at(0x1p40), 0x1p20), 1 + 2 * 0x1p-53 * 0x1p60);
+  EXPECT_GT(CausalityLog::reach(key_at(1), key_at(1), 0), 1);
+  EXPECT_GT(CausalityLog::reach(key_at(0x1p40), key_at(0x1p40), 0x1p20), 1 + 2 * 0x1p-53 * 0x1p60);
 }
 
-TEST(DoneLog, FindsThoseThatMayHaveMet) {
-  const Done mine = at(1, here, 0);
+TEST(CausalityLog, FindsThoseThatMayHaveMet) {
+  const LoggedEvent mine = at(1, here, 0);
   for (const Vec3d& way :
        {Vec3d{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0.6, 0, -0.8}, {0.48, 0.6, 0.64}}) {
     EXPECT_TRUE(may_have_met(mine, 2, at(1.25, here + (reach - just) * way, 1)));
@@ -64,15 +64,15 @@ TEST(DoneLog, FindsThoseThatMayHaveMet) {
   }
 }
 
-TEST(DoneLog, FindsAnImage) {
-  DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(2, {0.1, 8.9, 0.1}, 0));
+TEST(CausalityLog, FindsAnImage) {
+  CausalityLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(2, {0.1, 8.9, 0.1}, 0), 0);
   EXPECT_TRUE(log.may_have_met(at(1, {7.6, 0.4, 9.7}, 0), 0, far));   // 0.5, 0.5, 0.4
   EXPECT_FALSE(log.may_have_met(at(1, {7.4, 0.4, 9.5}, 0), 0, far));  // 0.7, 0.5, 0.6
   EXPECT_TRUE(log.may_have_met(at(1, {8.6, -0.6, 0.4}, 0), 0, far));  // not wrapped
 }
 
-TEST(DoneLog, LooksAtLaterEventsOnly) {
+TEST(CausalityLog, LooksAtLaterEventsOnly) {
   for (const double before : {0.5, 1 - 1e-12}) {
     EXPECT_FALSE(may_have_met(at(1, here, 0), 2, at(before, here, 1, 2, 3)));
   }
@@ -80,40 +80,55 @@ TEST(DoneLog, LooksAtLaterEventsOnly) {
 }
 
 // After many epochs two times may have one key.
-TEST(DoneLog, DistinguishesTimesOfOneKey) {
-  Done early = at(1, here, 0), late = at(1, here, 0);
+TEST(CausalityLog, DistinguishesTimesOfOneKey) {
+  LoggedEvent early = at(1, here, 0), late = at(1, here, 0);
   early.time = {std::int64_t{1} << 40, 0.5};
   late.time = {std::int64_t{1} << 40, std::nextafter(0.5, 1)};
   EXPECT_TRUE(may_have_met(early, 1, late));
   EXPECT_FALSE(may_have_met(late, 1, early));
 }
 
-TEST(DoneLog, LooksAtAllLaterEvents) {
-  DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0));
-  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0));  // does not hide the one before it
+TEST(CausalityLog, LooksAtAllLaterEvents) {
+  CausalityLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0), 0);
+  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0), 0);  // does not hide the one before it
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
   log.clear();
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(1, here, 0, 5, 5));
+  log.add(at(1, here, 0, 5, 5), 0);
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5));
+  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5), 0);
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
 }
 
+// What is before all events to come is forgotten, so that the log stays small. An event that comes
+// nevertheless may have met what is forgotten.
+TEST(CausalityLog, ForgetsWhatIsBeforeAllEventsToCome) {
+  CausalityLog log(CellGrid(box, 0.7, 1000), box);
+  const Vec3d apart{far - just, 0, 0};  // farther than needles come in these times
+  for (int n = 0; n < 1000; ++n) log.add(at(1 + n * 0.01, here, 0, 1, 2), key_at(1 + n * 0.01));
+  EXPECT_LT(log.entries(), 10u);
+  const double last = 1 + 999 * 0.01;
+  EXPECT_FALSE(log.may_have_met(at(last - 1e-3, here + apart, 0), 0, far));
+  EXPECT_TRUE(log.may_have_met(at(last - 1e-3, here, 0), 0, far));
+  EXPECT_TRUE(log.may_have_met(at(2, here + apart, 0), 0, far));
+  log.clear();
+  EXPECT_FALSE(log.may_have_met(at(2, here, 0), 0, far));
+}
+
 // Events of one key, in the order of Event.
-TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
-  const auto after = [](const Done& other, const Done& mine) {
+TEST(CausalityLog, OrdersEventsAtOnceByTheirNeedles) {
+  const auto after = [](const LoggedEvent& other, const LoggedEvent& mine) {
     return may_have_met(mine, 1, other);
   };
-  const Done early = at(1, here, 1, 2, 7), late = at(1, here, 1, 3, 5),
-             later = at(1, here, 1, 3, 6);
+  const LoggedEvent early = at(1, here, 1, 2, 7), late = at(1, here, 1, 3, 5),
+                    later = at(1, here, 1, 3, 6);
   EXPECT_TRUE(after(late, early));
   EXPECT_FALSE(after(early, late));
   EXPECT_TRUE(after(later, late));
   EXPECT_FALSE(after(late, later));
   EXPECT_FALSE(after(late, late));  // the partner's entry for one event
-  const Done search = at(1, here, 1, 9, 9), other_search = at(1, here, 1, 8, 8);
+  const LoggedEvent search = at(1, here, 1, 9, 9), other_search = at(1, here, 1, 8, 8);
   EXPECT_TRUE(after(early, search));  // a horizon comes before contacts
   EXPECT_FALSE(after(search, early));
   EXPECT_FALSE(after(search, other_search));  // in any order
@@ -121,9 +136,9 @@ TEST(DoneLog, OrdersEventsAtOnceByTheirNeedles) {
 }
 
 // `farthest` is a bound that the caller knows; a larger one gives the same result.
-TEST(DoneLog, SearchesToTheGivenDistance) {
-  DoneLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
+TEST(CausalityLog, SearchesToTheGivenDistance) {
+  CausalityLog log(CellGrid(box, 0.7, 1000), box);
+  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1), 0);
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, 100));
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 2, 0.1));

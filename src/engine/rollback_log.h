@@ -8,7 +8,7 @@
 
 namespace needlework {
 
-class UndoLog {
+class RollbackLog {
  public:
   void replaced(Needle i, const Record& record, const Shift& image, Time last_collision) {
     if (used_ == entries_.size()) entries_.emplace_back();

@@ -1,4 +1,4 @@
-// Claims: the part of space that each thread works in, so that no two threads access the same
+// Region locks: the part of space that each thread works in, so that no two threads access the same
 // needles.
 #pragma once
 
@@ -7,44 +7,44 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/engine/backoff.h"
 #include "src/engine/cell_box.h"
-#include "src/engine/patience.h"
 
 namespace needlework {
 
-/// One claim per thread: up to two boxes of cells to which the thread writes. It reads no farther
-/// than `distance` cells from them. When two threads claim boxes so close that one would read what
-/// the other writes, at least one of them sees the conflict, because each publishes its claim
+/// One lock per thread: up to two boxes of cells to which the thread writes. It reads no farther
+/// than `distance` cells from them. When two threads lock boxes so close that one would read what
+/// the other writes, at least one of them sees the conflict, because each publishes its lock
 /// before it looks at the others.
-class Claims {
+class RegionLocks {
  public:
-  Claims(const CellCounts& cells, const CellCounts& distance, std::size_t threads)
-      : cells_(cells), distance_(distance), claims_(threads) {}
+  RegionLocks(const CellCounts& cells, const CellCounts& distance, std::size_t threads)
+      : cells_(cells), distance_(distance), locks_(threads) {}
 
   enum Part { owner, partner };
 
-  /// Sets or enlarges one part of a thread's claim, and waits until no other claim conflicts. If a
-  /// thread of lower number is in conflict, drops the whole claim and returns false.
-  bool claim(std::size_t thread, Part part, const CellBox& box) {
-    std::atomic<std::uint64_t>& mine = claims_[thread].part[part];
+  /// Sets or enlarges one part of a thread's lock, and waits until no other lock conflicts. If a
+  /// thread of lower number is in conflict, releases the whole lock and returns false.
+  bool acquire(std::size_t thread, Part part, const CellBox& box) {
+    std::atomic<std::uint64_t>& mine = locks_[thread].part[part];
     if (mine.load(std::memory_order_relaxed) == packed(box)) return true;
     mine.store(packed(box), std::memory_order_seq_cst);
     look_away();
-    for (std::size_t other = 0; other < claims_.size(); ++other) {
+    for (std::size_t other = 0; other < locks_.size(); ++other) {
       if (other == thread) continue;
-      Patience patience(32);
+      Backoff backoff(32);
       while (in_the_way(other, box)) {
         if (other < thread) {
-          drop(thread);
+          release(thread);
           return false;
         }
-        patience.wait();
+        backoff.wait();
       }
     }
     return true;
   }
-  void drop(std::size_t thread) {
-    for (auto& part : claims_[thread].part) part.store(nothing, std::memory_order_release);
+  void release(std::size_t thread) {
+    for (auto& part : locks_[thread].part) part.store(nothing, std::memory_order_release);
   }
 
  private:
@@ -57,10 +57,10 @@ class Claims {
   static constexpr std::int32_t most_cells = 1 << low_bits;  ///< along an axis
 
  private:
-  struct alignas(128) Claim {
+  struct alignas(128) Lock {
     std::atomic<std::uint64_t> part[2] = {nothing, nothing};
-    Claim() = default;
-    Claim(Claim&&) noexcept {}
+    Lock() = default;
+    Lock(Lock&&) noexcept {}
   };
 
   static std::uint64_t packed(const CellBox& box) {
@@ -83,7 +83,7 @@ class Claims {
     return out;
   }
   bool in_the_way(std::size_t other, const CellBox& box) const {
-    for (const auto& part : claims_[other].part) {
+    for (const auto& part : locks_[other].part) {
       const std::uint64_t bits = part.load(std::memory_order_seq_cst);
       if (bits != nothing && near(unpacked(bits), box, cells_, distance_)) return true;
     }
@@ -91,7 +91,7 @@ class Claims {
   }
 
   CellCounts cells_, distance_;
-  std::vector<Claim> claims_;
+  std::vector<Lock> locks_;
 };
 
 }  // namespace needlework

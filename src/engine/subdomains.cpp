@@ -1,4 +1,4 @@
-#include "src/engine/zones.h"
+#include "src/engine/subdomains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +11,17 @@ std::size_t index_of(const CellCounts& cells, const CellCounts& at) {
   return (static_cast<std::size_t>(at[2]) * cells[1] + at[1]) * cells[0] + at[0];
 }
 
-// A box from `low` to just before `high`, to be divided into `zones` zones, the first of which is
-// number `first`.
+// A box from `low` to just before `high`, to be divided into `subdomains` subdomains, the first of
+// which is number `first`.
 template <class Number>
 struct Part {
   std::array<Number, 3> low, high;
-  std::uint32_t first, zones;
+  std::uint32_t first, subdomains;
 };
 
-// Cuts a part in two along its longest axis, and the parts again, until each belongs to one zone
-// or cannot be cut further. length(part, axis) is the length of an axis, and cut(part, axis,
-// share) the position where this share of the part ends.
+// Cuts a part in two along its longest axis, and the parts again, until each belongs to one
+// subdomain or cannot be cut further. length(part, axis) is the length of an axis, and cut(part,
+// axis, share) the position where this share of the part ends.
 template <class Number, class Length, class Cut, class Leaf>
 void halve(const Part<Number>& whole, Length&& length, Cut&& cut, Leaf&& leaf) {
   std::vector<Part<Number>> parts = {whole};
@@ -34,15 +34,16 @@ void halve(const Part<Number>& whole, Length&& length, Cut&& cut, Leaf&& leaf) {
     for (int a = 1; a < 3; ++a) {
       if (length(part, a) >= length(part, axis) * (1 - 1e-9)) axis = a;
     }
-    if (part.zones <= 1 || length(part, axis) == 0) {
+    if (part.subdomains <= 1 || length(part, axis) == 0) {
       leaf(part);
       continue;
     }
     Part<Number> low = part, high = part;
-    low.zones = part.zones / 2;
-    high.first += low.zones;
-    high.zones -= low.zones;
-    low.high[axis] = high.low[axis] = cut(part, axis, static_cast<double>(low.zones) / part.zones);
+    low.subdomains = part.subdomains / 2;
+    high.first += low.subdomains;
+    high.subdomains -= low.subdomains;
+    low.high[axis] = high.low[axis] =
+        cut(part, axis, static_cast<double>(low.subdomains) / part.subdomains);
     parts.push_back(low);
     parts.push_back(high);
   }
@@ -63,7 +64,8 @@ void for_each_cell(const CellPart& part, Visit&& visit) {
 }  // namespace
 
 std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<double, 3>& box,
-                                      const std::vector<std::size_t>& weight, std::uint32_t zones) {
+                                      const std::vector<std::size_t>& weight,
+                                      std::uint32_t subdomains) {
   std::vector<std::uint32_t> out(weight.size(), 0);
   const auto length = [&](const CellPart& part, int axis) {
     const std::int32_t count = part.high[axis] - part.low[axis];
@@ -86,13 +88,13 @@ std::vector<std::uint32_t> divide_box(const CellCounts& cells, const std::array<
     }
     return part.low[axis] + static_cast<std::int32_t>(count);
   };
-  halve(CellPart{{0, 0, 0}, cells, 0, zones}, length, cut, [&](const CellPart& part) {
+  halve(CellPart{{0, 0, 0}, cells, 0, subdomains}, length, cut, [&](const CellPart& part) {
     for_each_cell(part, [&](const CellCounts& at) { out[index_of(cells, at)] = part.first; });
   });
   return out;
 }
 
-CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t zones) {
+CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t subdomains) {
   // Positions are fractions of the axes.
   using Share = Part<double>;
   std::array<std::vector<double>, 3> cuts;
@@ -103,10 +105,10 @@ CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t z
     cuts[axis].push_back(part.low[axis] + share * (part.high[axis] - part.low[axis]));
     return cuts[axis].back();
   };
-  halve(Share{{0, 0, 0}, {1, 1, 1}, 0, zones}, length, cut, [](const Share&) {});
+  halve(Share{{0, 0, 0}, {1, 1, 1}, 0, subdomains}, length, cut, [](const Share&) {});
   CellCounts out = {1, 1, 1};
   // A larger multiple would be far from the cell count of any grid.
-  const std::int32_t most = static_cast<std::int32_t>(std::min(2 * zones, 1000u));
+  const std::int32_t most = static_cast<std::int32_t>(std::min(2 * subdomains, 1000u));
   for (int axis = 0; axis < 3; ++axis) {
     const auto is_whole = [&](double cut) {
       return std::abs(cut * out[axis] - std::round(cut * out[axis])) < 1e-9;
@@ -121,10 +123,10 @@ CellCounts multiples_to_divide(const std::array<double, 3>& box, std::uint32_t z
 }
 
 std::vector<std::uint8_t> inner_cells(const CellCounts& cells,
-                                      const std::vector<std::uint32_t>& zone,
+                                      const std::vector<std::uint32_t>& subdomain,
                                       const std::array<std::int32_t, 3>& distance) {
-  // The smallest and the largest zone number nearby, one axis after the other.
-  std::vector<std::uint32_t> least = zone, greatest = zone;
+  // The smallest and the largest subdomain number nearby, one axis after the other.
+  std::vector<std::uint32_t> least = subdomain, greatest = subdomain;
   const CellPart all = {{0, 0, 0}, cells, 0, 1};
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<std::uint32_t> least_before = least, greatest_before = greatest;
@@ -140,8 +142,8 @@ std::vector<std::uint8_t> inner_cells(const CellCounts& cells,
       }
     });
   }
-  std::vector<std::uint8_t> out(zone.size());
-  for (std::size_t c = 0; c < zone.size(); ++c) out[c] = least[c] == greatest[c];
+  std::vector<std::uint8_t> out(subdomain.size());
+  for (std::size_t c = 0; c < subdomain.size(); ++c) out[c] = least[c] == greatest[c];
   return out;
 }
 

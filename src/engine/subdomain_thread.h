@@ -1,0 +1,370 @@
+// One thread of a phase: processes the events of its subdomain, except those that must wait for
+// events of other subdomains.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "src/calendar/cell_calendar.h"
+#include "src/engine/backoff.h"
+#include "src/engine/event_processor.h"
+#include "src/engine/phase.h"
+#include "src/engine/rollback_log.h"
+#include "src/engine/tally.h"
+
+namespace needlework {
+
+/// Puts events into the calendar and lists the blocks that the present event has changed.
+struct SubdomainChanges final : EventSink {
+  explicit SubdomainChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
+  void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
+
+  CellCalendar& calendar;
+  std::vector<BlockIndex> changed;
+};
+
+template <Search S, Model M>
+class alignas(128) SubdomainThread {
+ public:
+  SubdomainThread(Phase<S>& phase, const M& model, std::uint32_t subdomain)
+      : phase_(phase),
+        model_(model),
+        subdomain_(subdomain),
+        changes_(phase.calendar),
+        search_(phase.search, tally_.counters),
+        processor_(phase.run, model, search_, changes_, tally_) {
+    processor_.rollback_log = &rollback_log_;
+  }
+  SubdomainThread(const SubdomainThread&) = delete;
+  SubdomainThread& operator=(const SubdomainThread&) = delete;
+
+  /// Starts a new phase.
+  void begin();
+  /// Processes the events of the subdomain before `end`: all of them, unless the phase has to be
+  /// rolled back.
+  void work(TimeKey end);
+  /// Restores the records that the thread has replaced in the phase, and appends the needles whose
+  /// events must be predicted again.
+  void roll_back(std::vector<Needle>& needles);
+  /// To be called when the order of the storage has changed.
+  void forget() { processor_.forget(); }
+
+  // Results of the phase.
+  /// The time of the latest event processed, which need not be the last one processed.
+  Time latest() const { return latest_; }
+  Tally& tally() { return tally_; }
+  const std::vector<Collision>& reports() const { return reports_; }
+
+ private:
+  using Block = CellCalendar::Block;
+
+  // An event that must wait until `for_block` has no earlier one.
+  struct Deferred {
+    Block block, for_block;
+    TimeKey key;
+  };
+
+  enum class Outcome { done, deferred, again };
+
+  Outcome attempt(Block block, TimeKey key);
+  Outcome defer(Block block, TimeKey key, Block for_block);
+  void release_deferred();
+  void read_mail();
+  void publish_changes();
+  Block earlier_around(Block centre, Block block, TimeKey key) const;
+  static double speed_of(const Record& record) {
+    const Vec3d& v = record.flight.v;
+    return std::sqrt(dot(v, v));
+  }
+  LoggedEvent take(Needle i, const Event& event, TimeKey key) const;
+  CellBox cells_of(Needle i, const Vec3d& r) const;
+  bool may_have_met(const LoggedEvent& mine, double speed, bool in_order, bool alone) const;
+
+  // Largest number of waiting events while the thread looks for one that can proceed.
+  static constexpr std::size_t most_deferred = 12;
+  static constexpr Block nobody = ~Block{0};
+
+  Phase<S>& phase_;
+  const M& model_;
+  const std::uint32_t subdomain_;
+  Tally tally_;
+  SubdomainChanges changes_;
+  S search_;
+  EventProcessor<S, M> processor_;
+  RollbackLog rollback_log_;
+  std::vector<Deferred> deferred_;
+  TimeKey next_of_others_ = 0;  ///< earliest event of other subdomains, as last seen
+  TimeKey hindmost_ = 0;        ///< earliest event of all subdomains, as last seen
+  std::vector<Collision> reports_;
+  Time latest_;
+};
+
+template <Search S, Model M>
+void SubdomainThread<S, M>::begin() {
+  rollback_log_.clear();
+  reports_.clear();
+  deferred_.clear();
+  latest_ = phase_.run.now;
+  processor_.set_now(latest_);
+  processor_.reports = phase_.run.callback ? &reports_ : nullptr;
+}
+
+template <Search S, Model M>
+void SubdomainThread<S, M>::roll_back(std::vector<Needle>& needles) {
+  rollback_log_.put_back(phase_.run.gas, phase_.run.last_collision);
+  needles.insert(needles.end(), rollback_log_.scheduled().begin(), rollback_log_.scheduled().end());
+  processor_.forget();
+}
+
+template <Search S, Model M>
+void SubdomainThread<S, M>::work(TimeKey end) {
+  Backoff backoff(phase_.spins);
+  BlockedTime blocked_time;
+  const auto go_on = [&] {
+    backoff.reset();
+    blocked_time.end(tally_.counters.turns, tally_.counters.blocked);
+  };
+  const auto wait = [&] {
+    blocked_time.begin();
+    if (backoff.wait() && phase_.may_be_too_slow && blocked_time.is_most(Phase<S>::longest_wait)) {
+      phase_.too_slow = phase_.must_roll_back = true;
+    }
+  };
+  while (!phase_.must_roll_back.load(std::memory_order_relaxed)) {
+    if (phase_.mail.has_some(subdomain_)) read_mail();
+    release_deferred();
+    const TimeKey key = phase_.calendar.winning_key(subdomain_);
+    TimeKey local_time = key;
+    for (const Deferred& deferred : deferred_) local_time = std::min(local_time, deferred.key);
+    phase_.local_times.publish_next(subdomain_, local_time);
+    // Deferred events may be waiting for an earlier one that has appeared since.
+    const bool may_start = deferred_.size() < most_deferred || key == local_time;
+    next_of_others_ = phase_.local_times.next_of_others(subdomain_);
+    hindmost_ = std::min(local_time, next_of_others_);
+    if (key < end && may_start && !phase_.local_times.is_too_far_ahead(key, hindmost_)) {
+      const Outcome outcome = attempt(phase_.calendar.winner(subdomain_), key);
+      if (outcome == Outcome::done) go_on();
+      if (outcome == Outcome::again) wait();
+      continue;
+    }
+    if (key >= end && deferred_.empty()) {
+      blocked_time.begin();
+      if (phase_.mail.rest(subdomain_, phase_.must_roll_back, Backoff(phase_.spins))) break;
+      continue;
+    }
+    ++tally_.counters.waited;
+    wait();
+  }
+  go_on();
+}
+
+// Processes the next event of a block, unless it must wait.
+template <Search S, Model M>
+auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
+  const bool alone = phase_.inner[block] && deferred_.empty();
+  processor_.prefetch(phase_.calendar.likely_next_in(subdomain_));
+  const auto give_up = [&](Block for_block) {
+    phase_.region_locks.release(subdomain_);
+    return for_block == nobody ? Outcome::again : defer(block, key, for_block);
+  };
+  const auto lock = [&](RegionLocks::Part part, const CellBox& box) {
+    return alone || phase_.region_locks.acquire(subdomain_, part, box);
+  };
+  if (!alone) {
+    ++tally_.counters.border;
+    const Block earlier = earlier_around(block, block, key);
+    if (earlier != nobody) return give_up(earlier);
+    if (!lock(RegionLocks::owner, phase_.cell_of(block))) return Outcome::again;
+    // Another thread may have changed this block, or others of the subdomain near it, just before
+    // the lock.
+    if (phase_.calendar.published_key(block) != key || phase_.mail.has_some(subdomain_)) {
+      return give_up(nobody);
+    }
+  }
+  const Event event = phase_.calendar.top_of(block);
+  if (event.has_partner()) {
+    phase_.calendar.prefetch_place(event.partner);
+    processor_.prefetch(event.partner);
+  }
+  phase_.calendar.prefetch_keys(block);
+  bool stale = false, near_partner = false;
+  if (event.has_partner()) {
+    // If the partner is no longer near, it has collided since the prediction.
+    const Block other = phase_.calendar.block_of(event.partner);
+    const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
+    near_partner = near(here, there, phase_.cells, phase_.neighbours);
+    stale = !near_partner;
+    if (near_partner) {
+      if (!alone && other != block) {
+        const Block earlier = earlier_around(other, block, key);
+        if (earlier != nobody) return give_up(earlier);
+      }
+      if (!lock(RegionLocks::partner, there)) return Outcome::again;
+      if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
+      phase_.calendar.prefetch_keys(other);
+      stale = processor_.is_stale(event);
+      if (!stale && phase_.calendar.of(event.partner) < event) {
+        // The event would replace one that comes before it, by less than keys can tell.
+        phase_.must_roll_back = true;
+        return give_up(nobody);
+      }
+    }
+  }
+  const bool changes_partner = event.has_partner() && !stale;
+  const LoggedEvent owner = take(event.owner, event, key);
+  phase_.causality_log.prefetch(owner.r);
+  if (!lock(RegionLocks::owner, cells_of(event.owner, owner.r))) return Outcome::again;
+  LoggedEvent partner;
+  if (changes_partner) {
+    partner = take(event.partner, event, key);
+    phase_.causality_log.prefetch(partner.r);
+    if (!lock(RegionLocks::partner, cells_of(event.partner, partner.r))) return Outcome::again;
+  } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
+    // The contact might have taken place, had it been processed in its turn.
+    phase_.must_roll_back = true;
+    return give_up(nobody);
+  }
+  const double fastest = changes_partner ? std::max(owner.speed, partner.speed) : owner.speed;
+  const bool in_order = phase_.local_times.publish_event(subdomain_, key, fastest);
+  changes_.changed.clear();
+#ifndef NDEBUG
+  processor_.watch_reading_ahead();
+#endif
+  processor_.process(event, stale);
+  latest_ = std::max(latest_, event.time);
+  if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
+  const auto record = [&](Needle i, const LoggedEvent& taken) {
+    const double speed = speed_of(phase_.run.gas.records[i]);
+    if (may_have_met(taken, speed, in_order, alone)) phase_.must_roll_back = true;
+    phase_.causality_log.add(taken, hindmost_);
+  };
+  record(event.owner, owner);
+  if (changes_partner) record(event.partner, partner);
+  // No event reads a record from later than its own time, unless the phase is rolled back.
+  assert(!processor_.has_read_ahead() || phase_.must_roll_back);
+  publish_changes();
+  if (!alone) phase_.region_locks.release(subdomain_);
+  return Outcome::done;
+}
+
+template <Search S, Model M>
+auto SubdomainThread<S, M>::defer(Block block, TimeKey key, Block for_block) -> Outcome {
+  ++tally_.counters.held;
+  deferred_.push_back({block, for_block, key});
+  phase_.calendar.follow_by_key(block, CellCalendar::no_event);
+  return Outcome::deferred;
+}
+
+// Releases deferred events that may be able to proceed.
+template <Search S, Model M>
+void SubdomainThread<S, M>::release_deferred() {
+  std::erase_if(deferred_, [&](const Deferred& deferred) {
+    look_away();
+    const TimeKey published = phase_.calendar.published_key(deferred.for_block);
+    if (published < deferred.key ||
+        (published == deferred.key && deferred.for_block < deferred.block)) {
+      return false;
+    }
+    phase_.calendar.follow_by_key(deferred.block, phase_.calendar.published_key(deferred.block));
+    return true;
+  });
+}
+
+template <Search S, Model M>
+void SubdomainThread<S, M>::read_mail() {
+  for (const Block block : phase_.mail.take(subdomain_)) {
+    std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.block == block; });
+    phase_.calendar.follow_by_key(block, phase_.calendar.published_key(block));
+  }
+}
+
+// Publishes the times of the blocks that an event has changed. Those that have become earlier are
+// published first, so that no thread sees this event completed without the events that follow from
+// it.
+template <Search S, Model M>
+void SubdomainThread<S, M>::publish_changes() {
+  std::vector<Block>& changed = changes_.changed;
+  look_away();
+  for (const Block b : changed) {
+    if (phase_.calendar.next_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
+  }
+  for (const Block b : changed) {
+    look_away();
+    phase_.calendar.publish(b);
+    const std::uint32_t subdomain = phase_.calendar.subdomain_of(b);
+    if (subdomain == subdomain_) {
+      std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.block == b; });
+      phase_.calendar.follow_by_key(b, phase_.calendar.published_key(b));
+      continue;
+    }
+    ++tally_.counters.foreign;
+    phase_.mail.send(subdomain, b);
+  }
+}
+
+// A block within reach of `centre` that has an event before that of `block`, or nobody. Among the
+// subdomain's own blocks only deferred ones can have one.
+template <Search S, Model M>
+auto SubdomainThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) const -> Block {
+  look_away();
+  for (const Deferred& deferred : deferred_) {
+    const bool before = deferred.key < key || (deferred.key == key && deferred.block < block);
+    if (before && phase_.reach.holds(phase_.places[centre], phase_.places[deferred.block])) {
+      return deferred.block;
+    }
+  }
+  Block found = nobody;
+  if (key < next_of_others_) return found;
+  const auto has_earlier = [&](Block first, Block end) {
+    for (Block b = first; b < end; ++b) {
+      const TimeKey published = phase_.calendar.published_key(b);
+      if (published > key || (published == key && b >= block)) continue;
+      found = b;
+      return true;
+    }
+    return false;
+  };
+  if (phase_.calendar.subdomain_of(centre) != subdomain_) {
+    phase_.reach.any_row(phase_.places[centre], has_earlier);
+    return found;
+  }
+  for (std::uint32_t n = phase_.foreign_from[centre]; n < phase_.foreign_from[centre + 1]; ++n) {
+    if (has_earlier(phase_.foreign[n].first, phase_.foreign[n].end)) break;
+  }
+  return found;
+}
+
+template <Search S, Model M>
+auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> LoggedEvent {
+  const Record& record = phase_.run.gas.records[i];
+  const double elapsed = phase_.run.gas.clock.difference(event.time, record.time);
+  return {
+      key,       model_.centre(record, elapsed), speed_of(record), event.lower_id, event.higher_id,
+      event.time};
+}
+
+// The box of cells around the cell of a needle at r and the cells in which it may be placed.
+template <Search S, Model M>
+CellBox SubdomainThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
+  return cells_around(phase_.search.grid(), r,
+                      phase_.search.radius() * (1 + 0x1p-10) + phase_.run.gas.longest * 0x1p-20,
+                      phase_.search.cell_of(i));
+}
+
+// Whether a needle that has had event `mine`, and flies with `speed` since, may have met a needle
+// whose later event has already been processed, before that later event. `in_order`: this thread
+// has processed no later event. `alone`: no other thread works near.
+template <Search S, Model M>
+bool SubdomainThread<S, M>::may_have_met(const LoggedEvent& mine, double speed, bool in_order,
+                                         bool alone) const {
+  const double farthest = phase_.local_times.reach_of_later(subdomain_, mine.key, speed, in_order);
+  if (farthest == 0) return false;
+  if (phase_.local_times.is_out_of_sight(farthest)) return true;
+  return !(alone && in_order) && phase_.causality_log.may_have_met(mine, speed, farthest);
+}
+
+}  // namespace needlework

@@ -1,0 +1,21 @@
+#include "src/engine/region_locks.h"
+
+#include <gtest/gtest.h>
+
+namespace needlework {
+namespace {
+
+TEST(RegionLocks, GiveWayToThreadsOfLowerNumber) {
+  RegionLocks region_locks({20, 20, 20}, {1, 1, 1}, 3);
+  EXPECT_TRUE(region_locks.acquire(1, RegionLocks::owner, {{5, 5, 5}, {1, 0, 0}}));
+  EXPECT_FALSE(region_locks.acquire(2, RegionLocks::owner, {{7, 6, 4}, {}}));
+  EXPECT_TRUE(region_locks.acquire(2, RegionLocks::owner, {{8, 5, 5}, {}}));
+  EXPECT_FALSE(region_locks.acquire(2, RegionLocks::partner, {{4, 5, 5}, {}}));  // gives up all
+  EXPECT_TRUE(region_locks.acquire(0, RegionLocks::owner, {{8, 5, 5}, {}}));
+  region_locks.release(0);
+  region_locks.release(1);
+  EXPECT_TRUE(region_locks.acquire(2, RegionLocks::owner, {{5, 5, 5}, {19, 0, 0}}));
+}
+
+}  // namespace
+}  // namespace needlework
