@@ -132,7 +132,8 @@ TEST(ContactsInALongRun, AreProposedWhileTheGasCoolsAndHeats) {
   EXPECT_GT(drive.contacts(), 4000 / thin);
 }
 
-/// Of the cells of all searches that have some.
+/// Of the cells of all searches that have some, each once: how many searches there are depends on
+/// the machine's instruction sets.
 std::vector<std::array<double, 3>> cell_sides(const std::vector<SearchChoice>& choices,
                                               const Gas& gas) {
   std::vector<std::array<double, 3>> sides;
@@ -141,6 +142,8 @@ std::vector<std::array<double, 3>> cell_sides(const std::vector<SearchChoice>& c
     const auto search = make_search(choice, gas, counters);
     if (search->grid()) sides.push_back(search->grid()->sides());
   }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
   return sides;
 }
 

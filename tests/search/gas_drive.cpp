@@ -163,6 +163,7 @@ std::vector<Ahead> contacts_ahead(const Gas& gas, Needle i, Time now, double spa
 GasDrive::GasDrive(Gas& gas, Random& random, std::span<const SearchChoice> choices, double span)
     : gas_(gas),
       random_(random),
+      search_random_(random.bits()),
       choices_(choices.begin(), choices.end()),
       span_(span),
       next_(gas.size()) {
@@ -232,7 +233,9 @@ void GasDrive::set(Needle i, const Vec3d& r, const Vec3d& u, const Velocities& v
 }
 
 Needle GasDrive::hint(Needle i) {
-  if (random_.below(16) == 0) return Needle(random_.below(static_cast<int>(gas_.size())));
+  if (search_random_.below(16) == 0) {
+    return Needle(search_random_.below(static_cast<int>(gas_.size())));
+  }
   if (now_ != struck_at_) return no_needle;
   return i == struck_[0] ? struck_[1] : i == struck_[1] ? struck_[0] : no_needle;
 }
@@ -291,7 +294,7 @@ void GasDrive::check(Needle i) {
   for (const Followed& followed : followed_) {
     ahead.push_back(gas_.clock.difference(std::min(end, followed.placed_until[i]), now_));
     // Searches may also be cut short.
-    if (random_.below(4) == 0) ahead.back() *= random_.uniform();
+    if (search_random_.below(4) == 0) ahead.back() *= search_random_.uniform();
   }
   const double longest = ahead.empty() ? 0 : *std::max_element(ahead.begin(), ahead.end());
   const std::vector<Ahead> contacts = contacts_ahead(gas_, i, now_, longest);
@@ -386,7 +389,7 @@ void GasDrive::check_near(Needle i) {
     const double ahead = gas_.clock.difference(until, now_);
     std::set<Candidate> proposed;
     for (const Proposal& p : proposals(followed, i, ahead)) proposed.insert({p.partner, p.shift});
-    const Time between = std::min(until, gas_.clock.add(now_, random_.uniform() * ahead));
+    const Time between = std::min(until, gas_.clock.add(now_, search_random_.uniform() * ahead));
     for (const Time t : {now_, between, until}) {
       for (const Candidate& candidate : within_reach(gas_, i, t)) {
         ++near_;

@@ -120,6 +120,9 @@ class GasDrive {
 
   Gas& gas_;
   Random& random_;
+  /// For what is drawn for each search: a machine has more searches with more instruction sets, and
+  /// the gas shall be the same on all.
+  Random search_random_;
   std::vector<SearchChoice> choices_;
   double span_;
   std::vector<Followed> followed_;
