@@ -52,6 +52,7 @@ struct Scene {
     std::optional<double> root_tolerance;   ///< see needlework/accuracy.h
     std::optional<double> sampling_step;    ///< see needlework/accuracy.h
     std::optional<int> threads;             ///< absent: OMP_NUM_THREADS, else 1
+    bool threads_by_size = false;           ///< "auto": `threads` follows from needles and cores
     std::string team = "auto";  ///< "auto": one thread works alone where that is faster; or "all"
     std::string isa = "auto";
     std::optional<double> cell_side;       ///< least side of cells [L]; absent: chosen

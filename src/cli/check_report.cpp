@@ -8,6 +8,7 @@
 
 #include "src/cli/json.h"
 #include "src/runs/amount_text.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
 
 namespace needlework::cli {
@@ -94,8 +95,8 @@ std::string expected_text(const runs::Explanation& e) {
 }
 
 std::string engine_text(const runs::Explanation& e) {
-  return fmt::format("search {}, calendar {}, accuracy {}, {} thread{}, {}", e.search, e.calendar,
-                     e.accuracy, e.threads, e.threads == 1 ? "" : "s", e.isa);
+  return fmt::format("search {}, calendar {}, accuracy {}, {}, threads {}", e.search, e.calendar,
+                     e.accuracy, e.isa, runs::threads_text(e.scene));
 }
 
 std::string output_text(const Scene::Output& output) {

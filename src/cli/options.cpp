@@ -22,6 +22,15 @@ CLI::Validator terminal_on_stderr() {
 
 }  // namespace
 
+CLI::Validator auto_or(CLI::Validator check) {
+  return {[=](const std::string& text) -> std::string {
+            std::string value = text;
+            const std::string error = text == "auto" ? "" : check(value);
+            return error.empty() ? "" : error + " or auto";
+          },
+          "WORD"};
+}
+
 CLI::Validator one_of(std::vector<std::string> words) {
   return {[=](const std::string& text) -> std::string {
             const bool known = std::find(words.begin(), words.end(), text) != words.end();
@@ -63,9 +72,12 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa) {
 }
 
 void add_engine_options(CLI::App& command, EngineOptions& engine) {
-  command.add_option("--threads", engine.threads, "number of threads")
-      ->option_text("N")
-      ->check(number_in(1, 1024));
+  command
+      .add_option("--threads", engine.threads,
+                  "number of threads; auto takes one for each core, but no more than there are "
+                  "needles to share")
+      ->option_text("N|auto")
+      ->check(auto_or(number_in(1, 1024)));
   add_isa(command, engine.isa);
 }
 

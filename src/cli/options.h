@@ -34,6 +34,9 @@ CLI::Validator number_in(Number least, Number most) {
           "NUMBER"};
 }
 
+/// The word auto, or what another check accepts.
+CLI::Validator auto_or(CLI::Validator check);
+
 /// One of these words.
 CLI::Validator one_of(std::vector<std::string> words);
 /// Makes one of these words the value of an option.

@@ -12,8 +12,10 @@ namespace needlework::cli {
 
 void apply(const EngineOptions& options, Scene& scene) {
   if (options.threads) {
-    scene.engine.threads = *options.threads;
-    scene.places["engine.threads"] = fmt::format("--threads {}", *options.threads);
+    scene.engine.threads_by_size = *options.threads == "auto";
+    scene.engine.threads.reset();
+    if (!scene.engine.threads_by_size) scene.engine.threads = std::stoi(*options.threads);
+    scene.places["engine.threads"] = "--threads " + *options.threads;
   }
   if (options.isa) {
     scene.engine.isa = *options.isa;

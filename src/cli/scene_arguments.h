@@ -12,7 +12,7 @@ namespace needlework::cli {
 
 /// Options that take the place of keys in [engine].
 struct EngineOptions {
-  std::optional<int> threads;
+  std::optional<std::string> threads;  ///< a number from 1 to 1024, or "auto"
   std::optional<std::string> isa;
 };
 

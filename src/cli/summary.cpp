@@ -7,6 +7,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
 #include "src/runs/amount_text.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/loaded_scene.h"
 
 namespace needlework::cli {
@@ -138,18 +139,20 @@ std::string rate_line(const Report& report) {
 }
 
 // How several threads shared the work; see docs/how-it-works.md.
-std::string thread_line(int threads, const Report& report) {
+std::string thread_line(const Report& report) {
+  const std::string text = runs::threads_text(report.scene);
+  const int threads = report.scene.engine.threads.value_or(1);
+  if (threads == 1) return line("threads", "{}", text);
   const Counters& counters = report.simulation.counters();
   if (counters.phases == 0) {
-    return line("threads", "{}, of which one did all: too few needles, or collisions, to share",
-                threads);
+    return line("threads", "{}; one did all: too few needles, or collisions, to share", text);
   }
   const auto events = static_cast<double>(counters.events);
   const double time = threads * report.course.loop.wall();
   return line("threads",
               "{}: {:.3g} events a turn, blocked {} of the time; {:.2g} looks at others and {:.2g} "
               "writes to them an event; {} of {} phases undone",
-              threads, events / static_cast<double>(std::max<std::uint64_t>(counters.turns, 1)),
+              text, events / static_cast<double>(std::max<std::uint64_t>(counters.turns, 1)),
               per_cent(1e-9 * static_cast<double>(counters.blocked) / time),
               static_cast<double>(counters.border) / events,
               static_cast<double>(counters.foreign) / events, counters.redone, counters.phases);
@@ -183,7 +186,7 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {:.3g} us per collision of CPU time{}\n", report.us_per_collision(),
                         threads > 1 ? ", all threads together" : "");
   }
-  if (threads > 1) text += thread_line(threads, report);
+  if (threads > 1 || scene.engine.threads_by_size) text += thread_line(report);
   if (!scene.output.file.empty()) text += line("file", "{}", scene.output.file);
   return text;
 }

@@ -44,7 +44,17 @@ int threads_of_environment() {
   return static_cast<int>(std::clamp(threads, 1L, 1024L));
 }
 
+// A thread with fewer needles than these meets the others so often that little is gained; see
+// docs/performance.md.
+constexpr std::size_t least_needles_of_a_thread = 4000;
+
 }  // namespace
+
+int threads_by_size(std::size_t needles) {
+  const std::size_t shares = std::max<std::size_t>(1, needles / least_needles_of_a_thread);
+  const int most = std::min(cores(), omp_get_max_threads());
+  return static_cast<int>(std::min<std::size_t>(shares, std::max(1, most)));
+}
 
 std::vector<std::string> instruction_sets() {
   Names names;
@@ -78,8 +88,19 @@ void choose_engine(Scene& scene) {
     throw InputError(fmt::format(
         "{}: expected at most {}, which is all that OMP_THREAD_LIMIT leaves", threads_place, most));
   }
+  if (engine.threads_by_size) {
+    engine.threads = parallel ? threads_by_size(scene.needles.count) : 1;
+  }
   // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
   if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
+}
+
+std::string threads_text(const Scene& scene) {
+  const int threads = scene.engine.threads.value_or(1);
+  if (!scene.engine.threads_by_size) return fmt::to_string(threads);
+  const int here = cores();
+  return fmt::format("{}, for {} needles on {} core{}", threads, scene.needles.count, here,
+                     here == 1 ? "" : "s");
 }
 
 int cores() { return omp_get_num_procs(); }

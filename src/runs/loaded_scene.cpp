@@ -51,8 +51,8 @@ LoadedScene complete_scene(Scene given) {
 
 LoadedScene complete_scene(Scene given, State initial) {
   LoadedScene loaded{.scene = std::move(given), .initial = std::move(initial)};
-  choose_engine(loaded.scene);
   adopt_count_and_box(loaded.scene, *loaded.initial);
+  choose_engine(loaded.scene);
   require_memory(loaded.scene);
   return loaded;
 }

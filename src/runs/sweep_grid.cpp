@@ -320,6 +320,7 @@ Member Reader::make_member(std::size_t point, std::uint64_t seed) const {
   member.scene = parse_overridden_scene(grid_.base, base_name_, overrides);
   member.scene.output.file.clear();
   member.scene.engine.threads = 1;
+  member.scene.engine.threads_by_size = false;
   member.scene.places.erase("engine.threads");
   const Scene& scene = member.scene;
   if (scene.until.wall_s) {

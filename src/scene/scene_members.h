@@ -23,8 +23,8 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "t_rot", t_rot);
 }
 
-/// The same for each member of a Scene, or of its parts. That of all species has the key "". Text
-/// and places, which say where a scene comes from, are left out.
+/// The same for each member of a Scene, or of its parts. That of all species has the key "". Left
+/// out are text and places, which say where a scene comes from, and whether `threads` was chosen.
 template <class AnyScene, class Visit>
 void visit_members(AnyScene& scene, Visit&& visit) {
   auto& [title, needles, species, initial, collisions, engine, until, output, text, places] = scene;
@@ -52,7 +52,7 @@ void visit_members(AnyScene& scene, Visit&& visit) {
   }
   {
     auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,
-           threads, team, isa, cell_side, capsule_radius, storage] = engine;
+           threads, threads_by_size, team, isa, cell_side, capsule_radius, storage] = engine;
     visit("engine", "search", search);
     visit("engine", "queue", queue);
     visit("engine", "accuracy", accuracy);
@@ -62,6 +62,7 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     visit("engine", "root_tolerance", root_tolerance);
     visit("engine", "sampling_step", sampling_step);
     visit("engine", "threads", threads);
+    static_cast<void>(threads_by_size);
     visit("engine", "team", team);
     visit("engine", "isa", isa);
     visit("engine", "cell_side", cell_side);

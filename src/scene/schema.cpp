@@ -236,8 +236,12 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.engine.root_tolerance, number(v, 0, 1e-3)); }},
     {"engine", "sampling_step", "a number from 1e-4 to 0.5",
      [](Scene& s, V v) { return store(s.engine.sampling_step, number(v, 1e-4, 0.5)); }},
-    {"engine", "threads", "a whole number in digits, from 1 to 1024",
-     [](Scene& s, V v) { return store(s.engine.threads, whole_number(v, 1, most_threads)); }},
+    {"engine", "threads", R"("auto" or a whole number in digits, from 1 to 1024)",
+     [](Scene& s, V v) {
+       s.engine.threads.reset();
+       s.engine.threads_by_size = one_of(v, {"auto"}).has_value();
+       return s.engine.threads_by_size || store(s.engine.threads, whole_number(v, 1, most_threads));
+     }},
     {"engine", "team", R"("auto" or "all")",
      [](Scene& s, V v) {
        return store(s.engine.team, one_of(v, {"auto", "all"}));

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -13,6 +16,20 @@
 
 namespace needlework::runs {
 namespace {
+
+TEST(LoadedScene, HasThreadsForItsNeedlesWhereTheyAreChosen) {
+  const auto threads = [](std::uint64_t needles, const std::string& calendar) {
+    Scene scene = test::scene_of(needles, 3);
+    scene.engine.threads_by_size = true;
+    scene.engine.queue = calendar;
+    return complete_scene(scene).scene.engine.threads;
+  };
+  const int most = std::min(cores(), omp_get_max_threads());
+  EXPECT_EQ(threads(100, "auto"), 1);
+  EXPECT_EQ(threads(9000, "auto"), std::min(2, most));
+  EXPECT_EQ(threads(4000000, "auto"), most);
+  EXPECT_EQ(threads(9000, "tournament"), 1);
+}
 
 TEST(LoadedScene, ReadsTheInitialStateWhoseCountAndBoxTheSceneMayGive) {
   const test::TemporaryFolder folder;

@@ -38,7 +38,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       R"(expected "auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")";
   const std::string accuracy = R"(expected "fast", "standard" or "rigorous")";
   const std::string isa = R"(expected "auto", "scalar", "sse4", "avx2" or "avx512")";
-  const std::string threads = "expected a whole number in digits, from 1 to 1024";
+  const std::string threads = R"(expected "auto" or a whole number in digits, from 1 to 1024)";
   const std::string side = "expected a length from 0.1";
   const std::string radius = "expected a length from 1e-3 to 10";
   const std::string series = "expected a number > 0 (at most 1e6)";
@@ -207,7 +207,8 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
       {"[needles]\nfile = 'a'\n", "s.toml: line 2: needles.file = 'a': " + of_needles +
                                       ", did you mean initial.file or output.file?"},
       {"[engine]\nthreads.count = 2\n",
-       "s.toml: line 2: engine.threads = {...}: expected a whole number in digits, from 1 to 1024"},
+       "s.toml: line 2: engine.threads = {...}: expected \"auto\" or a whole number in digits, "
+       "from 1 to 1024"},
       {"[engine]\n\"\" = 2\n", "s.toml: line 2: engine. = 2: " + of_engine},
       {"[engine]\ntread = { a = 1 }\n",
        "s.toml: line 2: engine.tread = { a = 1 }: " + of_engine + ", did you mean threads?"},

@@ -156,6 +156,17 @@ TEST(GoodScene, TakesEveryNamedStrategy) {
     EXPECT_EQ(engine("isa = '" + name + "'").isa, name);
 }
 
+TEST(GoodScene, ChoosesThreadsBySizeUntilANumberIsGiven) {
+  const auto engine = [](const std::vector<std::string>& overrides) {
+    return parse_scene(least + std::string("engine.threads = 'auto'"), "s.toml", overrides).engine;
+  };
+  EXPECT_TRUE(engine({}).threads_by_size);
+  EXPECT_FALSE(engine({}).threads.has_value());
+  EXPECT_FALSE(engine({"engine.threads=2"}).threads_by_size);
+  EXPECT_EQ(engine({"engine.threads=2"}).threads, 2);
+  EXPECT_FALSE(engine({"engine.threads=2", "engine.threads=auto"}).threads.has_value());
+}
+
 TEST(GoodScene, GridIsOneNumberOrThree) {
   EXPECT_EQ(parse_scene(std::string(least) + "output.grid = 7", "s.toml").output.grid,
             (std::array{7, 7, 7}));
