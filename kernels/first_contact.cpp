@@ -446,6 +446,22 @@ ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed) 
   return out;
 }
 
+double time_apart(const Pair& pair) {
+  const PairScale scale = scale_of(pair);
+  if (!scale.moves) return 0;
+  const Frame<double> frame = make_frame<double>(pair, scale);
+  const double slope = evaluate(frame, 0.0).df * pair.touch.side;
+  // Needles whose centres get farther apart than this do not meet any more.
+  const double reach = frame.half[0] + frame.half[1];
+  const double speed = frame.v_length + reach * frame.w_sum;
+  // Far above the rounding of the slope, and above what first_contact() takes for a return at once.
+  if (!(slope > 0x1p-20 * speed)) return 0;
+  // |f''| is at most this, so that f has no root before 2 slope / bend. A quarter is left for all
+  // rounding, here and where the caller rounds the time, and so that f is well above 0 at its end.
+  const double bend = (speed + frame.v_length) * frame.w_sum;
+  return 1.5 * slope / bend * scale.per_rate;
+}
+
 int side_after(const Pair& pair) {
   const PairScale scale = scale_of(pair);
   if (!scale.moves) return 0;

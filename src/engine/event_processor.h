@@ -51,7 +51,7 @@ class EventProcessor {
   Time place(Needle i) { return search_.place(i, now(), model_.half_length(i)); }
   /// Searches the next contact of needle i from now on and puts its next event into the calendar.
   /// `just_hit` is the needle with which it has just collided, if any.
-  [[gnu::noinline]] void schedule(Needle i, Time placed_until, Needle just_hit = no_needle);
+  [[gnu::noinline]] void schedule(Needle i, Time placed_until, const JustHit& just_hit = {});
   void enter(const Event& event) {
     calendar_.set(event, calendar_.needs_block ? search_.cell_index(event.owner) : 0);
   }
@@ -78,7 +78,7 @@ class EventProcessor {
 #endif
 
  private:
-  void consider(Needle i, Needle j, const Shift& shift, double from, double to, Event& best);
+  void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
   void horizon(Needle i);
@@ -187,13 +187,14 @@ void EventProcessor<S, M>::collide(const Event& event) {
   tally_.tc_collisions += elastic;
   tally_.hash.add(report);
   const Time placed_a = place(a), placed_b = place(b);
-  schedule(a, placed_a, b);
-  schedule(b, placed_b, a);
+  const double apart = model_.time_apart(model_.pair(a, first, b, second, shift));
+  schedule(a, placed_a, {b, shift, apart});
+  schedule(b, placed_b, {a, -shift, apart});
   if (reports || run_.callback) run_.report(report, a, b, reports);
 }
 
 template <Search S, Model M>
-void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit) {
+void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& just_hit) {
   ++tally_.counters.searches;
   if (rollback_log) rollback_log->scheduled(i);
   const Time time = now();
@@ -203,22 +204,22 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, Needle just_hit
   best.time =
       std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.search_span)});
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,
-               [&](Needle j, const Shift& shift, double from, double to) {
-                 consider(i, j, shift, from, to, best);
+               [&](Needle j, const Shift& shift, double from) {
+                 consider(i, j, shift, from, best);
                  return gas_.clock.difference(best.time, time);
                });
   enter(best);
 }
 
 // Looks for a contact of i with candidate j that is earlier than `best`, and replaces `best` by
-// it. The contact can only lie between the times `from` and `to` after now.
+// it. The contact does not come before the time `from` after now.
 template <Search S, Model M>
-void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, double from, double to,
+void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, double from,
                                     Event& best) {
   const Record& mine = gas_.records[i];
   const Record& other = gas_.records[j];
   // After the renewal of j's record, the renewal event of j finds the contact.
-  const Time until = std::min({best.time, other.renewal, gas_.clock.add(now(), to)});
+  const Time until = std::min(best.time, other.renewal);
   Event event;
   event.kind = EventKind::contact;
   event.owner = i;

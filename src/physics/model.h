@@ -16,9 +16,9 @@ namespace needlework {
 /// order of events and time.
 ///
 /// A model promises the following.
-///   `pair`, `first_contact`, `geometry`, `gap` and `side_after` are pure functions of the two
-///     records and the shift. They do not depend on when they are called, on the search or on the
-///     thread. Exchanging the needles and negating the shift changes no bit.
+///   `pair`, `first_contact`, `geometry`, `gap`, `side_after` and `time_apart` are pure functions
+///     of the two records and the shift. They do not depend on when they are called, on the search
+///     or on the thread. Exchanging the needles and negating the shift changes no bit.
 ///   `first_contact(pair, from, to, spent)` returns the first contact in (0, to], as a time since
 ///     the later record. The caller knows that there is no contact before `from`. If the pair
 ///     touches to within rounding and its records do not hold the side, the function decides
@@ -27,6 +27,8 @@ namespace needlework {
 ///     the pair holds a touch, it is continued from that touch. `side_after(pair)` is for a pair
 ///     that touches at the time of the later record: the sign of `gap` just after it, or 0 if there
 ///     is none.
+///   `time_apart(pair)` is for a pair that has just collided, at the time of both records: no
+///     contact comes before it.
 ///   `collide` returns the velocities after a contact of needles that approach from `side`;
 ///     `elastic` selects the rule for collisions within the contact time. It never adds energy.
 ///   `renew` replaces the record of one needle by its state at `now` with a new director, velocity
@@ -50,6 +52,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { model.gap(pair, elapsed) } -> std::convertible_to<double>;
   { model.side_after(pair) } -> std::convertible_to<int>;
+  { model.time_apart(pair) } -> std::convertible_to<double>;
   { model.geometry(pair, elapsed) } -> std::same_as<kernels::ContactGeometry>;
   { model.collide(record, record, geometry, int{}, bool{}) } -> std::same_as<Impact>;
   { model.renew(i, now, vector, vector, vector) } -> std::same_as<Shift>;

@@ -49,6 +49,7 @@ class NeedleModel {
   double gap(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
     return gap_at(pair, elapsed);
   }
+  double time_apart(const kernels::Pair& pair) const { return kernels::time_apart(pair); }
   int side_after(const kernels::Pair& pair) const { return kernels::side_after(pair); }
   kernels::ContactGeometry geometry(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
     return contact_geometry(pair, elapsed);

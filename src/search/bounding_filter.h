@@ -1,8 +1,6 @@
 // The first filter of the plain searches: bounding spheres that stay apart.
 #pragma once
 
-#include <limits>
-
 #include "kernels/bounding_spheres.h"
 #include "needlework/counters.h"
 #include "src/physics/gas.h"
@@ -37,7 +35,7 @@ class BoundingFilter {
     if (kernels::spheres_stay_apart(r, v_ - other.flight.v, reach, ahead_)) {
       ++counters_.filtered;
     } else {
-      ahead_ = visit(j, shift, 0.0, std::numeric_limits<double>::infinity());
+      ahead_ = visit(j, shift, 0.0);
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "src/search/time_margin.h"
 
@@ -15,7 +14,6 @@ using kernels::PairColumns;
 // Far more than rounding does to the place of a bounding volume. [unit of length]
 constexpr double volume_margin = 0x1p-12;
 constexpr double roundup = 1 + 0x1p-20;
-constexpr double endless = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -116,42 +114,40 @@ inline void NearSearch::view_cells_near(double reach) {
   if (2 * room > found_.size()) found_.resize(4 * room);
 }
 
-inline void NearSearch::propose(const kernels::Found& found, std::size_t k, double from,
-                                double to) {
+// The boxes to be added to the centre of a needle found in this view.
+inline Shift NearSearch::shift_of(Needle j, std::uint32_t view) const {
+  return volumes_->grid.boxes_between(view_cells_[view], volumes_->places[j].cell);
+}
+
+inline void NearSearch::propose(const kernels::Found& found, std::size_t k, double from) {
   const Needle j(found.needle[k]);
   needlework::prefetch(&volumes_->places[j]);
   needlework::prefetch(&volumes_->gas.records[j]);
-  candidates_.push_back({from, to, j, found.cell[k], {}});
+  candidates_.push_back({from, j, found.cell[k], {}});
 }
 
 // Proposes those of the needles found that may meet the seeker, with the earliest time at which
 // they may.
-inline void NearSearch::follow(const kernels::Seeker& seeker, Needle just_hit,
+inline void NearSearch::follow(const kernels::Seeker& seeker, const JustHit& just_hit,
                                const kernels::Found& found, std::size_t count) {
   const BoundingVolumes& volumes = *volumes_;
-  const float speed = std::abs(seeker.motion.v[0]) + std::abs(seeker.motion.v[1]) +
-                      std::abs(seeker.motion.v[2]) + seeker.motion.omega;
-  // A needle just hit is near for sure: it is proposed until this time, and followed from then on.
-  const float parting = 0.25f / speed;
   const PairColumns pairs =
       pairs_.fill(seeker, volumes.motions.data(), views_.data(), found, count);
-  const auto hit = just_hit.index;
+  float* const from = pairs.column[PairColumns::from];
+  const auto apart =
+      static_cast<float>(std::min(just_hit.apart * volumes.per_time, 2.0 * seeker.ahead));
   for (std::size_t k = 0; k < count; ++k) {
-    pairs.column[PairColumns::from][k] = found.needle[k] == hit ? parting : 0.0f;
+    const bool hit = found.needle[k] == just_hit.needle.index &&
+                     same(shift_of(just_hit.needle, found.cell[k]), just_hit.shift);
+    from[k] = hit ? apart : 0;
   }
   counters_.isolated += kernels_.bracket(seeker, pairs, count);
   for (std::size_t k = 0; k < count; ++k) {
-    const float from = pairs.column[PairColumns::from][k];
-    const bool met = from <= seeker.ahead;
-    if (found.needle[k] == hit) {
-      propose(found, k, 0, met ? endless : parting / volumes.per_time);
-    } else if (met) {
-      propose(found, k, from / volumes.per_time, endless);
-    }
+    if (from[k] <= seeker.ahead) propose(found, k, from[k] / volumes.per_time);
   }
 }
 
-std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Needle just_hit,
+std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit,
                                                               double ahead) {
   const BoundingVolumes& volumes = *volumes_;
   const kernels::Seeker seeker = seeker_for(i, ahead);
@@ -172,13 +168,12 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, Needle j
   if (follows_) {
     follow(seeker, just_hit, found, count);
   } else {
-    for (std::size_t k = 0; k < count; ++k) propose(found, k, 0, endless);
+    for (std::size_t k = 0; k < count; ++k) propose(found, k, 0);
   }
   std::sort(candidates_.begin(), candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
   for (Candidate& candidate : candidates_) {
-    candidate.shift = volumes.grid.boxes_between(view_cells_[candidate.view],
-                                                 volumes.places[candidate.needle].cell);
+    candidate.shift = shift_of(candidate.needle, candidate.view);
   }
   counters_.filtered += entries - candidates_.size();
   return candidates_;

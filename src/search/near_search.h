@@ -50,7 +50,7 @@ class NearSearch {
     double ahead = query.ahead;
     for (const Candidate& candidate : candidates(query.needle, query.just_hit, ahead)) {
       if (candidate.from > ahead) break;
-      ahead = visit(candidate.needle, candidate.shift, candidate.from, candidate.to);
+      ahead = visit(candidate.needle, candidate.shift, candidate.from);
     }
   }
   const char* name() const { return name_of(volumes_->kind); }
@@ -82,19 +82,20 @@ class NearSearch {
 
  private:
   struct Candidate {
-    double from, to;  ///< meets it between these times from now, if at all [time]
+    double from;  ///< does not meet it before, as a time from now [time]
     Needle needle;
     std::uint32_t view;  ///< of the cell in which it was found
     Shift shift;
   };
 
-  std::span<const Candidate> candidates(Needle i, Needle just_hit, double ahead);
+  std::span<const Candidate> candidates(Needle i, const JustHit& just_hit, double ahead);
   kernels::Seeker seeker_for(Needle i, double ahead) const;
   void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
   void view_cells_near(double reach);
-  void follow(const kernels::Seeker& seeker, Needle just_hit, const kernels::Found& found,
+  void follow(const kernels::Seeker& seeker, const JustHit& just_hit, const kernels::Found& found,
               std::size_t count);
-  void propose(const kernels::Found& found, std::size_t k, double from, double to);
+  void propose(const kernels::Found& found, std::size_t k, double from);
+  Shift shift_of(Needle j, std::uint32_t view) const;
 
   std::shared_ptr<BoundingVolumes> volumes_;
   Counters& counters_;

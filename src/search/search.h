@@ -13,10 +13,17 @@
 
 namespace needlework {
 
+/// The needle with which one has collided right now, if any.
+struct JustHit {
+  Needle needle = no_needle;
+  Shift shift{};     ///< of this image [boxes]
+  double apart = 0;  ///< so long they do not meet again [time]
+};
+
 /// Asks which needles one needle might meet.
 struct SearchQuery {
   Needle needle;
-  Needle just_hit = no_needle;  ///< with which it has collided right now, or no_needle
+  JustHit just_hit;
   Time now;
   double ahead;  ///< how far ahead to look [time]
 };
@@ -24,7 +31,7 @@ struct SearchQuery {
 namespace search_detail {
 /// Stands for what the event processor does with a candidate.
 struct AnyVisit {
-  double operator()(Needle, const Shift&, double, double) const { return 0; }
+  double operator()(Needle, const Shift&, double) const { return 0; }
 };
 }  // namespace search_detail
 
@@ -38,11 +45,11 @@ struct AnyVisit {
 ///   renumber(ranks)
 ///     Needle i has become needle ranks[i]; where the needles have been placed stays.
 ///   find(query, lengths, visit)
-///     Calls visit(j, shift, from, to) -> ahead for each image of a needle, j with `shift` boxes
-///     added to its centre, that query.needle might meet within the time query.ahead and before j
-///     is placed again. They meet between now + from and now + to or not at all. The visit returns
-///     how far ahead it still makes sense to look, and find() continues with that. The lengths are
-///     those with which the needles have been placed.
+///     Calls visit(j, shift, from) -> ahead for each image of a needle, j with `shift` boxes added
+///     to its centre, that query.needle might meet within the time query.ahead and before j is
+///     placed again. They do not meet before now + from. The visit returns how far ahead it still
+///     makes sense to look, and find() continues with that. The lengths are those with which the
+///     needles have been placed.
 ///   name() -> const char*          as scenes name it
 ///   cells() -> std::size_t         number of cells by which a calendar may group needles
 ///   cell_index(i) -> std::uint32_t cell in which i has been placed, less than cells()

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "kernels/first_contact.h"
@@ -142,6 +143,73 @@ TEST(FirstContactAfterCollision, DoesNotMissTheFirstReturn) {
   }
   EXPECT_GT(contacts, count / 20);
   EXPECT_GT(sampled, contacts / 2);
+}
+
+// From 1e-9, where it is 0, to needles that part faster than they rotate.
+TEST(TimeApart, EndsBeforeTheNextContactAndWhereTheGapIsWide) {
+  Random random(seed);
+  int contacts = 0, known = 0;
+  for (const double slope : {1e-9, 1e-4, 1e-3, 0.03, 0.3, 3.0}) {
+    for (int n = 0; n < count; ++n) {
+      KernelPair pair = on_contact(random, random.coin() ? slope : -slope);
+      collided(pair);
+      const double apart = time_apart(pair.view());
+      ASSERT_GE(apart, 0);
+      EXPECT_EQ(apart > 0, slope > 1e-7) << "slope " << slope << ", seed " << seed;
+      known += apart > 0;
+      const Contact contact = find(pair, 3);
+      EvaluationCounters counters;
+      const Contact later = first_contact(pair.view(), apart, 3, counters);
+      const auto at = [&](double s) {
+        return static_cast<double>(precise_contact(pair.view(), PairScale{}, Wide(s)).f -
+                                   at_start(pair).f) *
+               pair.touch.side;
+      };
+      for (const double share : {0.1, 0.4, 0.7, 1.0}) {
+        // A third of what f rises to without bending.
+        EXPECT_GE(at(share * apart), 0.2 * slope * share * apart)
+            << "slope " << slope << ", seed " << seed << ", pair " << n;
+      }
+      ASSERT_EQ(later.found, contact.found) << "seed " << seed << ", pair " << n;
+      if (!contact.found) continue;
+      ++contacts;
+      EXPECT_EQ(later.elapsed.hi, contact.elapsed.hi);
+      EXPECT_EQ(later.elapsed.lo, contact.elapsed.lo);
+      EXPECT_EQ(later.side, contact.side);
+      EXPECT_LE(apart, contact.elapsed.hi) << "seed " << seed << ", pair " << n;
+    }
+  }
+  EXPECT_EQ(known, 5 * count);
+  EXPECT_GT(contacts, count);
+}
+
+TEST(TimeApart, IsEndlessWithoutRotationAndZeroAtRest) {
+  Random random(seed);
+  KernelPair pair = on_contact(random, 0.5);
+  for (Flight* needle : {&pair.first, &pair.second}) {
+    needle->w = {};
+    set_rotation(*needle);
+  }
+  collided(pair);
+  EXPECT_EQ(time_apart(pair.view()), std::numeric_limits<double>::infinity());
+  pair.second.v = pair.first.v;
+  EXPECT_EQ(time_apart(pair.view()), 0);
+}
+
+TEST(TimeApart, ScalesWithTheTime) {
+  Random random(seed);
+  KernelPair pair = on_contact(random, 0.3);
+  collided(pair);
+  const double apart = time_apart(pair.view());
+  for (const int power : {-300, -1, 300}) {
+    KernelPair other = pair;
+    for (Flight* needle : {&other.first, &other.second}) {
+      needle->v = needle->v * std::ldexp(1.0, power);
+      needle->w = needle->w * std::ldexp(1.0, power);
+      set_rotation(*needle);
+    }
+    EXPECT_EQ(time_apart(other.view()), std::ldexp(apart, -power));
+  }
 }
 
 TEST(FirstContactAfterCollision, WithoutRotationNeverReturns) {

@@ -124,11 +124,10 @@ struct Moving {
 
   std::set<Candidate> found(Needle i, double ahead) {
     std::set<Candidate> out;
-    search.find({i, no_needle, now, ahead}, lengths,
-                [&](Needle j, const Shift& shift, double, double) {
-                  EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
-                  return ahead;
-                });
+    search.find({i, {}, now, ahead}, lengths, [&](Needle j, const Shift& shift, double) {
+      EXPECT_TRUE(out.insert({j, shift}).second) << "proposed twice";
+      return ahead;
+    });
     return out;
   }
 

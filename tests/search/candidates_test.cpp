@@ -276,11 +276,10 @@ TEST(Searches, KnowNoUnitOfTimeOrLength) {
         const Time end = search->place(i, now);
         out.push_back({i, {}, std::ldexp(gas.clock.since_start(end), -slower)});
         const double ahead = std::min(gas.clock.difference(end, now), std::ldexp(0.5, slower));
-        search->find({i, no_needle, now, ahead},
-                     [&](Needle j, const Shift& shift, double from, double) {
-                       out.push_back({j, shift, std::ldexp(from, -slower)});
-                       return ahead;
-                     });
+        search->find({i, {}, now, ahead}, [&](Needle j, const Shift& shift, double from) {
+          out.push_back({j, shift, std::ldexp(from, -slower)});
+          return ahead;
+        });
       }
       now = gas.clock.add(now, std::ldexp(0.3, slower));
     }

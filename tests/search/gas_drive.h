@@ -106,11 +106,11 @@ class GasDrive {
   struct Proposal {
     Needle partner;
     Shift shift;
-    double from, to;
+    double from;
   };
 
-  /// The needle that i has just hit, if any; now and then any needle, for that is only a hint.
-  Needle hint(Needle i);
+  /// The needle that i has just hit, if any.
+  JustHit just_hit(Needle i);
   void place(Followed& followed, Needle i);
   void place_everywhere(Needle i);
   void settle_next(Needle i);
@@ -129,6 +129,8 @@ class GasDrive {
   std::vector<Time> next_;  ///< of each needle: when it is placed again in some search, or renewed
   Time now_;
   Needle struck_[2];  ///< the pair that collided last, and when
+  Shift struck_shift_{};
+  double apart_ = 0;
   Time struck_at_ = Time::never();
   long contacts_ = 0, touches_ = 0, bounces_ = 0, near_ = 0;
 };

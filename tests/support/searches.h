@@ -37,7 +37,7 @@ std::vector<SearchChoice> search_choices();
 /// A search as src/search/search.h describes it, its type erased.
 class AnySearch {
  public:
-  using Visit = std::function<double(Needle, const Shift&, double from, double to)>;
+  using Visit = std::function<double(Needle, const Shift&, double from)>;
 
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
