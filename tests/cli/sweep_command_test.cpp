@@ -338,7 +338,6 @@ seeds = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
 [parameters]
 "needles.count" = [1, 60]
 "collisions.epsilon" = 0.8
-"collisions.epsilon" = 0.8
 )");
   const std::string broken = "{\"event\": \"sta";
   write("log", broken);
