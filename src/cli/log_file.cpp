@@ -3,13 +3,16 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "needlework/error.h"
@@ -32,6 +35,33 @@ char byte_at(int descriptor, off_t place) {
   return pread(descriptor, &byte, 1, place) == 1 ? byte : '\0';
 }
 
+// Whether what a file holds ends in the middle of a line; not known of a device.
+bool ends_in_a_line(int descriptor) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0) {
+    return false;
+  }
+  return byte_at(descriptor, status.st_size - 1) != '\n';
+}
+
+// Keeps out other processes that write to the same file, also from other machines where the network
+// file system has locks. A run does not wait for its log: after a second it writes all the same.
+class Turn {
+ public:
+  explicit Turn(int descriptor) : descriptor_(descriptor) {
+    for (int tries = 0; tries < 1000; ++tries) {
+      if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  ~Turn() { flock(descriptor_, LOCK_UN); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 }  // namespace
 
 LogFile::LogFile(const std::string& path, std::string place) : place_(std::move(place)) {
@@ -48,7 +78,6 @@ LogFile::LogFile(const std::string& path, std::string place) : place_(std::move(
     close(descriptor_);
     throw IoError(place_ + ": holds something else: expected a new file, or a log to append to");
   }
-  begins_line_ = byte_at(descriptor_, status.st_size - 1) == '\n';
 }
 
 LogFile::~LogFile() { close(descriptor_); }
@@ -57,17 +86,14 @@ void LogFile::write(std::string_view event, const nlohmann::ordered_json& keys) 
   nlohmann::ordered_json object{
       {"event", event}, {"at", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time({})))}};
   object.update(keys);
-  const std::string line = (begins_line_ ? "" : "\n") + json_text(object) + "\n";
+  const Turn turn(descriptor_);
+  const std::string line = (ends_in_a_line(descriptor_) ? "\n" : "") + json_text(object) + "\n";
   ssize_t written = 0;
   do {
     written = ::write(descriptor_, line.data(), line.size());
   } while (written < 0 && errno == EINTR);
-  if (written == static_cast<ssize_t>(line.size())) {
-    begins_line_ = true;
-    return;
-  }
+  if (written == static_cast<ssize_t>(line.size())) return;
   const int error = written < 0 ? errno : ENOSPC;
-  if (written > 0) begins_line_ = false;
   if (!std::exchange(has_warned_, true)) {
     print_warning(fmt::format("{}: lines are missing: {}", place_, reason(error)));
   }

@@ -7,8 +7,8 @@
 
 namespace needlework::cli {
 
-/// Appends to a file, each line by one write, so that several processes can share it and a line is
-/// whole whenever the process ends.
+/// Appends to a file, each line by one write under a lock, so that several processes can share it
+/// and a line is whole whenever the process ends.
 class LogFile {
  public:
   /// Opens the file or makes it. Throws IoError, "PLACE: reason", if it cannot be written, or if it
@@ -26,7 +26,6 @@ class LogFile {
  private:
   std::string place_;
   int descriptor_;
-  bool begins_line_ = true;  ///< whether what is in the file ends with a whole line
   bool has_warned_ = false;
 };
 

@@ -73,6 +73,10 @@ void SweepProgress::show(double elapsed, double fraction, std::size_t finished,
                            {"members", members}});
 }
 
+void SweepProgress::report_finished(const runs::sweep::Member& member) {
+  if (log_) log_->write("member_finished", {{"member", member.name}});
+}
+
 void SweepProgress::report_failure(const runs::sweep::Member& member,
                                    const runs::Failure& failure) {
   line_.clear();

@@ -63,6 +63,7 @@ class SweepProgress : public runs::SweepMonitor {
     return line_.is_due(elapsed) || (log_ && elapsed >= next_in_log_);
   }
   void show(double elapsed, double fraction, std::size_t finished, std::size_t members) override;
+  void report_finished(const runs::sweep::Member& member) override;
   void report_failure(const runs::sweep::Member& member, const runs::Failure& failure) override;
   bool stop_requested() const override;
 

@@ -39,6 +39,11 @@ class SharedProgress {
     monitor_.show(elapsed.count(), std::clamp(done_ / cost_, 0.0, 1.0), finished_, members_);
   }
 
+  void report_finished(const sweep::Member& member) {
+    const std::lock_guard lock(mutex_);
+    monitor_.report_finished(member);
+  }
+
   void report_failure(const sweep::Member& member, const Failure& failure) {
     const std::lock_guard lock(mutex_);
     monitor_.report_failure(member, failure);
@@ -67,6 +72,7 @@ class MemberMonitor : public RunMonitor {
     reported_ = progress.fraction * cost_;
   }
   bool stop_requested() const override { return sweep_.stop_requested(); }
+  void report_finished(const sweep::Member& member) { sweep_.report_finished(member); }
 
  private:
   SharedProgress& sweep_;
@@ -98,7 +104,7 @@ std::unique_ptr<PreparedRun> begin_or_continue(LoadedScene loaded, const std::st
   return std::make_unique<PreparedRun>(std::move(loaded), true, grid, Saves::when_stopped);
 }
 
-ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMonitor& monitor) {
+ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberMonitor& monitor) {
   const SweepFolder& folder = runs.folder;
   const Claim claim(folder, member);
   if (!claim.granted()) return stopped;
@@ -129,6 +135,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, RunMoni
   }
   if (course.stop == Stop::interrupted) return stopped;
   folder.keep(member, SweepFolder::State::finished);
+  monitor.report_finished(member);
   return ok;
 }
 

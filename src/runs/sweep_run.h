@@ -29,6 +29,8 @@ class SweepMonitor {
   virtual bool is_due(double elapsed) const = 0;
   /// `fraction` is the share of the work done, in [0, 1]; `finished` counts members.
   virtual void show(double elapsed, double fraction, std::size_t finished, std::size_t members) = 0;
+  /// A member has been run to its end, and its file has its name.
+  virtual void report_finished(const sweep::Member& /*member*/) {}
   /// A member could not be run; the others are continued.
   virtual void report_failure(const sweep::Member& member, const Failure& failure) = 0;
   /// Whether to end all members; asked several times a second.

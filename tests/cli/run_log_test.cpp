@@ -150,7 +150,7 @@ TEST_F(RunLog, OnAFullDiskTheRunGoesOn) {
   EXPECT_TRUE(done.complains("warning: --log /dev/full: lines are missing: No space left"));
 }
 
-TEST_F(RunLog, OfASweepHasItsFailures) {
+TEST_F(RunLog, OfASweepHasTheEndsOfItsMembers) {
   write("grid.toml", sweep_with_a_failure);
   const Outcome sweep = run("sweep grid.toml --quiet --log log");
   EXPECT_EQ(sweep.exit_code, 3);
@@ -161,6 +161,8 @@ TEST_F(RunLog, OfASweepHasItsFailures) {
   ASSERT_EQ(of("member_failed").size(), 1u);
   EXPECT_EQ(of("member_failed")[0]["member"], "count=1,seed=1");
   EXPECT_EQ(of("member_failed")[0]["exit_code"], 3);
+  ASSERT_EQ(of("member_finished").size(), 1u);
+  EXPECT_EQ(of("member_finished")[0]["member"], "count=50,seed=1");
   EXPECT_EQ(all.back()["event"], "end");
   EXPECT_EQ(all.back()["exit_code"], 3);
 }
@@ -194,9 +196,9 @@ TEST_F(RunLog, IsDescribedByItsDocument) {
   run("sweep grid.toml --quiet --log sweep --progress-every 0");
   for (const json& line : lines("sweep")) {
     const std::string event = line["event"];
-    expect_described(line, event == "member_failed" ? event : event + " of a sweep");
+    expect_described(line, event.starts_with("member_") ? event : event + " of a sweep");
   }
-  EXPECT_EQ(described.size(), 10u);
+  EXPECT_EQ(described.size(), 11u);
 }
 
 // On stderr, which is no terminal here.

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <sstream>
 #include <thread>
 
 #include "tests/cli/program.h"
@@ -326,6 +328,42 @@ TEST_F(SweepOverRanks, GoOnAfterASignal) {
   }
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_EQ(rest.json()["points"], whole["points"]);
+}
+
+// In one needle nothing can ever happen: half of the members fail. What was in the log before ends
+// in the middle of a line.
+TEST_F(SweepOverRanks, WriteOneLogOfWholeLines) {
+  write("half.toml", R"(scene = "cooling.toml"
+seeds = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
+[parameters]
+"needles.count" = [1, 60]
+"collisions.epsilon" = 0.8
+)");
+  const std::string broken = "{\"event\": \"sta";
+  write("log", broken);
+  const std::string command = "sweep half.toml --out half --threads 1 --quiet --progress-every 0";
+  EXPECT_NE(run(command + " --log log", launcher).exit_code, 0);
+  std::istringstream text(read("log"));
+  std::string line;
+  std::getline(text, line);
+  EXPECT_EQ(line, broken);
+  std::vector<std::string> events;
+  std::map<std::string, std::size_t> ends_of_members;
+  while (std::getline(text, line)) {
+    ASSERT_TRUE(json::accept(line)) << line;
+    const json entry = json::parse(line);
+    events.push_back(entry["event"]);
+    if (entry.contains("member")) ++ends_of_members[entry["member"]];
+  }
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.front(), "start");
+  EXPECT_EQ(events.back(), "end");
+  for (const std::string once : {"start", "end"}) {
+    EXPECT_EQ(std::count(events.begin(), events.end(), once), 1) << once;
+  }
+  EXPECT_EQ(std::count(events.begin(), events.end(), "member_finished"), 20);
+  EXPECT_EQ(std::count(events.begin(), events.end(), "member_failed"), 20);
+  EXPECT_EQ(ends_of_members.size(), 40u) << "each once";
 }
 
 TEST_F(SweepOverRanks, NoOtherCommandRunsOnSeveral) {

@@ -1,5 +1,5 @@
 """Installs the build into a new prefix, compiles programs in C or Fortran there as their users do,
-with pkg-config, and runs them: examples/, and the program that docs/c.md shows.
+with pkg-config, and runs them: examples/, the programs that docs/c.md shows, and fortran/images.f90.
 
     pkg_config.py c|fortran BUILD ROOT FLAGS
 
@@ -16,6 +16,14 @@ import tempfile
 from pathlib import Path
 
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+
+# What fortran/images.f90 prints: the first needle has left the box twice, once at either end.
+IMAGES = """\
+images of the first needle 8 -8 8
+images of the second needle -2147483647 0 2147483647
+the first needle is now at  1.0000  1.0000  4.0000
+state: needle 1: image = -2147483648: expected a whole number from -2147483647 to 2147483647
+"""
 
 
 def skip_without(*programs):
@@ -77,12 +85,16 @@ def in_c(installed, root):
 
 
 def in_fortran(installed, root):
+    compiler = ["gfortran", "-std=f2018"]
     folder = root / "examples/fortran"
-    out = installed.build_and_run(["gfortran", "-std=f2018"], folder / "needlework.f90",
-                                  folder / "cooling.f90")
+    out = installed.build_and_run(compiler, folder / "needlework.f90", folder / "cooling.f90")
     seen = re.search(r"^(\d+) collisions seen", out, re.M)
     last = re.findall(r", (\d+) collisions$", out, re.M)[-1]
     check("cooling.f90", seen and seen[1] == last == "2560", out)
+
+    out = installed.build_and_run(compiler, folder / "needlework.f90",
+                                  root / "tests/consumer/fortran/images.f90")
+    check("images.f90", out == IMAGES, out + "expected:\n" + IMAGES)
 
 
 def main(language, build, root, flags=""):

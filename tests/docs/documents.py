@@ -1,5 +1,5 @@
-"""Links among the documents lead somewhere, files that they name exist, and the front page stays
-short."""
+"""Links among the documents lead somewhere, files and tests that they name exist, and the front page
+stays short."""
 
 import re
 import unittest
@@ -59,12 +59,31 @@ def missing_files(path):
             yield f"{path.relative_to(ROOT)}: {name}: expected a file"
 
 
+# A test by its name, such as `ResumeCommand` or `resume.20_kills`; not `output.file`.
+TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|resume)\.\w+)`")
+
+
+def tests():
+    """Expressions for their names: suites, and tests of CMake, some of which have a variable."""
+    folder = ROOT / "tests"
+    suites = {suite for path in folder.rglob("*.cpp")
+              for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
+    scripts = re.findall(r"add_test\(NAME (\S+)", (folder / "CMakeLists.txt").read_text())
+    return suites | {re.sub(r"\$\{\w+\}", r"\\w+", name) for name in scripts}
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertEqual([link for path in documents() for link in broken_links(path)], [])
 
     def test_files_that_are_named_exist(self):
         self.assertEqual([file for path in documents() for file in missing_files(path)], [])
+
+    def test_tests_that_are_named_exist(self):
+        named = TEST.findall((ROOT / "docs/reliability.md").read_text())
+        self.assertGreater(len(named), 20)
+        there = re.compile("|".join(tests()))
+        self.assertEqual([name for name in named if not there.fullmatch(name)], [])
 
     def test_documents_are_listed_in_their_index(self):
         index = (ROOT / "docs/README.md").read_text()
