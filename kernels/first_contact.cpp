@@ -20,6 +20,9 @@ constexpr double velocity_noise = 0x1p-46;
 // rounding does to them, and below the margins of the SIMD filters.
 constexpr double touching = 0x1p-18;
 
+// Pairs that rise by less after a collision, in scaled lengths, are left to double precision.
+constexpr double least_rise = 0x1p-8;
+
 struct Root {
   DoubleDouble s;
   int side;  // sign of f before
@@ -450,16 +453,21 @@ double time_apart(const Pair& pair) {
   const PairScale scale = scale_of(pair);
   if (!scale.moves) return 0;
   const Frame<double> frame = make_frame<double>(pair, scale);
-  const double slope = evaluate(frame, 0.0).df * pair.touch.side;
+  const Sample<double> start = evaluate(frame, 0.0);
+  const double slope = start.df * pair.touch.side, bend = 0.5 * start.ddf * pair.touch.side;
   // Needles whose centres get farther apart than this do not meet any more.
   const double reach = frame.half[0] + frame.half[1];
-  const double speed = frame.v_length + reach * frame.w_sum;
+  const double v = frame.v_length, turn = reach * frame.w_sum;
   // Far above the rounding of the slope, and above what first_contact() takes for a return at once.
-  if (!(slope > 0x1p-20 * speed)) return 0;
-  // |f''| is at most this, so that f has no root before 2 slope / bend. A quarter is left for all
-  // rounding, here and where the caller rounds the time, and so that f is well above 0 at its end.
-  const double bend = (speed + frame.v_length) * frame.w_sum;
-  return 1.5 * slope / bend * scale.per_rate;
+  if (!(slope > 0x1p-20 * (v + turn))) return 0;
+  // |f'''| is at most (3 |v| + |r| w) w^2, so that |f| is not below (slope + bend s - twist s^2) s.
+  const double twist = (3 * v + turn) * frame.w_sum * frame.w_sum * (1.0 / 6);
+  const double root = std::sqrt(bend * bend + 4 * twist * slope);
+  const double end = bend > 0 ? 0.5 * (bend + root) / twist : 2 * slope / (root - bend);
+  if (!(slope * end > least_rise)) return 0;
+  // A quarter is left for all rounding, here and where the caller rounds the time, and so that f is
+  // well above 0 at its end.
+  return 0.75 * end * scale.per_rate;
 }
 
 int side_after(const Pair& pair) {

@@ -58,7 +58,7 @@ struct ContactGeometry {
 ContactGeometry contact_geometry(const Pair& pair, const DoubleDouble& elapsed);
 
 /// Two needles that have collided at s = 0, the time of both records, surely do not meet again
-/// before this [time]; it is 0 if they part too slowly to tell.
+/// before this [time]; it is 0 if they hardly part, or too slowly to tell.
 double time_apart(const Pair& pair);
 
 /// Sign of f just after s = 0 for a pair that touches there, f(0) = 0, taken from f' or f''.

@@ -134,12 +134,17 @@ inline void NearSearch::follow(const kernels::Seeker& seeker, const JustHit& jus
   const PairColumns pairs =
       pairs_.fill(seeker, volumes.motions.data(), views_.data(), found, count);
   float* const from = pairs.column[PairColumns::from];
+  // A pair that parts too slowly for the filter is left out of it and proposed.
+  const bool parts = just_hit.apart > 0;
+  const float never = 2 * seeker.ahead + 1;
   const auto apart =
-      static_cast<float>(std::min(just_hit.apart * volumes.per_time, 2.0 * seeker.ahead));
+      parts ? static_cast<float>(std::min<double>(just_hit.apart * volumes.per_time, never))
+            : never;
   for (std::size_t k = 0; k < count; ++k) {
     const bool hit = found.needle[k] == just_hit.needle.index &&
                      same(shift_of(just_hit.needle, found.cell[k]), just_hit.shift);
     from[k] = hit ? apart : 0;
+    if (hit && !parts) propose(found, k, 0);
   }
   counters_.isolated += kernels_.bracket(seeker, pairs, count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -17,7 +17,7 @@ namespace needlework {
 struct JustHit {
   Needle needle = no_needle;
   Shift shift{};     ///< of this image [boxes]
-  double apart = 0;  ///< so long they do not meet again [time]
+  double apart = 0;  ///< so long they do not meet again; 0 if not known [time]
 };
 
 /// Asks which needles one needle might meet.
