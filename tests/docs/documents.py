@@ -60,16 +60,18 @@ def missing_files(path):
 
 
 # A test by its name, such as `ResumeCommand` or `resume.20_kills`; not `output.file`.
-TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|resume)\.\w+)`")
+TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|python|resume)\.\w+)`")
 
 
 def tests():
-    """Expressions for their names: suites, and tests of CMake, some of which have a variable."""
+    """Expressions for their names: suites, scripts of Python, and tests of CMake, some of which have
+    a variable."""
     folder = ROOT / "tests"
     suites = {suite for path in folder.rglob("*.cpp")
               for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
-    scripts = re.findall(r"add_test\(NAME (\S+)", (folder / "CMakeLists.txt").read_text())
-    return suites | {re.sub(r"\$\{\w+\}", r"\\w+", name) for name in scripts}
+    scripts = re.findall(r"add_test\(NAME (\w+\.\S+)", (folder / "CMakeLists.txt").read_text())
+    python = {f"python.{path.stem.removeprefix('test_')}" for path in folder.glob("python/test_*.py")}
+    return suites | python | {re.sub(r"\$\{\w+\}", r"\\w+", name) for name in scripts}
 
 
 class Documents(unittest.TestCase):

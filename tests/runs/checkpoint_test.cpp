@@ -180,6 +180,13 @@ TEST_F(CheckpointFile, IsAnOrdinaryFileThatExists) {
   EXPECT_EQ(complaint(), files.newest() + ": expected an ordinary file");
 }
 
+TEST_F(CheckpointFile, WithASceneThatNoFileCouldDescribeIsRefused) {
+  RunCheckpoint forged = sample(1);
+  forged.scene.needles.box[1] = 2e9;
+  files.write(forged);
+  EXPECT_NE(complaint().find("needles.box"), std::string::npos) << complaint();
+}
+
 // Ten gigabytes that take no place on the disk.
 TEST_F(CheckpointFile, OfZerosTakesNoMemory) {
   put("");
