@@ -11,7 +11,8 @@ Repetitions of all settings are interleaved. Times are wall times of the event l
 A speed-up is over the run by one thread in the same repetition; the table gives medians and ranges.
 "alone" is one thread with whatever search and calendar is best for one; "apart" is as many runs of that
 as there are threads, at once, and their collisions together: what the cores can give; "crowded" has
-four threads for each core. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
+four threads for each core. Beside other programs that never rest, a speed-up is over one thread beside
+them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of
 one commit and of the same build; until then to study/results/ in the folder of the build.
 """
@@ -26,8 +27,10 @@ import tempfile
 import time
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "tests/cli")]
 import measured  # noqa: E402
+from busy_machine import load  # noqa: E402
 from measured import quotients, spread  # noqa: E402
 
 DILUTE = 24 / 10000 ** (1 / 3)  # box over N^(1/3)
@@ -42,6 +45,7 @@ STRONG = {
 }
 WEAK = {"weak": (100000, DILUTE, 4)}  # needles for each thread
 CROWDED = ["dilute", "dense"]
+LOADS = [1, 2, 4]  # programs beside the crowded scenes
 ENSEMBLE = {"ensemble": (2000, 14.0, 40)}  # each member
 SCENES = STRONG | WEAK | ENSEMBLE
 GRID = """scene = "member.toml"
@@ -87,7 +91,10 @@ def settings_of(name, most):
     settings = [("alone", 1)] + [("together", n) for n in counts if n > 1]
     if name not in ENSEMBLE:
         settings += [("apart", n) for n in counts if n > 1]
-    return settings + [("crowded", 4 * most)] * (name in CROWDED)
+    if name in CROWDED:
+        settings += [("crowded", 4 * most)]
+        settings += [(f"beside-{programs}", n) for programs in LOADS for n in (1, most, 4 * most)]
+    return settings
 
 
 def measure(program, name, most, shorter):
@@ -107,9 +114,10 @@ def measure(program, name, most, shorter):
                 side = box * case["needles"] ** (1 / 3) if name in WEAK else box
                 file = Path(folder) / "scene.toml"
                 file.write_text(scene(case["needles"], side, collisions))
-                processes = [start(program, file, 1 if kind == "apart" else n)
-                             for _ in range(n if kind == "apart" else 1)]
-                runs = [end(process) for process in processes]
+                with load(int(kind.removeprefix("beside-")) if "beside" in kind else 0):
+                    processes = [start(program, file, 1 if kind == "apart" else n)
+                                 for _ in range(n if kind == "apart" else 1)]
+                    runs = [end(process) for process in processes]
                 us = 1e6 / sum(run["collisions"] / run["wall_s"] for run in runs)
                 hashes |= {run["trajectory_hash"] for run in runs}
                 stats = runs[0]["stats"]
@@ -124,11 +132,12 @@ def measure(program, name, most, shorter):
 
 
 def speed_ups(content):
-    """Of each case: how many times faster than alone, by repetition."""
-    alone = next(case for case in content["cases"] if "/alone/" in case["name"])
-    return {tuple(case["name"].split("/")[1:]):
-            quotients(alone["us_per_collision"], case["us_per_collision"])
-            for case in content["cases"]}
+    """Of each case: how many times faster than one thread beside the same load, by repetition."""
+    cases = {tuple(case["name"].split("/")[1:]): case["us_per_collision"]
+             for case in content["cases"]}
+    return {(kind, threads): quotients(
+        cases[kind if "beside" in kind else "alone", "threads:1"], us)
+        for (kind, threads), us in cases.items()}
 
 
 def table(contents):
@@ -140,7 +149,8 @@ def table(contents):
             if kind == "apart":
                 continue
             gain, n = gains[kind, threads], case["threads"]
-            cells = [name, case["needles"], n, spread(case["us_per_collision"])]
+            scene = f"{name} {kind.replace('-', ' ')} busy" if "beside" in kind else name
+            cells = [scene, case["needles"], n, spread(case["us_per_collision"])]
             cells += ["1", "1"] if n == 1 else [spread(gain), spread([g / n for g in gain])]
             if kind == "together" and ("apart", threads) in gains:
                 cells += [spread(quotients(gain, gains["apart", threads])),
