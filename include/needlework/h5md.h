@@ -47,6 +47,8 @@ struct RunInfo {
   double epoch_length = 0;               ///< length of the epochs in /events [time]
   std::string accuracy = "standard";     ///< level in use, and the settings that differ from it
   std::vector<SeriesGroup> series = {};  ///< what /series holds besides the totals
+  std::vector<std::uint32_t> ids = {};   ///< of needles in each frame, for Writer::resume(), which
+                                         ///< compares them if there are any
 };
 
 /// Writes one run to one file.

@@ -37,7 +37,7 @@ bool marks_complete_rows(const std::string& path) {
 }
 
 // What does not belong to the trajectory may change between the parts of a run. Ids are written
-// with the first frame, and compared by those of the others.
+// with the first frame, and compared on their own.
 bool may_differ(const std::string& path) {
   constexpr std::array paths{"/parameters/isa", "/parameters/threads", "/parameters/version",
                              "/particles/needles/id"};
@@ -224,6 +224,16 @@ void for_each_beyond(hid_t file, const std::string& place, const Writer::Positio
   });
 }
 
+void require_ids(const Source& source, const std::vector<std::uint32_t>& expected) {
+  const Element element(source, "/particles/needles/id");
+  const auto found = element.read<std::uint32_t>(std::nullopt);
+  for (std::size_t n = 0; n < std::min(found.size(), expected.size()); ++n) {
+    if (found[n] == expected[n]) continue;
+    throw InputError(fmt::format("{}, value {}: {}: expected {}, as in the run that is continued",
+                                 source.place(element.name()), n, found[n], expected[n]));
+  }
+}
+
 }  // namespace
 
 void require_continuable(const Source& source, const Scene& scene, const RunInfo& run,
@@ -234,6 +244,7 @@ void require_continuable(const Source& source, const Scene& scene, const RunInfo
   }
   const Handle expected = make_expected(source.path(), scene, run);
   Comparison(source, expected.get(), position).groups("");
+  if (position.frames > 0) require_ids(source, run.ids);
 }
 
 // First the datasets that make rows complete, so that no row is complete of which a part is gone.

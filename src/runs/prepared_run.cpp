@@ -105,7 +105,8 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
       initial_(saved.initial) {
   require_consistent(saved);
   observe();
-  open_output([&](const io::RunInfo& info) {
+  open_output([&](io::RunInfo info) {
+    info.ids = simulation_.copy().id;
     // While the file is locked, and before it is changed.
     return io::Writer::resume(scene_.output.file, scene_, info, saved.output, [&] {
       CheckpointFiles::require_unchanged(saved.origin);

@@ -1,4 +1,5 @@
 // A file that is continued becomes the file of a run that was never stopped, wherever it was.
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -571,6 +572,18 @@ TEST_F(Continuing, FramesKeepTheirIds) {
   writer.write_frame(make_totals(9000), state);
   writer.close();
   EXPECT_EQ(read_last_frame(file("a.h5")).id, make_state(5).id);
+
+  RunInfo info = Plan::info();
+  info.ids = make_state(5).id;
+  Writer::resume(file("a.h5"), small.scene(), info, checkpoint.position).close();
+  const std::string before = bytes(file("a.h5"));
+  info.ids[3] = 255;
+  EXPECT_EQ(message_of<InputError>(
+                [&] { Writer::resume(file("a.h5"), small.scene(), info, checkpoint.position); }),
+            fmt::format("{}: /particles/needles/id, value 3: {}: expected 255, as in the run that "
+                        "is continued",
+                        file("a.h5"), make_state(5).id[3]));
+  EXPECT_EQ(bytes(file("a.h5")), before);
 }
 
 TEST_F(Continuing, SyncBringsFileAndNameToTheDisk) {
