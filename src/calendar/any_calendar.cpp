@@ -9,7 +9,10 @@ namespace {
 template <class... Calendars>
 std::unique_ptr<AnyCalendar> make_one_of(CalendarList<Calendars...>, const std::string& name) {
   std::unique_ptr<AnyCalendar> out;
-  ((name == Calendars::name && (out = std::make_unique<CalendarOf<Calendars>>(), true)) || ...);
+  const auto make_if = [&]<class Calendar>(CalendarList<Calendar>) {
+    if (name == Calendar::name) out = std::make_unique<CalendarOf<Calendar>>();
+  };
+  (make_if(CalendarList<Calendars>()), ...);
   if (out) return out;
   std::string names = "auto";
   ((names += std::string(", ") + Calendars::name), ...);

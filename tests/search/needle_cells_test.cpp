@@ -36,7 +36,9 @@ void expect_consistent(const NeedleCells& cells, std::size_t count,
       ASSERT_TRUE(blocks.insert(b).second) << "block " << b << " is in two chains";
       const BlockLink& link = cells.links()[b];
       ASSERT_TRUE(b == cell || link.size > 0);
-      if (link.next != BlockLink::none) ASSERT_EQ(link.size, block_size);
+      if (link.next != BlockLink::none) {
+        ASSERT_EQ(link.size, block_size);
+      }
       ASSERT_LE(link.size, block_size);
       for (std::uint32_t lane = 0; lane < link.size; ++lane, ++seen) {
         const std::uint32_t needle = cells[b].needle[lane];
@@ -75,7 +77,9 @@ TEST(NeedleCells, HoldNeedlesByCell) {
     cells[slot.block].needle[slot.lane] = i;
     cells[slot.block].column[0][slot.lane] = static_cast<float>(i);
     stored[i] = {cell, slot};
-    if (n % 16 == 0) ASSERT_NO_FATAL_FAILURE(expect_consistent(cells, count, stored));
+    if (n % 16 == 0) {
+      ASSERT_NO_FATAL_FAILURE(expect_consistent(cells, count, stored));
+    }
   }
   EXPECT_GT(cells.longest_chain(), 8u);
   EXPECT_EQ(cells.blocks(), first) << "blocks have moved";

@@ -144,7 +144,9 @@ TEST(CellBall, HoldsTheCellsThatComeNearer) {
           const std::int32_t steps = steps_between(place[axis], centre[axis], cells[axis]);
           const double gap = std::max(0, steps - 1) * of.sides()[axis];
           squares += gap * gap;
-          if (seen.contains(cell)) EXPECT_LE(steps, ball.reach()[axis]);
+          if (seen.contains(cell)) {
+            EXPECT_LE(steps, ball.reach()[axis]);
+          }
         }
         EXPECT_EQ(seen.contains(cell), squares < distance * distance) << cell << " of " << distance;
         EXPECT_EQ(ball.holds(centre, place), seen.contains(cell));

@@ -119,7 +119,9 @@ TEST(RandomScenes, EndAsOnOneThread) {
         << "seed " << seed << " on " << threads << " threads";
   }
   EXPECT_GT(counters.phases, 0u);
-  if (test::thin == 1) EXPECT_GT(counters.resized, 0u);
+  if (test::thin == 1) {
+    EXPECT_GT(counters.resized, 0u);
+  }
 }
 
 }  // namespace
