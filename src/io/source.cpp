@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <limits>
 #include <system_error>
+#include <type_traits>
 
 #include "needlework/error.h"
 
@@ -131,7 +132,17 @@ std::optional<std::vector<Number>> Element::read_grid(const char* name) const {
   const Number increment = values[0];
   values.resize(shape_.empty() ? 0 : shape_[0]);
   for (std::size_t row = 0; row < values.size(); ++row) {
-    values[row] = offset + static_cast<Number>(row) * increment;
+    const auto number = static_cast<Number>(row);
+    if constexpr (std::is_integral_v<Number>) {
+      Number product = 0;
+      if (__builtin_mul_overflow(number, increment, &product) ||
+          __builtin_add_overflow(offset, product, &values[row])) {
+        throw InputError(fmt::format("{}: {} + {} x {}: expected a number of 64 bits", place,
+                                     offset, row, increment));
+      }
+    } else {
+      values[row] = offset + number * increment;
+    }
   }
   return values;
 }

@@ -298,6 +298,16 @@ TEST_F(Reading, StepsOutOfOrderAreRefused) {
             "/particles/all/position/step[2] = 5: expected 7 or more, which is the step before it");
 }
 
+TEST_F(Reading, EvenStepsBeyond64BitsAreRefused) {
+  EXPECT_EQ(complaint(
+                [](HandMade& file) {
+                  file.put("/particles/all/position/step", {}, {0x1p62}, H5T_STD_I64LE);
+                },
+                3),
+            "/particles/all/position/step: 0 + 2 x 4611686018427387904: expected a number of 64 "
+            "bits");
+}
+
 TEST_F(Reading, WrongNumbersAreNamedWithTheirPlace) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   constexpr double infinity = std::numeric_limits<double>::infinity();
