@@ -526,6 +526,24 @@ TEST_F(Continuing, WhatIsNotTheFileOfTheRunIsKept) {
   EXPECT_EQ(read_contents(path).at("/parameters/isa").texts.at(0), "sse4");
 }
 
+// To cut them off, HDF5 would take a step for each chunk, for hours.
+TEST_F(Continuing, FilesWithMoreRowsThanTheyCanHoldAreKept) {
+  const std::string path = file("a.h5");
+  const Checkpoint checkpoint = write_stopped(path, small, 4, 1);
+  {
+    const hdf5::Handle opened(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path);
+    const hdf5::Handle steps = hdf5::open_dataset(opened.get(), "/series/step", path);
+    const hsize_t rows = 1ull << 40;
+    hdf5::check(H5Dset_extent(steps.get(), &rows), path);
+  }
+  const std::string before = bytes(path);
+  const std::string message = message_of<InputError>([&] { resume(path, small, checkpoint); });
+  EXPECT_TRUE(message.find("/step: 1099511627776 numbers: expected fewer in a file of") !=
+              message.npos)
+      << message;
+  EXPECT_EQ(bytes(path), before);
+}
+
 TEST_F(Continuing, OtherFilesAreKept) {
   const std::string path = file("a.h5");
   const auto expect_refused = [&](const std::string& reason) {
