@@ -7,7 +7,9 @@ the file. docs/file-format.md describes what is in a file.
 
 from __future__ import annotations
 
+import fcntl
 import os
+import struct
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -282,10 +284,29 @@ def _open(path: str) -> h5py.File:
         raise ImportError("needlework.read() needs h5py: expected the package python3-h5py "
                           "to be installed") from error
     try:
+        # One that grows is opened again if it grew in that moment, and without SWMR mode if this
+        # process has opened it without.
+        for _ in range(3 if _is_being_written(path) else 0):
+            try:
+                return h5py.File(path, "r", swmr=True)
+            except OSError:
+                continue
         return h5py.File(path, "r")
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
         raise IoError(f"{path}: cannot be read: {reason}") from error
+
+
+def _is_being_written(path: str) -> bool:
+    """Whether a run has the file open. Then, and only then, it is read in SWMR mode (single writer,
+    multiple readers), in which HDF5 takes endless time to refuse a damaged file."""
+    lock = struct.Struct("hhqqi4x")  # type, whence, start, length and process of struct flock
+    with open(path, "rb") as file:
+        try:
+            found = fcntl.fcntl(file, fcntl.F_GETLK, lock.pack(fcntl.F_RDLCK, os.SEEK_SET, 0, 0, 0))
+        except OSError:  # a file system without locks
+            return False
+    return lock.unpack(found)[0] != fcntl.F_UNLCK
 
 
 def _places(name: str, count: int, index: Any) -> int | range:

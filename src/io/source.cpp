@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "needlework/error.h"
+#include "src/io/write_lock.h"
 
 namespace needlework::io {
 
@@ -33,6 +34,21 @@ std::uint64_t product(const Shape& shape, std::size_t first) {
   return out;
 }
 
+// In SWMR mode (single writer, multiple readers) HDF5 looks beyond the size that the file had when
+// it was opened, and reads a block of metadata again whose checksum is wrong, as it can be in the
+// middle of a write. It waits between these attempts, twice as long each time: 20 take about 1 ms,
+// and the 100 that are its default never end. A file that grows while it is opened can be shorter
+// than it says, and is opened again. Without the mode if this process has opened it without.
+hid_t open_growing(const std::string& path) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  check(H5Pset_metadata_read_attempts(access.get(), 20), path);
+  hid_t file = H5I_INVALID_HID;
+  for (int attempt = 0; attempt < 3 && file < 0; ++attempt) {
+    file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  }
+  return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;
+}
+
 }  // namespace
 
 Source::Source(const std::string& path) : path_(path) {
@@ -51,7 +67,8 @@ Source::Source(const std::string& path) : path_(path) {
   bytes_ = static_cast<std::uint64_t>(status.st_size);
 
   if (H5Fis_hdf5(path.c_str()) <= 0) throw IoError(path + ": not an HDF5 file");
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t file = is_being_written(path) ? open_growing(path)
+                                            : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) {
     throw IoError(fmt::format("{}: damaged or cut short: {}", path, hdf5::last_error()));
   }
@@ -80,13 +97,16 @@ Element::Element(const Source& source, const std::string& path)
     throw InputError(
         fmt::format("{}: the values are not numbers: expected floating point or integers", place));
   }
-  shape_ = hdf5::shape_of(value_.get(), place);
-  rows_ = shape_.empty() ? 0 : shape_[0];
-  source.require_possible(product(shape_, 0), name_);
+  find_shape();
   if (!is_group_) return;
 
   steps_ = read_grid<std::int64_t>("step");
   if (!steps_) return;
+  if (steps_->size() > rows_) {
+    // Another process may have written them in between.
+    check(H5Drefresh(value_.get()), place);
+    find_shape();
+  }
   if (steps_->size() > rows_) {
     throw InputError(fmt::format("{}: {} steps: expected {}, one for each row of {}",
                                  source.place(path_ + "/step"), steps_->size(), rows_, name_));
@@ -98,6 +118,12 @@ Element::Element(const Source& source, const std::string& path)
                                  source.place(path_ + "/step"), back - steps_->begin() + 1, back[1],
                                  back[0]));
   }
+}
+
+void Element::find_shape() {
+  shape_ = hdf5::shape_of(value_.get(), source_->place(name_));
+  rows_ = shape_.empty() ? 0 : shape_[0];
+  source_->require_possible(product(shape_, 0), name_);
 }
 
 std::optional<std::vector<double>> Element::times() const {

@@ -65,6 +65,7 @@ class Element {
   std::size_t size(std::optional<hsize_t> row) const;
 
  private:
+  void find_shape();
   template <class Number>
   std::optional<std::vector<Number>> read_grid(const char* name) const;
 

@@ -52,7 +52,7 @@ bool is_locked_by_writer(int descriptor) {
 #endif
 }
 
-constexpr const char* is_being_written =
+constexpr const char* opened_elsewhere =
     ": another program or simulation has the file open for writing";
 
 // Those of all locks of the process. Used in a session, so that no other thread is about to change
@@ -64,12 +64,20 @@ std::set<int>& descriptors() {
 
 }  // namespace
 
+bool is_being_written(const std::string& name) {
+  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  const bool written = is_locked_by_writer(descriptor);
+  close(descriptor);
+  return written;
+}
+
 void require_not_being_written(const std::string& name, const std::string& place) {
   const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return;
   const bool written = !lock_against_hdf5(descriptor) || is_locked_by_writer(descriptor);
   close(descriptor);  // and its lock
-  if (written) throw IoError(place + is_being_written);
+  if (written) throw IoError(place + opened_elsewhere);
 }
 
 WriteLock::WriteLock(const std::string& name, const std::string& place)
@@ -85,7 +93,7 @@ WriteLock::WriteLock(const std::string& name, const std::string& place)
     return;
   }
   close(descriptor_);
-  throw IoError(place_ + (regular ? is_being_written : ": not a regular file"));
+  throw IoError(place_ + (regular ? opened_elsewhere : ": not a regular file"));
 }
 
 WriteLock::~WriteLock() {

@@ -5,6 +5,9 @@
 
 namespace needlework::io {
 
+/// Whether there is a WriteLock on this file, in this or another process.
+bool is_being_written(const std::string& name);
+
 /// Throws IoError, "PLACE: reason", if a program has this file open for writing, as far as locks
 /// show that. Of a file that does not exist or may not be read, they show nothing.
 void require_not_being_written(const std::string& name, const std::string& place);

@@ -146,6 +146,16 @@ class Reading(unittest.TestCase):
             self.assertEqual(recording.series.collisions[-1], 2000)
             self.assertEqual(recording.frames[-1].collisions, 2000)
 
+    def test_a_file_is_read_while_it_is_written(self):
+        path = Path(self.folder.name, "growing.h5")
+        with Simulation(gas(output={"file": str(path), "frames": 1})) as sim:
+            sim.run()
+            with read(path) as recording:
+                self.assertGreater(len(recording.frames), 1)
+                self.assertTrue(recording._file.swmr_mode)
+        with read(path) as recording:
+            self.assertFalse(recording._file.swmr_mode)
+
     def test_other_files_are_refused(self):
         import h5py
         with self.assertRaisesRegex(IoError, "no-such.h5: cannot be read: No such file"):

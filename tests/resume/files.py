@@ -27,7 +27,17 @@ observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
 PROVENANCE = {"parameters/threads", "parameters/isa"}
 
 
-def contents(path):
+def open_growing(path):
+    """A file that a run is writing, opened as docs/file-format.md says."""
+    for attempt in range(3):
+        try:
+            return h5py.File(path, swmr=True)
+        except OSError:
+            if attempt == 2:
+                raise
+
+
+def contents(path, opened=h5py.File):
     """All datasets as arrays, by name; those with several names by each."""
     found = {}
 
@@ -38,7 +48,7 @@ def contents(path):
             elif f"{prefix}{name}" not in PROVENANCE:
                 found[f"{prefix}{name}"] = item[()]
 
-    with h5py.File(path) as file:
+    with opened(path) as file:
         visit(file, "")
     return found
 

@@ -12,7 +12,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from files import complete_rows, contents, require_prefix
+from files import complete_rows, contents, open_growing, require_prefix
 
 SCENE = """
 needles = { count = 100, box = 5 }
@@ -24,7 +24,7 @@ checkpoint_every = 1e6
 
 
 def rows_of(file):
-    return complete_rows(contents(file))["series/step"]
+    return complete_rows(contents(file, open_growing))["series/step"]
 
 
 def main():
@@ -44,7 +44,7 @@ def main():
             while (rows := rows_of(file)) <= first + 1:
                 assert process.poll() is None, "no rows have come while the run lasted"
                 time.sleep(0.5)
-            readable = contents(file)
+            readable = contents(file, open_growing)
         finally:
             process.send_signal(signal.SIGKILL)
             process.wait()

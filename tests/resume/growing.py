@@ -1,0 +1,61 @@
+"""A file can be read at any time while a run writes to it: by h5py in SWMR mode, and by the program.
+
+    growing.py NEEDLEWORK
+
+The run writes a frame, and so flushes its file, some hundred times in a second. Readers that do not
+expect a file to grow fail at every second to third attempt.
+"""
+
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from files import command, complete_rows, contents, open_growing, require_prefix
+
+SCENE = """
+needles = { count = 100, box = 5 }
+collisions.epsilon = 0.9
+collisions.tc_relative = 1e-3
+until.energy_ratio = 1e-300
+[output]
+series_every = 20
+events = true
+frames = 1000000
+checkpoint_every = 1e6
+"""
+SECONDS = 8
+
+
+def main():
+    program = str(Path(sys.argv[1]).resolve())
+    with tempfile.TemporaryDirectory() as folder:
+        folder = Path(folder)
+        (folder / "scene.toml").write_text(SCENE)
+        file, page = str(folder / "run.h5"), str(folder / "run.html")
+        process = subprocess.Popen([program, "run", "scene.toml", "--out", file, "--quiet"],
+                                   cwd=folder)
+        try:
+            while not (folder / "run.h5.checkpoint").exists():
+                assert process.poll() is None, "the run has ended"
+                time.sleep(0.05)
+            reads, end = [], time.monotonic() + SECONDS
+            while time.monotonic() < end:
+                reads.append(contents(file, open_growing))
+                code, _, message = command(program, "report", file, "--force", "--out", page)
+                assert code == 0, message
+            assert process.poll() is None, "the run has ended"
+        finally:
+            process.kill()
+            process.wait()
+        after = contents(file)
+        for read in reads:
+            require_prefix(read, after)
+        frames = [complete_rows(read)["particles/needles/position/step"] for read in reads]
+        assert len(frames) >= 5 and all(a < b for a, b in zip(frames, frames[1:])), frames
+        print(f"{len(frames)} times read by each, frames from {frames[0]} to {frames[-1]}")
+
+
+if __name__ == "__main__":
+    main()
