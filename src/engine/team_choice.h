@@ -10,7 +10,9 @@
 namespace needlework {
 
 /// Compares wall times per collision. It begins with one thread alone, tries all together, and
-/// tries the slower of the two again from time to time.
+/// tries the slower of the two again from time to time. Before it leaves the faster one it measures
+/// the other again, because the cost of a collision changes in the course of a run, and so does the
+/// speed of the machine.
 class TeamChoice {
  public:
   /// Collisions of a trial, few enough to lose little time.
@@ -22,7 +24,7 @@ class TeamChoice {
   };
 
   Turn next() const {
-    if (!alone_.is_known()) return {false, trial};
+    if (!alone_.is_known() || checking_) return {false, trial};
     if (together_best_) {
       return since_trial_ < until_trial_ ? Turn{true, most_} : Turn{false, trial};
     }
@@ -37,34 +39,50 @@ class TeamChoice {
     since_trial_ += seconds + preparing;
     if (!together) {
       alone_.add(collisions, seconds);
-      if (together_best_) {
-        since_trial_ = 0;
-        until_trial_ = std::max(shortest_break, breaks_alone * (seconds + preparing));
+      if (!together_best_) return;
+      if (checking_) {
+        tried_ += collisions;
+        if (tried_ < trial) return;
+        checking_ = false;
+        if (together_.each() >= alone_.each()) return leave_to_one();
       }
+      since_trial_ = 0;
+      until_trial_ = std::max(shortest_break, breaks_alone * (seconds + preparing));
       return;
     }
-    if (!together_best_ && !on_trial_) together_ = {};
+    if (!together_best_ && !on_trial_) together_ = {}, tried_ = 0;
     together_.add(collisions, seconds);
+    tried_ += collisions;
     // A trial may take several stretches, and is over early when one of them was given up.
-    on_trial_ = !together_best_ && collisions > 0 && together_.collisions() < trial;
+    on_trial_ = !together_best_ && collisions > 0 && tried_ < trial;
     if (on_trial_) return;
     if (together_.each() < alone_.each()) {
       if (!together_best_) since_trial_ = 0, until_trial_ = shortest_break;
       together_best_ = true;
       most_ = std::min(2 * std::max(most_, trial), longest_turn);
       if (most_ == longest_turn) break_ = 0;
+    } else if (together_best_) {
+      checking_ = true;
+      alone_ = {};
+      tried_ = 0;
     } else {
-      together_best_ = false;
-      most_ = 0;
-      break_ = std::clamp(2 * break_, breaks_together * together_.seconds(), longest_break);
-      since_trial_ = 0;
-      until_trial_ = break_;
+      leave_to_one();
     }
   }
 
  private:
-  // Times between trials, in wall times of the last one and in seconds. A trial of all threads may
-  // take many times as long as one thread would take for it; a trial of one thread does not.
+  // One thread works alone until another trial of all threads.
+  void leave_to_one() {
+    together_best_ = false;
+    most_ = 0;
+    const double lost = together_.seconds() - together_.collisions() * alone_.each();
+    break_ = std::clamp(2 * break_, breaks_together * lost, longest_break);
+    since_trial_ = 0;
+    until_trial_ = break_;
+  }
+
+  // Times between trials: of all threads in wall times that the last one has lost, which may be
+  // many times what one thread would have taken; of one thread in wall times of the last one.
   static constexpr double breaks_together = 12, breaks_alone = 100;
   static constexpr double shortest_break = 0.5, longest_break = 10;
   static constexpr double longest_turn = 0x1p20;
@@ -89,8 +107,11 @@ class TeamChoice {
   Cost alone_, together_;
   bool together_best_ = false;
   bool on_trial_ = false;
-  double most_ = 0;   ///< collisions of the next stretch together; grows while that is faster
-  double break_ = 0;  ///< length of the last break after a trial together that was slower [s]
+  bool checking_ = false;  ///< whether one thread is measured again, because all together, which
+                           ///< were faster, seem to be slower now
+  double tried_ = 0;       ///< collisions of the trial, or of the check, that is going on
+  double most_ = 0;        ///< collisions of the next stretch together; grows while that is faster
+  double break_ = 0;       ///< length of the last break after a trial together that was slower [s]
   double since_trial_ = 0, until_trial_ = 0;  ///< wall time since and between trials [s]
 };
 

@@ -23,13 +23,14 @@ struct Course {
 // thread would are given up after 5 ms.
 struct Machine {
   std::function<double(double)> alone, together;
+  double longest = 0x1p15;  // stretch [collisions]
 
   Course run(double collisions) const {
     Course course;
     TeamChoice choice;
     while (collisions > 0) {
       const TeamChoice::Turn turn = choice.next();
-      double done = std::min({turn.most, collisions, 0x1p15}), seconds = 0;
+      double done = std::min({turn.most, collisions, longest}), seconds = 0;
       if (turn.together) {
         seconds = 50e-6 + done * together(course.seconds);
         if (seconds > 5e-3 && together(course.seconds) > 3 * alone(course.seconds)) {
@@ -94,6 +95,20 @@ TEST(TeamChoice, AStretchThatWasOnceSlowIsForgotten) {
   const Course course = machine.run(5e6);
   EXPECT_GT(course.rolled_back, 5);
   EXPECT_LT(course.seconds, 1.25 * 5e6 * alone_cost / 1.6);
+}
+
+TEST(TeamChoice, AMachineThatBecomesSlowerSlowsBoth) {
+  const auto slower = [](double now) { return now < 0.02 ? 1 : 1.8; };
+  const Machine machine{[=](double now) { return slower(now) * alone_cost; },
+                        [=](double now) { return slower(now) * alone_cost / 1.6; }};
+  EXPECT_GT(machine.run(1e5).together, 0.95e5);
+}
+
+TEST(TeamChoice, ComparesShortStretches) {
+  const Machine fast{always(alone_cost), always(alone_cost / 1.6), 100};
+  const Machine slow{always(alone_cost), always(2 * alone_cost), 100};
+  EXPECT_GT(fast.run(1e6).together, 0.9e6);
+  EXPECT_LT(slow.run(1e6).together, 0.1e6);
 }
 
 }  // namespace
