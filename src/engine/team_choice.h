@@ -61,7 +61,7 @@ class TeamChoice {
       together_best_ = true;
       most_ = std::min(2 * std::max(most_, trial), longest_turn);
       if (most_ == longest_turn) break_ = 0;
-    } else if (together_best_) {
+    } else if (together_best_ && !is_far_slower()) {
       checking_ = true;
       alone_ = {};
       tried_ = 0;
@@ -71,18 +71,23 @@ class TeamChoice {
   }
 
  private:
+  // Whether other programs keep all together waiting, and not only the cost of a collision has
+  // changed since one thread was measured.
+  bool is_far_slower() const { return together_.each() >= 1.5 * alone_.each(); }
+
   // One thread works alone until another trial of all threads.
   void leave_to_one() {
-    together_best_ = false;
+    together_best_ = checking_ = false;
     most_ = 0;
     const double lost = together_.seconds() - together_.collisions() * alone_.each();
-    break_ = std::clamp(2 * break_, breaks_together * lost, longest_break);
+    const double cost = is_far_slower() ? together_.seconds() : lost;
+    break_ = std::clamp(2 * break_, breaks_together * cost, longest_break);
     since_trial_ = 0;
     until_trial_ = break_;
   }
 
-  // Times between trials: of all threads in wall times that the last one has lost, which may be
-  // many times what one thread would have taken; of one thread in wall times of the last one.
+  // Times between trials. Of all threads: in wall times that the last one took, or has lost if it
+  // was little slower than one thread; of one thread: in wall times of the last one.
   static constexpr double breaks_together = 12, breaks_alone = 100;
   static constexpr double shortest_break = 0.5, longest_break = 10;
   static constexpr double longest_turn = 0x1p20;
