@@ -53,8 +53,10 @@ class TeamChoice {
     if (!together_best_ && !on_trial_) together_ = {}, tried_ = 0;
     together_.add(collisions, seconds);
     tried_ += collisions;
-    // A trial may take several stretches, and is over early when one of them was given up.
-    on_trial_ = !together_best_ && collisions > 0 && tried_ < trial;
+    // A trial may take several stretches, of which the last count most, because threads start
+    // slowly, and is over early when one of them was given up.
+    on_trial_ =
+        !together_best_ && collisions > 0 && together_.collisions() < trial && tried_ < 2 * trial;
     if (on_trial_) return;
     if (together_.each() < alone_.each()) {
       if (!together_best_) since_trial_ = 0, until_trial_ = shortest_break;
