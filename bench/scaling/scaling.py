@@ -163,6 +163,30 @@ def table(contents):
                            "events per turn", "time blocked", "phases undone"], rows)
 
 
+def model(contents):
+    """What a collision costs more than in runs apart, as a line over border tries per event."""
+    tries, costs = [], []
+    for name, content in contents.items():
+        gains = speed_ups(content)
+        for case in content["cases"]:
+            _, kind, threads = case["name"].split("/")
+            if kind == "together" and ("apart", threads) in gains:
+                tries.append(statistics.median(case["border_tries"]))
+                costs.append(statistics.median(quotients(gains["apart", threads],
+                                                         gains[kind, threads])))
+    if len(set(tries)) < 3:
+        return ""
+    slope, base = statistics.linear_regression(tries, costs)
+    error = max(abs(base + slope * x - y) / y for x, y in zip(tries, costs))
+    predicted = ", ".join(f"{1 / (base + slope * x):.2f} at {x:g}" for x in (0.5, 1, 1.5, 2))
+    return (f"\n## A model for more cores\n\nA collision on several threads takes {base:.2f} + "
+            f"{slope:.2f} × (border tries per event) of what it takes in runs apart: the line that "
+            f"fits the {len(tries)} scenes above best, to {100 * error:.0f} %. On more threads more "
+            "events are near a border, so the model predicts these shares of runs apart for so many "
+            f"tries: {predicted}. It is a prediction, measured on {threads.split(':')[1]} threads "
+            "only, and leaves out that more threads wait for each other more often.\n")
+
+
 def draw(lines, file):
     """Speed-ups by repetition, as {scene: {threads: values}}."""
     figure, axes = measured.pyplot().subplots(figsize=(5.2, 4))
@@ -183,7 +207,7 @@ def write_results(contents, folder):
     (folder / "scaling.md").write_text(
         "# Threads\n\n"
         "Made by `bench/scaling/scaling.py`; docs/performance.md says what the columns are.\n"
-        f"{measured.origin(last)}\n\n" + table(contents))
+        f"{measured.origin(last)}\n\n" + table(contents) + model(contents))
     draw({name: {int(threads.split(":")[1]): gain
                  for (kind, threads), gain in speed_ups(content).items()
                  if kind in ("alone", "together")} for name, content in contents.items()},
