@@ -165,12 +165,13 @@ def table(contents):
 
 def model(contents):
     """What a collision costs more than in runs apart, as a line over border tries per event."""
-    tries, costs = [], []
+    tries, costs, most = [], [], 0
     for name, content in contents.items():
         gains = speed_ups(content)
         for case in content["cases"]:
             _, kind, threads = case["name"].split("/")
             if kind == "together" and ("apart", threads) in gains:
+                most = case["threads"]
                 tries.append(statistics.median(case["border_tries"]))
                 costs.append(statistics.median(quotients(gains["apart", threads],
                                                          gains[kind, threads])))
@@ -183,7 +184,7 @@ def model(contents):
             f"{slope:.2f} × (border tries per event) of what it takes in runs apart: the line that "
             f"fits the {len(tries)} scenes above best, to {100 * error:.0f} %. On more threads more "
             "events are near a border, so the model predicts these shares of runs apart for so many "
-            f"tries: {predicted}. It is a prediction, measured on {threads.split(':')[1]} threads "
+            f"tries: {predicted}. It is a prediction, measured on {most} threads "
             "only, and leaves out that more threads wait for each other more often.\n")
 
 

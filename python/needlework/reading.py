@@ -10,6 +10,7 @@ from __future__ import annotations
 import fcntl
 import os
 import struct
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -290,7 +291,7 @@ def _open(path: str) -> h5py.File:
             try:
                 return h5py.File(path, "r", swmr=True)
             except OSError:
-                continue
+                time.sleep(0.001)
         return h5py.File(path, "r")
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)

@@ -10,9 +10,9 @@
 namespace needlework {
 
 /// Compares wall times per collision. It begins with one thread alone, tries all together, and
-/// tries the slower of the two again from time to time. Before it leaves the faster one it measures
-/// the other again, because the cost of a collision changes in the course of a run, and so does the
-/// speed of the machine.
+/// tries the slower of the two again from time to time. Before it leaves all for one because they
+/// are a little slower, it measures one again: the cost of a collision changes in the course of a
+/// run, and so does the speed of the machine.
 class TeamChoice {
  public:
   /// Collisions of a trial, few enough to lose little time.
@@ -61,6 +61,7 @@ class TeamChoice {
     if (together_.each() < alone_.each()) {
       if (!together_best_) since_trial_ = 0, until_trial_ = shortest_break;
       together_best_ = true;
+      if (collisions == 0) return;  // a stretch that was given up
       most_ = std::min(2 * std::max(most_, trial), longest_turn);
       if (most_ == longest_turn) break_ = 0;
     } else if (together_best_ && !is_far_slower()) {
@@ -83,7 +84,7 @@ class TeamChoice {
     most_ = 0;
     const double lost = together_.seconds() - together_.collisions() * alone_.each();
     const double cost = is_far_slower() ? together_.seconds() : lost;
-    break_ = std::clamp(2 * break_, breaks_together * cost, longest_break);
+    break_ = std::min(longest_break, std::max(2 * break_, breaks_together * cost));
     since_trial_ = 0;
     until_trial_ = break_;
   }

@@ -44,6 +44,7 @@ hid_t open_growing(const std::string& path) {
   check(H5Pset_metadata_read_attempts(access.get(), 20), path);
   hid_t file = H5I_INVALID_HID;
   for (int attempt = 0; attempt < 3 && file < 0; ++attempt) {
+    if (attempt > 0) usleep(1000);
     file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   }
   return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;

@@ -1,6 +1,7 @@
 """What tests of runs that are stopped and continued share: a scene, and the contents of files."""
 
 import subprocess
+import time
 
 import h5py
 
@@ -23,6 +24,9 @@ observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
                "collision_statistics"]
 """
 
+# The datasets whose lengths are the numbers of complete rows.
+TABLES = ("series/step", "particles/needles/position/step", "events/time")
+
 # What says how a file was made rather than what happened.
 PROVENANCE = {"parameters/threads", "parameters/isa"}
 
@@ -35,6 +39,7 @@ def open_growing(path):
         except OSError:
             if attempt == 2:
                 raise
+            time.sleep(0.001)
 
 
 def contents(path, opened=h5py.File):
@@ -45,10 +50,12 @@ def contents(path, opened=h5py.File):
         for name, item in group.items():
             if isinstance(item, h5py.Group):
                 visit(item, f"{prefix}{name}/")
-            elif f"{prefix}{name}" not in PROVENANCE:
+            elif f"{prefix}{name}" not in PROVENANCE and f"{prefix}{name}" not in found:
                 found[f"{prefix}{name}"] = item[()]
 
     with opened(path) as file:
+        # First the numbers of rows, because the file may grow meanwhile.
+        found |= {name: file[name][()] for name in TABLES if name in file}
         visit(file, "")
     return found
 
@@ -66,8 +73,7 @@ def differences(one, other):
 
 def complete_rows(found):
     """The number of complete rows of each table, by the name of its dataset of times."""
-    names = ("series/step", "particles/needles/position/step", "events/time")
-    return {name: len(found[name]) for name in names if name in found}
+    return {name: len(found[name]) for name in TABLES if name in found}
 
 
 def table_of(name):
