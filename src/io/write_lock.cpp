@@ -52,6 +52,16 @@ bool is_locked_by_writer(int descriptor) {
 #endif
 }
 
+// What `ask` says of a file; false of one that cannot be opened. Locks that it takes end here.
+template <class Ask>
+bool is_true_of(const std::string& name, const Ask& ask) {
+  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  const bool answer = ask(descriptor);
+  close(descriptor);
+  return answer;
+}
+
 constexpr const char* opened_elsewhere =
     ": another program or simulation has the file open for writing";
 
@@ -64,19 +74,12 @@ std::set<int>& descriptors() {
 
 }  // namespace
 
-bool is_being_written(const std::string& name) {
-  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return false;
-  const bool written = is_locked_by_writer(descriptor);
-  close(descriptor);
-  return written;
-}
+bool is_being_written(const std::string& name) { return is_true_of(name, is_locked_by_writer); }
 
 void require_not_being_written(const std::string& name, const std::string& place) {
-  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return;
-  const bool written = !lock_against_hdf5(descriptor) || is_locked_by_writer(descriptor);
-  close(descriptor);  // and its lock
+  const bool written = is_true_of(name, [](int descriptor) {
+    return !lock_against_hdf5(descriptor) || is_locked_by_writer(descriptor);
+  });
   if (written) throw IoError(place + opened_elsewhere);
 }
 

@@ -111,5 +111,28 @@ TEST(TeamChoice, ComparesShortStretches) {
   EXPECT_LT(slow.run(1e6).together, 0.1e6);
 }
 
+TEST(TeamChoice, AllThreadsAreTriedAgainWithinTenSeconds) {
+  TeamChoice choice;
+  choice.took(false, 512, 512 * alone_cost);
+  choice.took(true, 2048, 30);
+  double alone = 0;
+  while (!choice.next().together) {
+    alone += 0.5;
+    choice.took(false, 0.5 / alone_cost, 0.5);
+    ASSERT_LE(alone, 10);
+  }
+  EXPECT_GE(alone, 9.5);
+}
+
+TEST(TeamChoice, AStretchThatWasGivenUpDoesNotLengthenTheNext) {
+  TeamChoice choice;
+  choice.took(false, 512, 512 * alone_cost);
+  for (int n = 0; n < 4; ++n) choice.took(true, 2048, 2048 * alone_cost / 1.6);
+  const double most = choice.next().most;
+  choice.took(true, 0, 1e-3);
+  EXPECT_TRUE(choice.next().together);
+  EXPECT_EQ(choice.next().most, most);
+}
+
 }  // namespace
 }  // namespace needlework
