@@ -7,10 +7,10 @@ the file. docs/file-format.md describes what is in a file.
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
 import struct
-import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -285,13 +285,10 @@ def _open(path: str) -> h5py.File:
         raise ImportError("needlework.read() needs h5py: expected the package python3-h5py "
                           "to be installed") from error
     try:
-        # One that grows is opened again if it grew in that moment, and without SWMR mode if this
-        # process has opened it without.
-        for _ in range(3 if _is_being_written(path) else 0):
-            try:
+        if _is_being_written(path):
+            # Without SWMR mode if this process has opened it without.
+            with contextlib.suppress(OSError):
                 return h5py.File(path, "r", swmr=True)
-            except OSError:
-                time.sleep(0.001)
         return h5py.File(path, "r")
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)

@@ -35,10 +35,13 @@ namespace {
 // index are larger than a page from the 8181st chunk of a dataset on.)
 constexpr hsize_t page_size = 4096;
 
+// See write_kept.
+constexpr haddr_t least_reserve = 1 << 20;
+
 // The settings of the driver in a list of file access properties.
 struct DriverSettings {
   int* error;
-  bool shortening;
+  OutputMode mode;
 };
 
 // An open file. `kept` holds what HDF5 has written but the disk does not have: metadata between two
@@ -52,11 +55,13 @@ struct DriverFile : H5FD_t {
 
   int descriptor = -1;
   int* error = nullptr;
-  bool shortening = false;
+  OutputMode mode = OutputMode::whole;
   haddr_t end_of_allocation = 0;
   haddr_t end_of_file = 0;
   haddr_t size_on_disk = 0;
-  std::vector<Kept> kept;  // in the order of writing
+  haddr_t flushed_end = 0;          // of allocation, at the last flush
+  haddr_t reserve = least_reserve;  // see write_kept
+  std::vector<Kept> kept;           // in the order of writing
 };
 
 DriverFile& driver_file(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
@@ -91,8 +96,8 @@ H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
   }
   file->descriptor = descriptor;
   file->error = settings->error;
-  file->shortening = settings->shortening;
-  file->end_of_file = file->size_on_disk = static_cast<haddr_t>(status.st_size);
+  file->mode = settings->mode;
+  file->end_of_file = file->size_on_disk = file->flushed_end = static_cast<haddr_t>(status.st_size);
   return file;
 }
 
@@ -102,7 +107,8 @@ herr_t driver_query(const H5FD_t* file, unsigned long* flags) {
            H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_POSIX_COMPAT_HANDLE |
            H5FD_FEAT_SUPPORTS_SWMR_IO | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   // Without the accumulator each write is one block of metadata, whose kind can be seen.
-  if (file && driver_file(file).shortening) *flags &= ~H5FD_FEAT_ACCUMULATE_METADATA;
+  if (file && driver_file(file).mode == OutputMode::shortening)
+    *flags &= ~H5FD_FEAT_ACCUMULATE_METADATA;
   return 0;
 }
 
@@ -170,7 +176,7 @@ void keep(DriverFile& file, H5FD_mem_t type, haddr_t address, const std::byte* b
   try {
     file.kept.push_back({address, type, {bytes, bytes + size}});
   } catch (const std::bad_alloc&) {
-    if (file.shortening) {
+    if (file.mode == OutputMode::shortening) {
       *file.error = ENOMEM;
       return;
     }
@@ -183,7 +189,7 @@ herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::
                     const void* buffer) {
   DriverFile& file = driver_file(base);
   const auto* const bytes = static_cast<const std::byte*>(buffer);
-  const bool at_once = type == H5FD_MEM_DRAW && !file.shortening;
+  const bool at_once = type == H5FD_MEM_DRAW && file.mode != OutputMode::shortening;
   if (at_once && *file.error == 0) write_to_disk(file, address, bytes, size);
   if (!at_once || *file.error != 0) keep(file, type, address, bytes, size);
   file.end_of_file = std::max(file.end_of_file, address + size);
@@ -223,12 +229,21 @@ void write_object_headers(DriverFile& file) {
 // The superblock, at address 0, contains the size of the file. Readers refuse a file that is
 // shorter, and metadata that point beyond it. Therefore the size of the file is set first, then the
 // superblock is written, then the other metadata.
+//
+// But readers ask for the size of the file before they read the superblock. So that a file may grow
+// in between, its size is always ahead of the superblock, by what two flushes add.
 void write_kept(DriverFile& file) {
-  if (file.shortening) {
+  if (file.mode == OutputMode::shortening) {
     write_object_headers(file);
     return;
   }
-  set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
+  haddr_t end = file.end_of_allocation;
+  if (file.mode == OutputMode::growing) {
+    const haddr_t growth = end - std::min(end, std::exchange(file.flushed_end, end));
+    file.reserve = std::max(file.reserve, 2 * growth);
+    end += file.reserve;
+  }
+  set_size_on_disk(file, std::max(file.size_on_disk, end));
   std::stable_partition(file.kept.begin(), file.kept.end(),
                         [](const DriverFile::Kept& kept) { return kept.address == 0; });
   for (const DriverFile::Kept& kept : file.kept) {
@@ -251,7 +266,7 @@ herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t) {
 herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
   guarded([&] { write_kept(file); });
-  if (!file.shortening) set_size_on_disk(file, file.end_of_allocation);
+  if (file.mode != OutputMode::shortening) set_size_on_disk(file, file.end_of_allocation);
   const int error = close_written(file.descriptor);
   if (*file.error == 0) *file.error = error;
   delete &file;
@@ -305,7 +320,7 @@ OutputFile::OutputFile(std::string name, std::string place, Use use)
     : OutputFile(std::move(name), std::move(place)) {
   const Handle creation = hdf5::without_times(H5P_FILE_CREATE, place_);
   if (use == Use::growing) set_pages(creation.get(), place_);
-  const Handle access = make_access(false);
+  const Handle access = make_access(OutputMode::whole);
   const hid_t file = H5Fcreate(name_.c_str(), H5F_ACC_TRUNC, creation.get(), access.get());
   if (file < 0) require_written();
   file_ = Handle(file, H5Fclose, place_);
@@ -318,28 +333,33 @@ void OutputFile::require_written() const {
   throw IoError(fmt::format("{}: {}", place_, std::generic_category().message(*error_)));
 }
 
-Handle OutputFile::make_access(bool shortening) const {
+Handle OutputFile::make_access(OutputMode mode) const {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, place_);
   // SWMR mode needs the file format of HDF5 1.10. Newer formats are excluded, so that HDF5 1.10 can
   // read the file.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110), place_);
-  const DriverSettings settings{error_.get(), shortening};
+  const DriverSettings settings{error_.get(), mode};
   check(H5Pset_driver(access.get(), driver_.get(), &settings), place_);
   return access;
 }
 
-void OutputFile::open(unsigned flags, bool shortening) {
+void OutputFile::open(OutputMode mode) {
   close();
-  const Handle access = make_access(shortening);
-  const hid_t file = H5Fopen(name_.c_str(), flags, access.get());
+  const Handle access = make_access(mode);
+  const unsigned flags = mode == OutputMode::growing ? H5F_ACC_SWMR_WRITE : 0;
+  const hid_t file = H5Fopen(name_.c_str(), H5F_ACC_RDWR | flags, access.get());
   if (file < 0) require_written();
   file_ = Handle(file, H5Fclose, place_);
 }
 
-void OutputFile::start_shortening() { open(H5F_ACC_RDWR, true); }
+void OutputFile::start_shortening() { open(OutputMode::shortening); }
 
-// The file is reopened, because H5Fstart_swmr_write would mark it as open for writing.
-void OutputFile::start_swmr() { open(H5F_ACC_RDWR | H5F_ACC_SWMR_WRITE, false); }
+// The file is reopened, because H5Fstart_swmr_write would mark it as open for writing. The flush
+// makes it larger, before anybody reads it.
+void OutputFile::start_swmr() {
+  open(OutputMode::growing);
+  flush();
+}
 
 void OutputFile::flush() {
   check(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL), place_);

@@ -9,6 +9,13 @@
 
 namespace needlework::io {
 
+/// What may be written to a file that is open, and who may read it meanwhile.
+enum class OutputMode {
+  whole,       ///< anything; nobody
+  growing,     ///< rows at the ends of datasets; anybody
+  shortening,  ///< the numbers of rows of datasets; anybody
+};
+
 /// An HDF5 file, which HDF5 writes through a file driver of this library. The driver solves three
 /// problems.
 ///
@@ -20,8 +27,11 @@ namespace needlework::io {
 ///
 /// 2. The file must be readable at any moment. In SWMR mode (single writer, multiple readers) HDF5
 ///    orders its writes such that the metadata on disk are always consistent, but it writes some of
-///    them between flushes, and it extends the file before it records the new size. The driver
-///    holds metadata in memory until a flush, and sets the size of the file first.
+///    them between flushes, and it extends the file before it records the new size. A reader asks
+///    for the size of the file before it reads what the file says of its size. The driver holds
+///    metadata in memory until a flush, sets the size of the file first, and keeps it larger than
+///    the file says, by what two flushes add and at least 1 MiB. These bytes are never written, and
+///    take no space on most file systems. Closing the file removes them.
 ///
 /// 3. A file that a killed program left must open without special options. HDF5 marks files that
 ///    are open for writing, and refuses to open a file that still has the mark, unless the driver
@@ -65,8 +75,8 @@ class OutputFile {
   void close();
 
  private:
-  hdf5::Handle make_access(bool shortening) const;
-  void open(unsigned flags, bool shortening);
+  hdf5::Handle make_access(OutputMode mode) const;
+  void open(OutputMode mode);
 
   std::string name_;
   std::string place_;

@@ -37,16 +37,12 @@ std::uint64_t product(const Shape& shape, std::size_t first) {
 // In SWMR mode (single writer, multiple readers) HDF5 looks beyond the size that the file had when
 // it was opened, and reads a block of metadata again whose checksum is wrong, as it can be in the
 // middle of a write. It waits between these attempts, twice as long each time: 20 take about 1 ms,
-// and the 100 that are its default never end. A file that grows while it is opened can be shorter
-// than it says, and is opened again. Without the mode if this process has opened it without.
+// and the 100 that are its default never end. Without the mode if this process has opened it
+// without.
 hid_t open_growing(const std::string& path) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
   check(H5Pset_metadata_read_attempts(access.get(), 20), path);
-  hid_t file = H5I_INVALID_HID;
-  for (int attempt = 0; attempt < 3 && file < 0; ++attempt) {
-    if (attempt > 0) usleep(1000);
-    file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
-  }
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
   return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;
 }
 

@@ -10,6 +10,14 @@ namespace {
 
 using hdf5::Shape;
 
+// The size of a file as its superblock records it (version 3, at byte 28).
+std::uint64_t recorded_size(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::uint64_t size = 0;
+  in.seekg(28).read(reinterpret_cast<char*>(&size), sizeof size);
+  return size;
+}
+
 class Reading : public InFolder {
  protected:
   // A file with `frames` frames of two needles in /particles/GROUP and a plain box, changed by
@@ -454,17 +462,32 @@ TEST_F(Reading, FilesCutShortAreRefused) {
   writer.flush();
   std::filesystem::copy_file(file("whole.h5"), file("left.h5"));
   writer.close();
+  // What a run has left that was killed is longer than its content, which all ends with the last
+  // byte that the superblock counts.
+  const auto size_of = [&](const char* name) { return std::filesystem::file_size(file(name)); };
+  EXPECT_EQ(size_of("whole.h5"), recorded_size(file("whole.h5")));
+  EXPECT_GT(size_of("left.h5"), recorded_size(file("left.h5")));
   for (const char* name : {"whole.h5", "left.h5"}) {
     expect_same(state, read_last_frame(file(name)));
-    const auto size = std::filesystem::file_size(file(name));
-    for (std::uintmax_t cut = 8; cut < size; cut += 1 + cut / 15) {
+    const auto cut_at = [&](std::uintmax_t size) {
       std::filesystem::copy_file(file(name), file("cut.h5"),
                                  std::filesystem::copy_options::overwrite_existing);
-      std::filesystem::resize_file(file("cut.h5"), cut);
+      std::filesystem::resize_file(file("cut.h5"), size);
+    };
+    const std::uintmax_t size = recorded_size(file(name));
+    for (std::uintmax_t cut = 8; cut < size;
+         cut = std::max(cut + 1, std::min(cut + cut / 15, size - 1))) {
+      cut_at(cut);
       const auto message = message_of<IoError>([&] { read_last_frame(file("cut.h5")); });
       EXPECT_TRUE(message.starts_with(file("cut.h5") + ": damaged or cut short: ")) << message;
       EXPECT_THROW(describe(file("cut.h5")), IoError);
     }
+    cut_at(size);
+    expect_same(state, read_last_frame(file("cut.h5")));
+    const auto after_first_line = [](const std::string& text) {
+      return text.substr(text.find('\n'));
+    };
+    EXPECT_EQ(after_first_line(describe(file("cut.h5"))), after_first_line(describe(file(name))));
   }
 }
 

@@ -33,13 +33,7 @@ PROVENANCE = {"parameters/threads", "parameters/isa"}
 
 def open_growing(path):
     """A file that a run is writing, opened as docs/file-format.md says."""
-    for attempt in range(3):
-        try:
-            return h5py.File(path, swmr=True)
-        except OSError:
-            if attempt == 2:
-                raise
-            time.sleep(0.001)
+    return h5py.File(path, swmr=True)
 
 
 def contents(path, opened=h5py.File):
