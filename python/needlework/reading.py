@@ -200,6 +200,7 @@ class Recording:
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
         self._file = _open(self.path)
+        self._held = _datasets(self._file) if self._file.swmr_mode else []
         if "particles/needles/position/step" not in self._file:
             self._file.close()
             raise InputError(f"{self.path}: /particles/needles is missing: "
@@ -251,6 +252,7 @@ class Recording:
 
     def close(self) -> None:
         """Closes the file. Arrays that were read stay."""
+        self._held = []
         self._file.close()
 
     def __enter__(self) -> Recording:
@@ -293,6 +295,17 @@ def _open(path: str) -> h5py.File:
     except OSError as error:
         reason = os.strerror(error.errno) if error.errno else str(error)
         raise IoError(f"{path}: cannot be read: {reason}") from error
+
+
+def _datasets(file: h5py.File) -> list[h5py.Dataset]:
+    """All datasets of a file that grows, which keep their numbers of rows while they are open. When
+    one that was closed is opened again, HDF5 reads again only what has left its cache: a new number
+    of rows with an old index of chunks gives rows of zeros. The numbers of complete rows come
+    first, because all else has as many rows by then, or more."""
+    names: list[str] = []
+    file.visit(names.append)
+    names.sort(key=lambda name: not name.endswith("/step") and name != "events/time")
+    return [item for item in map(file.get, names) if hasattr(item, "shape")]
 
 
 def _is_being_written(path: str) -> bool:

@@ -495,6 +495,19 @@ std::vector<std::string> children(hid_t group, const std::string& place) {
   return names;
 }
 
+std::vector<std::string> datasets(hid_t file, const std::string& place) {
+  std::vector<std::string> paths;
+  const auto add = [](hid_t, const char* name, const H5L_info_t* link, void* list) -> herr_t {
+    if (link->type == H5L_TYPE_HARD) {
+      static_cast<std::vector<std::string>*>(list)->push_back(std::string("/") + name);
+    }
+    return 0;
+  };
+  check(H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, add, &paths), place);
+  std::erase_if(paths, [&](const std::string& path) { return !is_dataset(file, path, place); });
+  return paths;
+}
+
 bool is_group(hid_t parent, const std::string& name, const std::string& place) {
   return exists(parent, name, place) && kind_of(parent, name, place) == H5I_GROUP;
 }

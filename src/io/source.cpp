@@ -64,12 +64,28 @@ Source::Source(const std::string& path) : path_(path) {
   bytes_ = static_cast<std::uint64_t>(status.st_size);
 
   if (H5Fis_hdf5(path.c_str()) <= 0) throw IoError(path + ": not an HDF5 file");
-  const hid_t file = is_being_written(path) ? open_growing(path)
-                                            : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const bool grows = is_being_written(path);
+  const hid_t file =
+      grows ? open_growing(path) : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) {
     throw IoError(fmt::format("{}: damaged or cut short: {}", path, hdf5::last_error()));
   }
   file_ = Handle(file, H5Fclose, path);
+  if (grows) hold_datasets();
+}
+
+// A dataset keeps its number of rows while it is open. When one that was closed is opened again,
+// HDF5 reads again only what has left its cache: a new number of rows with an old index of chunks
+// gives rows of zeros. The numbers of complete rows are read first, because all else has as many
+// rows by then, or more.
+void Source::hold_datasets() {
+  std::vector<std::string> paths = hdf5::datasets(get(), path_);
+  std::stable_partition(paths.begin(), paths.end(), [](const std::string& path) {
+    return path.ends_with("/step") || path == "/events/time";
+  });
+  for (const std::string& path : paths) {
+    held_.push_back(hdf5::open_dataset(get(), path, place(path)));
+  }
 }
 
 void Source::require_possible(std::uint64_t numbers, const std::string& dataset) const {
@@ -94,16 +110,13 @@ Element::Element(const Source& source, const std::string& path)
     throw InputError(
         fmt::format("{}: the values are not numbers: expected floating point or integers", place));
   }
-  find_shape();
+  shape_ = hdf5::shape_of(value_.get(), place);
+  rows_ = shape_.empty() ? 0 : shape_[0];
+  source.require_possible(product(shape_, 0), name_);
   if (!is_group_) return;
 
   steps_ = read_grid<std::int64_t>("step");
   if (!steps_) return;
-  if (steps_->size() > rows_) {
-    // Another process may have written them in between.
-    check(H5Drefresh(value_.get()), place);
-    find_shape();
-  }
   if (steps_->size() > rows_) {
     throw InputError(fmt::format("{}: {} steps: expected {}, one for each row of {}",
                                  source.place(path_ + "/step"), steps_->size(), rows_, name_));
@@ -115,12 +128,6 @@ Element::Element(const Source& source, const std::string& path)
                                  source.place(path_ + "/step"), back - steps_->begin() + 1, back[1],
                                  back[0]));
   }
-}
-
-void Element::find_shape() {
-  shape_ = hdf5::shape_of(value_.get(), source_->place(name_));
-  rows_ = shape_.empty() ? 0 : shape_[0];
-  source_->require_possible(product(shape_, 0), name_);
 }
 
 std::optional<std::vector<double>> Element::times() const {

@@ -10,7 +10,8 @@
 
 namespace needlework::io {
 
-/// An HDF5 file that is open for reading.
+/// An HDF5 file that is open for reading. If a run is writing it, its datasets have the rows that
+/// they had when it was opened.
 class Source {
  public:
   /// Throws IoError if the file does not exist or is not a complete HDF5 file.
@@ -27,9 +28,12 @@ class Source {
   std::string place(const std::string& object) const { return path_ + ": " + object; }
 
  private:
+  void hold_datasets();
+
   std::string path_;
   std::uint64_t bytes_ = 0;
   hdf5::Handle file_;
+  std::vector<hdf5::Handle> held_;
 };
 
 /// An H5MD element, which is a group with the dataset value and optionally step and time, or a
@@ -65,7 +69,6 @@ class Element {
   std::size_t size(std::optional<hsize_t> row) const;
 
  private:
-  void find_shape();
   template <class Number>
   std::optional<std::vector<Number>> read_grid(const char* name) const;
 

@@ -156,6 +156,26 @@ class Reading(unittest.TestCase):
         with read(path) as recording:
             self.assertFalse(recording._file.swmr_mode)
 
+    def test_what_is_open_keeps_its_rows_while_the_file_grows(self):
+        path = Path(self.folder.name, "held.h5")
+        with Simulation(gas(output={"file": str(path), "frames": 100, "events": True})) as sim:
+            sim.run(time=0.2)
+            with read(path) as recording:
+                # HDF5 keeps little of what it has read.
+                cache = recording._file.id.get_mdc_config()
+                cache.set_initial_size = True
+                cache.initial_size = cache.min_size = cache.max_size = 1024
+                cache.incr_mode = cache.flash_incr_mode = cache.decr_mode = 0
+                recording._file.id.set_mdc_config(cache)
+                frames, events = len(recording.frames), len(recording.events)
+                self.assertGreater(frames, 1)
+                sim.run()
+                self.assertGreater(recording.series.rows, 1)
+                self.assertEqual((len(recording.frames), len(recording.events)), (frames, events))
+            with read(path) as recording:
+                self.assertGreater(len(recording.frames), frames)
+                self.assertGreater(len(recording.events), events)
+
     def test_other_files_are_refused(self):
         import h5py
         with self.assertRaisesRegex(IoError, "no-such.h5: cannot be read: No such file"):
