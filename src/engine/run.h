@@ -100,6 +100,7 @@ class Run {
   void require_consistent() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
+  void set_energies(double v2, double w2, Totals& out) const;
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 
