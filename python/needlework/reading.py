@@ -7,10 +7,10 @@ the file. docs/file-format.md describes what is in a file.
 
 from __future__ import annotations
 
-import contextlib
 import fcntl
 import os
 import struct
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -32,7 +32,7 @@ TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
 def read(path: str | os.PathLike[str]) -> Recording:
     """Opens a file that a run has written, or is writing.
 
-    What is already in the file at that moment can be read; open it again to see more.
+    What is already in the file at that moment can be read. Close it and open it again to see more.
 
     Raises IoError if the file cannot be read, and InputError if it is not the file of a run.
     """
@@ -199,8 +199,7 @@ class Recording:
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
-        self._file = _open(self.path)
-        self._held = _datasets(self._file) if self._file.swmr_mode else []
+        self._file, self._held = _open(self.path)
         if "particles/needles/position/step" not in self._file:
             self._file.close()
             raise InputError(f"{self.path}: /particles/needles is missing: "
@@ -280,20 +279,29 @@ class Recording:
         return html_table(facts)
 
 
-def _open(path: str) -> h5py.File:
+def _open(path: str) -> tuple[h5py.File, list[h5py.Dataset]]:
+    """The file, and what has to stay open while it is."""
     try:
         import h5py
     except ImportError as error:
         raise ImportError("needlework.read() needs h5py: expected the package python3-h5py "
                           "to be installed") from error
     try:
-        if _is_being_written(path):
-            # Without SWMR mode if this process has opened it without.
-            with contextlib.suppress(OSError):
-                return h5py.File(path, "r", swmr=True)
-        return h5py.File(path, "r")
-    except OSError as error:
-        reason = os.strerror(error.errno) if error.errno else str(error)
+        grows = _is_being_written(path)
+        # Again if this process was kept waiting meanwhile, so that the file is longer than its size
+        # was; and without SWMR mode if this process has opened it without.
+        for _ in range(3 if grows else 0):
+            try:
+                file = h5py.File(path, "r", swmr=True)
+                break
+            except OSError:
+                time.sleep(0.001)
+        else:
+            file = h5py.File(path, "r")
+        return file, _datasets(file) if grows else []
+    except (OSError, RuntimeError, KeyError) as error:
+        number = getattr(error, "errno", None)
+        reason = os.strerror(number) if number else str(error)
         raise IoError(f"{path}: cannot be read: {reason}") from error
 
 
@@ -301,11 +309,12 @@ def _datasets(file: h5py.File) -> list[h5py.Dataset]:
     """All datasets of a file that grows, which keep their numbers of rows while they are open. When
     one that was closed is opened again, HDF5 reads again only what has left its cache: a new number
     of rows with an old index of chunks gives rows of zeros. The numbers of complete rows come
-    first, because all else has as many rows by then, or more."""
+    first, even before the others are listed: all else has as many rows by then, or more."""
+    held = [file[name] for name in ("particles/needles/position/step", "series/step", "events/time")
+            if name in file]
     names: list[str] = []
     file.visit(names.append)
-    names.sort(key=lambda name: not name.endswith("/step") and name != "events/time")
-    return [item for item in map(file.get, names) if hasattr(item, "shape")]
+    return held + [item for item in map(file.__getitem__, names) if hasattr(item, "shape")]
 
 
 def _is_being_written(path: str) -> bool:

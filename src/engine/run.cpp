@@ -262,7 +262,7 @@ void Run::sum_energies(Totals& out) const {
   set_energies(v2, w2, out);
 }
 
-// From sums of v^2 and w^2, which are those of the energies where there is one species.
+// From the sums of v^2 and w^2, which is enough where all needles are of one species.
 void Run::set_energies(double v2, double w2, Totals& out) const {
   const double count = static_cast<double>(gas.size());
   const Species& species = gas.species.front();

@@ -35,8 +35,9 @@ namespace {
 // index are larger than a page from the 8181st chunk of a dataset on.)
 constexpr hsize_t page_size = 4096;
 
-// See write_kept.
-constexpr haddr_t least_reserve = 1 << 20;
+// See reserve().
+constexpr haddr_t least_reserve = 1 << 24;
+constexpr haddr_t flushes_reserved = 8;
 
 // The settings of the driver in a list of file access properties.
 struct DriverSettings {
@@ -59,9 +60,9 @@ struct DriverFile : H5FD_t {
   haddr_t end_of_allocation = 0;
   haddr_t end_of_file = 0;
   haddr_t size_on_disk = 0;
-  haddr_t flushed_end = 0;          // of allocation, at the last flush
-  haddr_t reserve = least_reserve;  // see write_kept
-  std::vector<Kept> kept;           // in the order of writing
+  haddr_t flushed_end = 0;  // of allocation, at the last flush
+  haddr_t reserve = least_reserve;
+  std::vector<Kept> kept;  // in the order of writing
 };
 
 DriverFile& driver_file(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
@@ -203,6 +204,20 @@ void set_size_on_disk(DriverFile& file, haddr_t size) {
   file.size_on_disk = size;
 }
 
+// Readers ask for the size of a file before they read the superblock. So that the file may grow in
+// between, its size is kept ahead of the superblock, by 16 MiB or eight times what a flush has
+// added so far at most. That cannot be where the size of files is limited.
+void reserve(DriverFile& file) {
+  const haddr_t end = file.end_of_allocation;
+  const haddr_t growth = end - std::min(end, std::exchange(file.flushed_end, end));
+  file.reserve = std::max(file.reserve, flushes_reserved * growth);
+  set_size_on_disk(file, std::max(file.size_on_disk, end + file.reserve));
+  if (*file.error == EFBIG) {
+    *file.error = 0;
+    file.size_on_disk = end;
+  }
+}
+
 // HDF5 has the same type for the headers of chunk indexes.
 bool is_object_header(const DriverFile::Kept& kept) {
   const auto begins_with = [&](const char* signature) {
@@ -229,21 +244,13 @@ void write_object_headers(DriverFile& file) {
 // The superblock, at address 0, contains the size of the file. Readers refuse a file that is
 // shorter, and metadata that point beyond it. Therefore the size of the file is set first, then the
 // superblock is written, then the other metadata.
-//
-// But readers ask for the size of the file before they read the superblock. So that a file may grow
-// in between, its size is always ahead of the superblock, by what two flushes add.
 void write_kept(DriverFile& file) {
   if (file.mode == OutputMode::shortening) {
     write_object_headers(file);
     return;
   }
-  haddr_t end = file.end_of_allocation;
-  if (file.mode == OutputMode::growing) {
-    const haddr_t growth = end - std::min(end, std::exchange(file.flushed_end, end));
-    file.reserve = std::max(file.reserve, 2 * growth);
-    end += file.reserve;
-  }
-  set_size_on_disk(file, std::max(file.size_on_disk, end));
+  set_size_on_disk(file, std::max(file.size_on_disk, file.end_of_allocation));
+  if (file.mode == OutputMode::growing) reserve(file);
   std::stable_partition(file.kept.begin(), file.kept.end(),
                         [](const DriverFile::Kept& kept) { return kept.address == 0; });
   for (const DriverFile::Kept& kept : file.kept) {
@@ -265,6 +272,7 @@ herr_t driver_truncate(H5FD_t* base, hid_t, hbool_t) {
 
 herr_t driver_close(H5FD_t* base) {
   DriverFile& file = driver_file(base);
+  if (file.mode == OutputMode::growing) file.mode = OutputMode::whole;
   guarded([&] { write_kept(file); });
   if (file.mode != OutputMode::shortening) set_size_on_disk(file, file.end_of_allocation);
   const int error = close_written(file.descriptor);

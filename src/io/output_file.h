@@ -30,8 +30,8 @@ enum class OutputMode {
 ///    them between flushes, and it extends the file before it records the new size. A reader asks
 ///    for the size of the file before it reads what the file says of its size. The driver holds
 ///    metadata in memory until a flush, sets the size of the file first, and keeps it larger than
-///    the file says, by what two flushes add and at least 1 MiB, until it is closed. What was never
-///    written takes no space on most file systems.
+///    the file says, by 16 MiB or more, until it is closed. What was never written takes no space
+///    on most file systems.
 ///
 /// 3. A file that a killed program left must open without special options. HDF5 marks files that
 ///    are open for writing, and refuses to open a file that still has the mark, unless the driver

@@ -37,12 +37,17 @@ std::uint64_t product(const Shape& shape, std::size_t first) {
 // In SWMR mode (single writer, multiple readers) HDF5 looks beyond the size that the file had when
 // it was opened, and reads a block of metadata again whose checksum is wrong, as it can be in the
 // middle of a write. It waits between these attempts, twice as long each time: 20 take about 1 ms,
-// and the 100 that are its default never end. Without the mode if this process has opened it
-// without.
+// and the 100 that are its default never end. A reader that was kept waiting while it opened the
+// file can find the file longer than its size was, and tries again. Without the mode if this
+// process has opened it without.
 hid_t open_growing(const std::string& path) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
   check(H5Pset_metadata_read_attempts(access.get(), 20), path);
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  hid_t file = H5I_INVALID_HID;
+  for (int attempt = 0; attempt < 3 && file < 0; ++attempt) {
+    if (attempt > 0) usleep(1000);
+    file = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
+  }
   return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;
 }
 
@@ -76,16 +81,17 @@ Source::Source(const std::string& path) : path_(path) {
 
 // A dataset keeps its number of rows while it is open. When one that was closed is opened again,
 // HDF5 reads again only what has left its cache: a new number of rows with an old index of chunks
-// gives rows of zeros. The numbers of complete rows are read first, because all else has as many
-// rows by then, or more.
+// gives rows of zeros. The numbers of complete rows are read first, even before the others are
+// listed: all else has as many rows by then, or more.
 void Source::hold_datasets() {
-  std::vector<std::string> paths = hdf5::datasets(get(), path_);
-  std::stable_partition(paths.begin(), paths.end(), [](const std::string& path) {
-    return path.ends_with("/step") || path == "/events/time";
-  });
-  for (const std::string& path : paths) {
+  const auto hold = [&](const std::string& path) {
     held_.push_back(hdf5::open_dataset(get(), path, place(path)));
+  };
+  for (const std::string counts :
+       {"/particles/needles/position/step", "/series/step", "/events/time"}) {
+    if (hdf5::is_dataset(get(), counts, place(counts))) hold(counts);
   }
+  for (const std::string& path : hdf5::datasets(get(), path_)) hold(path);
 }
 
 void Source::require_possible(std::uint64_t numbers, const std::string& dataset) const {

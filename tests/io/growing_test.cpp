@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <map>
+#include <stdexcept>
 
 #include "src/io/source.h"
 #include "tests/io/support.h"
@@ -16,16 +18,15 @@ namespace {
 class WritingProcess {
  public:
   explicit WritingProcess(const std::string& path) : process_(fork()) {
-    if (process_ == 0) {
-      alarm(60);
-      const State state = make_state(2);
-      Writer writer(path, true, make_scene(2), {});
-      for (int row = 0;; ++row) {
-        writer.write_frame(make_totals(row), state);
-        writer.write_series(make_totals(row));
-        writer.flush();
-      }
+    if (process_ < 0) throw std::runtime_error("no process can be made");
+    if (process_ > 0) return;
+    alarm(60);
+    try {
+      write(path);
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
     }
+    _exit(1);
   }
   ~WritingProcess() {
     kill(process_, SIGKILL);
@@ -34,7 +35,20 @@ class WritingProcess {
   WritingProcess(const WritingProcess&) = delete;
   WritingProcess& operator=(const WritingProcess&) = delete;
 
+  bool has_ended() const { return waitpid(process_, nullptr, WNOHANG) != 0; }
+
  private:
+  [[noreturn]] static void write(const std::string& path) {
+    const State state = make_state(2);
+    Writer writer(path, true, make_scene(2, true), {});
+    for (int row = 0;; ++row) {
+      writer.write_frame(make_totals(row), state);
+      writer.write_series(make_totals(row));
+      writer.write_event({});
+      writer.flush();
+    }
+  }
+
   pid_t process_;
 };
 
@@ -55,11 +69,18 @@ class Growing : public InFolder {};
 
 TEST_F(Growing, ASourceKeepsTheRowsOfItsOpening) {
   const WritingProcess process(file("a.h5"));
-  while (!std::filesystem::exists(file("a.h5"))) usleep(1000);
+  while (!std::filesystem::exists(file("a.h5"))) {
+    ASSERT_FALSE(process.has_ended());
+    usleep(1000);
+  }
   hsize_t first = 0, last = 0;
   for (int round = 0; round < 40 || (last <= first + 100 && round < 4000); ++round) {
     const Source source(file("a.h5"));
     limit_cache(source, std::size_t{1024} << round % 8);
+    const hsize_t events = Element(source, "/events/time").rows();
+    for (const std::string name : {"/events/arms", "/events/shift"}) {
+      ASSERT_GE(Element(source, name).rows(), events) << name;
+    }
     std::map<std::string, std::vector<std::int64_t>> steps;
     for (int reading = 0; reading < 4; ++reading) {
       for (const std::string name :

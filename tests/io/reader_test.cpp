@@ -462,8 +462,8 @@ TEST_F(Reading, FilesCutShortAreRefused) {
   writer.flush();
   std::filesystem::copy_file(file("whole.h5"), file("left.h5"));
   writer.close();
-  // What a run has left that was killed is longer than its content, which all ends with the last
-  // byte that the superblock counts.
+  // The content ends with the last byte that the superblock counts. The file that a killed run has
+  // left is longer.
   const auto size_of = [&](const char* name) { return std::filesystem::file_size(file(name)); };
   EXPECT_EQ(size_of("whole.h5"), recorded_size(file("whole.h5")));
   EXPECT_GT(size_of("left.h5"), recorded_size(file("left.h5")));

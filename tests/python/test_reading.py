@@ -4,6 +4,7 @@ import tempfile
 import tomllib
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import needlework
 import numpy as np
@@ -175,6 +176,26 @@ class Reading(unittest.TestCase):
             with read(path) as recording:
                 self.assertGreater(len(recording.frames), frames)
                 self.assertGreater(len(recording.events), events)
+
+    def test_counts_are_read_before_what_they_count(self):
+        import h5py
+        path = Path(self.folder.name, "counts.h5")
+        with Simulation(gas(output={"file": str(path), "frames": 100, "events": True})) as sim:
+            sim.run(time=0.2)
+            visit = h5py.Group.visit
+
+            def slowly(group, function):
+                def each(name):
+                    if name == "events/arms":
+                        sim.run()
+                    return function(name)
+                return visit(group, each)
+
+            with mock.patch.object(h5py.Group, "visit", slowly), read(path) as recording:
+                events = recording.events
+                self.assertGreater(len(recording._file["events/epoch"]), len(events))
+                for field in events.dtype.names:
+                    self.assertEqual(len(events[field]), len(events), field)
 
     def test_other_files_are_refused(self):
         import h5py

@@ -1,7 +1,6 @@
 """What tests of runs that are stopped and continued share: a scene, and the contents of files."""
 
 import subprocess
-import time
 
 import h5py
 
@@ -48,8 +47,9 @@ def contents(path, opened=h5py.File):
                 found[f"{prefix}{name}"] = item[()]
 
     with opened(path) as file:
-        # First the numbers of rows, because the file may grow meanwhile.
-        found |= {name: file[name][()] for name in TABLES if name in file}
+        # First the numbers of rows, which stay open, because the file may grow meanwhile.
+        counts = {name: file[name] for name in TABLES if name in file}
+        found |= {name: dataset[()] for name, dataset in counts.items()}
         visit(file, "")
     return found
 

@@ -62,7 +62,8 @@ def main():
         for table in rows[0]:
             assert rows[0][table] < rows[-1][table], f"{table} has not grown: {rows}"
         assert openings > 1000, openings
-        print(f"{openings} times opened, {len(rows)} times read by each, rows from {rows[0]} to {rows[-1]}")
+        print(f"{openings} times opened; {len(rows)} times read by each, "
+              f"rows from {rows[0]} to {rows[-1]}")
 
 
 if __name__ == "__main__":
