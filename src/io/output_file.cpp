@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -206,16 +207,15 @@ void set_size_on_disk(DriverFile& file, haddr_t size) {
 
 // Readers ask for the size of a file before they read the superblock. So that the file may grow in
 // between, its size is kept ahead of the superblock, by 16 MiB or eight times what a flush has
-// added so far at most. That cannot be where the size of files is limited.
+// added so far at most. Beyond the limit of the sizes of files it would end the process.
 void reserve(DriverFile& file) {
   const haddr_t end = file.end_of_allocation;
   const haddr_t growth = end - std::min(end, std::exchange(file.flushed_end, end));
   file.reserve = std::max(file.reserve, flushes_reserved * growth);
-  set_size_on_disk(file, std::max(file.size_on_disk, end + file.reserve));
-  if (*file.error == EFBIG) {
-    *file.error = 0;
-    file.size_on_disk = end;
-  }
+  struct rlimit limit;
+  if (getrlimit(RLIMIT_FSIZE, &limit) != 0) limit.rlim_cur = RLIM_INFINITY;
+  const haddr_t size = std::min<haddr_t>(end + file.reserve, limit.rlim_cur);
+  set_size_on_disk(file, std::max(file.size_on_disk, size));
 }
 
 // HDF5 has the same type for the headers of chunk indexes.

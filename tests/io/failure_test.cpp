@@ -1,5 +1,8 @@
 // Disks that are full and folders that may not be written.
+#include <sys/resource.h>
 #include <sys/stat.h>
+
+#include <csignal>
 
 #include "tests/io/disk.h"
 #include "tests/io/support.h"
@@ -73,6 +76,27 @@ TEST_F(Failing, AnyWriteMayFindTheDiskFull) {
     EXPECT_EQ(read_last_frame(file("full.h5")).image[0][0], 1);
     std::filesystem::remove(file("full.h5"));
   }
+}
+
+TEST_F(Failing, TheSizeOfFilesMayBeLimited) {
+  constexpr rlim_t limit = 3'000'000;
+  const std::string path = file("limited.h5");
+  const auto prepare = [&] {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const struct rlimit files { limit, limit };
+    setrlimit(RLIMIT_FSIZE, &files);
+  };
+  const std::string message = message_in_child(prepare, [&] {
+    Writer writer(path, false, make_scene(100, true), run);
+    for (int frame = 0;; ++frame) {
+      writer.write_frame(make_totals(frame), make_state(100));
+      writer.flush();
+    }
+  });
+  EXPECT_EQ(message, path + ": File too large");
+  EXPECT_LE(std::filesystem::file_size(path), limit);
+  EXPECT_GT(recorded_size(path), limit - 200'000);
+  expect_same(make_state(100), read_last_frame(path));
 }
 
 // Only then can kill -9 not leave half a change in the metadata.

@@ -10,14 +10,6 @@ namespace {
 
 using hdf5::Shape;
 
-// The size of a file as its superblock records it (version 3, at byte 28).
-std::uint64_t recorded_size(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::uint64_t size = 0;
-  in.seekg(28).read(reinterpret_cast<char*>(&size), sizeof size);
-  return size;
-}
-
 class Reading : public InFolder {
  protected:
   // A file with `frames` frames of two needles in /particles/GROUP and a plain box, changed by

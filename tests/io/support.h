@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 #include <string>
@@ -33,6 +34,14 @@ class InFolder : public testing::Test {
   test::TemporaryFolder temporary_;
   std::filesystem::path folder_ = temporary_.path();
 };
+
+/// The size of a file as its superblock records it (version 3, at byte 28).
+inline std::uint64_t recorded_size(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::uint64_t size = 0;
+  in.seekg(28).read(reinterpret_cast<char*>(&size), sizeof size);
+  return size;
+}
 
 /// A random valid state with all mantissa bits in use, and the numbers that are easily lost.
 inline State make_state(std::size_t needles, unsigned seed = 1) {
