@@ -298,7 +298,11 @@ def _open(path: str) -> tuple[h5py.File, list[h5py.Dataset]]:
                 time.sleep(0.001)
         else:
             file = h5py.File(path, "r")
-        return file, _datasets(file) if grows else []
+        try:
+            return file, _datasets(file) if grows else []
+        except BaseException:
+            file.close()
+            raise
     except (OSError, RuntimeError, KeyError) as error:
         number = getattr(error, "errno", None)
         reason = os.strerror(number) if number else str(error)

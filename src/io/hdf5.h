@@ -179,9 +179,7 @@ bool exists(hid_t object, const std::string& path, const std::string& place);
 std::string why_absent(hid_t object, const std::string& path, const std::string& place);
 /// The names of the links in a group, in alphabetical order.
 std::vector<std::string> children(hid_t group, const std::string& place);
-
-/// Paths of all datasets of a file, in the order of paths. Links within the file that are not hard
-/// links are left out.
+/// Paths of all datasets of a file in the order of paths, by hard links alone.
 std::vector<std::string> datasets(hid_t file, const std::string& place);
 bool is_group(hid_t parent, const std::string& name, const std::string& place);
 bool is_dataset(hid_t parent, const std::string& name, const std::string& place);

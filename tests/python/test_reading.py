@@ -197,6 +197,14 @@ class Reading(unittest.TestCase):
                 for field in events.dtype.names:
                     self.assertEqual(len(events[field]), len(events), field)
 
+    def test_a_growing_file_that_cannot_be_listed_is_refused(self):
+        import h5py
+        path = Path(self.folder.name, "unlisted.h5")
+        damage = mock.patch.object(h5py.Group, "visit", side_effect=RuntimeError("wrong checksum"))
+        with Simulation(gas(output={"file": str(path)})), damage:
+            with self.assertRaisesRegex(IoError, "unlisted.h5: cannot be read: wrong checksum"):
+                read(path)
+
     def test_other_files_are_refused(self):
         import h5py
         with self.assertRaisesRegex(IoError, "no-such.h5: cannot be read: No such file"):
