@@ -18,6 +18,8 @@ class EventSink {
   virtual ~EventSink() = default;
   /// Replaces the event of event.owner, which is now in this block.
   virtual void set(const Event& event, BlockIndex block) = 0;
+  /// Prefetches what set() of an event of needle i in this block will access.
+  virtual void prefetch(Needle i, BlockIndex block) const = 0;
 
   const bool needs_block;
 };
@@ -49,6 +51,9 @@ class CalendarOf final : public AnyCalendar {
   const Event& of(Needle i) const override { return calendar_.of(i); }
   Needle likely_next() const override { return calendar_.likely_next(); }
   void set(const Event& event, BlockIndex block) override { calendar_.set(event, block); }
+  void prefetch(Needle i, BlockIndex block) const override {
+    if constexpr (requires { calendar_.prefetch(i, block); }) calendar_.prefetch(i, block);
+  }
   void reset(std::size_t n, const Clock& clock, std::size_t blocks) override {
     calendar_ = C(0, clock, 1);
     calendar_ = C(n, clock, blocks);

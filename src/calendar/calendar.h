@@ -26,6 +26,8 @@ using BlockIndex = std::uint32_t;
 /// References from `top()` and `of(i)` are valid until the next `set`.
 /// `likely_next()` guesses the needle whose event follows top(), so that its data can be
 /// prefetched. No result may depend on the guess. The calendar must not be empty.
+/// `prefetch(i, block)`, which a calendar need not have, prefetches what `set` of an event of
+/// needle i in this block will access.
 ///
 /// For the same events every calendar has an equal top(), whatever it has held before. Nothing
 /// throws except for lack of memory. Only one thread at a time may use a calendar by these

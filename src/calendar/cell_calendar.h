@@ -2,8 +2,10 @@
 // all blocks compete in a tournament, or in several, one for each thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <bit>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -74,7 +76,10 @@ class CellCalendar {
   Block blocks() const { return static_cast<Block>(blocks_.size()); }
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
   /// The next event of a block that has one.
-  const Event& top_of(Block b) const { return events_[blocks_[b].next]; }
+  const Event& top_of(Block b) const {
+    const Content& content = blocks_[b];
+    return events_[content.tied ? first_of_equal(content) : content.next];
+  }
   /// The key of a block's next event as last published: none of its events is earlier. Any thread
   /// may call this.
   TimeKey published_key(Block b) const {
@@ -82,7 +87,7 @@ class CellCalendar {
   }
   TimeKey key_of(Time time) const { return events_.key_of(time); }
   std::uint32_t subdomain_of(Block b) const { return owners_[b].subdomain; }
-  std::size_t needles_in(Block b) const { return blocks_[b].keys.size(); }
+  std::size_t needles_in(Block b) const { return blocks_[b].needles.size(); }
 
   /// Assigns block b to subdomain `subdomain_of[b]`, and sets up all tournaments.
   void divide(const std::vector<std::uint32_t>& subdomain_of, std::uint32_t subdomains) {
@@ -116,39 +121,39 @@ class CellCalendar {
   void put(const Event& event, Block block, std::vector<Block>& changed) {
     const Needle i = event.owner;
     const TimeKey key = events_.put(event);
-    Place& place = places_[i];
-    if (const Block old = block_of(i); old != block) {
-      remove(i);
-      if (blocks_[old].next == i) {
-        find_next(old);
-        changed.push_back(old);
-      }
-      insert(i, block, key);
-      if (blocks_[block].keys.size() == 1) blocks_[block].next = i;
-    } else {
-      blocks_[block].keys[place.slot].key = key;
-    }
     Content& content = blocks_[block];
-    if (content.next == i) {
-      find_next(block);
+    const Block old = block_of(i);
+    const std::uint32_t slot = places_[i].slot;
+    const bool was_next = blocks_[old].may_be_next(slot);
+    if (old == block) {
+      content.key(slot) = key;
     } else {
-      const TimeKey first = next_key(block);
-      if (first < key || (first == key && !events_.before(i, content.next))) return;
-      content.next = i;
+      remove(i);
+      insert(i, block, key);
     }
+    if (was_next) {
+      find_next(old);
+      changed.push_back(old);
+      if (old == block) return;
+    }
+    if (key > content.next_key) return;
+    content.tied = key == content.next_key;
+    content.next_key = key;
+    content.next = i;
     changed.push_back(block);
   }
-  /// Prefetches what a change of needle i, or of a needle in block b, will read.
-  void prefetch_place(Needle i) const { prefetch(&places_[i]); }
-  void prefetch_keys(Block b) const {
-    const Entry* keys = blocks_[b].keys.data();
-    for (std::size_t line = 0; line < 3; ++line) prefetch(keys + line * 64 / sizeof(Entry));
+  /// Prefetches what put() and publish() access for an event of needle i, now in `block`.
+  void prefetch(Needle i, Block block) const {
+    events_.prefetch(i);
+    needlework::prefetch(&places_[i]);
+    needlework::prefetch(&blocks_[block]);
+    needlework::prefetch(&published_keys_[block]);
+    needlework::prefetch(&owners_[block]);
   }
+  void prefetch_place(Needle i) const { needlework::prefetch(&places_[i]); }
+  void prefetch_keys(Block b) const { needlework::prefetch(&blocks_[b]); }
   /// The key of a block's next event, published or not.
-  TimeKey next_key(Block b) const {
-    const Content& content = blocks_[b];
-    return content.keys.empty() ? no_event : content.keys[places_[Needle(content.next)].slot].key;
-  }
+  TimeKey next_key(Block b) const { return blocks_[b].next_key; }
   void publish(Block b) { published_keys_[b].store(next_key(b), std::memory_order_release); }
 
   /// The block of a subdomain whose event is next, according to the keys that the tournament has
@@ -171,10 +176,6 @@ class CellCalendar {
   }
 
  private:
-  struct Entry {
-    TimeKey key;
-    Needle needle;
-  };
   // Any thread may read this; the value may be out of date.
   struct Next {
     std::atomic<Needle> value{Needle(0)};
@@ -187,9 +188,22 @@ class CellCalendar {
     }
     operator Needle() const { return value.load(std::memory_order_relaxed); }
   };
-  struct Content {
-    std::vector<Entry> keys;
-    Next next;  ///< the needle with the block's next event
+  // Of all that it holds, an event accesses the same few lines of memory.
+  struct alignas(64) Content {
+    using Keys = std::array<TimeKey, KeyLine::width>;
+
+    Next next;                    ///< a needle that has the block's next event
+    bool tied = false;            ///< whether others may have an event with the same key
+    TimeKey next_key = no_event;  ///< of that event
+    // By slot; keys of unused slots are `no_event`.
+    boost::container::small_vector<Keys, 2> keys;
+    boost::container::small_vector<Needle, 2 * KeyLine::width> needles;
+
+    TimeKey& key(std::size_t slot) { return keys[slot / KeyLine::width][slot % KeyLine::width]; }
+    TimeKey key(std::size_t slot) const {
+      return keys[slot / KeyLine::width][slot % KeyLine::width];
+    }
+    bool may_be_next(std::uint32_t slot) const { return key(slot) == next_key; }
   };
   struct Place {
     std::atomic<Block> block{0};  ///< any thread may read this; the value may be out of date
@@ -223,36 +237,56 @@ class CellCalendar {
         [&](std::uint32_t x, std::uint32_t y) {
           return earlier(subdomain.blocks[x], subdomain.blocks[y]);
         },
-        [&](std::uint32_t near) {
-          const Content& content = blocks_[subdomain.blocks[near]];
-          if (!content.keys.empty()) events_.prefetch(content.next);
-        });
+        [](std::uint32_t) {});
   }
 
   void insert(Needle i, Block b, TimeKey key) {
+    Content& content = blocks_[b];
     Place& place = places_[i];
     place.block.store(b, std::memory_order_relaxed);
-    place.slot = static_cast<std::uint32_t>(blocks_[b].keys.size());
-    blocks_[b].keys.push_back({key, i});
+    place.slot = static_cast<std::uint32_t>(content.needles.size());
+    if (place.slot == content.keys.size() * KeyLine::width) {
+      content.keys.emplace_back().fill(no_event);
+    }
+    content.needles.push_back(i);
+    content.key(place.slot) = key;
   }
   void remove(Needle i) {
-    std::vector<Entry>& keys = blocks_[block_of(i)].keys;
+    Content& content = blocks_[block_of(i)];
     const std::uint32_t slot = places_[i].slot;
-    keys[slot] = keys.back();
-    places_[keys[slot].needle].slot = slot;
-    keys.pop_back();
+    const Needle last = content.needles.back();
+    content.needles.pop_back();
+    content.key(slot) = content.key(content.needles.size());
+    content.key(content.needles.size()) = no_event;
+    if (last == i) return;
+    content.needles[slot] = last;
+    places_[last].slot = slot;
   }
+  // Equal keys are common, as both needles of a contact have it. They are told apart only when the
+  // event comes to the top, because that reads the events.
   void find_next(Block b) {
     Content& content = blocks_[b];
-    if (content.keys.empty()) return;
-    const Entry* best = &content.keys.front();
-    for (const Entry& entry : content.keys) {
-      if (entry.key < best->key ||
-          (entry.key == best->key && events_.before(entry.needle, best->needle))) {
-        best = &entry;
-      }
+    TimeKey key = no_event;
+    std::size_t slot = 0;
+    bool tied = false;
+    for (std::size_t line = 0; line < content.keys.size(); ++line) {
+      const LeastKeys here(content.keys[line]);
+      const bool less = here.key < key;
+      tied = less ? !std::has_single_bit(here.places) : tied | (here.key == key);
+      slot = less ? line * KeyLine::width + std::countr_zero(here.places) : slot;
+      key = std::min(key, here.key);
     }
-    content.next = best->needle;
+    content.next_key = key;
+    content.tied = tied;
+    if (key != no_event) content.next = content.needles[slot];
+  }
+  [[gnu::noinline]] Needle first_of_equal(const Content& content) const {
+    Needle best = content.next;
+    for (std::size_t slot = 0; slot < content.needles.size(); ++slot) {
+      if (content.key(slot) != content.next_key) continue;
+      if (events_.before(content.needles[slot], best)) best = content.needles[slot];
+    }
+    return best;
   }
 
   EventTable events_;

@@ -26,6 +26,10 @@ class Tournament {
     return i;
   }
 
+  void prefetch(Needle i, BlockIndex) const {
+    events_.prefetch(i);
+    tree_.prefetch(i.index);
+  }
   void set(const Event& event, BlockIndex) {
     tree_.update(
         event.owner.index, events_.put(event),

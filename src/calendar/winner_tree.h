@@ -10,6 +10,7 @@
 
 #include "src/calendar/event_table.h"
 #include "src/memory/large_array.h"
+#include "src/memory/prefetch.h"
 
 namespace needlework {
 
@@ -24,12 +25,11 @@ struct alignas(64) KeyLine {
 /// The smallest key; bit n is set if the key at position n is equal to it. Without branches,
 /// because which key is smallest cannot be predicted.
 struct LeastKeys {
-  explicit LeastKeys(const KeyLine& line)
-      : key(std::min(
-            std::min(std::min(line.key[0], line.key[1]), std::min(line.key[2], line.key[3])),
-            std::min(std::min(line.key[4], line.key[5]), std::min(line.key[6], line.key[7])))) {
+  explicit LeastKeys(const std::array<TimeKey, KeyLine::width>& of)
+      : key(std::min(std::min(std::min(of[0], of[1]), std::min(of[2], of[3])),
+                     std::min(std::min(of[4], of[5]), std::min(of[6], of[7])))) {
     for (std::uint32_t n = 0; n < KeyLine::width; ++n) {
-      places |= static_cast<std::uint32_t>(line.key[n] == key) << n;
+      places |= static_cast<std::uint32_t>(of[n] == key) << n;
     }
   }
 
@@ -86,6 +86,15 @@ class WinnerTree {
     return lines_[player / KeyLine::width].key[player % KeyLine::width];
   }
 
+  /// Prefetches what update() accesses in the first rounds; the matches of later ones are few.
+  void prefetch(std::uint32_t player) const {
+    std::size_t match = player;
+    for (std::size_t round = 0; round < std::min<std::size_t>(first_.size(), 3); ++round) {
+      match /= KeyLine::width;
+      needlework::prefetch(&lines_[first_[round] + match]);
+      needlework::prefetch(&winner_[first_[round] + match]);
+    }
+  }
   /// Gives a player a new key and plays its matches again, up to the first whose outcome does not
   /// change. If keys are equal, before(a, b) is whether player a is before b. `near(player)` is
   /// called for a player that wins all rounds but the last. O(log n).
@@ -107,7 +116,7 @@ class WinnerTree {
         }
         winner = challenger;
       } else {
-        const LeastKeys least(line);
+        const LeastKeys least(line.key);
         key = least.key;
         winner = challenger = winner_among(round, contestant, least.places, before);
       }

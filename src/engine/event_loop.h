@@ -83,7 +83,9 @@ std::optional<Stop> EventLoop<S, M>::run_alone(const Limits& limits, Time end) {
     }
     const Event event = calendar_->top();
     processor_.prefetch(event.owner);
-    processor_.prefetch(calendar_->likely_next());
+    const Event& likely_next = calendar_->of(calendar_->likely_next());
+    processor_.prefetch(likely_next.owner);
+    if (likely_next.has_partner()) processor_.prefetch(likely_next.partner);
     if (pass_window(event.time, limits)) continue;
     if (event.time > limits.time) {
       run_.now = limits.time;

@@ -52,9 +52,7 @@ class EventProcessor {
   /// Searches the next contact of needle i from now on and puts its next event into the calendar.
   /// `just_hit` is the needle with which it has just collided, if any.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, const JustHit& just_hit = {});
-  void enter(const Event& event) {
-    calendar_.set(event, calendar_.needs_block ? search_.cell_index(event.owner) : 0);
-  }
+  void enter(const Event& event) { calendar_.set(event, block_of(event.owner)); }
   /// Prefetches what the processing of an event of this needle will read.
   void prefetch(Needle i) const {
     needlework::prefetch(&gas_.records[i]);
@@ -78,6 +76,7 @@ class EventProcessor {
 #endif
 
  private:
+  BlockIndex block_of(Needle i) const { return calendar_.needs_block ? search_.cell_index(i) : 0; }
   void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
@@ -197,6 +196,8 @@ template <Search S, Model M>
 void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& just_hit) {
   ++tally_.counters.searches;
   if (rollback_log) rollback_log->scheduled(i);
+  // Needed after the search, which takes longer than memory does.
+  calendar_.prefetch(i, block_of(i));
   const Time time = now();
   Event best;
   best.owner = i;

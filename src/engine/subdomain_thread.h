@@ -22,6 +22,7 @@ namespace needlework {
 struct SubdomainChanges final : EventSink {
   explicit SubdomainChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
   void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
+  void prefetch(Needle i, BlockIndex block) const override { calendar.prefetch(i, block); }
 
   CellCalendar& calendar;
   std::vector<BlockIndex> changed;
