@@ -119,22 +119,24 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
 Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
   const V3 r = broadcast(seeker.motion.r), v = broadcast(seeker.motion.v);
   const Floats now(seeker.now), ahead(seeker.ahead), zero(0.0f);
-  const float longest_reach = seeker.motion.half + seeker.longest_half;
-  const Floats reach_at_rest =
-      Floats(longest_reach + seeker.margin + 0x1p-10f) + norm_1(v) * Floats(0x1p-18f);
+  // The errors of times, 2^-20, enter by the speeds. That of the other needle is at most the
+  // seeker's and the relative one w, of which (x + |w| 2^-17)^2 <= x^2 (1 + 2^-10) + w^2 2^-23.
+  const Floats reach = Floats(seeker.motion.half + seeker.longest_half + seeker.margin + 0x1p-10f) +
+                       norm_1(v) * Floats(0x1p-17f);
+  const Floats reach_squared = reach * reach * Floats(1 + 0x1p-10f);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
     const V3 other_v = load(block, NeedleBlock::a_x, lane);
     const Floats age = now - load_floats(block.column[NeedleBlock::time] + lane);
     const V3 d = (from - load(block, NeedleBlock::x, lane)) - other_v * age, w = v - other_v;
-    const Floats dd = dot(d, d), b = dot(d, w), a = dot(w, w);
-    const Floats reach = reach_at_rest + norm_1(other_v) * Floats(0x1p-18f);
-    const Floats c = dd - (reach * reach + dd * Floats(0x1p-18f));
-    // Nearest at -b / a, or at the end of the time ahead when that comes first.
-    const Mask later = -b < a * ahead;
-    const Mask apart = select(later, c * a > b * b, c + (b + b + a * ahead) * ahead > zero);
-    return !((c > zero) & ((b >= zero) | apart));
+    const Floats b = dot(d, w), a = dot(w, w);
+    // The square of the distance less that of the reach: now, and at the end of the time ahead.
+    const Floats c = dot(d, d) * Floats(1 - 0x1p-18f) - (reach_squared + a * Floats(0x1p-23f));
+    const Floats b_then = b + a * ahead, c_then = c + (b + b_then) * ahead;
+    // It may be less between the two, at -b / a.
+    const Mask apart_between = (b >= zero) | (b_then <= zero) | (c * a > b * b);
+    return !((c > zero) & (c_then > zero) & apart_between);
   };
   return scan(around, seeker, found, test);
 }

@@ -93,6 +93,7 @@ inline void NearSearch::view_cells_near(double reach) {
   }
   // Copied, because for all the compiler knows the stores below might change this pointer.
   const NeedleBlock* const blocks = volumes.cells.blocks();
+  const kernels::BlockLink* const links = volumes.cells.links();
   kernels::CellView* view = views_.data();
   Cell* view_cell = view_cells_.data();
   for (const auto& z : near_[2]) {
@@ -104,6 +105,7 @@ inline void NearSearch::view_cells_near(double reach) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
         needlework::prefetch(&blocks[first]);
+        needlework::prefetch(&links[first]);
         *view++ = {first, {x.offset, y.offset, z.offset}};
         *view_cell++ = {x.cell, y.cell, z.cell};
       }
