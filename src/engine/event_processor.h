@@ -56,6 +56,9 @@ class EventProcessor {
   /// Prefetches what the processing of an event of this needle will read.
   void prefetch(Needle i) const {
     needlework::prefetch(&gas_.records[i]);
+    needlework::prefetch(&gas_.ids[i]);
+    needlework::prefetch(&gas_.images[i]);
+    if constexpr (M::effects.contact_time) needlework::prefetch(&run_.last_collision[i]);
     search_.prefetch(i);
   }
   /// Discards cached predictions. To be called after needles have moved in storage, or after

@@ -125,6 +125,7 @@ inline void NearSearch::propose(const kernels::Found& found, std::size_t k, doub
   const Needle j(found.needle[k]);
   needlework::prefetch(&volumes_->places[j]);
   needlework::prefetch(&volumes_->gas.records[j]);
+  needlework::prefetch(&volumes_->gas.ids[j]);
   candidates_.push_back({from, j, found.cell[k], {}});
 }
 
