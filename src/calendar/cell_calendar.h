@@ -237,7 +237,7 @@ class CellCalendar {
         [&](std::uint32_t x, std::uint32_t y) {
           return earlier(subdomain.blocks[x], subdomain.blocks[y]);
         },
-        [](std::uint32_t) {});
+        [&](std::uint32_t near) { events_.prefetch(blocks_[subdomain.blocks[near]].next); });
   }
 
   void insert(Needle i, Block b, TimeKey key) {
