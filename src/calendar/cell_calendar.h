@@ -145,8 +145,8 @@ class CellCalendar {
   /// Prefetches what put() and publish() access for an event of needle i, now in `block`.
   void prefetch(Needle i, Block block) const {
     events_.prefetch(i);
-    needlework::prefetch(&places_[i]);
-    needlework::prefetch(&blocks_[block]);
+    prefetch_place(i);
+    prefetch_keys(block);
     needlework::prefetch(&published_keys_[block]);
     needlework::prefetch(&owners_[block]);
   }

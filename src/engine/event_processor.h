@@ -200,7 +200,8 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
   ++tally_.counters.searches;
   if (rollback_log) rollback_log->scheduled(i);
   // Needed after the search, which takes longer than memory does.
-  calendar_.prefetch(i, block_of(i));
+  const BlockIndex block = block_of(i);
+  calendar_.prefetch(i, block);
   const Time time = now();
   Event best;
   best.owner = i;
@@ -212,7 +213,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
                  consider(i, j, shift, from, best);
                  return gas_.clock.difference(best.time, time);
                });
-  enter(best);
+  calendar_.set(best, block);
 }
 
 // Looks for a contact of i with candidate j that is earlier than `best`, and replaces `best` by

@@ -400,6 +400,38 @@ TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
   }
 }
 
+// Of equal keys in a block, and in several, while needles move from block to block.
+TEST(CellCalendar, SettlesEqualTimesOfNeedlesThatMove) {
+  constexpr int n = 60;
+  constexpr std::uint32_t blocks = 5;
+  CellCalendar calendar(n, Clock(), blocks);
+  Random random(seed);
+  std::vector<Event> events(n);
+  std::vector<std::uint32_t> place(n);
+  constexpr Needle end(n);
+  for (Needle i{0}; i < end; ++i) {
+    events[i].owner = i;
+    place[i] = calendar.block_of(i);
+  }
+  for (int step = 0; step < operations; ++step) {
+    const Event event = draw_event(random, n, step / 50, true);
+    if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
+    events[event.owner] = event;
+    calendar.set(event, place[event.owner]);
+    std::vector<const Event*> first(blocks);
+    for (Needle i{0}; i < end; ++i) {
+      const Event*& best = first[place[i]];
+      if (!best || events[i] < *best) best = &events[i];
+    }
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+      if (!first[block]) continue;
+      ASSERT_TRUE(equal_in_order(calendar.top_of(block), *first[block])) << "step " << step;
+    }
+    ASSERT_TRUE(equal_in_order(calendar.top(), *std::min_element(events.begin(), events.end())))
+        << "step " << step << ", seed " << seed;
+  }
+}
+
 TEST(EventOrder, IsTimeThenHorizonsThenIdsThenShift) {
   EXPECT_LT(contact(5, 6, 0.25), horizon(0, 0.5));
   EXPECT_LT(horizon(9, 0.5), contact(0, 1, 0.5));
