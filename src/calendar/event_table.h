@@ -8,6 +8,7 @@
 
 #include "src/calendar/event.h"
 #include "src/memory/large_array.h"
+#include "src/memory/prefetch.h"
 
 namespace needlework {
 
@@ -44,11 +45,7 @@ class EventTable {
   bool before(Needle a, Needle b) const { return slots_[a].event < slots_[b].event; }
 
   /// Prefetches an event that will soon be on top.
-  void prefetch([[maybe_unused]] Needle i) const {
-#ifdef __GNUC__
-    __builtin_prefetch(&slots_[i]);
-#endif
-  }
+  void prefetch(Needle i) const { needlework::prefetch(&slots_[i]); }
 
  private:
   struct alignas(64) Slot {
