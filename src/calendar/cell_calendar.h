@@ -1,13 +1,12 @@
-// A calendar by position: the needles of one cell of space share a block, and the next events of
-// all blocks compete in a tournament, or in several, one for each thread.
+// A calendar by position: the needles in one part of the box compete in a tournament of their own.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "src/calendar/calendar.h"
@@ -18,16 +17,19 @@
 
 namespace needlework {
 
-/// A block holds the keys of the events of its needles, and knows its next event. Blocks are
-/// divided among subdomains, initially one, and each subdomain has a tournament of its own blocks.
+/// Each needle is in a block, which stands for a cell of the search. The blocks are divided among
+/// subdomains, initially one, and each subdomain has a tournament of the needles in its blocks.
+/// Blocks that are `shown` hold the keys of the events of their needles, and publish the earliest.
 ///
 /// With `set` alone it is a calendar like the others. Several threads, each with a subdomain, use
-/// it in three steps. `put` changes blocks that no other thread reads or writes at the time.
-/// `publish` makes the keys of their next events visible; all threads may read these at any time.
-/// `follow`, called by the thread of the subdomain, updates the tournament.
+/// it in three steps. `put` replaces the event of a needle; no other thread may read or write it at
+/// the time, nor the shown blocks that the needle leaves and enters. `publish` makes the earliest
+/// key of a shown block visible; all threads may read these at any time. `follow`, called by the
+/// thread of a subdomain, updates that tournament.
 ///
-/// `set` is O(1) on average for an event that does not become the next one, else O(log n). `top`
-/// is O(number of subdomains). About 110 bytes per needle.
+/// `set` is O(log n), and O(1) on average for an event that does not become the next one. `top` is
+/// O(number of subdomains). About 90 bytes per needle, 10 more for each further subdomain, and 40
+/// for each needle in a shown block.
 class CellCalendar {
  public:
   static constexpr const char* name = "cell-calendar";
@@ -36,265 +38,233 @@ class CellCalendar {
   /// Later than any event.
   static constexpr TimeKey no_event = ~TimeKey{8};
 
-  /// Makes this number of blocks. Needles are distributed over them by index until they are set.
+  /// Makes this number of blocks. All needles are in the first until they are set.
   CellCalendar(std::size_t n, const Clock& clock, std::size_t blocks)
-      : events_(n, clock), places_(n), blocks_(blocks), published_keys_(blocks) {
-    for (Needle i{0}; i < n; ++i) insert(i, static_cast<Block>(i * blocks / n), events_.key(i));
-    for (Block b = 0; b < blocks; ++b) find_next(b);
-    divide(std::vector<std::uint32_t>(blocks, 0), 1);
+      : events_(n, clock), places_(n) {
+    for (Needle i{0}; i < n; ++i) places_[i].key = events_.key(i);
+    divide(std::vector<std::uint32_t>(blocks, 0), 1, std::vector<std::uint8_t>(blocks, false));
   }
 
   bool empty() const { return events_.size() == 0; }
   const Event& of(Needle i) const { return events_[i]; }
   const Event& top() const {
-    std::uint32_t best = 0;
-    for (std::uint32_t z = 1; z < subdomains_.size(); ++z) {
-      if (earlier(winner(z), winner(best))) best = z;
+    Needle best = winner(0);
+    TimeKey least = winning_key(0);
+    for (std::uint32_t z = 1; z < subdomains(); ++z) {
+      const TimeKey key = winning_key(z);
+      if (key > least || (key == least && !events_.before(winner(z), best))) continue;
+      best = winner(z);
+      least = key;
     }
-    return top_of(winner(best));
+    return events_[best];
   }
   Needle likely_next() const { return likely_next_in(0); }
-  Needle likely_next_in(std::uint32_t subdomain) const {
-    const Subdomain& of = subdomains_[subdomain];
-    if (of.blocks.empty()) return Needle(0);
-    const Needle i = blocks_[of.blocks[of.order.second()]].next;
+  Needle likely_next_in(std::uint32_t z) const {
+    const Needle i(trees_[z].second());
     events_.prefetch(i);
     return i;
   }
 
   void set(const Event& event, Block block) {
+    const std::uint32_t before = subdomain_of(block_of(event.owner)), now = subdomain_of(block);
     changed_.clear();
     put(event, block, changed_);
-    for (const Block b : changed_) {
-      publish(b);
-      follow(b);
-    }
+    for (const Block b : changed_) publish(b);
+    const auto in_order = [&](std::uint32_t a, std::uint32_t b) {
+      return events_.before(Needle(a), Needle(b));
+    };
+    if (before != now) follow(event.owner, before, no_event, in_order);
+    follow(event.owner, now, key_of(event.owner), in_order);
+  }
+  /// Prefetches what set() accesses for an event of needle i, now in `block`.
+  void prefetch(Needle i, Block block) const {
+    prefetch(i);
+    trees_[subdomain_of(block)].prefetch(i.index);
+    if (!is_shown(block)) return;
+    needlework::prefetch(&content(block));
+    needlework::prefetch(&published_keys_[block]);
+  }
+  /// Prefetches the event of a needle and its place.
+  void prefetch(Needle i) const {
+    events_.prefetch(i);
+    needlework::prefetch(&places_[i]);
   }
 
   // Blocks and subdomains.
 
-  Block blocks() const { return static_cast<Block>(blocks_.size()); }
+  Block blocks() const { return static_cast<Block>(subdomain_of_.size()); }
+  std::uint32_t subdomains() const { return static_cast<std::uint32_t>(trees_.size()); }
+  std::uint32_t subdomain_of(Block b) const { return subdomain_of_[b]; }
+  bool is_shown(Block b) const { return content_of_[b] != none; }
+  /// The block of a needle. Any thread may call this.
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
-  /// The next event of a block that has one.
-  const Event& top_of(Block b) const {
-    const Content& content = blocks_[b];
-    return events_[content.tied ? first_of_equal(content) : content.next];
-  }
-  /// The key of a block's next event as last published: none of its events is earlier. Any thread
-  /// may call this.
-  TimeKey published_key(Block b) const {
-    return published_keys_[b].load(std::memory_order_acquire);
-  }
+  /// The key of a needle's event. Any thread may call this.
+  TimeKey key_of(Needle i) const { return places_[i].key.load(std::memory_order_relaxed); }
   TimeKey key_of(Time time) const { return events_.key_of(time); }
-  std::uint32_t subdomain_of(Block b) const { return owners_[b].subdomain; }
-  std::size_t needles_in(Block b) const { return blocks_[b].needles.size(); }
+  /// The number of needles in each block.
+  std::vector<std::size_t> needles_in_blocks() const {
+    std::vector<std::size_t> count(blocks());
+    for (Needle i{0}; i < events_.size(); ++i) ++count[block_of(i)];
+    return count;
+  }
 
-  /// Assigns block b to subdomain `subdomain_of[b]`, and sets up all tournaments.
-  void divide(const std::vector<std::uint32_t>& subdomain_of, std::uint32_t subdomains) {
-    owners_.resize(blocks_.size());
-    subdomains_.clear();
-    std::vector<std::vector<Block>> parts(subdomains);
+  /// Assigns block b to subdomain `subdomain_of[b]`, shows it if `shown[b]`, and sets up all
+  /// tournaments.
+  void divide(const std::vector<std::uint32_t>& subdomain_of, std::uint32_t subdomains,
+              const std::vector<std::uint8_t>& shown) {
+    subdomain_of_ = subdomain_of;
+    content_of_.assign(blocks(), none);
+    std::uint32_t contents = 0;
     for (Block b = 0; b < blocks(); ++b) {
-      owners_[b] = {subdomain_of[b], static_cast<std::uint32_t>(parts[subdomain_of[b]].size())};
-      parts[subdomain_of[b]].push_back(b);
+      if (shown[b]) content_of_[b] = contents++;
     }
-    for (auto& part : parts) {
-      const std::size_t size = std::max<std::size_t>(part.size(), 1);
-      subdomains_.push_back({WinnerTree(size, no_event), std::move(part)});
+    contents_.clear();
+    contents_.resize(contents);
+    published_keys_ = std::vector<PublishedKey>(blocks());
+    for (Needle i{0}; i < events_.size(); ++i) {
+      if (is_shown(block_of(i))) insert(i, block_of(i), key_of(i));
     }
     for (Block b = 0; b < blocks(); ++b) {
+      if (!is_shown(b)) continue;
+      find_next(b);
       publish(b);
-      follow(b);
     }
+    trees_.clear();
+    for (std::uint32_t z = 0; z < subdomains; ++z) trees_.emplace_back(events_.size(), no_event);
+    order_again();
   }
   /// Sets up all tournaments again, and sorts events of equal keys by the full order.
   void order_again() {
-    for (Block b = 0; b < blocks(); ++b) {
-      publish(b);
-      follow(b, no_event);
+    for (std::uint32_t z = 0; z < subdomains(); ++z) {
+      trees_[z].play_all(
+          [&](std::uint32_t i) {
+            return subdomain_of(block_of(Needle(i))) == z ? key_of(Needle(i)) : no_event;
+          },
+          no_event,
+          [&](std::uint32_t a, std::uint32_t b) { return events_.before(Needle(a), Needle(b)); });
     }
-    for (Block b = 0; b < blocks(); ++b) follow(b);
   }
 
-  /// Replaces the event of event.owner, which is now in `block`, and appends the blocks whose next
-  /// event may have changed to `changed`.
+  /// Replaces the event of event.owner, which is now in `block`, and appends the shown blocks whose
+  /// earliest key may have changed to `changed`.
   void put(const Event& event, Block block, std::vector<Block>& changed) {
     const Needle i = event.owner;
     const TimeKey key = events_.put(event);
-    Content& content = blocks_[block];
     const Block old = block_of(i);
-    const std::uint32_t slot = places_[i].slot;
-    const bool was_next = blocks_[old].may_be_next(slot);
-    if (old == block) {
-      content.key(slot) = key;
-    } else {
-      remove(i);
-      insert(i, block, key);
+    places_[i].key.store(key, std::memory_order_relaxed);
+    places_[i].block.store(block, std::memory_order_relaxed);
+    bool was_first = false;
+    if (is_shown(old)) {
+      const std::uint32_t slot = places_[i].slot;
+      was_first = content(old).key(slot) == content(old).first_key;
+      if (old == block) {
+        content(old).key(slot) = key;
+      } else {
+        remove(i, old);
+      }
+      if (was_first) {
+        find_next(old);
+        changed.push_back(old);
+      }
+      if (old == block && was_first) return;
     }
-    if (was_next) {
-      find_next(old);
-      changed.push_back(old);
-      if (old == block) return;
-    }
-    if (key > content.next_key) return;
-    content.tied = key == content.next_key;
-    content.next_key = key;
-    content.next = i;
+    if (!is_shown(block)) return;
+    if (old != block) insert(i, block, key);
+    if (key >= first_key(block)) return;
+    content(block).first_key = key;
     changed.push_back(block);
   }
-  /// Prefetches what put() and publish() access for an event of needle i, now in `block`.
-  void prefetch(Needle i, Block block) const {
-    events_.prefetch(i);
-    prefetch_place(i);
-    prefetch_keys(block);
-    needlework::prefetch(&published_keys_[block]);
-    needlework::prefetch(&owners_[block]);
+  /// The earliest key of a shown block as last published. Any thread may call this.
+  TimeKey published_key(Block b) const {
+    return published_keys_[b].load(std::memory_order_acquire);
   }
-  void prefetch_place(Needle i) const { needlework::prefetch(&places_[i]); }
-  void prefetch_keys(Block b) const { needlework::prefetch(&blocks_[b]); }
-  /// The key of a block's next event, published or not.
-  TimeKey next_key(Block b) const { return blocks_[b].next_key; }
-  void publish(Block b) { published_keys_[b].store(next_key(b), std::memory_order_release); }
+  /// The same, published or not.
+  TimeKey first_key(Block b) const { return content(b).first_key; }
+  void publish(Block b) { published_keys_[b].store(first_key(b), std::memory_order_release); }
 
-  /// The block of a subdomain whose event is next, according to the keys that the tournament has
-  /// been given.
-  Block winner(std::uint32_t z) const {
-    const Subdomain& subdomain = subdomains_[z];
-    return subdomain.blocks.empty() ? 0 : subdomain.blocks[subdomain.order.winner()];
-  }
-  TimeKey winning_key(std::uint32_t z) const {
-    return subdomains_[z].order.key(subdomains_[z].order.winner());
-  }
-  /// Updates the tournament of the block's subdomain. Of equal keys the earlier event wins.
-  void follow(Block b) { follow(b, published_key(b)); }
-  /// The same without reading events: of equal keys the lower block wins.
-  void follow_by_key(Block b, TimeKey key) {
-    Subdomain& subdomain = subdomains_[owners_[b].subdomain];
-    subdomain.order.update(
-        owners_[b].rank, key, [](std::uint32_t x, std::uint32_t y) { return x < y; },
-        [](std::uint32_t) {});
+  /// The needle of a subdomain whose event is next, according to the keys that the tournament has
+  /// been given, and this key.
+  Needle winner(std::uint32_t z) const { return Needle(trees_[z].winner()); }
+  TimeKey winning_key(std::uint32_t z) const { return trees_[z].winning_key(); }
+  /// Gives a needle of a tournament a new key. Reads no events: of equal keys that of the lower
+  /// needle wins.
+  void follow(Needle i, std::uint32_t z, TimeKey key) {
+    follow(i, z, key, [](std::uint32_t a, std::uint32_t b) { return a < b; });
   }
 
  private:
-  // Any thread may read this; the value may be out of date.
-  struct Next {
-    std::atomic<Needle> value{Needle(0)};
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-    Next() = default;
-    Next(Next&& other) noexcept : value(Needle(other)) {}
-    Next& operator=(Needle i) {
-      value.store(i, std::memory_order_relaxed);
-      return *this;
-    }
-    operator Needle() const { return value.load(std::memory_order_relaxed); }
+  // Any thread may read the key and the block; they may be out of date.
+  struct Place {
+    std::atomic<TimeKey> key{no_event};
+    std::atomic<Block> block{0};
+    std::uint32_t slot = 0;  ///< in a shown block
+
+    Place() = default;
+    Place(Place&& other) noexcept
+        : key(other.key.load()), block(other.block.load()), slot(other.slot) {}
   };
   // Of all that it holds, an event accesses the same few lines of memory.
   struct alignas(64) Content {
     using Keys = std::array<TimeKey, KeyLine::width>;
 
-    Next next;                    ///< a needle that has the block's next event
-    bool tied = false;            ///< whether others may have an event with the same key
-    TimeKey next_key = no_event;  ///< of that event
+    TimeKey first_key = no_event;
     // By slot; keys of unused slots are `no_event`.
     boost::container::small_vector<Keys, 2> keys;
     boost::container::small_vector<Needle, 2 * KeyLine::width> needles;
 
     TimeKey& key(std::size_t slot) { return keys[slot / KeyLine::width][slot % KeyLine::width]; }
-    TimeKey key(std::size_t slot) const {
-      return keys[slot / KeyLine::width][slot % KeyLine::width];
-    }
-    bool may_be_next(std::uint32_t slot) const { return key(slot) == next_key; }
-  };
-  struct Place {
-    std::atomic<Block> block{0};  ///< any thread may read this; the value may be out of date
-    std::uint32_t slot = 0;
-
-    Place() = default;
-    Place(Place&& other) noexcept : block(other.block.load()), slot(other.slot) {}
-  };
-  struct Owner {
-    std::uint32_t subdomain, rank;
-  };
-  struct Subdomain {
-    WinnerTree order;
-    std::vector<Block> blocks;
   };
   struct PublishedKey : std::atomic<TimeKey> {
     PublishedKey() : std::atomic<TimeKey>(no_event) {}
     PublishedKey(PublishedKey&& other) noexcept : std::atomic<TimeKey>(other.load()) {}
   };
 
-  bool earlier(Block a, Block b) const {
-    const TimeKey x = next_key(a), y = next_key(b);
-    if (x != y || x == no_event) return x < y;
-    return top_of(a) < top_of(b);
-  }
+  Content& content(Block b) { return contents_[content_of_[b]]; }
+  const Content& content(Block b) const { return contents_[content_of_[b]]; }
 
-  void follow(Block b, TimeKey key) {
-    Subdomain& subdomain = subdomains_[owners_[b].subdomain];
-    subdomain.order.update(
-        owners_[b].rank, key,
-        [&](std::uint32_t x, std::uint32_t y) {
-          return earlier(subdomain.blocks[x], subdomain.blocks[y]);
-        },
-        [&](std::uint32_t near) { events_.prefetch(blocks_[subdomain.blocks[near]].next); });
+  template <class Before>
+  void follow(Needle i, std::uint32_t z, TimeKey key, const Before& before) {
+    trees_[z].update(i.index, key, before,
+                     [&](std::uint32_t near) { events_.prefetch(Needle(near)); });
   }
-
   void insert(Needle i, Block b, TimeKey key) {
-    Content& content = blocks_[b];
-    Place& place = places_[i];
-    place.block.store(b, std::memory_order_relaxed);
-    place.slot = static_cast<std::uint32_t>(content.needles.size());
-    if (place.slot == content.keys.size() * KeyLine::width) {
-      content.keys.emplace_back().fill(no_event);
+    Content& of = content(b);
+    const std::size_t slot = of.needles.size();
+    places_[i].slot = static_cast<std::uint32_t>(slot);
+    if (slot == of.keys.size() * KeyLine::width) {
+      of.keys.emplace_back().fill(no_event);
     }
-    content.needles.push_back(i);
-    content.key(place.slot) = key;
+    of.needles.push_back(i);
+    of.key(slot) = key;
   }
-  void remove(Needle i) {
-    Content& content = blocks_[block_of(i)];
+  void remove(Needle i, Block b) {
+    Content& of = content(b);
     const std::uint32_t slot = places_[i].slot;
-    const Needle last = content.needles.back();
-    content.needles.pop_back();
-    content.key(slot) = content.key(content.needles.size());
-    content.key(content.needles.size()) = no_event;
+    const Needle last = of.needles.back();
+    of.needles.pop_back();
+    of.key(slot) = of.key(of.needles.size());
+    of.key(of.needles.size()) = no_event;
     if (last == i) return;
-    content.needles[slot] = last;
+    of.needles[slot] = last;
     places_[last].slot = slot;
   }
-  // Equal keys are common, as both needles of a contact have it. They are told apart only when the
-  // event comes to the top, because that reads the events.
   void find_next(Block b) {
-    Content& content = blocks_[b];
-    TimeKey key = no_event;
-    std::size_t slot = 0;
-    bool tied = false;
-    for (std::size_t line = 0; line < content.keys.size(); ++line) {
-      const LeastKeys here(content.keys[line]);
-      const bool less = here.key < key;
-      tied = less ? !std::has_single_bit(here.places) : tied | (here.key == key);
-      slot = less ? line * KeyLine::width + std::countr_zero(here.places) : slot;
-      key = std::min(key, here.key);
+    Content& of = content(b);
+    of.first_key = no_event;
+    for (const auto& line : of.keys) {
+      of.first_key = std::min(of.first_key, LeastKeys(line).key);
     }
-    content.next_key = key;
-    content.tied = tied;
-    if (key != no_event) content.next = content.needles[slot];
-  }
-  [[gnu::noinline]] Needle first_of_equal(const Content& content) const {
-    Needle best = content.next;
-    for (std::size_t slot = 0; slot < content.needles.size(); ++slot) {
-      if (content.key(slot) != content.next_key) continue;
-      if (events_.before(content.needles[slot], best)) best = content.needles[slot];
-    }
-    return best;
   }
 
   EventTable events_;
   LargeArray<Place> places_;
-  std::vector<Content> blocks_;
+  std::vector<std::uint32_t> subdomain_of_;  ///< of each block
+  std::vector<std::uint32_t> content_of_;    ///< index of each block, or none
+  std::vector<Content> contents_;            ///< of the blocks that are shown
   std::vector<PublishedKey> published_keys_;
-  std::vector<Owner> owners_;
-  std::vector<Subdomain> subdomains_;
+  std::vector<WinnerTree> trees_;  ///< one for each subdomain
   std::vector<Block> changed_;
 };
 

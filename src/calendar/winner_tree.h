@@ -44,7 +44,7 @@ struct LeastKeys {
 /// 9.7 bytes per player.
 class WinnerTree {
  public:
-  explicit WinnerTree(std::size_t n, TimeKey key) {
+  explicit WinnerTree(std::size_t n, TimeKey key) : players_(n) {
     std::size_t players = n;
     // n / 8 + n / 64 + ..., and one more line for each round that is not full.
     lines_.reserve(n / 7 + 32);
@@ -82,6 +82,10 @@ class WinnerTree {
     const std::size_t finalists = lines_.size() - 1 - first_[first_.size() - 2];
     return best < finalists ? winner_[first_[first_.size() - 2] + best] : winner();
   }
+  /// The key of the winner.
+  TimeKey winning_key() const {
+    return lines_.back().key[winner() >> ((first_.size() - 1) * log2_width)];
+  }
   TimeKey key(std::uint32_t player) const {
     return lines_[player / KeyLine::width].key[player % KeyLine::width];
   }
@@ -93,6 +97,29 @@ class WinnerTree {
       match /= KeyLine::width;
       needlework::prefetch(&lines_[first_[round] + match]);
       needlework::prefetch(&winner_[first_[round] + match]);
+    }
+  }
+  /// Gives each player the key key_of(player), and plays all matches again. Of equal keys before
+  /// `end`, before(a, b) is whether player a is before b; of others the lower player wins.
+  template <class KeyOf, class Before>
+  void play_all(const KeyOf& key_of, TimeKey end, const Before& before) {
+    const auto lower = [](std::uint32_t a, std::uint32_t b) { return a < b; };
+    std::size_t contestants = players_;
+    for (std::size_t round = 0; round < first_.size(); ++round) {
+      for (std::size_t at = 0; at < contestants; ++at) {
+        lines_[first_[round] + at / KeyLine::width].key[at % KeyLine::width] =
+            round == 0 ? key_of(static_cast<std::uint32_t>(at))
+                       : LeastKeys(lines_[first_[round - 1] + at].key).key;
+      }
+      const std::size_t matches = (contestants + KeyLine::width - 1) / KeyLine::width;
+      for (std::size_t match = 0; match < matches; ++match) {
+        const LeastKeys least(lines_[first_[round] + match].key);
+        const std::size_t at = match * KeyLine::width;
+        winner_[first_[round] + match] = least.key < end
+                                             ? winner_among(round, at, least.places, before)
+                                             : winner_among(round, at, least.places, lower);
+      }
+      contestants = matches;
     }
   }
   /// Gives a player a new key and plays its matches again, up to the first whose outcome does not
@@ -145,6 +172,7 @@ class WinnerTree {
     return best;
   }
 
+  std::size_t players_;
   std::vector<std::size_t> first_;     ///< index of the first line of each round
   LargeArray<KeyLine> lines_;          ///< the matches, round by round
   std::vector<std::uint32_t> winner_;  ///< winner of each match

@@ -30,9 +30,9 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <limits>
 #include <string>
-#include <tuple>
 
 #include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
@@ -301,16 +301,13 @@ void ParallelLoop<S, M>::roll_back() {
 template <Search S, Model M>
 void ParallelLoop<S, M>::report() {
   if (!run_.callback) return;
-  std::vector<const Collision*> all;
+  std::vector<const Collision*> all, before;
   for (const auto& thread : threads_) {
-    for (const Collision& collision : thread.reports()) all.push_back(&collision);
+    before.swap(all);
+    all.clear();
+    std::merge(before.begin(), before.end(), thread.reports().begin(), thread.reports().end(),
+               std::back_inserter(all), comes_before);
   }
-  std::sort(all.begin(), all.end(), [](const Collision* a, const Collision* b) {
-    const auto key = [](const Collision& c) {
-      return std::tie(c.epoch, c.offset, c.first, c.second, c.shift);
-    };
-    return key(*a) < key(*b);
-  });
   for (const Collision* collision : all) run_.callback(*collision);
 }
 

@@ -112,10 +112,14 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
 
 template <Search S>
 void Phase<S>::divide() {
-  std::vector<std::size_t> weight(calendar.blocks());
-  for (Block b = 0; b < calendar.blocks(); ++b) weight[b] = calendar.needles_in(b);
-  const std::vector<std::uint32_t> subdomain = divide_box(cells, run.gas.box, weight, threads);
-  calendar.divide(subdomain, threads);
+  const std::vector<std::uint32_t> subdomain =
+      divide_box(cells, run.gas.box, calendar.needles_in_blocks(), threads);
+  // An event looks for earlier ones around its own cell and around that of its partner.
+  CellCounts far = reach.reach();
+  for (int axis = 0; axis < 3; ++axis) far[axis] += neighbours[axis];
+  std::vector<std::uint8_t> shown = inner_cells(cells, subdomain, far);
+  for (std::uint8_t& each : shown) each = !each;
+  calendar.divide(subdomain, threads, shown);
   inner = inner_cells(cells, subdomain, apart);
   const std::vector<std::uint8_t> ours = inner_cells(cells, subdomain, reach.reach());
   foreign.clear();

@@ -10,6 +10,10 @@ namespace needlework {
 
 class RollbackLog {
  public:
+  /// Takes room for the records of a long phase at once: to move a log as it grows costs a thread
+  /// more than to write it. Memory that is never used is never touched.
+  RollbackLog() { entries_.reserve(std::size_t{1} << 15); }
+
   void replaced(Needle i, const Record& record, const Shift& image, Time last_collision) {
     if (used_ == entries_.size()) entries_.emplace_back();
     Entry& entry = entries_[used_++];

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "src/calendar/cell_calendar.h"
@@ -18,15 +19,32 @@
 
 namespace needlework {
 
-/// Puts events into the calendar and lists the blocks that the present event has changed.
+/// Puts events into the calendar and lists what the present event has changed.
 struct SubdomainChanges final : EventSink {
+  struct Change {
+    Needle needle;
+    std::uint32_t before;  ///< the subdomain in which the needle was
+  };
+
   explicit SubdomainChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
-  void set(const Event& event, BlockIndex block) override { calendar.put(event, block, changed); }
+  void set(const Event& event, BlockIndex block) override {
+    needles.push_back({event.owner, calendar.subdomain_of(calendar.block_of(event.owner))});
+    calendar.put(event, block, blocks);
+  }
   void prefetch(Needle i, BlockIndex block) const override { calendar.prefetch(i, block); }
 
   CellCalendar& calendar;
-  std::vector<BlockIndex> changed;
+  std::vector<Change> needles;
+  std::vector<BlockIndex> blocks;  ///< whose keys may have changed
 };
+
+/// The order in which collisions are reported.
+inline bool comes_before(const Collision* a, const Collision* b) {
+  const auto key = [](const Collision& c) {
+    return std::tie(c.epoch, c.offset, c.first, c.second, c.shift);
+  };
+  return key(*a) < key(*b);
+}
 
 template <Search S, Model M>
 class alignas(128) SubdomainThread {
@@ -58,25 +76,33 @@ class alignas(128) SubdomainThread {
   /// The time of the latest event processed, which need not be the last one processed.
   Time latest() const { return latest_; }
   Tally& tally() { return tally_; }
-  const std::vector<Collision>& reports() const { return reports_; }
+  /// The collisions in order of time, if they are to be reported.
+  const std::vector<const Collision*>& reports() const { return sorted_reports_; }
 
  private:
   using Block = CellCalendar::Block;
 
   // An event that must wait until `for_block` has no earlier one.
   struct Deferred {
+    Needle needle;
     Block block, for_block;
     TimeKey key;
   };
 
   enum class Outcome { done, deferred, again };
 
-  Outcome attempt(Block block, TimeKey key);
-  Outcome defer(Block block, TimeKey key, Block for_block);
+  Outcome attempt(Needle i, TimeKey key);
   void release_deferred();
   void read_mail();
   void publish_changes();
+  void notify(std::uint32_t subdomain, Needle i);
+  void follow(Needle i);
+  void prefetch(Needle i) const {
+    phase_.calendar.prefetch(i);
+    processor_.prefetch(i);
+  }
   Block earlier_around(Block centre, Block block, TimeKey key) const;
+  void sort_reports();
   static double speed_of(const Record& record) {
     const Vec3d& v = record.flight.v;
     return std::sqrt(dot(v, v));
@@ -101,6 +127,7 @@ class alignas(128) SubdomainThread {
   TimeKey next_of_others_ = 0;  ///< earliest event of other subdomains, as last seen
   TimeKey hindmost_ = 0;        ///< earliest event of all subdomains, as last seen
   std::vector<Collision> reports_;
+  std::vector<const Collision*> sorted_reports_;
   Time latest_;
 };
 
@@ -108,6 +135,7 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
   rollback_log_.clear();
   reports_.clear();
+  sorted_reports_.clear();
   deferred_.clear();
   latest_ = phase_.run.now;
   processor_.set_now(latest_);
@@ -161,16 +189,32 @@ void SubdomainThread<S, M>::work(TimeKey end) {
     wait();
   }
   go_on();
+  sort_reports();
 }
 
-// Processes the next event of a block, unless it must wait.
 template <Search S, Model M>
-auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
+void SubdomainThread<S, M>::sort_reports() {
+  sorted_reports_.clear();
+  for (const Collision& collision : reports_) sorted_reports_.push_back(&collision);
+  std::sort(sorted_reports_.begin(), sorted_reports_.end(), comes_before);
+}
+
+// Processes the event of a needle, which is the next one, unless it must wait.
+template <Search S, Model M>
+auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
+  prefetch(i);
+  prefetch(phase_.calendar.likely_next_in(subdomain_));
+  const Block block = phase_.calendar.block_of(i);
+  // Else it has just left, and mail is on its way.
+  if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::again;
   const bool alone = phase_.inner[block] && deferred_.empty();
-  processor_.prefetch(phase_.calendar.likely_next_in(subdomain_));
   const auto give_up = [&](Block for_block) {
     phase_.region_locks.release(subdomain_);
-    return for_block == nobody ? Outcome::again : defer(block, key, for_block);
+    if (for_block == nobody) return Outcome::again;
+    ++tally_.counters.held;
+    deferred_.push_back({i, block, for_block, key});
+    phase_.calendar.follow(i, subdomain_, CellCalendar::no_event);
+    return Outcome::deferred;
   };
   const auto lock = [&](RegionLocks::Part part, const CellBox& box) {
     return alone || phase_.region_locks.acquire(subdomain_, part, box);
@@ -180,18 +224,15 @@ auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
     const Block earlier = earlier_around(block, block, key);
     if (earlier != nobody) return give_up(earlier);
     if (!lock(RegionLocks::owner, phase_.cell_of(block))) return Outcome::again;
-    // Another thread may have changed this block, or others of the subdomain near it, just before
+    // Another thread may have changed this event, or others of the subdomain near it, just before
     // the lock.
-    if (phase_.calendar.published_key(block) != key || phase_.mail.has_some(subdomain_)) {
+    if (phase_.calendar.key_of(i) != key || phase_.calendar.block_of(i) != block ||
+        phase_.mail.has_some(subdomain_)) {
       return give_up(nobody);
     }
   }
-  const Event event = phase_.calendar.top_of(block);
-  if (event.has_partner()) {
-    phase_.calendar.prefetch_place(event.partner);
-    processor_.prefetch(event.partner);
-  }
-  phase_.calendar.prefetch_keys(block);
+  const Event event = phase_.calendar.of(i);
+  if (event.has_partner()) prefetch(event.partner);
   bool stale = false, near_partner = false;
   if (event.has_partner()) {
     // If the partner is no longer near, it has collided since the prediction.
@@ -206,7 +247,6 @@ auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
       }
       if (!lock(RegionLocks::partner, there)) return Outcome::again;
       if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
-      phase_.calendar.prefetch_keys(other);
       stale = processor_.is_stale(event);
       if (!stale && phase_.calendar.of(event.partner) < event) {
         // The event would replace one that comes before it, by less than keys can tell.
@@ -231,7 +271,8 @@ auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   }
   const double fastest = changes_partner ? std::max(owner.speed, partner.speed) : owner.speed;
   const bool in_order = phase_.local_times.publish_event(subdomain_, key, fastest);
-  changes_.changed.clear();
+  changes_.needles.clear();
+  changes_.blocks.clear();
 #ifndef NDEBUG
   processor_.watch_reading_ahead();
 #endif
@@ -252,14 +293,6 @@ auto SubdomainThread<S, M>::attempt(Block block, TimeKey key) -> Outcome {
   return Outcome::done;
 }
 
-template <Search S, Model M>
-auto SubdomainThread<S, M>::defer(Block block, TimeKey key, Block for_block) -> Outcome {
-  ++tally_.counters.held;
-  deferred_.push_back({block, for_block, key});
-  phase_.calendar.follow_by_key(block, CellCalendar::no_event);
-  return Outcome::deferred;
-}
-
 // Releases deferred events that may be able to proceed.
 template <Search S, Model M>
 void SubdomainThread<S, M>::release_deferred() {
@@ -270,41 +303,51 @@ void SubdomainThread<S, M>::release_deferred() {
         (published == deferred.key && deferred.for_block < deferred.block)) {
       return false;
     }
-    phase_.calendar.follow_by_key(deferred.block, phase_.calendar.published_key(deferred.block));
+    phase_.calendar.follow(deferred.needle, subdomain_, deferred.key);
     return true;
   });
 }
 
 template <Search S, Model M>
 void SubdomainThread<S, M>::read_mail() {
-  for (const Block block : phase_.mail.take(subdomain_)) {
-    std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.block == block; });
-    phase_.calendar.follow_by_key(block, phase_.calendar.published_key(block));
+  for (const Needle i : phase_.mail.take(subdomain_)) follow(i);
+}
+
+// Publishes the keys of the blocks that an event has changed, and lets the subdomains concerned
+// know of the needles. Keys that have become earlier are published first, so that no thread sees
+// this event completed without the events that follow from it.
+template <Search S, Model M>
+void SubdomainThread<S, M>::publish_changes() {
+  look_away();
+  for (const Block b : changes_.blocks) {
+    if (phase_.calendar.first_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
+  }
+  for (const Block b : changes_.blocks) {
+    look_away();
+    phase_.calendar.publish(b);
+  }
+  for (const auto& [i, before] : changes_.needles) {
+    const std::uint32_t now = phase_.calendar.subdomain_of(phase_.calendar.block_of(i));
+    notify(now, i);
+    if (before != now) notify(before, i);
   }
 }
 
-// Publishes the times of the blocks that an event has changed. Those that have become earlier are
-// published first, so that no thread sees this event completed without the events that follow from
-// it.
+// Lets a subdomain know that the event of a needle, which is or was there, has been replaced.
 template <Search S, Model M>
-void SubdomainThread<S, M>::publish_changes() {
-  std::vector<Block>& changed = changes_.changed;
-  look_away();
-  for (const Block b : changed) {
-    if (phase_.calendar.next_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
-  }
-  for (const Block b : changed) {
-    look_away();
-    phase_.calendar.publish(b);
-    const std::uint32_t subdomain = phase_.calendar.subdomain_of(b);
-    if (subdomain == subdomain_) {
-      std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.block == b; });
-      phase_.calendar.follow_by_key(b, phase_.calendar.published_key(b));
-      continue;
-    }
-    ++tally_.counters.foreign;
-    phase_.mail.send(subdomain, b);
-  }
+void SubdomainThread<S, M>::notify(std::uint32_t subdomain, Needle i) {
+  if (subdomain == subdomain_) return follow(i);
+  ++tally_.counters.foreign;
+  phase_.mail.send(subdomain, i);
+}
+
+// Updates the tournament for a needle that is, or was, in the subdomain.
+template <Search S, Model M>
+void SubdomainThread<S, M>::follow(Needle i) {
+  std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.needle == i; });
+  const bool is_here = phase_.calendar.subdomain_of(phase_.calendar.block_of(i)) == subdomain_;
+  phase_.calendar.follow(i, subdomain_,
+                         is_here ? phase_.calendar.key_of(i) : CellCalendar::no_event);
 }
 
 // A block within reach of `centre` that has an event before that of `block`, or nobody. Among the
@@ -315,7 +358,8 @@ auto SubdomainThread<S, M>::earlier_around(Block centre, Block block, TimeKey ke
   for (const Deferred& deferred : deferred_) {
     const bool before = deferred.key < key || (deferred.key == key && deferred.block < block);
     if (before && phase_.reach.holds(phase_.places[centre], phase_.places[deferred.block])) {
-      return deferred.block;
+      // Only blocks that are shown tell when the event has been processed.
+      return phase_.calendar.is_shown(deferred.block) ? deferred.block : deferred.for_block;
     }
   }
   Block found = nobody;

@@ -366,68 +366,119 @@ TEST(BucketCalendar, ChangesItsWidthOnlyAfterManyEvents) {
   EXPECT_LT(loop.calendar().restarts() * n, 2u * (n + 2 * operations));
 }
 
-TEST(CellCalendar, KnowsHowFarItsBlocksAre) {
-  constexpr int n = 200;
-  constexpr std::uint32_t blocks = 7, subdomains = 3;
-  CellCalendar calendar(n, Clock(), blocks);
-  Random random(seed);
-  std::vector<Time> time(n, Time::never());
-  std::vector<std::uint32_t> place(n), subdomain(blocks);
-  constexpr Needle end(n);
-  for (Needle i{0}; i < end; ++i) place[i] = calendar.block_of(i);
+/// A CellCalendar that is divided at random, and what it must hold.
+class DividedCalendar {
+ public:
+  static constexpr int n = 200;
+  static constexpr std::uint32_t blocks = 7, subdomains = 3;
+
+  DividedCalendar() : calendar(n, Clock(), blocks), events(n), block(n, 0) {
+    for (Needle i{0}; i < n; ++i) events[i].owner = i;
+    divide();
+  }
+  void divide() {
+    for (auto& z : subdomain) z = static_cast<std::uint32_t>(random.below(subdomains));
+    for (auto& each : shown) each = random.below(2) == 0;
+    calendar.divide(subdomain, subdomains, shown);
+  }
+  /// An event of a needle that one time in three has moved to another block.
+  Event draw(std::int64_t epoch, bool ties) {
+    Event event = draw_event(random, n, epoch, ties);
+    if (random.below(3) == 0) block[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
+    events[event.owner] = event;
+    return event;
+  }
+  TimeKey key(Needle i) const { return calendar.key_of(events[i].time); }
+  /// The earliest key of the needles for which chosen(needle).
+  template <class Chosen>
+  TimeKey earliest(Chosen&& chosen) const {
+    TimeKey out = CellCalendar::no_event;
+    for (Needle i{0}; i < n; ++i) {
+      if (chosen(i)) out = std::min(out, key(i));
+    }
+    return out;
+  }
+  TimeKey earliest_in(std::uint32_t b) const {
+    return earliest([&](Needle i) { return block[i] == b; });
+  }
+  TimeKey earliest_of_subdomain(std::uint32_t z) const {
+    return earliest([&](Needle i) { return subdomain[block[i]] == z; });
+  }
+  const Event& first() const { return *std::min_element(events.begin(), events.end()); }
+
+  CellCalendar calendar;
+  std::vector<Event> events;
+  std::vector<std::uint32_t> block;  ///< of each needle
+  std::vector<std::uint32_t> subdomain = std::vector<std::uint32_t>(blocks);
+  std::vector<std::uint8_t> shown = std::vector<std::uint8_t>(blocks);
+  Random random = Random(seed);
+};
+
+TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownBlocks) {
+  DividedCalendar divided;
+  const CellCalendar& calendar = divided.calendar;
   for (int step = 0; step < operations; ++step) {
-    if (step % 1000 == 0) {
-      for (auto& z : subdomain) z = static_cast<std::uint32_t>(random.below(subdomains));
-      calendar.divide(subdomain, subdomains);
+    if (step % 1000 == 0) divided.divide();
+    const Event event = divided.draw(step / 50, step % 2 == 0);
+    divided.calendar.set(event, divided.block[event.owner]);
+    ASSERT_EQ(calendar.key_of(event.owner), divided.key(event.owner));
+    ASSERT_EQ(calendar.block_of(event.owner), divided.block[event.owner]);
+    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
+      ASSERT_EQ(calendar.is_shown(b), divided.shown[b] != 0);
+      if (divided.shown[b]) {
+        ASSERT_EQ(calendar.published_key(b), divided.earliest_in(b)) << "step " << step;
+      }
     }
-    Event event;
-    event.owner = draw_needle(random, n);
-    event.time = time[event.owner] = {random.below(9), random.uniform()};
-    if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
-    calendar.set(event, place[event.owner]);
-    std::vector<Time> first(blocks, Time::never());
-    for (Needle i{0}; i < end; ++i) first[place[i]] = std::min(first[place[i]], time[i]);
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-      ASSERT_EQ(calendar.published_key(block) == CellCalendar::no_event,
-                std::count(place.begin(), place.end(), block) == 0);
-      if (calendar.published_key(block) == CellCalendar::no_event) continue;
-      ASSERT_EQ(calendar.top_of(block).time, first[block]) << "step " << step;
-      ASSERT_EQ(calendar.published_key(block), calendar.key_of(first[block]));
-      ASSERT_GE(first[block], calendar.top().time);
-      ASSERT_GE(calendar.published_key(block), calendar.winning_key(subdomain[block]));
+    for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
+      ASSERT_EQ(calendar.winning_key(z), divided.earliest_of_subdomain(z)) << "step " << step;
     }
-    ASSERT_EQ(calendar.top().time, *std::min_element(first.begin(), first.end()));
+    ASSERT_TRUE(equal_in_order(calendar.top(), divided.first()))
+        << "step " << step << ", seed " << seed;
+  }
+  const std::vector<std::size_t> counts = calendar.needles_in_blocks();
+  for (std::uint32_t b = 0; b < divided.blocks; ++b) {
+    EXPECT_EQ(counts[b], std::count(divided.block.begin(), divided.block.end(), b));
   }
 }
 
-// Of equal keys in a block, and in several, while needles move from block to block.
-TEST(CellCalendar, SettlesEqualTimesOfNeedlesThatMove) {
-  constexpr int n = 60;
-  constexpr std::uint32_t blocks = 5;
-  CellCalendar calendar(n, Clock(), blocks);
-  Random random(seed);
-  std::vector<Event> events(n);
-  std::vector<std::uint32_t> place(n);
-  constexpr Needle end(n);
-  for (Needle i{0}; i < end; ++i) {
-    events[i].owner = i;
-    place[i] = calendar.block_of(i);
-  }
+// As threads use it: each step by itself, and without an order among equal keys.
+TEST(CellCalendar, ChangesInSteps) {
+  DividedCalendar divided;
+  CellCalendar& calendar = divided.calendar;
+  std::vector<CellCalendar::Block> changed;
   for (int step = 0; step < operations; ++step) {
-    const Event event = draw_event(random, n, step / 50, true);
-    if (random.below(3) == 0) place[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
-    events[event.owner] = event;
-    calendar.set(event, place[event.owner]);
-    std::vector<const Event*> first(blocks);
-    for (Needle i{0}; i < end; ++i) {
-      const Event*& best = first[place[i]];
-      if (!best || events[i] < *best) best = &events[i];
+    if (step % 1000 == 0) divided.divide();
+    std::vector<TimeKey> published(divided.blocks), won(divided.subdomains);
+    for (std::uint32_t b = 0; b < divided.blocks; ++b) published[b] = calendar.published_key(b);
+    for (std::uint32_t z = 0; z < divided.subdomains; ++z) won[z] = calendar.winning_key(z);
+    const Event event = divided.draw(step / 50, true);
+    const Needle i = event.owner;
+    const std::uint32_t before = calendar.subdomain_of(calendar.block_of(i)),
+                        now = calendar.subdomain_of(divided.block[i]);
+    changed.clear();
+    calendar.put(event, divided.block[i], changed);
+    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
+      ASSERT_EQ(calendar.published_key(b), published[b]) << "step " << step;
+      if (!divided.shown[b]) continue;
+      ASSERT_EQ(calendar.first_key(b), divided.earliest_in(b)) << "step " << step;
+      if (calendar.first_key(b) != published[b]) {
+        ASSERT_TRUE(std::find(changed.begin(), changed.end(), b) != changed.end());
+      }
     }
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-      if (!first[block]) continue;
-      ASSERT_TRUE(equal_in_order(calendar.top_of(block), *first[block])) << "step " << step;
+    for (const CellCalendar::Block b : changed) calendar.publish(b);
+    for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
+      ASSERT_EQ(calendar.winning_key(z), won[z]) << "step " << step;
     }
-    ASSERT_TRUE(equal_in_order(calendar.top(), *std::min_element(events.begin(), events.end())))
+    if (before != now) calendar.follow(i, before, CellCalendar::no_event);
+    calendar.follow(i, now, calendar.key_of(i));
+    for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
+      ASSERT_EQ(calendar.winning_key(z), divided.earliest_of_subdomain(z)) << "step " << step;
+      if (calendar.winning_key(z) == CellCalendar::no_event) continue;
+      ASSERT_EQ(calendar.key_of(calendar.winner(z)), calendar.winning_key(z));
+    }
+    if (step % 10 != 0) continue;
+    calendar.order_again();
+    ASSERT_TRUE(equal_in_order(calendar.top(), divided.first()))
         << "step " << step << ", seed " << seed;
   }
 }
