@@ -89,7 +89,9 @@ class alignas(128) SubdomainThread {
     TimeKey key;
   };
 
-  enum class Outcome { done, deferred, again };
+  // What came of an attempt: the event has been processed; it has been deferred or replaced, and
+  // another one is next; or other threads are in the way.
+  enum class Outcome { done, other, blocked };
 
   Outcome attempt(Needle i, TimeKey key);
   void release_deferred();
@@ -177,7 +179,7 @@ void SubdomainThread<S, M>::work(TimeKey end) {
     if (key < end && may_start && !phase_.local_times.is_too_far_ahead(key, hindmost_)) {
       const Outcome outcome = attempt(phase_.calendar.winner(subdomain_), key);
       if (outcome == Outcome::done) go_on();
-      if (outcome == Outcome::again) wait();
+      if (outcome == Outcome::blocked) wait();
       continue;
     }
     if (key >= end && deferred_.empty()) {
@@ -206,15 +208,15 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   prefetch(phase_.calendar.likely_next_in(subdomain_));
   const Block block = phase_.calendar.block_of(i);
   // Else it has just left, and mail is on its way.
-  if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::again;
+  if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::blocked;
   const bool alone = phase_.inner[block] && deferred_.empty();
   const auto give_up = [&](Block for_block) {
     phase_.region_locks.release(subdomain_);
-    if (for_block == nobody) return Outcome::again;
+    if (for_block == nobody) return Outcome::other;
     ++tally_.counters.held;
     deferred_.push_back({i, block, for_block, key});
     phase_.calendar.follow(i, subdomain_, CellCalendar::no_event);
-    return Outcome::deferred;
+    return Outcome::other;
   };
   const auto lock = [&](RegionLocks::Part part, const CellBox& box) {
     return alone || phase_.region_locks.acquire(subdomain_, part, box);
@@ -223,7 +225,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
     ++tally_.counters.border;
     const Block earlier = earlier_around(block, block, key);
     if (earlier != nobody) return give_up(earlier);
-    if (!lock(RegionLocks::owner, phase_.cell_of(block))) return Outcome::again;
+    if (!lock(RegionLocks::owner, phase_.cell_of(block))) return Outcome::blocked;
     // Another thread may have changed this event, or others of the subdomain near it, just before
     // the lock.
     if (phase_.calendar.key_of(i) != key || phase_.calendar.block_of(i) != block ||
@@ -245,7 +247,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
         const Block earlier = earlier_around(other, block, key);
         if (earlier != nobody) return give_up(earlier);
       }
-      if (!lock(RegionLocks::partner, there)) return Outcome::again;
+      if (!lock(RegionLocks::partner, there)) return Outcome::blocked;
       if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
       stale = processor_.is_stale(event);
       if (!stale && phase_.calendar.of(event.partner) < event) {
@@ -258,12 +260,12 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const bool changes_partner = event.has_partner() && !stale;
   const LoggedEvent owner = take(event.owner, event, key);
   phase_.causality_log.prefetch(owner.r);
-  if (!lock(RegionLocks::owner, cells_of(event.owner, owner.r))) return Outcome::again;
+  if (!lock(RegionLocks::owner, cells_of(event.owner, owner.r))) return Outcome::blocked;
   LoggedEvent partner;
   if (changes_partner) {
     partner = take(event.partner, event, key);
     phase_.causality_log.prefetch(partner.r);
-    if (!lock(RegionLocks::partner, cells_of(event.partner, partner.r))) return Outcome::again;
+    if (!lock(RegionLocks::partner, cells_of(event.partner, partner.r))) return Outcome::blocked;
   } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
     // The contact might have taken place, had it been processed in its turn.
     phase_.must_roll_back = true;
