@@ -125,16 +125,18 @@ class CellCalendar {
       if (is_shown(block_of(i))) insert(i, block_of(i), key_of(i));
     }
     for (Block b = 0; b < blocks(); ++b) {
-      if (!is_shown(b)) continue;
-      find_next(b);
-      publish(b);
+      if (is_shown(b)) find_next(b);
     }
     trees_.clear();
     for (std::uint32_t z = 0; z < subdomains; ++z) trees_.emplace_back(events_.size(), no_event);
     order_again();
   }
-  /// Sets up all tournaments again, and sorts events of equal keys by the full order.
+  /// Publishes all keys and sets up all tournaments again, whatever steps are missing, with events
+  /// of equal keys in the full order.
   void order_again() {
+    for (Block b = 0; b < blocks(); ++b) {
+      if (is_shown(b)) publish(b);
+    }
     for (std::uint32_t z = 0; z < subdomains(); ++z) {
       trees_[z].play_all(
           [&](std::uint32_t i) {

@@ -465,12 +465,19 @@ TEST(CellCalendar, ChangesInSteps) {
         ASSERT_TRUE(std::find(changed.begin(), changed.end(), b) != changed.end());
       }
     }
-    for (const CellCalendar::Block b : changed) calendar.publish(b);
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
       ASSERT_EQ(calendar.winning_key(z), won[z]) << "step " << step;
     }
-    if (before != now) calendar.follow(i, before, CellCalendar::no_event);
-    calendar.follow(i, now, calendar.key_of(i));
+    if (step % 10 == 5) {
+      calendar.order_again();  // makes up for the steps that are missing
+    } else {
+      for (const CellCalendar::Block b : changed) calendar.publish(b);
+      if (before != now) calendar.follow(i, before, CellCalendar::no_event);
+      calendar.follow(i, now, calendar.key_of(i));
+    }
+    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
+      if (divided.shown[b]) ASSERT_EQ(calendar.published_key(b), divided.earliest_in(b));
+    }
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
       ASSERT_EQ(calendar.winning_key(z), divided.earliest_of_subdomain(z)) << "step " << step;
       if (calendar.winning_key(z) == CellCalendar::no_event) continue;
