@@ -117,6 +117,16 @@ class ParallelLoop final : public EventLoop<S, M> {
   void roll_back();
   void report();
 
+  /// Whether the next event is at a time, as far as keys can tell.
+  bool is_next_at(Time time) const {
+    return cell_calendar_.key_of(cell_calendar_.top().time) == cell_calendar_.key_of(time);
+  }
+  /// Makes the calendar fit for one thread.
+  void put_in_order() {
+    if (!ordered_) cell_calendar_.order_again();
+    ordered_ = true;
+  }
+
   static constexpr TeamChoice::Turn all_together{true, std::numeric_limits<double>::infinity()};
 
   /// Collisions of the whole gas per time, from the mean free time.
@@ -186,6 +196,9 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     if (const auto stop = limits.reached(run_)) return stop;
     if (const auto stop = limits.called_off(run_)) return stop;
     if (run_.tally.collisions >= limits.pause) return std::nullopt;
+    // Threads order events by keys only, so that of several at the end of a window, or of the run,
+    // a later one might be on top.
+    if (is_next_at(run_.window_end) || is_next_at(limits.time)) put_in_order();
     const Time next = cell_calendar_.top().time;
     if (this->pass_window(next, limits)) continue;
     if (next > limits.time) {
@@ -209,8 +222,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     if (together) {
       run_together(limits, stretch.end);
     } else {
-      if (!ordered_) cell_calendar_.order_again();
-      ordered_ = true;
+      put_in_order();
       preparing = time.seconds();
       stop = this->run_alone(limits, stretch.end);
     }
