@@ -29,7 +29,7 @@ struct Counters {
   std::uint64_t border = 0;   ///< attempts of events that might read what another thread writes
   std::uint64_t held = 0;     ///< times that an event had to wait for others near it
   std::uint64_t waited = 0;   ///< times that a thread had no event that could proceed
-  std::uint64_t foreign = 0;  ///< changes to blocks of other threads
+  std::uint64_t foreign = 0;  ///< messages to other threads about changed events
   std::uint64_t turns = 0;    ///< sequences of events that a thread processed until it was blocked
   std::uint64_t blocked = 0;  ///< total time that threads were blocked [ns]
 

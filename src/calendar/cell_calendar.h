@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <vector>
@@ -176,7 +175,8 @@ class CellCalendar {
     content(block).first_key = key;
     changed.push_back(block);
   }
-  /// The earliest key of a shown block as last published. Any thread may call this.
+  /// The earliest key of a shown block as last published; `no_event` for other blocks. Any thread
+  /// may call this.
   TimeKey published_key(Block b) const {
     return published_keys_[b].load(std::memory_order_acquire);
   }

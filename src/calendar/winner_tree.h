@@ -86,9 +86,6 @@ class WinnerTree {
   TimeKey winning_key() const {
     return lines_.back().key[winner() >> ((first_.size() - 1) * log2_width)];
   }
-  TimeKey key(std::uint32_t player) const {
-    return lines_[player / KeyLine::width].key[player % KeyLine::width];
-  }
 
   /// Prefetches what update() accesses in the first rounds; the matches of later ones are few.
   void prefetch(std::uint32_t player) const {

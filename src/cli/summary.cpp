@@ -151,7 +151,7 @@ std::string thread_line(const Report& report) {
   const double time = threads * report.course.loop.wall();
   return line("threads",
               "{}: {:.3g} events a turn, blocked {} of the time; {:.2g} looks at others and {:.2g} "
-              "writes to them an event; {} of {} phases undone",
+              "messages to them an event; {} of {} phases undone",
               text, events / static_cast<double>(std::max<std::uint64_t>(counters.turns, 1)),
               per_cent(1e-9 * static_cast<double>(counters.blocked) / time),
               static_cast<double>(counters.border) / events,

@@ -233,6 +233,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
       return give_up(nobody);
     }
   }
+  assert(phase_.calendar.key_of(i) == key);
   const Event event = phase_.calendar.of(i);
   if (event.has_partner()) prefetch(event.partner);
   bool stale = false, near_partner = false;
@@ -300,6 +301,7 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::release_deferred() {
   std::erase_if(deferred_, [&](const Deferred& deferred) {
     look_away();
+    assert(phase_.calendar.is_shown(deferred.for_block));
     const TimeKey published = phase_.calendar.published_key(deferred.for_block);
     if (published < deferred.key ||
         (published == deferred.key && deferred.for_block < deferred.block)) {
@@ -368,6 +370,7 @@ auto SubdomainThread<S, M>::earlier_around(Block centre, Block block, TimeKey ke
   if (key < next_of_others_) return found;
   const auto has_earlier = [&](Block first, Block end) {
     for (Block b = first; b < end; ++b) {
+      assert(phase_.calendar.is_shown(b) || phase_.calendar.subdomain_of(b) == subdomain_);
       const TimeKey published = phase_.calendar.published_key(b);
       if (published > key || (published == key && b >= block)) continue;
       found = b;
