@@ -46,18 +46,8 @@ class CellCalendar {
 
   bool empty() const { return events_.size() == 0; }
   const Event& of(Needle i) const { return events_[i]; }
-  const Event& top() const {
-    Needle best = winner(0);
-    TimeKey least = winning_key(0);
-    for (std::uint32_t z = 1; z < subdomains(); ++z) {
-      const TimeKey key = winning_key(z);
-      if (key > least || (key == least && !events_.before(winner(z), best))) continue;
-      best = winner(z);
-      least = key;
-    }
-    return events_[best];
-  }
-  Needle likely_next() const { return likely_next_in(0); }
+  const Event& top() const { return events_[winner(first_subdomain())]; }
+  Needle likely_next() const { return likely_next_in(first_subdomain()); }
   Needle likely_next_in(std::uint32_t z) const {
     const Needle i(trees_[z].second());
     events_.prefetch(i);
@@ -152,16 +142,18 @@ class CellCalendar {
     const Needle i = event.owner;
     const TimeKey key = events_.put(event);
     const Block old = block_of(i);
+    const std::uint32_t old_slot = places_[i].slot;
+    // First, as memory may run out here.
+    if (old != block && is_shown(block)) insert(i, block, key);
     places_[i].key.store(key, std::memory_order_relaxed);
     places_[i].block.store(block, std::memory_order_relaxed);
     bool was_first = false;
     if (is_shown(old)) {
-      const std::uint32_t slot = places_[i].slot;
-      was_first = content(old).key(slot) == content(old).first_key;
+      was_first = content(old).key(old_slot) == content(old).first_key;
       if (old == block) {
-        content(old).key(slot) = key;
+        content(old).key(old_slot) = key;
       } else {
-        remove(i, old);
+        remove(old, old_slot);
       }
       if (was_first) {
         find_next(old);
@@ -169,9 +161,7 @@ class CellCalendar {
       }
       if (old == block && was_first) return;
     }
-    if (!is_shown(block)) return;
-    if (old != block) insert(i, block, key);
-    if (key >= first_key(block)) return;
+    if (!is_shown(block) || key >= first_key(block)) return;
     content(block).first_key = key;
     changed.push_back(block);
   }
@@ -226,6 +216,16 @@ class CellCalendar {
   Content& content(Block b) { return contents_[content_of_[b]]; }
   const Content& content(Block b) const { return contents_[content_of_[b]]; }
 
+  /// The subdomain with the first of all events.
+  std::uint32_t first_subdomain() const {
+    std::uint32_t first = 0;
+    for (std::uint32_t z = 1; z < subdomains(); ++z) {
+      const TimeKey key = winning_key(z), least = winning_key(first);
+      if (key < least || (key == least && events_.before(winner(z), winner(first)))) first = z;
+    }
+    return first;
+  }
+
   template <class Before>
   void follow(Needle i, std::uint32_t z, TimeKey key, const Before& before) {
     trees_[z].update(i.index, key, before,
@@ -234,23 +234,21 @@ class CellCalendar {
   void insert(Needle i, Block b, TimeKey key) {
     Content& of = content(b);
     const std::size_t slot = of.needles.size();
-    places_[i].slot = static_cast<std::uint32_t>(slot);
-    if (slot == of.keys.size() * KeyLine::width) {
-      of.keys.emplace_back().fill(no_event);
-    }
+    if (slot == of.keys.size() * KeyLine::width) of.keys.emplace_back().fill(no_event);
     of.needles.push_back(i);
     of.key(slot) = key;
+    places_[i].slot = static_cast<std::uint32_t>(slot);
   }
-  void remove(Needle i, Block b) {
+  void remove(Block b, std::uint32_t slot) {
     Content& of = content(b);
-    const std::uint32_t slot = places_[i].slot;
-    const Needle last = of.needles.back();
+    const std::size_t last = of.needles.size() - 1;
+    of.key(slot) = of.key(last);
+    of.key(last) = no_event;
+    if (slot != last) {
+      of.needles[slot] = of.needles[last];
+      places_[of.needles[slot]].slot = slot;
+    }
     of.needles.pop_back();
-    of.key(slot) = of.key(of.needles.size());
-    of.key(of.needles.size()) = no_event;
-    if (last == i) return;
-    of.needles[slot] = last;
-    places_[last].slot = slot;
   }
   void find_next(Block b) {
     Content& of = content(b);

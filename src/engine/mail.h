@@ -1,5 +1,5 @@
-// Messages between threads about changed events, and how threads detect that no
-// event is left to process.
+// Messages between threads about changed events, and how threads detect that no event is left to
+// process.
 #pragma once
 
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace needlework {
 
-/// A mailbox for each thread: needles whose events other threads have changed. A thread
-/// without events left rests until mail arrives. When all threads rest, no mail is on its way.
+/// A mailbox for each thread: needles whose events other threads have changed. A thread without
+/// events left rests until mail arrives. When all threads rest, no mail is on its way.
 class Mail {
  public:
   explicit Mail(std::size_t threads) : boxes_(threads) {}

@@ -182,6 +182,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
 template <Search S, Model M>
 void ParallelLoop<S, M>::divide() {
   phase_.divide();
+  ordered_ = true;
   for (auto& thread : threads_) thread.forget();
 }
 

@@ -137,7 +137,6 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
   rollback_log_.clear();
   reports_.clear();
-  sorted_reports_.clear();
   deferred_.clear();
   latest_ = phase_.run.now;
   processor_.set_now(latest_);
@@ -197,6 +196,7 @@ void SubdomainThread<S, M>::work(TimeKey end) {
 template <Search S, Model M>
 void SubdomainThread<S, M>::sort_reports() {
   sorted_reports_.clear();
+  if (phase_.must_roll_back) return;
   for (const Collision& collision : reports_) sorted_reports_.push_back(&collision);
   std::sort(sorted_reports_.begin(), sorted_reports_.end(), comes_before);
 }

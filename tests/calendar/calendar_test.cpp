@@ -425,9 +425,9 @@ TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownBlocks) {
     ASSERT_EQ(calendar.block_of(event.owner), divided.block[event.owner]);
     for (std::uint32_t b = 0; b < divided.blocks; ++b) {
       ASSERT_EQ(calendar.is_shown(b), divided.shown[b] != 0);
-      if (divided.shown[b]) {
-        ASSERT_EQ(calendar.published_key(b), divided.earliest_in(b)) << "step " << step;
-      }
+      ASSERT_EQ(calendar.published_key(b),
+                divided.shown[b] ? divided.earliest_in(b) : CellCalendar::no_event)
+          << "step " << step;
     }
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
       ASSERT_EQ(calendar.winning_key(z), divided.earliest_of_subdomain(z)) << "step " << step;
