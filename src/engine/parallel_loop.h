@@ -208,7 +208,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     }
     if (next == Time::never()) return run_.end_of_events();
     // Before `ready` no thread has to rebase the times that the search stores.
-    const Time ready = search_.prepare(run_.now);
+    const Time ready = search_.prepare(run_.now, run_.threads_at_hand);
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
     const TeamChoice::Turn turn = by_cost_ ? team_.next() : all_together;
     const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
@@ -217,6 +217,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     const bool together =
         stretch.together && keys_resolve(next) &&
         cell_calendar_.key_of(next) < cell_calendar_.key_of(stretch.end);  // else nobody works
+    run_.threads_at_hand = together ? static_cast<int>(threads_.size()) : 1;
     const WallTime time;
     double preparing = 0;
     std::optional<Stop> stop;

@@ -17,7 +17,6 @@
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/box_edges.h"
-#include "src/trajectory/exact_sum.h"
 
 namespace needlework {
 namespace {
@@ -39,29 +38,6 @@ void check_image(const Shift& image, Id id) {
         fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}", id.value,
                     boxes, -most, most));
   }
-}
-
-// Exact sums over all needles of terms(record), an array of numbers; infinite where a term is.
-template <class Terms>
-auto sums_of(const Gas& gas, Terms&& terms) {
-  decltype(terms(gas.records[0])) largest{}, out;
-  for (const Record& record : gas.records) {
-    const auto term = terms(record);
-    for (std::size_t n = 0; n < term.size(); ++n) {
-      largest[n] = std::max(largest[n], std::abs(term[n]));
-    }
-  }
-  std::vector<ExactSum> sums(largest.begin(), largest.end());
-  for (const Record& record : gas.records) {
-    const auto term = terms(record);
-    for (std::size_t n = 0; n < term.size(); ++n) {
-      if (std::isfinite(largest[n])) sums[n].add(term[n]);
-    }
-  }
-  for (std::size_t n = 0; n < out.size(); ++n) {
-    out[n] = std::isfinite(largest[n]) ? sums[n].value() : largest[n];
-  }
-  return out;
 }
 
 Species species_of(const Scene& scene) {
@@ -255,19 +231,15 @@ Stop Run::end_of_events() const {
 }
 
 void Run::sum_energies(Totals& out) const {
-  if (gas.size() == 0) return;
-  const auto [v2, w2] = sums_of(gas, [](const Record& a) {
-    return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
-  });
-  set_energies(v2, w2, out);
+  if (gas.size() > 0) set_energies(motion_sums(), out);
 }
 
-// From the sums of v^2 and w^2, which is enough where all needles are of one species.
-void Run::set_energies(double v2, double w2, Totals& out) const {
+// Enough where all needles are of one species.
+void Run::set_energies(const MotionSums& sums, Totals& out) const {
   const double count = static_cast<double>(gas.size());
   const Species& species = gas.species.front();
-  out.t_tr = species.mass * v2 / (3 * count);
-  out.t_rot = species.mass * (species.length * species.length) * w2 / (4 * species.k * count);
+  out.t_tr = species.mass * sums.v2 / (3 * count);
+  out.t_rot = species.mass * (species.length * species.length) * sums.w2 / (4 * species.k * count);
   out.energy = 1.5 * out.t_tr + out.t_rot;
 }
 
@@ -277,13 +249,9 @@ Totals Run::totals() const {
   out.collisions = tally.collisions;
   out.tc_collisions = tally.tc_collisions;
   if (gas.size() == 0) return out;
-  // All at once: reading the records takes most of the time.
-  const auto [v2, w2, x, y, z] = sums_of(gas, [](const Record& a) {
-    const Vec3d& v = a.flight.v;
-    return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
-  });
-  set_energies(v2, w2, out);
-  out.momentum = {x, y, z};
+  const MotionSums sums = motion_sums();
+  set_energies(sums, out);
+  out.momentum = sums.v;
   for (double& component : out.momentum) component *= gas.species.front().mass;
   return out;
 }

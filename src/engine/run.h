@@ -7,6 +7,7 @@
 
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
+#include "src/engine/motion_sums.h"
 #include "src/engine/replaced_records.h"
 #include "src/engine/tally.h"
 #include "src/physics/collision.h"
@@ -92,6 +93,8 @@ class Run {
   std::function<void(const Collision&)> callback;
   std::atomic<bool> interrupted = false;
   Time window_end;
+  /// How many threads have just worked together, and can share work on all needles.
+  int threads_at_hand = 1;
 
  private:
   /// Takes the parameters of the scene; without needles.
@@ -100,7 +103,8 @@ class Run {
   void require_consistent() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
-  void set_energies(double v2, double w2, Totals& out) const;
+  void set_energies(const MotionSums& sums, Totals& out) const;
+  MotionSums motion_sums() const { return summation_.of(gas.records, threads_at_hand); }
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 
@@ -113,6 +117,7 @@ class Run {
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::uint64_t quanta_at_window_ = 0;
   double drift_of_windows_ = 0;  ///< of those that have ended
+  MotionSummation summation_;
 };
 
 /// The effects on flight and pair rule that the scene requires.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/in_parallel.h"
 #include "kernels/power_of_two.h"
 #include "src/physics/permutation.h"
 #include "src/search/choice.h"
@@ -63,7 +64,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
-  if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now);
+  if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now, 1);
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
   const double elapsed = gas.clock.difference(now, record.time);
@@ -90,9 +91,9 @@ bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   return crosses;
 }
 
-void BoundingVolumes::prepare(Time now) {
-  // From the middle on, so that there is always as much time ahead.
-  if (per_time == 0 || since_base(now) > 0.5 * kernels::longest_time) rebase(now);
+void BoundingVolumes::prepare(Time now, int threads) {
+  // Early, so that there is always some time ahead.
+  if (per_time == 0 || since_base(now) > 0.75 * kernels::longest_time) rebase(now, threads);
 }
 
 Time BoundingVolumes::prepared_until() const {
@@ -108,7 +109,7 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
 
 // Chooses the unit of time and the origin of times in blocks and motions again, before times grow
 // so long that floats lose digits of them.
-void BoundingVolumes::rebase(Time now) {
+void BoundingVolumes::rebase(Time now, int threads) {
   double sum = 0;
   for (const Record& record : gas.records) {
     const Vec3d v = record.flight.v * per_length;
@@ -117,15 +118,17 @@ void BoundingVolumes::rebase(Time now) {
   const double speed = std::sqrt(sum / static_cast<double>(gas.size()));
   per_time = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
   base = now;
-  for (Needle i{0}; i < gas.size(); ++i) {
-    if (!places[i].is_entered()) continue;
-    set_motion(i, now);
-    if (kind == BoundingVolume::capsule) continue;
-    const Record& record = gas.records[i];
-    const double elapsed = gas.clock.difference(now, record.time);
-    write_entry(i, centre_after(record.flight, elapsed), record.flight.v * (per_length / per_time),
-                now);
-  }
+  kernels::in_parallel(gas.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (Needle i(begin); i < end; ++i) {
+      if (!places[i].is_entered()) continue;
+      set_motion(i, now);
+      if (kind == BoundingVolume::capsule) continue;
+      const Record& record = gas.records[i];
+      const double elapsed = gas.clock.difference(now, record.time);
+      write_entry(i, centre_after(record.flight, elapsed),
+                  record.flight.v * (per_length / per_time), now);
+    }
+  });
 }
 
 // All but the half length, which does not depend on the units of time.

@@ -40,8 +40,8 @@ struct BoundingVolumes {
   /// Enters needle i, of this half length [L], where it is now. Returns whether it has come from
   /// another cell.
   bool place(Needle i, Time now, double half_length);
-  /// Makes times from now on fit for place(), if they are not.
-  void prepare(Time now);
+  /// Makes times from now on fit for place(), if they will soon not be. The threads share the work.
+  void prepare(Time now, int threads);
   /// Until when they are.
   Time prepared_until() const;
   void renumber(const std::vector<Needle>& ranks);
@@ -64,7 +64,7 @@ struct BoundingVolumes {
   NeedleCells cells;
 
  private:
-  void rebase(Time now);
+  void rebase(Time now, int threads);
   void set_motion(Needle i, Time now);
   void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);
   bool enter(Needle i, const Cell& cell);

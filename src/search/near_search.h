@@ -75,8 +75,8 @@ class NearSearch {
   double radius() const { return volumes_->radius; }
   /// Makes times from now on fit for place(). Returns until when they are: up to then several
   /// threads may call place().
-  Time prepare(Time now) {
-    volumes_->prepare(now);
+  Time prepare(Time now, int threads) {
+    volumes_->prepare(now, threads);
     return volumes_->prepared_until();
   }
 

@@ -12,8 +12,11 @@ namespace {
 // Sizes for a density larger or smaller than that in use by this factor are worth the time that it
 // takes to place all needles again: that of a third of a collision for each.
 constexpr double worth_it = 2;
-// Collisions per needle from one count to the next; a count takes as long as a few percent of one.
-constexpr std::uint64_t apart = 2;
+// Collisions per needle from one count to the next. A count takes as long as a few percent of one,
+// so the number grows from the first to the second of these while densities differ by less than a
+// tenth.
+constexpr std::uint64_t least_apart = 2, most_apart = 8;
+constexpr double hardly_changed = 0.1;
 // Fewer pairs may have come together by chance.
 constexpr double fewest_pairs = 50;
 // About the side of the cells in which needles are counted, in lengths of the longest one.
@@ -56,8 +59,11 @@ double density_around(const Gas& gas, Time now) {
 Sizing::Sizing(const Gas& gas, Time now) : density_(reduced_density(gas)) { look(0, gas, now); }
 
 bool Sizing::look(std::uint64_t collisions, const Gas& gas, Time now) {
-  next_ = collisions + std::max<std::uint64_t>(1, apart * gas.size() / 2);
   const double density = density_around(gas, now);
+  const bool changes = std::abs(density - last_count_) > hardly_changed * last_count_;
+  apart_ = changes ? least_apart : std::min(2 * apart_, most_apart);
+  last_count_ = density;
+  next_ = collisions + std::max<std::uint64_t>(1, apart_ * gas.size() / 2);
   if (density < worth_it * density_ && density * worth_it > density_) return false;
   density_ = density;
   return true;

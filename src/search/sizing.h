@@ -26,7 +26,8 @@ class Sizing {
   bool look(std::uint64_t collisions, const Gas& gas, Time now);
 
  private:
-  double density_;
+  double density_, last_count_ = 0;
+  std::uint64_t apart_ = 0;  ///< collisions per needle from the last count to the next
   std::uint64_t next_ = 0;
 };
 

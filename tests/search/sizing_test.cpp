@@ -48,10 +48,22 @@ TEST(Sizing, IsCountedWhereNeedlesHaveCome) {
   }
   EXPECT_FALSE(sizing.look(4100, gas, {}));
   EXPECT_EQ(sizing.density(), first);
-  EXPECT_EQ(sizing.next(), 8100u);
+  EXPECT_EQ(sizing.next(), 4100u + 8000);
   EXPECT_TRUE(sizing.look(9000, gas, gas.clock.add({}, 1)));
+  EXPECT_EQ(sizing.next(), 9000u + 4000);
   EXPECT_LT(sizing.density(), 0.4 * first);
   EXPECT_GT(sizing.density(), 0.1 * first);
+}
+
+TEST(Sizing, IsCountedMoreRarelyWhereItDoesNotChange) {
+  const Gas gas = gas_in(1, 4000, 20);
+  Sizing sizing(gas, {});
+  std::uint64_t last = 0;
+  for (const std::uint64_t apart : {4000, 8000, 16000, 16000}) {
+    EXPECT_EQ(sizing.next(), last + apart);
+    last = sizing.next();
+    EXPECT_FALSE(sizing.look(last, gas, {}));
+  }
 }
 
 // In a box of any size.

@@ -121,6 +121,28 @@ TEST(ExactSum, PowersOfTwoScaleItExactly) {
   }
 }
 
+TEST(ExactSum, OfPartsIsThatOfAll) {
+  Random random(seed);
+  const std::vector<double> terms = draw(random, 1000, 5);
+  ExactSum all(5), part(5), rest(5);
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    all.add(terms[i]);
+    (i % 3 == 0 ? part : rest).add(terms[i]);
+  }
+  part.take(rest);
+  EXPECT_EQ(part.value(), all.value());
+}
+
+TEST(ExactSum, KnowsItsGridAndWhatItHolds) {
+  const ExactSum sum(5);  // from 4 to 8 the grid is the same
+  EXPECT_TRUE(sum.has_grid_of(4) && sum.has_grid_of(7.99));
+  EXPECT_FALSE(sum.has_grid_of(3.99) || sum.has_grid_of(8) || sum.has_grid_of(0));
+  EXPECT_TRUE(sum.holds(7.99) && sum.holds(-15.9) && sum.holds(0));
+  EXPECT_FALSE(sum.holds(16) || sum.holds(-1e300) || sum.holds(HUGE_VAL) || sum.holds(NAN));
+  EXPECT_TRUE(ExactSum(DBL_MAX).holds(-DBL_MAX) && ExactSum(DBL_TRUE_MIN).holds(DBL_TRUE_MIN));
+  EXPECT_FALSE(ExactSum(DBL_MAX).holds(HUGE_VAL));
+}
+
 TEST(ExactSum, OfNothingOrZerosIsZero) {
   EXPECT_EQ(sum({}, 1), 0);
   EXPECT_EQ(sum({0, 0, -0.0}, 0), 0);
