@@ -7,7 +7,6 @@
 
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
-#include "src/engine/motion_sums.h"
 #include "src/engine/replaced_records.h"
 #include "src/engine/tally.h"
 #include "src/physics/collision.h"
@@ -103,8 +102,7 @@ class Run {
   void require_consistent() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
-  void set_energies(const MotionSums& sums, Totals& out) const;
-  MotionSums motion_sums() const { return summation_.of(gas.records, threads_at_hand); }
+  void set_energies(double v2, double w2, Totals& out) const;
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 
@@ -117,7 +115,6 @@ class Run {
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::uint64_t quanta_at_window_ = 0;
   double drift_of_windows_ = 0;  ///< of those that have ended
-  MotionSummation summation_;
 };
 
 /// The effects on flight and pair rule that the scene requires.

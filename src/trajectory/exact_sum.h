@@ -16,20 +16,14 @@ __extension__ using UnsignedInt128 = unsigned __int128;
 /// number of terms times largest 2^-60.
 class ExactSum {
  public:
-  explicit ExactSum(double largest = 0)
-      : exponent_(exponent_for(largest)), limit_(std::ldexp(1.0, exponent_ + 2)) {}
-
-  /// Whether a term can be added, though it may be larger than `largest`.
-  bool holds(double term) const { return std::abs(term) < limit_; }
-  /// Whether terms of which this is the largest would have been rounded to the same grid.
-  bool has_grid_of(double largest) const { return exponent_for(largest) == exponent_; }
+  explicit ExactSum(double largest = 0) : exponent_(largest > 0 ? exponent_of(largest) : 0) {}
 
   void add(double term) {
     // There are 2^60 grid points per `largest`. Each term is truncated by itself, so the order
     // does not matter.
     total_ += static_cast<std::int64_t>(times_power_of_two(term, 60 - exponent_));
   }
-  /// Adds the terms of another sum with the same grid.
+  /// Adds the terms of another sum with the same `largest`.
   void take(const ExactSum& other) { total_ += other.total_; }
   double value() const {
     const bool negative = total_ < 0;
@@ -42,10 +36,7 @@ class ExactSum {
   }
 
  private:
-  static int exponent_for(double largest) { return largest > 0 ? exponent_of(largest) : 0; }
-
   int exponent_;
-  double limit_;
   Int128 total_ = 0;
 };
 
