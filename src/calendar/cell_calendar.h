@@ -143,7 +143,7 @@ class CellCalendar {
     const TimeKey key = events_.put(event);
     const Block old = block_of(i);
     const std::uint32_t old_slot = places_[i].slot;
-    // First, as memory may run out here.
+    // Before key and block are stored, as memory may run out here.
     if (old != block && is_shown(block)) insert(i, block, key);
     places_[i].key.store(key, std::memory_order_relaxed);
     places_[i].block.store(block, std::memory_order_relaxed);

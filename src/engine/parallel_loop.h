@@ -208,7 +208,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     }
     if (next == Time::never()) return run_.end_of_events();
     // Before `ready` no thread has to rebase the times that the search stores.
-    const Time ready = search_.prepare(run_.now, run_.threads_at_hand);
+    const Time ready = search_.prepare(run_.now, run_.threads_at_hand());
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
     const TeamChoice::Turn turn = by_cost_ ? team_.next() : all_together;
     const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
@@ -217,13 +217,13 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     const bool together =
         stretch.together && keys_resolve(next) &&
         cell_calendar_.key_of(next) < cell_calendar_.key_of(stretch.end);  // else nobody works
-    run_.threads_at_hand = together ? static_cast<int>(threads_.size()) : 1;
     const WallTime time;
     double preparing = 0;
     std::optional<Stop> stop;
     if (together) {
       run_together(limits, stretch.end);
     } else {
+      run_.set_threads_at_hand(1);
       put_in_order();
       preparing = time.seconds();
       stop = this->run_alone(limits, stretch.end);
@@ -276,7 +276,9 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
   const Tally before = run_.tally;
   for (auto& thread : threads_) run_.tally.take(thread.tally());
-  if (phase_.must_roll_back || limits.reached(run_)) {
+  const bool redo = phase_.must_roll_back || limits.reached(run_);
+  run_.set_threads_at_hand(redo ? 1 : threads);
+  if (redo) {
     const Counters counters = run_.tally.counters;
     run_.tally = before;
     run_.tally.counters = counters;

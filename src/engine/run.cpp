@@ -233,7 +233,7 @@ Stop Run::end_of_events() const {
 
 void Run::sum_energies(Totals& out) const {
   if (gas.size() == 0) return;
-  const auto [v2, w2] = exact_sums(gas.records, threads_at_hand, [](const Record& a) {
+  const auto [v2, w2] = exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
     return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
   });
   set_energies(v2, w2, out);
@@ -255,7 +255,7 @@ Totals Run::totals() const {
   out.tc_collisions = tally.tc_collisions;
   if (gas.size() == 0) return out;
   // All at once: reading the records takes most of the time.
-  const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads_at_hand, [](const Record& a) {
+  const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
     const Vec3d& v = a.flight.v;
     return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
   });

@@ -1,6 +1,8 @@
 // The part of a running simulation that does not depend on how the next event is found.
 #pragma once
 
+#include <unistd.h>
+
 #include <atomic>
 #include <functional>
 #include <optional>
@@ -92,8 +94,11 @@ class Run {
   std::function<void(const Collision&)> callback;
   std::atomic<bool> interrupted = false;
   Time window_end;
-  /// How many threads have just worked together, and can share work on all needles.
-  int threads_at_hand = 1;
+  /// To be set to the number of threads that have just worked together, which can share work on all
+  /// needles, or to 1.
+  void set_threads_at_hand(int threads) { threads_ = threads, process_ = getpid(); }
+  /// Is 1 in a forked child, where OpenMP would wait for its threads without end.
+  int threads_at_hand() const { return process_ == getpid() ? threads_ : 1; }
 
  private:
   /// Takes the parameters of the scene; without needles.
@@ -115,6 +120,8 @@ class Run {
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::uint64_t quanta_at_window_ = 0;
   double drift_of_windows_ = 0;  ///< of those that have ended
+  int threads_ = 1;
+  pid_t process_ = 0;  ///< in which these are
 };
 
 /// The effects on flight and pair rule that the scene requires.

@@ -1,6 +1,8 @@
 // Programs that use the library from threads of their own, or use OpenMP themselves.
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <barrier>
@@ -65,6 +67,26 @@ TEST(HostThreads, RunSimulationsOnDifferentInstructionSets) {
       }
     }
   }
+}
+
+// As Python's multiprocessing makes it: the child has none of OpenMP's threads.
+TEST(HostProcess, MayForkAndReadSumsInTheChild) {
+  Scene scene = test::scene_of(6000, 14, 1);
+  scene.engine.threads = 2;
+  scene.engine.team = "all";
+  Simulation simulation(scene);
+  Scene::Until until;
+  until.time = simulation.mean_free_time() / std::sqrt(test::thin);
+  simulation.advance(until);
+  ASSERT_GT(simulation.counters().phases, simulation.counters().redone);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    _exit(simulation.totals().energy > 0 ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 // OpenMP's settings of the thread that reads them.
