@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <mutex>
 #include <tuple>
 
 #include "kernels/in_parallel.h"
@@ -19,12 +20,13 @@ namespace needlework {
 template <class Terms>
 auto exact_sums(const LargeArray<Record>& records, int threads, const Terms& terms) {
   using Numbers = decltype(terms(records[0]));
+  std::mutex joining;
   // Calls add(part, terms of a record) for a copy of `empty` on each thread, then join(part).
   const auto pass = [&](const auto& empty, const auto& add, const auto& join) {
     kernels::in_parallel(records.size(), threads, [&](std::size_t begin, std::size_t end) {
       auto part = empty;
       for (std::size_t i = begin; i < end; ++i) add(part, terms(records[i]));
-#pragma omp critical(needlework_exact_sums)
+      const std::lock_guard lock(joining);
       join(part);
     });
   };
