@@ -64,8 +64,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
-  if (per_time == 0 || since_base(now) > kernels::longest_time) [[unlikely]]
-    rebase(now, 1);
+  if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now, 1);
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
   const double elapsed = gas.clock.difference(now, record.time);
