@@ -26,6 +26,8 @@ const std::string scene_text =
     "[needles]\ncount = 60\nbox = 5\n[collisions]\nepsilon = 0.9\n[until]\ncollisions_per_needle = "
     "4\n";
 
+// Callers keep the answers in a variable that is not const, so that a field that is missing reads
+// as null and fails the test: on a const object, `[]` of a missing field is undefined behaviour.
 std::vector<Json> answers_to(const std::vector<Json>& requests) {
   std::stringstream in, out;
   for (const Json& request : requests) in << request.dump() << "\n";
@@ -43,6 +45,8 @@ std::vector<Json> answers_to_text(const std::string& text) {
   return answers;
 }
 
+Json create_elastic() { return {{"do", "create"}, {"scene", "[needles]\ncount = 60\nbox = 5"}}; }
+
 Json create() { return {{"do", "create"}, {"scene", scene_text}}; }
 
 std::string hash_of_whole_run() {
@@ -53,7 +57,7 @@ std::string hash_of_whole_run() {
 }
 
 TEST(Serve, GivesTheTrajectoryOfTheLibraryInPieces) {
-  const auto answers =
+  auto answers =
       answers_to({create(),
                   {{"do", "advance"}, {"simulation", 1}, {"collisions", 50}, {"id", "a"}},
                   {{"do", "run_until"}, {"simulation", 1}, {"collisions", 70}, {"id", 7}},
@@ -69,10 +73,10 @@ TEST(Serve, GivesTheTrajectoryOfTheLibraryInPieces) {
 }
 
 TEST(Serve, GoesOnFromAStateThatItHasGiven) {
-  const auto first = answers_to({create(),
-                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 30}},
-                                 {{"do", "state"}, {"simulation", 1}}});
-  const Json& state = first[2];
+  auto first = answers_to({create(),
+                           {{"do", "advance"}, {"simulation", 1}, {"collisions", 30}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  Json& state = first[2];
   EXPECT_EQ(bytes_of(state["position"].get<std::string>()).size(), 60u * 24);
   EXPECT_EQ(bytes_of(state["needle_id"].get<std::string>()).size(), 60u * 4);
   EXPECT_EQ(bytes_of(state["image"].get<std::string>()).size(), 60u * 12);
@@ -86,11 +90,11 @@ TEST(Serve, GoesOnFromAStateThatItHasGiven) {
   std::iota(ids.rbegin(), ids.rend(), 1000);
   Json other = again;
   other["needle_id"] = text_of(ids);
-  const auto second = answers_to({again,
-                                  {{"do", "totals"}, {"simulation", 1}},
-                                  {{"do", "state"}, {"simulation", 1}, {"id", "kept"}},
-                                  other,
-                                  {{"do", "state"}, {"simulation", 2}}});
+  auto second = answers_to({again,
+                            {{"do", "totals"}, {"simulation", 1}},
+                            {{"do", "state"}, {"simulation", 1}, {"id", "kept"}},
+                            other,
+                            {{"do", "state"}, {"simulation", 2}}});
   EXPECT_EQ(second[0]["needles"], 60) << second[0];
   EXPECT_EQ(second[1]["energy"], first[1]["energy"]);
   for (const char* name : {"position", "velocity", "image", "needle_id"}) {
@@ -105,12 +109,12 @@ TEST(Serve, GoesOnFromAStateThatItHasGiven) {
 
 TEST(Serve, ReplacesVelocities) {
   const std::vector<std::array<double, 3>> ones(60, {1, 0, 0}), zeros(60);
-  const auto answers = answers_to({create(),
-                                   {{"do", "velocities"},
-                                    {"simulation", 1},
-                                    {"velocity", text_of(ones)},
-                                    {"angular_velocity", text_of(zeros)}},
-                                   {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}}});
+  auto answers = answers_to({create(),
+                             {{"do", "velocities"},
+                              {"simulation", 1},
+                              {"velocity", text_of(ones)},
+                              {"angular_velocity", text_of(zeros)}},
+                             {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}}});
   EXPECT_EQ(answers[1]["energy"], 0.5) << answers[1];
   EXPECT_EQ(answers[2]["stop"], "nothing_can_happen");
 }
@@ -120,14 +124,13 @@ TEST(Serve, WritesStatesAndOutput) {
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
   Json run = create();
   run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
-  const auto answers =
-      answers_to({run,
-                  {{"do", "run_until"}, {"simulation", 1}},
-                  {{"do", "state"}, {"simulation", 1}, {"file", state}},
-                  {{"do", "state"}, {"simulation", 1}, {"file", state}},
-                  {{"do", "state"}, {"simulation", 1}, {"file", state}, {"force", true}},
-                  {{"do", "close"}, {"simulation", 1}},
-                  {{"do", "totals"}, {"simulation", 1}}});
+  auto answers = answers_to({run,
+                             {{"do", "run_until"}, {"simulation", 1}},
+                             {{"do", "state"}, {"simulation", 1}, {"file", state}},
+                             {{"do", "state"}, {"simulation", 1}, {"file", state}},
+                             {{"do", "state"}, {"simulation", 1}, {"file", state}, {"force", true}},
+                             {{"do", "close"}, {"simulation", 1}},
+                             {{"do", "totals"}, {"simulation", 1}}});
   EXPECT_EQ(answers[3]["code"], 5);
   EXPECT_EQ(answers[4]["ok"], true);
   EXPECT_EQ(answers[5]["ok"], true);
@@ -141,18 +144,18 @@ TEST(Serve, ContinuesTheRunOfAFile) {
   const std::string output = folder.path() / "run.h5";
   Json run = create();
   run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
-  const auto first = answers_to({run,
-                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 50}},
-                                 {{"do", "checkpoint"}, {"simulation", 1}},
-                                 {{"do", "advance"}, {"simulation", 1}, {"collisions", 20}},
-                                 {{"do", "resume"}, {"file", output}}});
+  auto first = answers_to({run,
+                           {{"do", "advance"}, {"simulation", 1}, {"collisions", 50}},
+                           {{"do", "checkpoint"}, {"simulation", 1}},
+                           {{"do", "advance"}, {"simulation", 1}, {"collisions", 20}},
+                           {{"do", "resume"}, {"file", output}}});
   EXPECT_EQ(first[2]["ok"], true) << first[2];
   EXPECT_EQ(first[4]["code"], 5) << "it is being written: " << first[4];
   // The simulation was not closed, so that the 20 collisions are computed again.
-  const auto second = answers_to({{{"do", "resume"}, {"file", output}},
-                                  {{"do", "totals"}, {"simulation", 1}},
-                                  {{"do", "run_until"}, {"simulation", 1}},
-                                  {{"do", "close"}, {"simulation", 1}}});
+  auto second = answers_to({{{"do", "resume"}, {"file", output}},
+                            {{"do", "totals"}, {"simulation", 1}},
+                            {{"do", "run_until"}, {"simulation", 1}},
+                            {{"do", "close"}, {"simulation", 1}}});
   EXPECT_EQ(second[0]["simulation"], 1) << second[0];
   EXPECT_EQ(second[0]["needles"], 60);
   EXPECT_FALSE(second[0].contains("warning"));
@@ -161,7 +164,7 @@ TEST(Serve, ContinuesTheRunOfAFile) {
   EXPECT_EQ(io::read_run(output).series.back().collisions, 120u);
 
   std::filesystem::resize_file(output + ".checkpoint", 1000);
-  const auto third =
+  auto third =
       answers_to({{{"do", "resume"}, {"file", output}}, {{"do", "run_until"}, {"simulation", 1}}});
   EXPECT_NE(third[0].value("warning", "").find("damaged"), std::string::npos) << third[0];
   EXPECT_EQ(third[1]["trajectory_hash"], hash_of_whole_run());
@@ -174,7 +177,7 @@ TEST(Serve, DoesNotReplaceAFileThatIsBeingWritten) {
   run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
   run["force"] = true;
   const Json save{{"do", "state"}, {"simulation", 2}, {"file", output}, {"force", true}};
-  const auto answers =
+  auto answers =
       answers_to({run, run, create(), save, {{"do", "close"}, {"simulation", 1}}, save, run});
   const std::string refusal = "cannot be replaced: another program or simulation has the file open";
   for (const std::size_t refused : {1, 3}) {
@@ -186,12 +189,12 @@ TEST(Serve, DoesNotReplaceAFileThatIsBeingWritten) {
 }
 
 TEST(Serve, SaysWhyARunCannotBeSavedOrContinued) {
-  const auto answers = answers_to({create(),
-                                   {{"do", "checkpoint"}, {"simulation", 1}},
-                                   {{"do", "checkpoint"}, {"simulation", 2}},
-                                   {{"do", "resume"}},
-                                   {{"do", "resume"}, {"file", "none.h5"}},
-                                   {{"do", "resume"}, {"path", "none.h5"}}});
+  auto answers = answers_to({create(),
+                             {{"do", "checkpoint"}, {"simulation", 1}},
+                             {{"do", "checkpoint"}, {"simulation", 2}},
+                             {{"do", "resume"}},
+                             {{"do", "resume"}, {"file", "none.h5"}},
+                             {{"do", "resume"}, {"path", "none.h5"}}});
   const auto expect = [&](int n, int code, const std::string& begin) {
     EXPECT_EQ(answers[n]["code"], code) << answers[n];
     EXPECT_EQ(answers[n].value("message", "").substr(0, begin.size()), begin);
@@ -203,25 +206,26 @@ TEST(Serve, SaysWhyARunCannotBeSavedOrContinued) {
   expect(5, 2, "path = \"none.h5\": expected one of the fields do, ");
 }
 
-// The reader sees the interruption at once, so the advance that waits before it does not last.
+// The reader sees the interruption while the advance before it waits or runs. On a busy machine
+// that may take long, and a gas that cools could collapse first: this one does not.
 TEST(Serve, InterruptsWhatWasSentBefore) {
-  const auto answers = answers_to({create(),
-                                   {{"do", "advance"}, {"simulation", 1}, {"time", 1e12}},
-                                   {{"do", "interrupt"}},
-                                   {{"do", "advance"}, {"simulation", 1}, {"collisions", 10}}});
+  auto answers = answers_to({create_elastic(),
+                             {{"do", "advance"}, {"simulation", 1}, {"time", 1e12}},
+                             {{"do", "interrupt"}},
+                             {{"do", "advance"}, {"simulation", 1}, {"collisions", 10}}});
   EXPECT_EQ(answers[1]["stop"], "interrupted");
   EXPECT_EQ(answers[2]["ok"], true);
   EXPECT_EQ(answers[3]["stop"], "collisions");
 }
 
 TEST(Serve, ShowsProgressBeforeTheAnswer) {
-  const auto answers = answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = 60\nbox = 5"}},
-                                   {{"do", "advance"},
-                                    {"simulation", 1},
-                                    {"time", 1e12},
-                                    {"wall_s", 0.5},
-                                    {"progress_s", 0},
-                                    {"id", 5}}});
+  auto answers = answers_to({create_elastic(),
+                             {{"do", "advance"},
+                              {"simulation", 1},
+                              {"time", 1e12},
+                              {"wall_s", 0.5},
+                              {"progress_s", 0},
+                              {"id", 5}}});
   ASSERT_GT(answers.size(), 2u);
   EXPECT_EQ(answers[1]["id"], 5);
   EXPECT_GE(answers[1]["progress"], 0.0);
@@ -230,10 +234,9 @@ TEST(Serve, ShowsProgressBeforeTheAnswer) {
 
 TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
   const std::string deep(100000, '[');
-  const auto answers =
-      answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep + "\n\"\xff\"\n" +
-                      "{\"time\": 1e999}\n1e999\n{\"id\": " + deep + std::string(deep.size(), ']') +
-                      "}\n" + create().dump() + "\n");
+  auto answers = answers_to_text("hello\n\n[1]\n{\"do\": 5}\n{\"do\": \"fly\"}\n{}\n" + deep +
+                                 "\n\"\xff\"\n" + "{\"time\": 1e999}\n1e999\n{\"id\": " + deep +
+                                 std::string(deep.size(), ']') + "}\n" + create().dump() + "\n");
   ASSERT_EQ(answers.size(), 11u);
   for (int n = 0; n < 10; ++n) {
     EXPECT_EQ(answers[n]["ok"], false);
@@ -250,7 +253,7 @@ TEST(Serve, AnswersEveryLineThatItDoesNotUnderstand) {
 TEST(Serve, NamesTheFieldThatIsWrong) {
   const auto message = [](Json request) {
     if (!request.contains("simulation")) request["simulation"] = 1;
-    const auto answers = answers_to({create(), request});
+    auto answers = answers_to({create(), request});
     EXPECT_EQ(answers[1]["ok"], false) << request;
     return answers[1].value("message", "");
   };
@@ -292,8 +295,7 @@ TEST(Serve, NamesTheFieldThatIsWrong) {
                                       2, {0, std::numeric_limits<std::int32_t>::min(), 0}))),
             "state: needle 0: image = -2147483648: expected a whole number from -2147483647 to "
             "2147483647");
-  const auto answers =
-      answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = -5\nbox = 5"}}});
+  auto answers = answers_to({{{"do", "create"}, {"scene", "[needles]\ncount = -5\nbox = 5"}}});
   EXPECT_EQ(answers[0]["code"], 3);
   EXPECT_EQ(answers[0]["message"].get<std::string>().substr(0, 34),
             "scene: line 2: needles.count = -5:");
