@@ -46,7 +46,7 @@ struct alignas(64) Motion {
   float r[3], v[3], u[3], p[3];  ///< p = w x u / |w|, or 0
   float omega;                   ///< |w|
   float time;                    ///< of r, u and p
-  float until;                   ///< when the needle will be placed again
+  float until;                   ///< when the needle will search again
   float half;                    ///< half its length
 };
 static_assert(sizeof(Motion) == 64);

@@ -123,6 +123,8 @@ void EventProcessor<S, M>::horizon(Needle i) {
   if (gas_.records[i].renewal <= now()) {
     ++tally_.counters.renewals;
     replace_record(i, [&] { return model_.renew_in_flight(i, now()); });
+  } else {
+    ++tally_.counters.rebuilds;
   }
   schedule(i, place(i));
 }
@@ -213,6 +215,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
                  consider(i, j, shift, from, best);
                  return gas_.clock.difference(best.time, time);
                });
+  search_.set_next_event(i, best.time);
   calendar_.set(best, block);
 }
 
@@ -223,8 +226,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
                                     Event& best) {
   const Record& mine = gas_.records[i];
   const Record& other = gas_.records[j];
-  // After the renewal of j's record, the renewal event of j finds the contact.
-  const Time until = std::min(best.time, other.renewal);
+  // If the next event of j, which is not later than its renewal, comes before the contact, j
+  // searches then and finds the contact, if it has not come to nothing.
+  const Time until = std::min({best.time, other.renewal, search_.next_event(j)});
   Event event;
   event.kind = EventKind::contact;
   event.owner = i;

@@ -23,6 +23,8 @@ class AllPairs {
   std::uint32_t cell_index(Needle) const { return 0; }
   void prefetch(Needle) const {}
   Time place(Needle, Time, double /*half_length*/) { return Time::never(); }
+  void set_next_event(Needle, Time) {}
+  Time next_event(Needle) const { return Time::never(); }
   void renumber(const std::vector<Needle>&) {}
 
   template <class Visit>

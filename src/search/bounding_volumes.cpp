@@ -21,7 +21,6 @@ constexpr double overlap_of_side = 0.2;
 // Cells that a search may choose to have, by needles: those around a cloud are empty, and take half
 // a kilobyte each.
 constexpr double cells_per_needle = 2;
-constexpr double roundup = 1 + 0x1p-20;
 
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   if (setup.cell_side) return CellGrid(gas.box, *setup.cell_side, gas.size());
@@ -84,7 +83,7 @@ bool BoundingVolumes::place(Needle i, Time now, double half_length) {
     a = director_after(flight, middle);
   }
   const bool crosses = enter(i, grid.cell_of(r));
-  places[i].until = gas.clock.add(now, stay);
+  places[i].next_event = gas.clock.add(now, stay);
   motions[i].half = static_cast<float>(half_length * per_length);
   write_entry(i, r, a, now);
   set_motion(i, now);
@@ -145,7 +144,7 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
   out.omega = static_cast<float>(flight.omega * unit_of_time);
   out.time = static_cast<float>(since_base(now));
-  out.until = static_cast<float>(since_base(places[i].until) * roundup);
+  out.until = rounded_up(places[i].next_event);
 }
 
 // Writes the needle's entry into its slot.

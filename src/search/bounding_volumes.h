@@ -30,7 +30,9 @@ struct BoundingVolumes {
   struct Place {
     Cell cell{};
     NeedleCells::Slot slot;
-    Time until = Time::never();
+    /// When the needle will be placed again or search again; at the latest when it leaves its
+    /// bounding volume.
+    Time next_event = Time::never();
 
     bool is_entered() const { return slot.block != kernels::BlockLink::none; }
   };
@@ -40,6 +42,11 @@ struct BoundingVolumes {
   /// Enters needle i, of this half length [L], where it is now. Returns whether it has come from
   /// another cell.
   bool place(Needle i, Time now, double half_length);
+  /// Needle i, which has been placed, will search again at this time. [time]
+  void set_next_event(Needle i, Time time) {
+    places[i].next_event = time;
+    motions[i].until = rounded_up(time);
+  }
   /// Makes times from now on fit for place(), if they will soon not be. The threads share the work.
   void prepare(Time now, int threads);
   /// Until when they are.
@@ -64,6 +71,7 @@ struct BoundingVolumes {
   NeedleCells cells;
 
  private:
+  float rounded_up(Time t) const { return static_cast<float>(since_base(t) * (1 + 0x1p-20)); }
   void rebase(Time now, int threads);
   void set_motion(Needle i, Time now);
   void write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now);

@@ -29,6 +29,8 @@ class LinkedLists {
   }
   void prefetch(Needle i) const { needlework::prefetch(&place_[i]); }
   Time place(Needle i, Time now, double half_length);
+  void set_next_event(Needle, Time) {}
+  Time next_event(Needle) const { return Time::never(); }
   void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>

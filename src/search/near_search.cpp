@@ -31,9 +31,8 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       follows_(other.follows_) {}
 
 Time NearSearch::place(Needle i, Time now, double half_length) {
-  counters_.rebuilds += volumes_->places[i].until <= now;
   counters_.crossings += volumes_->place(i, now, half_length);
-  return volumes_->places[i].until;
+  return volumes_->places[i].next_event;
 }
 
 inline kernels::Seeker NearSearch::seeker_for(Needle i, double ahead) const {

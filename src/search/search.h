@@ -42,14 +42,19 @@ struct AnyVisit {
 ///     Enters needle i where it is now, and returns until when others find it there. To be called
 ///     again at that time, and whenever its record has changed, before the next find() of any
 ///     needle that might meet it. `half_length` is half its length [L].
+///   set_next_event(i, time)
+///     Needle i will search again at this time, unless it is placed before. Until then, find() of
+///     other needles may leave out what they meet of it after that time.
+///   next_event(i) -> Time
+///     That time, or Time::never() if the search does not keep it.
 ///   renumber(ranks)
 ///     Needle i has become needle ranks[i]; where the needles have been placed stays.
 ///   find(query, lengths, visit)
 ///     Calls visit(j, shift, from) -> ahead for each image of a needle, j with `shift` boxes added
-///     to its centre, that query.needle might meet within the time query.ahead and before j is
-///     placed again. They do not meet before now + from. The visit returns how far ahead it still
-///     makes sense to look, and find() continues with that. The lengths are those with which the
-///     needles have been placed.
+///     to its centre, that query.needle might meet within the time query.ahead and before the
+///     next event of j. They do not meet before now + from. The visit returns how far ahead it
+///     still makes sense to look, and find() continues with that. The lengths are those with which
+///     the needles have been placed.
 ///   name() -> const char*          as scenes name it
 ///   cells() -> std::size_t         number of cells by which a calendar may group needles
 ///   cell_index(i) -> std::uint32_t cell in which i has been placed, less than cells()
@@ -62,6 +67,8 @@ concept Search = requires(S search, const S& view, Needle i, Time now, const Sea
                           search_detail::AnyVisit visit) {
   { view.name() } -> std::same_as<const char*>;
   { search.place(i, now, lengths.half_length(i)) } -> std::same_as<Time>;
+  { search.set_next_event(i, now) } -> std::same_as<void>;
+  { view.next_event(i) } -> std::same_as<Time>;
   { search.renumber(ranks) } -> std::same_as<void>;
   { search.find(query, lengths, visit) } -> std::same_as<void>;
   { view.cells() } -> std::convertible_to<std::size_t>;

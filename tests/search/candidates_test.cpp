@@ -305,6 +305,33 @@ TEST(Searches, KnowNoUnitOfTimeOrLength) {
   }
 }
 
+// Without it searches would do more work, and say nothing wrong.
+TEST(Searches, LeaveOutWhatComesAfterTheNextEventOfTheOther) {
+  Random random(seed);
+  Gas gas = test::random_gas(random, 1000, {5, 6, 7}, {});
+  for (const SearchChoice& choice : test::search_choices()) {
+    if (!choice.uses_simd()) continue;
+    SCOPED_TRACE(choice.name());
+    Counters counters;
+    const auto search = make_search(choice, gas, counters);
+    const auto proposed = [&] {
+      std::size_t count = 0;
+      for (Needle i{0}; i < gas.size(); ++i) {
+        search->find({i, {}, {}, 1}, [&](Needle, const Shift&, double) {
+          ++count;
+          return 1.0;
+        });
+      }
+      return count;
+    };
+    for (Needle i{0}; i < gas.size(); ++i) search->place(i, {});
+    const std::size_t before = proposed();
+    EXPECT_GT(before, 50u);
+    for (Needle i{0}; i < gas.size(); ++i) search->set_next_event(i, {});
+    EXPECT_LT(proposed(), before / 10);
+  }
+}
+
 // A calendar groups needles by these.
 TEST(Searches, NameTheCellsOfTheirNeedles) {
   Random random(seed);

@@ -179,7 +179,14 @@ GasDrive::GasDrive(Gas& gas, Random& random, std::span<const SearchChoice> choic
 }
 
 void GasDrive::place(Followed& followed, Needle i) {
-  followed.placed_until[i] = followed.search->place(i, now_);
+  Time& until = followed.placed_until[i];
+  until = followed.search->place(i, now_);
+  // As if a contact came before.
+  if (search_random_.below(4) == 0) {
+    const double left = std::min(gas_.clock.difference(until, now_), span_);
+    until = gas_.clock.add(now_, search_random_.uniform() * left);
+    followed.search->set_next_event(i, until);
+  }
 }
 
 void GasDrive::place_everywhere(Needle i) {

@@ -24,6 +24,7 @@ class Wrapped final : public AnySearch {
       : lengths_{gas}, search_(gas, arguments...) {}
 
   Time place(Needle i, Time now) override { return search_.place(i, now, lengths_.half_length(i)); }
+  void set_next_event(Needle i, Time time) override { search_.set_next_event(i, time); }
   void renumber(const std::vector<Needle>& ranks) override { search_.renumber(ranks); }
   void find(const SearchQuery& query, const Visit& visit) override {
     search_.find(query, lengths_, visit);

@@ -41,6 +41,7 @@ class AnySearch {
 
   virtual ~AnySearch() = default;
   virtual Time place(Needle i, Time now) = 0;
+  virtual void set_next_event(Needle i, Time time) = 0;
   virtual void renumber(const std::vector<Needle>& ranks) = 0;
   virtual void find(const SearchQuery& query, const Visit& visit) = 0;
   virtual const char* name() const = 0;
