@@ -15,28 +15,30 @@ namespace needlework {
 /// Cell of a centre in the frame of the needle's record: not wrapped into the box.
 using Cell = std::array<std::int32_t, 3>;
 
+/// How the sides of cells, of which a whole number fits, compare with what is asked for.
+enum class CellFit { at_least, nearest };
+
 class CellGrid {
  public:
   CellGrid() = default;
-  /// As many cells as fit with sides of at least `least_side`, one at least, but not many more than
+  /// As many cells as fit with such sides, one at least, but not many more than
   /// `most_per_needle`: empty ones would cost memory and crossings, up to all the memory there is.
   /// Then up to a quarter more along an axis, with shorter sides, where that gives a multiple of
   /// what is asked for there.
-  CellGrid(const std::array<double, 3>& box, double least_side, std::size_t needles,
-           const std::array<std::int32_t, 3>& multiples = {1, 1, 1}, double most_per_needle = 16) {
+  CellGrid(const std::array<double, 3>& box, double side, std::size_t needles,
+           const std::array<std::int32_t, 3>& multiples = {1, 1, 1}, double most_per_needle = 16,
+           CellFit fit = CellFit::at_least) {
     const double most =
         std::min(0x1p12 + most_per_needle * static_cast<double>(needles), 0x1p31 - 1);
-    const auto fitting = [](double edge, double side) {
-      return std::max(1.0, std::floor(edge / side));
+    const auto fitting = [&](int axis) {
+      const double cells = box[axis] / side;
+      return std::max(1.0, std::floor(fit == CellFit::nearest ? cells + 0.5 : cells));
     };
-    double side = least_side;
-    while (fitting(box[0], side) * fitting(box[1], side) * fitting(box[2], side) > most) {
-      side *= 1.25;
-    }
+    while (fitting(0) * fitting(1) * fitting(2) > most) side *= 1.25;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto fit = static_cast<std::int32_t>(fitting(box[axis], side));
-      const std::int32_t more = (multiples[axis] - fit % multiples[axis]) % multiples[axis];
-      count_[axis] = more <= fit / 4 ? fit + more : fit;
+      const auto count = static_cast<std::int32_t>(fitting(axis));
+      const std::int32_t more = (multiples[axis] - count % multiples[axis]) % multiples[axis];
+      count_[axis] = more <= count / 4 ? count + more : count;
       side_[axis] = box[axis] / count_[axis];
       reciprocal_[axis] = 1 / side_[axis];
     }

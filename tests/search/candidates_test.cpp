@@ -350,6 +350,15 @@ TEST(Searches, NameTheCellsOfTheirNeedles) {
   }
 }
 
+TEST(CellGrids, FitTheSideThatIsAskedFor) {
+  const auto counts = [](CellFit fit) {
+    return CellGrid({12, 11.4, 0.3}, 1.01, 20000, {1, 1, 1}, 2, fit).counts();
+  };
+  using Counts = std::array<std::int32_t, 3>;
+  EXPECT_EQ(counts(CellFit::at_least), (Counts{11, 11, 1}));
+  EXPECT_EQ(counts(CellFit::nearest), (Counts{12, 11, 1}));
+}
+
 TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   const auto counts = [](std::size_t needles, std::array<double, 3> box) {
     Counters counters;
