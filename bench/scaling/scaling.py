@@ -36,10 +36,11 @@ from measured import quotients, spread  # noqa: E402
 DILUTE = 24 / 10000 ** (1 / 3)  # box over N^(1/3)
 DENSE = 12 / 20000 ** (1 / 3)
 
-# name: (needles, box, collisions per needle)
+# name: (needles, box, collisions per needle): runs of about half a second, in which the first trials of
+# all threads and of one take little of the time
 STRONG = {
-    "dilute": (10000, 24.0, 10),
-    "dense": (20000, 12.0, 5),
+    "dilute": (10000, 24.0, 25),
+    "dense": (20000, 12.0, 12),
     "dilute-1e5": (100000, DILUTE * 1e5 ** (1 / 3), 4),
     "dilute-1e6": (1000000, DILUTE * 1e6 ** (1 / 3), 1.5),
 }
