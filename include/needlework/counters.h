@@ -10,7 +10,7 @@ struct Counters {
   std::uint64_t events = 0;      ///< all events taken from the calendar
   std::uint64_t stale = 0;       ///< contacts whose partner's record had been replaced
   std::uint64_t crossings = 0;   ///< changes of a needle's cell
-  std::uint64_t rebuilds = 0;    ///< searches because a needle has left its bounding volume
+  std::uint64_t rebuilds = 0;    ///< horizons without renewal: most leave a bounding volume
   std::uint64_t sorts = 0;       ///< spatial sorts of the storage
   std::uint64_t resized = 0;     ///< times that search and sizes were chosen again
   std::uint64_t renewals = 0;    ///< records renewed to keep their precision

@@ -226,8 +226,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
                                     Event& best) {
   const Record& mine = gas_.records[i];
   const Record& other = gas_.records[j];
-  // If the next event of j, which is not later than its renewal, comes before the contact, j
-  // searches then and finds the contact, if it has not come to nothing.
+  // If j has an event before the contact, j searches again then, or earlier, and finds the contact
+  // if it still takes place. The renewal counts on its own: not every search knows the next event,
+  // and it is that of the present record only once j has searched.
   const Time until = std::min({best.time, other.renewal, search_.next_event(j)});
   Event event;
   event.kind = EventKind::contact;

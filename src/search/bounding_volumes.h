@@ -30,8 +30,8 @@ struct BoundingVolumes {
   struct Place {
     Cell cell{};
     NeedleCells::Slot slot;
-    /// When the needle will be placed again or search again; at the latest when it leaves its
-    /// bounding volume.
+    /// When the needle will search again: the time of its next event or, from when it is placed
+    /// until it has searched, the end of its time in its bounding volume.
     Time next_event = Time::never();
 
     bool is_entered() const { return slot.block != kernels::BlockLink::none; }

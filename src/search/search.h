@@ -46,7 +46,8 @@ struct AnyVisit {
 ///     Needle i will search again at this time, unless it is placed before. Until then, find() of
 ///     other needles may leave out what they meet of it after that time.
 ///   next_event(i) -> Time
-///     That time, or Time::never() if the search does not keep it.
+///     That time or, if it is not set since place(), the one that place() returned; always
+///     Time::never() for a search that does not keep it.
 ///   renumber(ranks)
 ///     Needle i has become needle ranks[i]; where the needles have been placed stays.
 ///   find(query, lengths, visit)
