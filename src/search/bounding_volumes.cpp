@@ -25,10 +25,10 @@ constexpr double cells_per_needle = 2;
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   if (setup.cell_side) return CellGrid(gas.box, *setup.cell_side, gas.size());
   const double density = setup.density.value_or(reduced_density(gas));
-  const bool flights = kind == BoundingVolume::cell;
-  const double side = flights ? auto_cell_side(density) : auto_side_for_capsules(density);
+  const bool linked_cells = kind == BoundingVolume::cell;
+  const double side = linked_cells ? auto_cell_side(density) : auto_side_for_capsules(density);
   return CellGrid(gas.box, side * gas.longest, gas.size(), setup.count_multiples, cells_per_needle,
-                  flights ? CellFit::at_least : CellFit::nearest);
+                  linked_cells ? CellFit::at_least : CellFit::nearest);
 }
 
 double radius_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
