@@ -1,11 +1,13 @@
 // Four floats at once, as every x86-64 has them and compilers know them without intrinsics.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 
 namespace needlework::kernels {
 
 using Four [[gnu::vector_size(16)]] = float;
+using FourInts [[gnu::vector_size(16)]] = std::int32_t;
 
 inline Four four(float a) { return Four{a, a, a, a}; }
 /// From any object of 16 bytes or more; its parts need not be floats.
@@ -14,7 +16,9 @@ inline Four load_four(const void* p) {
   std::memcpy(&out, p, sizeof out);
   return out;
 }
-inline void store_four(const Four& a, float* p) { std::memcpy(p, &a, sizeof a); }
+inline void store_four(const Four& a, void* p) { std::memcpy(p, &a, sizeof a); }
+
+inline Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
 
 /// Rows become columns.
 inline void transpose(Four (&a)[4]) {

@@ -63,7 +63,7 @@ struct Surroundings {
   const BlockLink* links;  ///< one for each block
   const CellView* cells;
   std::size_t cell_count;
-  const Motion* motions = nullptr;  ///< of all needles; those of found ones are prefetched
+  const Motion* motions = nullptr;  ///< of all needles; if given, those of found ones are prefetched
 };
 
 /// Needles found in the cells, in columns with room for one block more than there are needles.

@@ -69,8 +69,10 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
         store_numbers(packed(needle, found_here), needles + count);
         store_numbers(number(n), cells + count);
         // Of several, the first. If there is none, the index is arbitrary and the prefetch useless.
-        __builtin_prefetch(
-            reinterpret_cast<const void*>(motions + sizeof(Motion) * needles[count]));
+        if (motions) {
+          __builtin_prefetch(
+              reinterpret_cast<const void*>(motions + sizeof(Motion) * needles[count]));
+        }
         count += found_here.count;
       }
     }

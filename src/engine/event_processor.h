@@ -200,7 +200,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
 template <Search S, Model M>
 void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& just_hit) {
   ++tally_.counters.searches;
-  if (rollback_log) rollback_log->scheduled(i);
+  if (rollback_log) rollback_log->scheduled(i, gas_.records[i]);
   // Needed after the search, which takes longer than memory does.
   const BlockIndex block = block_of(i);
   calendar_.prefetch(i, block);

@@ -40,15 +40,25 @@ class LocalTimes {
     look_away();
     times_[thread].next.store(key, std::memory_order_relaxed);
   }
-  /// Publishes an event before the thread processes it. If two threads publish at the same time,
-  /// the one that calls reach_of_later() last sees the event of the other. Returns whether the
-  /// event is later than all that the thread has processed in this phase.
-  bool publish_event(std::size_t thread, TimeKey key, double speed) {
+  /// What has been published of the events before one event, as its thread saw it.
+  struct Seen {
+    bool in_order;   ///< the event is later than all that its own thread has processed in the phase
+    TimeKey latest;  ///< the latest event of other threads and, unless in order, of its own
+    double fastest;  ///< the largest speed of a needle of any of these, just before the event
+  };
+  /// Publishes an event before the thread processes it, then looks at those of the others. If two
+  /// threads publish at the same time, at least one of them sees the event of the other.
+  Seen publish_event(std::size_t thread, TimeKey key, double speed) {
     LocalTime& mine = times_[thread];
-    const bool in_order = key > mine.latest;
+    Seen seen{key > mine.latest, 0, 0};
     if (speed > mine.fastest) mine.fastest = speed;
-    if (in_order) mine.latest = key;
-    return in_order;
+    if (seen.in_order) mine.latest = key;
+    for (std::size_t t = 0; t < times_.size(); ++t) {
+      if (t == thread && seen.in_order) continue;
+      seen.latest = std::max(seen.latest, times_[t].latest.load());
+      seen.fastest = std::max(seen.fastest, times_[t].fastest.load());
+    }
+    return seen;
   }
 
   /// The earliest event that another thread has still to process.
@@ -75,18 +85,11 @@ class LocalTimes {
   }
 
   /// Take a needle that has an event at `key` and flies with `speed` afterwards, and all later
-  /// events that have been processed already. Returns a distance: needles of those events that were
-  /// farther away cannot have met this one in between. Returns 0 if there are no later events.
-  /// `in_order`: this thread itself has processed none. [L]
-  double reach_of_later(std::size_t thread, TimeKey key, double speed, bool in_order) const {
-    TimeKey latest = 0;
-    double fastest = speed;
-    for (std::size_t t = 0; t < times_.size(); ++t) {
-      if (t == thread && in_order) continue;
-      latest = std::max(latest, times_[t].latest.load());
-      fastest = std::max(fastest, times_[t].fastest.load());
-    }
-    return latest < key ? 0 : CausalityLog::reach(key, latest, speed + fastest, longest_);
+  /// events that had been published before. Returns a distance: needles of those events that were
+  /// farther away cannot have met this one in between. Returns 0 if there are no later events. [L]
+  double reach_of_later(const Seen& seen, TimeKey key, double speed) const {
+    if (seen.latest < key) return 0;
+    return CausalityLog::reach(key, seen.latest, speed + std::max(speed, seen.fastest), longest_);
   }
   bool is_out_of_sight(double distance) const { return !(distance < sight_); }
 

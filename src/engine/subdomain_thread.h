@@ -111,7 +111,8 @@ class alignas(128) SubdomainThread {
   }
   LoggedEvent take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  bool may_have_met(const LoggedEvent& mine, double speed, bool in_order, bool alone) const;
+  bool may_have_met(const LoggedEvent& mine, double speed, const LocalTimes::Seen& seen,
+                    bool alone) const;
 
   // Largest number of waiting events while the thread looks for one that can proceed.
   static constexpr std::size_t most_deferred = 12;
@@ -135,10 +136,10 @@ class alignas(128) SubdomainThread {
 
 template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
-  rollback_log_.clear();
   reports_.clear();
   deferred_.clear();
   latest_ = phase_.run.now;
+  rollback_log_.begin(latest_);
   processor_.set_now(latest_);
   processor_.reports = phase_.run.callback ? &reports_ : nullptr;
 }
@@ -273,7 +274,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
     return give_up(nobody);
   }
   const double fastest = changes_partner ? std::max(owner.speed, partner.speed) : owner.speed;
-  const bool in_order = phase_.local_times.publish_event(subdomain_, key, fastest);
+  const LocalTimes::Seen seen = phase_.local_times.publish_event(subdomain_, key, fastest);
   changes_.needles.clear();
   changes_.blocks.clear();
 #ifndef NDEBUG
@@ -284,7 +285,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
   const auto record = [&](Needle i, const LoggedEvent& taken) {
     const double speed = speed_of(phase_.run.gas.records[i]);
-    if (may_have_met(taken, speed, in_order, alone)) phase_.must_roll_back = true;
+    if (may_have_met(taken, speed, seen, alone)) phase_.must_roll_back = true;
     phase_.causality_log.add(taken, hindmost_);
   };
   record(event.owner, owner);
@@ -406,15 +407,15 @@ CellBox SubdomainThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
 }
 
 // Whether a needle that has had event `mine`, and flies with `speed` since, may have met a needle
-// whose later event has already been processed, before that later event. `in_order`: this thread
-// has processed no later event. `alone`: no other thread works near.
+// whose later event has already been processed, before that later event. `alone`: no other thread
+// works near.
 template <Search S, Model M>
-bool SubdomainThread<S, M>::may_have_met(const LoggedEvent& mine, double speed, bool in_order,
-                                         bool alone) const {
-  const double farthest = phase_.local_times.reach_of_later(subdomain_, mine.key, speed, in_order);
+bool SubdomainThread<S, M>::may_have_met(const LoggedEvent& mine, double speed,
+                                         const LocalTimes::Seen& seen, bool alone) const {
+  const double farthest = phase_.local_times.reach_of_later(seen, mine.key, speed);
   if (farthest == 0) return false;
   if (phase_.local_times.is_out_of_sight(farthest)) return true;
-  return !(alone && in_order) && phase_.causality_log.may_have_met(mine, speed, farthest);
+  return !(alone && seen.in_order) && phase_.causality_log.may_have_met(mine, speed, farthest);
 }
 
 }  // namespace needlework

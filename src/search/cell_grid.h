@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/four.h"
 #include "kernels/vec3.h"
 
 namespace needlework {
@@ -93,26 +94,39 @@ class CellGrid {
     std::int32_t cell;  ///< not wrapped
     std::int32_t wrapped;
     float offset;       ///< of its corner from that of the cell `origin` [unit]
-    float gap_squared;  ///< of its distance from the interval, not above [unit^2]
+    float gap_squared;  ///< of its distance from the interval [unit^2]
   };
 
-  /// Appends the cells of an axis that, extended by `overlap` on either side, are at most `reach`
-  /// away from [low, high]. They are described in a unit of length of which L contains
-  /// `per_length`, a power of two.
-  void append_near(int axis, std::int32_t origin, double low, double high, double overlap,
-                   double reach, double per_length, std::vector<AxisCell>& out) const {
-    low -= overlap;
-    high += overlap;
-    const std::int32_t first = floor((low - reach) * reciprocal_[axis]);
-    const std::int32_t last = floor((high + reach) * reciprocal_[axis]);
-    std::int32_t wrapped = wrap(first, axis);
-    for (std::int32_t c = first; c <= last; ++c) {
-      const double gap =
-          std::max({0.0, c * side_[axis] - high, low - (c + 1) * side_[axis]}) * per_length;
-      out.push_back({c, wrapped, static_cast<float>((c - origin) * side_[axis] * per_length),
-                     static_cast<float>(gap * gap * (1 - 0x1p-20))});
-      if (++wrapped == count_[axis]) wrapped = 0;
+  /// Finds the cells of an axis that are at most `reach` away from the interval from `low` to
+  /// `high`, and stores them at the beginning of `out`; returns how many. Lengths count from the
+  /// corner of the cell `origin`, in a unit of which L contains `per_length`, and roundings to
+  /// float add to the distances. [unit]
+  std::size_t find_near(int axis, std::int32_t origin, float low, float high, float reach,
+                        double per_length, std::vector<AxisCell>& out) const {
+    using kernels::four, kernels::Four, kernels::FourInts;
+    static_assert(sizeof(AxisCell) == sizeof(Four));
+    const auto side = static_cast<float>(side_[axis] * per_length);
+    const auto reciprocal = static_cast<float>(reciprocal_[axis] / per_length);
+    const std::int32_t first = floor((low - reach) * reciprocal);
+    const auto count = static_cast<std::size_t>(floor((high + reach) * reciprocal) - first + 1);
+    if (out.size() < count + 4) out.resize(count + 4);
+    const std::int32_t n = count_[axis];
+    std::int32_t wrapped_first = wrap(origin + first, axis);
+    FourInts after = FourInts{0, 1, 2, 3} + first;
+    for (std::size_t k = 0; k < count; k += 4) {
+      FourInts wrapped = FourInts{0, 1, 2, 3} + wrapped_first;
+      for (int times = 0; times < 3; ++times) wrapped -= wrapped >= n ? FourInts{} + n : FourInts{};
+      const Four offset = __builtin_convertvector(after, Four) * four(side);
+      const Four below = offset - four(high), above = four(low) - (offset + four(side));
+      const Four gap = kernels::larger(kernels::larger(below, above), four(0));
+      Four rows[4] = {reinterpret_cast<Four>(after + origin), reinterpret_cast<Four>(wrapped),
+                      offset, gap * gap};
+      kernels::transpose(rows);
+      for (int i = 0; i < 4; ++i) kernels::store_four(rows[i], &out[k + i]);
+      after += 4;
+      wrapped_first = wrap(wrapped_first + 4, axis);
     }
+    return count;
   }
 
   /// Number of boxes to add to a centre in cell `from` to move it to `to`, an image of that cell.
@@ -140,9 +154,10 @@ class CellGrid {
 
  private:
   // std::floor is a call, or a dozen instructions, where processors need not have SSE4.
-  static std::int32_t floor(double x) {
+  template <class Number>
+  static std::int32_t floor(Number x) {
     const auto towards_zero = static_cast<std::int32_t>(x);
-    return towards_zero - (x < towards_zero);
+    return towards_zero - (x < static_cast<Number>(towards_zero));
   }
 
   std::array<std::int32_t, 3> count_{};

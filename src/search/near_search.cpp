@@ -14,6 +14,9 @@ using kernels::PairColumns;
 // Far more than rounding does to the place of a bounding volume. [unit of length]
 constexpr double volume_margin = 0x1p-12;
 constexpr double roundup = 1 + 0x1p-20;
+// Motions of so many needles stay in the second-level cache (2 MiB), where a scan prefetches none
+// of them: this would take longer than it spares.
+constexpr std::size_t motions_in_cache = std::size_t{1} << 15;
 
 }  // namespace
 
@@ -55,37 +58,32 @@ inline kernels::Seeker NearSearch::seeker_for(Needle i, double ahead) const {
 
 // Makes views of the cells in which needles may be found: those in which a needle within reach of
 // this one's bounding volume, or of its path in the time ahead, can have been placed.
-inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead) {
+inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& cell) {
   const BoundingVolumes& volumes = *volumes_;
-  const double unit = volumes.unit_of_length();
-  const double half = seeker.motion.half * unit, longest_half = 0.5 * volumes.longest;
-  // The margin covers the rounding of the seeker's place in its cell.
-  const double margin = (volume_margin + volumes.margin) * unit;
-  double reach = half + longest_half + margin;
-  double time = ahead * volumes.per_time;
-  if (volumes.kind == BoundingVolume::capsule) {
-    // Another centre is not farther from this needle's axis than its half length and both radii.
-    reach = longest_half + 2 * volumes.radius + margin;
-    time = 0;
-  }
-  const auto sides = volumes.grid.sides();
+  const bool capsules = volumes.kind == BoundingVolume::capsule;
+  const float half = seeker.motion.half, longest_half = seeker.longest_half;
+  // Another centre is not farther from this needle's axis, if it is in a capsule, than its half
+  // length and both radii. The first margin covers the rounding of the seeker's place in its cell,
+  // the others that of distances below, which are at most a few cells.
+  const float reach =
+      ((capsules ? longest_half + 2 * static_cast<float>(volumes.radius * volumes.per_length)
+                 : longest_half + half) +
+       (static_cast<float>(volume_margin) + 2 * volumes.margin)) *
+      (1 + 0x1p-18f);
+  const auto overlap = static_cast<float>(volumes.overlap * volumes.per_length);
+  std::span<const CellGrid::AxisCell> near[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const double r = cell[axis] * sides[axis] + seeker.r[axis] * unit;
-    const double span =
-        volumes.kind == BoundingVolume::capsule ? half * std::abs(seeker.u[axis]) : 0;
-    const double end = r + seeker.motion.v[axis] * time * unit;
-    near_[axis].clear();
-    volumes.grid.append_near(axis, cell[axis], std::min(r, end) - span, std::max(r, end) + span,
-                             volumes.overlap, reach, volumes.per_length, near_[axis]);
+    const float r = seeker.r[axis];
+    const float moved = capsules ? 0 : seeker.motion.v[axis] * seeker.ahead;
+    const float beside = capsules ? half * std::abs(seeker.u[axis]) : overlap;
+    const std::size_t count = volumes.grid.find_near(
+        axis, cell[axis], r + std::min(moved, 0.0f) - beside, r + std::max(moved, 0.0f) + beside,
+        reach, volumes.per_length, near_[axis]);
+    near[axis] = {near_[axis].data(), count};
   }
-  view_cells_near(reach * volumes.per_length);
-}
 
-// Of the cells near along each axis, those within reach in space. [unit of length]
-inline void NearSearch::view_cells_near(double reach) {
-  const BoundingVolumes& volumes = *volumes_;
-  const float reach_squared = static_cast<float>(reach * reach);
-  const std::size_t most = near_[0].size() * near_[1].size() * near_[2].size();
+  const float reach_squared = reach * reach;
+  const std::size_t most = near[0].size() * near[1].size() * near[2].size();
   if (most > views_.size()) {
     views_.resize(most);
     view_cells_.resize(most);
@@ -95,12 +93,12 @@ inline void NearSearch::view_cells_near(double reach) {
   const kernels::BlockLink* const links = volumes.cells.links();
   kernels::CellView* view = views_.data();
   Cell* view_cell = view_cells_.data();
-  for (const auto& z : near_[2]) {
-    for (const auto& y : near_[1]) {
+  for (const auto& z : near[2]) {
+    for (const auto& y : near[1]) {
       const float gap_squared = z.gap_squared + y.gap_squared;
       if (gap_squared > reach_squared) continue;
       const std::size_t row = volumes.grid.index(0, y.wrapped, z.wrapped);
-      for (const auto& x : near_[0]) {
+      for (const auto& x : near[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
         needlework::prefetch(&blocks[first]);
@@ -158,9 +156,10 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
                                                               double ahead) {
   const BoundingVolumes& volumes = *volumes_;
   const kernels::Seeker seeker = seeker_for(i, ahead);
-  look_around(seeker, volumes.places[i].cell, ahead);
+  look_around(seeker, volumes.places[i].cell);
+  const bool in_cache = volumes.motions.size() <= motions_in_cache;
   const kernels::Surroundings around{volumes.cells.blocks(), volumes.cells.links(), views_.data(),
-                                     view_count_, volumes.motions.data()};
+                                     view_count_, in_cache ? nullptr : volumes.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto radius = static_cast<float>(volumes.radius * volumes.per_length);
   const auto [entries, count] = volumes.kind == BoundingVolume::cell

@@ -359,6 +359,38 @@ TEST(CellGrids, FitTheSideThatIsAskedFor) {
   EXPECT_EQ(counts(CellFit::nearest), (Counts{12, 11, 1}));
 }
 
+// Against distances in double, also where an interval is longer than the box and where lengths are
+// in other units.
+TEST(CellGrids, FindTheCellsNearAnInterval) {
+  Random random(seed);
+  std::vector<CellGrid::AxisCell> found;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int axis = trial % 3, origin = static_cast<int>(40 * random.uniform()) - 20;
+    const double edge = 1 + 9 * random.uniform(), per_length = std::ldexp(1.0, trial % 5 * 10 - 20);
+    const CellGrid grid({edge, edge, edge}, 0.9 + 2 * random.uniform(), 100);
+    const double side = grid.sides()[axis];
+    const double low = 4 * random.uniform() - 2, high = low + 3 * random.uniform();
+    const double reach = 2 * random.uniform();
+    const auto unit = [&](double length) { return static_cast<float>(length * per_length); };
+    const std::size_t count =
+        grid.find_near(axis, origin, unit(low), unit(high), unit(reach), per_length, found);
+    ASSERT_LE(count, found.size());
+    std::size_t next = 0;
+    for (int cell = origin - 20; cell <= origin + 20; ++cell) {
+      const double corner = (cell - origin) * side;
+      const double gap = std::max({0.0, corner - high, low - (corner + side)});
+      const bool is_found = next < count && found[next].cell == cell;
+      if (std::abs(gap - reach) > 1e-5) ASSERT_EQ(is_found, gap < reach) << gap << ", " << reach;
+      if (!is_found) continue;
+      const CellGrid::AxisCell& one = found[next++];
+      EXPECT_EQ(one.wrapped, grid.wrap(cell, axis));
+      EXPECT_NEAR(one.offset, corner * per_length, 1e-5 * per_length);
+      EXPECT_NEAR(std::sqrt(one.gap_squared), gap * per_length, 1e-5 * per_length);
+    }
+    EXPECT_EQ(next, count);
+  }
+}
+
 TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   const auto counts = [](std::size_t needles, std::array<double, 3> box) {
     Counters counters;

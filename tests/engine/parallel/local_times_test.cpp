@@ -69,16 +69,24 @@ TEST(LocalTimes, TheLastIsNeverAhead) {
 TEST(LocalTimes, BoundTheReachOfLaterEvents) {
   LocalTimes local_times(2, 1.2);
   local_times.begin(0);
-  EXPECT_TRUE(local_times.publish_event(0, key(7), 0.5));
-  EXPECT_EQ(local_times.reach_of_later(0, key(7), 1, true), 0);
-  EXPECT_TRUE(local_times.publish_event(1, key(7.1), 3));
-  EXPECT_NEAR(local_times.reach_of_later(0, key(7), 1, true), 1 + 0.1 * 4, 1e-5);
-  EXPECT_NEAR(local_times.reach_of_later(0, key(7), 4, true), 1 + 0.1 * 8, 1e-5);
-  EXPECT_EQ(local_times.reach_of_later(1, key(7.1), 3, true), 0);
+  const LocalTimes::Seen first = local_times.publish_event(0, key(7), 0.5);
+  EXPECT_TRUE(first.in_order);
+  EXPECT_EQ(local_times.reach_of_later(first, key(7), 1), 0);
+  const LocalTimes::Seen other = local_times.publish_event(1, key(7.1), 3);
+  EXPECT_TRUE(other.in_order);
+  EXPECT_EQ(local_times.reach_of_later(other, key(7.1), 3), 0);
+  const LocalTimes::Seen second = local_times.publish_event(0, key(7.05), 0.5);
+  EXPECT_TRUE(second.in_order);
+  EXPECT_NEAR(local_times.reach_of_later(second, key(7.05), 1), 1 + 0.05 * 4, 1e-5);
+  EXPECT_NEAR(local_times.reach_of_later(second, key(7.05), 4), 1 + 0.05 * 8, 1e-5);
   // A thread's own later events matter if it processes an earlier one out of order.
-  EXPECT_FALSE(local_times.publish_event(1, key(6.9), 0.5));
-  EXPECT_NEAR(local_times.reach_of_later(1, key(6.9), 1, false), 1 + 0.2 * 4, 1e-5);
-  EXPECT_NEAR(local_times.reach_of_later(1, key(6.9), 1, true), 1 + 0.1 * 2, 1e-5);
+  const LocalTimes::Seen late = local_times.publish_event(1, key(6.9), 0.5);
+  EXPECT_FALSE(late.in_order);
+  EXPECT_NEAR(local_times.reach_of_later(late, key(6.9), 1), 1 + 0.2 * 4, 1e-5);
+  // Those of a thread in order do not.
+  const LocalTimes::Seen next = local_times.publish_event(1, key(7.2), 9);
+  EXPECT_EQ(next.latest, key(7.05));
+  EXPECT_EQ(next.fastest, 0.5);
 }
 
 TEST(LocalTimes, SeeNotFartherThanTheirSight) {
