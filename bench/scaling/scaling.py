@@ -11,7 +11,8 @@ Repetitions of all settings are interleaved. Times are wall times of the event l
 A speed-up is over the run by one thread in the same repetition; the table gives medians and ranges.
 "alone" is one thread with whatever search and calendar is best for one; "apart" is as many runs of that
 as there are threads, at once, and their collisions together: what the cores can give; "crowded" has
-four threads for each core. Beside other programs that never rest, a speed-up is over one thread beside
+four threads for each core. "Cache line" is how long one takes from core to core, measured before the
+run (cores.cpp). Beside other programs that never rest, a speed-up is over one thread beside
 them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of
 one commit and of the same build; until then to study/results/ in the folder of the build.
@@ -86,6 +87,15 @@ def sweep(program, folder, needles, box, collisions, threads):
     return 1e6 * wall / (len(point["seeds"]) * point["results"]["collisions"]["mean"])
 
 
+def cache_line(build):
+    """Time [ns] that a cache line takes from one core to another, in a list; empty if not built."""
+    program = build / "bench_scaling"
+    if not program.exists():
+        return []
+    report = json.loads(measured.output_of([program, "--benchmark_format=json"]))
+    return [run["real_time"] for run in report["benchmarks"]]
+
+
 def settings_of(name, most):
     """(kind, threads) of all runs of a scene."""
     counts = sorted({1, most} | {n for n in (2, 3, 4, 6, 8, 12, 16, 24, 32) if n <= most})
@@ -98,15 +108,18 @@ def settings_of(name, most):
     return settings
 
 
-def measure(program, name, most, shorter):
+def measure(build, name, most, shorter):
     """One repetition of all settings of a scene."""
     needles, box, collisions = SCENES[name]
     needles, collisions = round(needles / shorter), max(1, collisions / shorter)
     box = box if name in WEAK else box / shorter ** (1 / 3)
+    program = build / "needlework"
     cases, hashes = [], set()
     with tempfile.TemporaryDirectory() as folder:
         for kind, n in settings_of(name, most):
             case = {"name": f"{name}/{kind}/threads:{n}", "threads": n, "needles": needles}
+            if kind == "together":
+                case["cache_line_ns"] = cache_line(build)
             if name in ENSEMBLE:
                 us = sweep(program, Path(folder), needles, box, collisions, n)
             else:
@@ -158,10 +171,12 @@ def table(contents):
                           *(spread(case[key]) for key in ("border_tries", "events_per_turn")),
                           f"{100 * statistics.median(case['blocked']):.0f} %",
                           f"{sum(case['undone'])} of {sum(case['phases'])}"]
-            rows.append(cells + [""] * (11 - len(cells)))
+            lines = case.get("cache_line_ns")
+            cells += [""] * (11 - len(cells)) + [f"{spread(lines)} ns" if lines else ""]
+            rows.append(cells)
     return measured.table(["scene", "needles", "threads", "us per collision", "speed-up",
                            "efficiency", "of runs apart", "border tries per event",
-                           "events per turn", "time blocked", "phases undone"], rows)
+                           "events per turn", "time blocked", "phases undone", "cache line"], rows)
 
 
 def model(contents):
@@ -244,7 +259,7 @@ def main():
     chosen = [name for name in arguments.scenes or SCENES if name != "tables"]
     if chosen:
         measured.measure_rounds(store, {part(name): (rounds, lambda name=name: measure(
-            arguments.build / "needlework", name, arguments.threads, shorter))
+            arguments.build, name, arguments.threads, shorter))
             for name in chosen}, 60 * arguments.time_budget)
     missing = [name for name in SCENES if store.rounds(part(name)) < rounds]
     contents = {name.removeprefix(part("")): content for name, content in
