@@ -12,6 +12,7 @@
 // forward before they exceed `longest_time`.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -22,23 +23,24 @@ namespace needlework::kernels {
 inline constexpr std::size_t block_size = 16;  ///< needles in a block: one vector of AVX-512
 inline constexpr float longest_time = 8;       ///< largest present time; the margins rely on it
 
-/// Up to 16 needles of one cell, in columns, with centres relative to the corner of the cell. For
-/// capsules x and a are centre and director of the capsule; for cells they are centre and velocity
-/// of the needle at `time`. Cells with more needles chain blocks.
+/// Up to 16 needles of one cell, in its first places, in columns, with centres relative to the
+/// corner of the cell. For capsules x and a are centre and director of the capsule; for cells they
+/// are centre and velocity of the needle at `time`. Cells with more needles chain blocks, of which
+/// all but the last are full.
 struct alignas(64) NeedleBlock {
   enum Column { x, y, z, a_x, a_y, a_z, time, columns };
+  static constexpr std::uint32_t none = 0xffffffff;  ///< no needle, or no block
 
   float column[columns][block_size];  ///< centre; director or velocity; time of the centre
-  std::uint32_t needle[block_size];
-};
+  std::uint32_t needle[block_size];   ///< none in free places, whose columns may hold anything
 
-/// What describes a block. It is stored apart from the blocks, because many cells are empty and
-/// their blocks need not be read.
-struct BlockLink {
-  static constexpr std::uint32_t none = 0xffffffff;
-
-  std::uint32_t size = 0;     ///< needles in the block, in its first places
-  std::uint32_t next = none;  ///< the next block of the same cell
+  NeedleBlock() : column{} { std::fill_n(needle, block_size, none); }
+  std::uint32_t size() const {
+    std::uint32_t out = 0;
+    for (const std::uint32_t i : needle) out += i != none;
+    return out;
+  }
+  bool is_full() const { return needle[block_size - 1] != none; }
 };
 
 /// A needle's flight since `time`, centre relative to the corner of its cell: one cache line.
@@ -60,7 +62,7 @@ struct CellView {
 /// The cells around a needle.
 struct Surroundings {
   const NeedleBlock* blocks;
-  const BlockLink* links;  ///< one for each block
+  const std::uint32_t* next;  ///< for each block that is full: the next one of its cell, or none
   const CellView* cells;
   std::size_t cell_count;
   const Motion* motions = nullptr;  ///< of all needles; if given, those of found ones are prefetched

@@ -48,22 +48,21 @@ template <class Test>
 NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, const Found& found,
                             Test&& test) {
   // Copied, because for all the compiler knows the stores below might change these pointers.
-  const BlockLink* const links = around.links;
+  const std::uint32_t* const next = around.next;
   const NeedleBlock* const blocks = around.blocks;
   const auto motions = reinterpret_cast<std::uintptr_t>(around.motions);
   std::uint32_t *const needles = found.needle, *const cells = found.cell;
-  const Floats self = number(seeker.needle);
+  const Floats self = number(seeker.needle), nobody = number(NeedleBlock::none);
   std::size_t count = 0, seen = 0;
   for (std::uint32_t n = 0; n < around.cell_count; ++n) {
     const CellView& cell = around.cells[n];
-    for (std::uint32_t b = cell.block; b != BlockLink::none; b = links[b].next) {
+    for (std::uint32_t b = cell.block; b != NeedleBlock::none;) {
       const NeedleBlock& block = blocks[b];
-      const std::size_t size = links[b].size;
-      seen += size;
-      for (std::size_t lane = 0; lane < size; lane += floats_at_once) {
-        // The contents of places beyond the last needle are arbitrary.
-        const Mask taken = first_lanes(size - lane);
+      for (std::size_t lane = 0; lane < block_size; lane += floats_at_once) {
+        if (block.needle[lane] == NeedleBlock::none) break;
         const Floats needle = load_numbers(block.needle + lane);
+        const Mask taken = !same_numbers(needle, nobody);
+        seen += count_of(taken);
         const Packing found_here =
             packing_of(taken & test(block, lane, cell.offset) & !same_numbers(needle, self));
         store_numbers(packed(needle, found_here), needles + count);
@@ -75,6 +74,7 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
         }
         count += found_here.count;
       }
+      b = block.is_full() ? next[b] : NeedleBlock::none;
     }
   }
   return {seen, count};

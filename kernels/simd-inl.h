@@ -62,6 +62,7 @@ HWY_INLINE Floats square_root(Floats a) { return hn::Sqrt(a.v); }
 HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m, a.v, b.v); }
 HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
+HWY_INLINE std::size_t count_of(Mask m) { return hn::CountTrue(Tag(), m.m); }
 
 /// Packs the lanes for which a mask holds to the front of a vector, in their order; the lanes
 /// behind them hold anything. (GCC 12 copies the tables of Highway's Compress onto the stack at

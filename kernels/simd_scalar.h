@@ -46,6 +46,7 @@ inline Floats square_root(Floats a) { return std::sqrt(a.v); }
 inline Floats select(Mask m, Floats a, Floats b) { return m.m ? a : b; }
 inline Mask select(Mask m, Mask a, Mask b) { return m.m ? a : b; }
 inline bool any(Mask m) { return m.m; }
+inline std::size_t count_of(Mask m) { return m.m; }
 
 struct Packing {
   std::size_t count;

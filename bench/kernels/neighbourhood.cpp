@@ -10,7 +10,6 @@
 namespace needlework::bench {
 namespace {
 
-using kernels::BlockLink;
 using kernels::Flight;
 using kernels::Motion;
 using kernels::NeedleBlock;
@@ -133,20 +132,20 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
   };
 
   blocks.resize(static_cast<std::size_t>(cells) * cells * cells);
-  links.resize(blocks.size());
+  next.resize(blocks.size(), NeedleBlock::none);
   for (std::uint32_t i = 0; i < needles.size(); ++i) {
     const Flight& needle = needles[i];
     std::uint32_t b =
         (cell_of(needle.r, 2) * cells + cell_of(needle.r, 1)) * cells + cell_of(needle.r, 0);
-    while (links[b].size == kernels::block_size) {
-      if (links[b].next == BlockLink::none) {
-        links[b].next = static_cast<std::uint32_t>(blocks.size());
+    while (blocks[b].is_full()) {
+      if (next[b] == NeedleBlock::none) {
+        next[b] = static_cast<std::uint32_t>(blocks.size());
         blocks.emplace_back();
-        links.emplace_back();
+        next.push_back(NeedleBlock::none);
       }
-      b = links[b].next;
+      b = next[b];
     }
-    const std::uint32_t lane = links[b].size++;
+    const std::uint32_t lane = blocks[b].size();
     const Vec3d r = needle.r - corner_of(needle.r);
     const Vec3d& a = columns == Columns::directors ? needle.u : needle.v;
     for (int axis = 0; axis < 3; ++axis) {
@@ -187,8 +186,8 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
           one.cells.push_back({first,
                                {static_cast<float>(offset[0]), static_cast<float>(offset[1]),
                                 static_cast<float>(offset[2])}});
-          for (std::uint32_t b = first; b != BlockLink::none; b = links[b].next) {
-            one.needles += links[b].size;
+          for (std::uint32_t b = first; b != NeedleBlock::none; b = next[b]) {
+            one.needles += blocks[b].size();
           }
         }
       }

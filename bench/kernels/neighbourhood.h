@@ -48,11 +48,11 @@ struct Neighbourhoods {
   Neighbourhoods(double density, Columns columns, std::size_t count);
 
   kernels::Surroundings around(const Neighbourhood& one) const {
-    return {blocks.data(), links.data(), one.cells.data(), one.cells.size()};
+    return {blocks.data(), next.data(), one.cells.data(), one.cells.size()};
   }
 
   std::vector<kernels::NeedleBlock> blocks;
-  std::vector<kernels::BlockLink> links;
+  std::vector<std::uint32_t> next;
   std::vector<Neighbourhood> all;
   std::size_t most_needles = 0;  ///< of any
 };

@@ -157,7 +157,6 @@ void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a,
   for (int column = 0; column < NeedleBlock::columns; ++column) {
     block.column[column][place.slot.lane] = static_cast<float>(values[column]);
   }
-  block.needle[place.slot.lane] = i.index;
 }
 
 bool BoundingVolumes::enter(Needle i, const Cell& cell) {
@@ -172,7 +171,7 @@ bool BoundingVolumes::enter(Needle i, const Cell& cell) {
     if (moved != i) places[moved].slot = place.slot;
   }
   place.cell = cell;
-  place.slot = cells.enter(index);
+  place.slot = cells.enter(index, i);
   return entered;
 }
 

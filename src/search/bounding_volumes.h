@@ -34,7 +34,7 @@ struct BoundingVolumes {
     /// until it has searched, the end of its time in its bounding volume.
     Time next_event = Time::never();
 
-    bool is_entered() const { return slot.block != kernels::BlockLink::none; }
+    bool is_entered() const { return slot.block != kernels::NeedleBlock::none; }
   };
 
   BoundingVolumes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);

@@ -90,7 +90,6 @@ inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
   }
   // Copied, because for all the compiler knows the stores below might change this pointer.
   const NeedleBlock* const blocks = volumes.cells.blocks();
-  const kernels::BlockLink* const links = volumes.cells.links();
   kernels::CellView* view = views_.data();
   Cell* view_cell = view_cells_.data();
   for (const auto& z : near[2]) {
@@ -102,7 +101,6 @@ inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
         needlework::prefetch(&blocks[first]);
-        needlework::prefetch(&links[first]);
         *view++ = {first, {x.offset, y.offset, z.offset}};
         *view_cell++ = {x.cell, y.cell, z.cell};
       }
@@ -158,7 +156,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
   const kernels::Seeker seeker = seeker_for(i, ahead);
   look_around(seeker, volumes.places[i].cell);
   const bool in_cache = volumes.motions.size() <= motions_in_cache;
-  const kernels::Surroundings around{volumes.cells.blocks(), volumes.cells.links(), views_.data(),
+  const kernels::Surroundings around{volumes.cells.blocks(), volumes.cells.next(), views_.data(),
                                      view_count_, in_cache ? nullptr : volumes.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto radius = static_cast<float>(volumes.radius * volumes.per_length);

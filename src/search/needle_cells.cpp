@@ -2,7 +2,6 @@
 
 namespace needlework {
 
-using kernels::BlockLink;
 using kernels::NeedleBlock;
 
 NeedleCells::NeedleCells(std::size_t cells, std::size_t needles) {
@@ -11,54 +10,56 @@ NeedleCells::NeedleCells(std::size_t cells, std::size_t needles) {
   const std::size_t most = cells + needles / kernels::block_size;
   blocks_.reserve(most);
   blocks_.resize(cells);
-  links_.reserve(most);
-  links_.resize(cells);
+  next_.reserve(most);
+  next_.resize(cells, NeedleBlock::none);
 }
 
-NeedleCells::Slot NeedleCells::enter(std::uint32_t cell) {
+NeedleCells::Slot NeedleCells::enter(std::uint32_t cell, Needle i) {
   std::uint32_t b = cell;
   std::size_t chain = 1;
-  for (; links_[b].size == kernels::block_size; ++chain) {
-    if (links_[b].next == BlockLink::none) {
-      links_[b].next = take_free_block();
+  for (; blocks_[b].is_full(); ++chain) {
+    if (next_[b] == NeedleBlock::none) {
+      next_[b] = take_free_block();
       // Several threads may raise it at once.
       std::size_t longest = longest_chain_;
       while (longest < chain + 1 && !longest_chain_.compare_exchange_weak(longest, chain + 1)) {
       }
     }
-    b = links_[b].next;
+    b = next_[b];
   }
-  return {b, links_[b].size++};
+  const std::uint32_t lane = blocks_[b].size();
+  blocks_[b].needle[lane] = i.index;
+  return {b, lane};
 }
 
 Needle NeedleCells::leave(std::uint32_t cell, const Slot& slot) {
-  std::uint32_t last = cell, previous = BlockLink::none;
-  while (links_[last].next != BlockLink::none) {
+  std::uint32_t last = cell, previous = NeedleBlock::none;
+  while (next_[last] != NeedleBlock::none) {
     previous = last;
-    last = links_[last].next;
+    last = next_[last];
   }
-  const std::uint32_t lane = --links_[last].size;
+  NeedleBlock& from = blocks_[last];
+  NeedleBlock& to = blocks_[slot.block];
+  const std::uint32_t lane = from.size() - 1;
+  const Needle now_there(from.needle[lane]);
   if (last != slot.block || lane != slot.lane) {
-    NeedleBlock& to = blocks_[slot.block];
-    const NeedleBlock& from = blocks_[last];
     for (int column = 0; column < NeedleBlock::columns; ++column) {
       to.column[column][slot.lane] = from.column[column][lane];
     }
     to.needle[slot.lane] = from.needle[lane];
   }
-  const std::uint32_t now_there = blocks_[slot.block].needle[slot.lane];
-  if (links_[last].size == 0 && previous != BlockLink::none) {
-    links_[previous].next = BlockLink::none;
+  from.needle[lane] = NeedleBlock::none;
+  if (lane == 0 && previous != NeedleBlock::none) {
+    next_[previous] = NeedleBlock::none;
     give_back(last);
   }
-  return Needle(now_there);
+  return now_there;
 }
 
 void NeedleCells::renumber(const std::vector<Needle>& ranks) {
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    for (std::uint32_t lane = 0; lane < links_[b].size; ++lane) {
-      std::uint32_t& needle = blocks_[b].needle[lane];
-      needle = ranks[needle].index;
+  for (NeedleBlock& block : blocks_) {
+    for (std::uint32_t& needle : block.needle) {
+      if (needle != NeedleBlock::none) needle = ranks[needle].index;
     }
   }
 }
@@ -68,7 +69,7 @@ std::uint32_t NeedleCells::take_free_block() {
   if (free_blocks_.empty()) {
     free_blocks_.push_back(static_cast<std::uint32_t>(blocks_.size()));
     blocks_.emplace_back();
-    links_.emplace_back();
+    next_.push_back(NeedleBlock::none);
   }
   const std::uint32_t out = free_blocks_.back();
   free_blocks_.pop_back();
@@ -76,7 +77,6 @@ std::uint32_t NeedleCells::take_free_block() {
 }
 
 void NeedleCells::give_back(std::uint32_t block) {
-  links_[block] = {};
   const std::lock_guard alone(chaining_);
   free_blocks_.push_back(block);
 }

@@ -19,14 +19,14 @@ class NeedleCells {
  public:
   /// Where a needle is stored.
   struct Slot {
-    std::uint32_t block = kernels::BlockLink::none;
+    std::uint32_t block = kernels::NeedleBlock::none;
     std::uint32_t lane = 0;
   };
 
   NeedleCells(std::size_t cells, std::size_t needles);
 
-  /// Takes the next free slot of a cell.
-  Slot enter(std::uint32_t cell);
+  /// Gives a needle the next free slot of a cell.
+  Slot enter(std::uint32_t cell, Needle i);
   /// Frees a slot of a cell; the last needle of the cell is moved there. Returns which needle the
   /// slot holds afterwards: that one or, where the slot was the last, the one that has left.
   Needle leave(std::uint32_t cell, const Slot& slot);
@@ -36,7 +36,8 @@ class NeedleCells {
   kernels::NeedleBlock& operator[](std::uint32_t block) { return blocks_[block]; }
   const kernels::NeedleBlock& operator[](std::uint32_t block) const { return blocks_[block]; }
   const kernels::NeedleBlock* blocks() const { return blocks_.data(); }
-  const kernels::BlockLink* links() const { return links_.data(); }
+  /// For each block that is full, the next one of its cell, or none.
+  const std::uint32_t* next() const { return next_.data(); }
   /// The most blocks that a cell has ever had.
   std::size_t longest_chain() const { return longest_chain_; }
 
@@ -45,7 +46,7 @@ class NeedleCells {
   void give_back(std::uint32_t block);
 
   LargeArray<kernels::NeedleBlock> blocks_;  ///< first those of the cells, then those chained
-  LargeArray<kernels::BlockLink> links_;
+  LargeArray<std::uint32_t> next_;
   std::vector<std::uint32_t> free_blocks_;
   std::mutex chaining_;  ///< held while blocks are taken from or given back to the free ones
   std::atomic<std::size_t> longest_chain_ = 1;

@@ -19,11 +19,11 @@ using test::Random;
 /// Blocks of needles in cells around a seeker, with any contents.
 struct Neighbourhood {
   std::vector<NeedleBlock> blocks;
-  std::vector<BlockLink> links;
+  std::vector<std::uint32_t> next;
   std::vector<CellView> cells;
   Seeker seeker{};
 
-  Surroundings around() const { return {blocks.data(), links.data(), cells.data(), cells.size()}; }
+  Surroundings around() const { return {blocks.data(), next.data(), cells.data(), cells.size()}; }
 };
 
 /// What a kernel finds around a seeker; `apply` calls it. What it leaves behind the last one does
@@ -43,7 +43,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhoo
 using BlockRow = std::array<float, NeedleBlock::columns>;
 
 /// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
-/// stands beyond the last needle of a block is not a number.
+/// stands beyond the last needle of a block is not a number, and what follows one that is not full
+/// is no block.
 inline Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<BlockRow>& rows) {
   Neighbourhood out;
   out.seeker = seeker;
@@ -56,12 +57,11 @@ inline Neighbourhood fill(Random& random, const Seeker& seeker, const std::vecto
       for (auto& column : block.column) {
         std::fill(std::begin(column), std::end(column), std::numeric_limits<float>::quiet_NaN());
       }
-      std::fill(std::begin(block.needle), std::end(block.needle), 12345u);
       const auto size = chained > 0 ? block_size : random.below(block_size + 1);
-      BlockLink& link = out.links.emplace_back();
-      link.size = static_cast<std::uint32_t>(std::min<std::size_t>(size, rows.size() - next));
-      if (chained > 0) link.next = static_cast<std::uint32_t>(out.blocks.size());
-      for (std::uint32_t lane = 0; lane < link.size; ++lane, ++next) {
+      const auto taken = std::min<std::size_t>(size, rows.size() - next);
+      const auto after = static_cast<std::uint32_t>(out.blocks.size());
+      out.next.push_back(taken < block_size ? 12345u : chained > 0 ? after : NeedleBlock::none);
+      for (std::size_t lane = 0; lane < taken; ++lane, ++next) {
         for (int c = 0; c < NeedleBlock::columns; ++c) block.column[c][lane] = rows[next][c];
         block.needle[lane] = static_cast<std::uint32_t>(next + 1);
       }

@@ -2,9 +2,11 @@
 // a digest of it is written down here.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -94,8 +96,7 @@ TEST(OneAnswer, OfFilters) {
     const NearKernels& kernels = near_kernels(isa);
     for (int n = 0; n < 200; ++n) {
       NeedleBlock blocks[2];
-      const BlockLink links[2] = {{block_size, 1},
-                                  {static_cast<std::uint32_t>(1 + n % 16), BlockLink::none}};
+      const std::uint32_t next[2] = {1, NeedleBlock::none};
       const CellView cells[] = {{0, {0.5f, 0, 0}}, {0, {0, -0.5f, 1}}};
       std::uint32_t id = 1;
       for (NeedleBlock& block : blocks) {
@@ -109,9 +110,10 @@ TEST(OneAnswer, OfFilters) {
           block.needle[lane] = id++;
         }
       }
+      std::fill(blocks[1].needle + 1 + n % 16, std::end(blocks[1].needle), NeedleBlock::none);
       const Seeker seeker = test::seeker_of(test::motion_of(any_flight(random), 0, 1), 0.7f);
       std::uint32_t needles[5 * block_size], seen_in[5 * block_size];
-      const Surroundings around{blocks, links, cells, 2};
+      const Surroundings around{blocks, next, cells, 2};
       const auto take = [&](const Scan& scan) {
         out.take(std::uint64_t{scan.seen});
         for (std::size_t k = 0; k < scan.found; ++k) {

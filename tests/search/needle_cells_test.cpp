@@ -14,7 +14,7 @@ namespace needlework {
 namespace {
 
 using kernels::block_size;
-using kernels::BlockLink;
+using kernels::NeedleBlock;
 using test::Random;
 
 constexpr std::uint64_t seed = 33;
@@ -32,22 +32,23 @@ void expect_consistent(const NeedleCells& cells, std::size_t count,
   std::set<std::uint32_t> blocks;
   for (std::uint32_t cell = 0; cell < count; ++cell) {
     std::size_t chain = 0;
-    for (std::uint32_t b = cell; b != BlockLink::none; b = cells.links()[b].next) {
+    for (std::uint32_t b = cell; b != NeedleBlock::none; b = cells.next()[b]) {
       ASSERT_TRUE(blocks.insert(b).second) << "block " << b << " is in two chains";
-      const BlockLink& link = cells.links()[b];
-      ASSERT_TRUE(b == cell || link.size > 0);
-      if (link.next != BlockLink::none) {
-        ASSERT_EQ(link.size, block_size);
+      const NeedleBlock& block = cells[b];
+      const std::uint32_t size = block.size();
+      ASSERT_TRUE(b == cell || size > 0);
+      ASSERT_EQ(block.is_full(), size == block_size);
+      if (cells.next()[b] != NeedleBlock::none) {
+        ASSERT_TRUE(block.is_full());
       }
-      ASSERT_LE(link.size, block_size);
-      for (std::uint32_t lane = 0; lane < link.size; ++lane, ++seen) {
-        const std::uint32_t needle = cells[b].needle[lane];
+      for (std::uint32_t lane = 0; lane < size; ++lane, ++seen) {
+        const std::uint32_t needle = block.needle[lane];
         ASSERT_TRUE(stored.contains(needle));
         const Stored& its = stored.at(needle);
         ASSERT_EQ(its.cell, cell);
         ASSERT_EQ(its.slot.block, b);
         ASSERT_EQ(its.slot.lane, lane);
-        ASSERT_EQ(cells[b].column[0][lane], static_cast<float>(needle));
+        ASSERT_EQ(block.column[0][lane], static_cast<float>(needle));
       }
       ++chain;
     }
@@ -73,8 +74,7 @@ TEST(NeedleCells, HoldNeedlesByCell) {
     // Cells fill up and empty in turn.
     if (random.below(n / 1000 % 2 ? 8 : 2) == 0) continue;
     const auto cell = static_cast<std::uint32_t>(random.below(n / 3000 % 2 ? 1 : count));
-    const NeedleCells::Slot slot = cells.enter(cell);
-    cells[slot.block].needle[slot.lane] = i;
+    const NeedleCells::Slot slot = cells.enter(cell, Needle(i));
     cells[slot.block].column[0][slot.lane] = static_cast<float>(i);
     stored[i] = {cell, slot};
     if (n % 16 == 0) {
