@@ -23,7 +23,7 @@ namespace needlework::kernels {
 inline constexpr std::size_t block_size = 16;  ///< needles in a block: one vector of AVX-512
 inline constexpr float longest_time = 8;       ///< largest present time; the margins rely on it
 
-/// Up to 16 needles of one cell, in its first places, in columns, with centres relative to the
+/// Up to 16 needles of one cell, in the first places of columns, with centres relative to the
 /// corner of the cell. For capsules x and a are centre and director of the capsule; for cells they
 /// are centre and velocity of the needle at `time`. Cells with more needles chain blocks, of which
 /// all but the last are full.
@@ -62,7 +62,7 @@ struct CellView {
 /// The cells around a needle.
 struct Surroundings {
   const NeedleBlock* blocks;
-  const std::uint32_t* next;  ///< for each block that is full: the next one of its cell, or none
+  const std::uint32_t* next;  ///< for each block: the next one of its cell, or none
   const CellView* cells;
   std::size_t cell_count;
   const Motion* motions = nullptr;  ///< of all needles; if given, those of found ones are prefetched

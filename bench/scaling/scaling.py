@@ -11,9 +11,9 @@ Repetitions of all settings are interleaved. Times are wall times of the event l
 A speed-up is over the run by one thread in the same repetition; the table gives medians and ranges.
 "alone" is one thread with whatever search and calendar is best for one; "apart" is as many runs of that
 as there are threads, at once, and their collisions together: what the cores can give; "crowded" has
-four threads for each core. "Cache line" is how long one takes from core to core, measured before the
-run (cores.cpp). Beside other programs that never rest, a speed-up is over one thread beside
-them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
+four threads for each core. "Cache line" is how long one takes from core to core, measured before each
+run of as many threads as cores or fewer (cores.cpp). Beside other programs that never rest, a speed-up
+is over one thread beside them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of
 one commit and of the same build; until then to study/results/ in the folder of the build.
 """

@@ -51,7 +51,7 @@ class Simulation {
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time
   /// and the new states from the Collision: time() and copy() are not yet, or with several threads
-  /// no longer, at that moment.
+  /// no longer, at that moment. If it throws, the simulation cannot go on.
   void on_collision(std::function<void(const Collision&)> callback);
 
   /// Stops `advance` soon, with one thread before the next event: the call in progress, or else the

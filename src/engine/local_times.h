@@ -43,8 +43,9 @@ class LocalTimes {
   /// What has been published of the events before one event, as its thread saw it.
   struct Seen {
     bool in_order;   ///< the event is later than all that its own thread has processed in the phase
-    TimeKey latest;  ///< the latest event of other threads and, unless in order, of its own
-    double fastest;  ///< the largest speed of a needle of any of these, just before the event
+    // Of all events in the phase of other threads and, unless in order, of its own:
+    TimeKey latest;  ///< the latest
+    double fastest;  ///< the largest speed of a needle, just before its event [L/time]
   };
   /// Publishes an event before the thread processes it, then looks at those of the others. If two
   /// threads publish at the same time, at least one of them sees the event of the other.

@@ -53,7 +53,6 @@ struct BoundingVolumes {
   Time prepared_until() const;
   void renumber(const std::vector<Needle>& ranks);
 
-  double unit_of_length() const { return 1 / per_length; }
   double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
 
   const Gas& gas;

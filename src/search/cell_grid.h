@@ -99,8 +99,8 @@ class CellGrid {
 
   /// Finds the cells of an axis that are at most `reach` away from the interval from `low` to
   /// `high`, and stores them at the beginning of `out`; returns how many. Lengths count from the
-  /// corner of the cell `origin`, in a unit of which L contains `per_length`, and roundings to
-  /// float add to the distances. [unit]
+  /// corner of the cell `origin`, in a unit of which L contains `per_length`. Distances are off by
+  /// up to 2^-21 of the largest length, either way, for which `reach` must have room. [unit]
   std::size_t find_near(int axis, std::int32_t origin, float low, float high, float reach,
                         double per_length, std::vector<AxisCell>& out) const {
     using kernels::four, kernels::Four, kernels::FourInts;

@@ -92,7 +92,7 @@ class NearSearch {
 
   std::span<const Candidate> candidates(Needle i, const JustHit& just_hit, double ahead);
   kernels::Seeker seeker_for(Needle i, double ahead) const;
-  void look_around(const kernels::Seeker& seeker, const Cell& cell);
+  void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
   void follow(const kernels::Seeker& seeker, const JustHit& just_hit, const kernels::Found& found,
               std::size_t count);
   void propose(const kernels::Found& found, std::size_t k, double from);

@@ -36,7 +36,7 @@ class NeedleCells {
   kernels::NeedleBlock& operator[](std::uint32_t block) { return blocks_[block]; }
   const kernels::NeedleBlock& operator[](std::uint32_t block) const { return blocks_[block]; }
   const kernels::NeedleBlock* blocks() const { return blocks_.data(); }
-  /// For each block that is full, the next one of its cell, or none.
+  /// For each block, the next one of its cell, or none; only full blocks have one.
   const std::uint32_t* next() const { return next_.data(); }
   /// The most blocks that a cell has ever had.
   std::size_t longest_chain() const { return longest_chain_; }

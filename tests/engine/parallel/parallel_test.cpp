@@ -118,7 +118,7 @@ TEST(Parallel, UsesItsThreads) {
   scene.engine.team = "all";
   Simulation simulation(scene);
   Scene::Until until;
-  until.collisions_per_needle = 10;
+  until.collisions_per_needle = 24;
   ASSERT_EQ(simulation.advance(until), Stop::collisions);
   const Counters& counters = simulation.counters();
   EXPECT_EQ(simulation.queue(), "cell-calendar");
