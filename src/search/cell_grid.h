@@ -111,11 +111,11 @@ class CellGrid {
     const auto count = static_cast<std::size_t>(floor((high + reach) * reciprocal) - first + 1);
     if (out.size() < count + 4) out.resize(count + 4);
     const std::int32_t n = count_[axis];
-    std::int32_t wrapped_first = wrap(origin + first, axis);
     FourInts after = FourInts{0, 1, 2, 3} + first;
-    for (std::size_t k = 0; k < count; k += 4) {
-      FourInts wrapped = FourInts{0, 1, 2, 3} + wrapped_first;
-      for (int times = 0; times < 3; ++times) wrapped -= wrapped >= n ? FourInts{} + n : FourInts{};
+    FourInts wrapped = FourInts{0, 1, 2, 3} + wrap(origin + first, axis);
+    for (std::size_t k = 0; k < count; k += 4, after += 4, wrapped += 4) {
+      // From less than n + 4 to less than n, even if n is 1.
+      for (int times = 0; times < 4; ++times) wrapped -= wrapped >= n ? FourInts{} + n : FourInts{};
       const Four offset = __builtin_convertvector(after, Four) * four(side);
       const Four below = offset - four(high), above = four(low) - (offset + four(side));
       const Four gap = kernels::larger(kernels::larger(below, above), four(0));
@@ -123,8 +123,6 @@ class CellGrid {
                       offset, gap * gap};
       kernels::transpose(rows);
       for (int i = 0; i < 4; ++i) kernels::store_four(rows[i], &out[k + i]);
-      after += 4;
-      wrapped_first = wrap(wrapped_first + 4, axis);
     }
     return count;
   }

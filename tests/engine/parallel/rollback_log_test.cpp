@@ -27,7 +27,7 @@ TEST(RollbackLogs, PutRecordsBackWhoseNumbersHaveWrappedAround) {
   EXPECT_EQ(gas.records[0].flight.r.x, 1);
 }
 
-// To log every record of a long phase would fill caches.
+// Records that the phase has made need not be put back.
 TEST(RollbackLogs, HoldOnlyRecordsFromBeforeThePhase) {
   Gas gas;
   gas.records.resize(2);
