@@ -65,7 +65,7 @@ struct Surroundings {
   const std::uint32_t* next;  ///< for each block: the next one of its cell, or none
   const CellView* cells;
   std::size_t cell_count;
-  const Motion* motions = nullptr;  ///< of all needles; if given, those of found ones are prefetched
+  const Motion* motions = nullptr;  ///< of all needles, if those of found ones are to be prefetched
 };
 
 /// Needles found in the cells, in columns with room for one block more than there are needles.

@@ -1,5 +1,5 @@
-// How far two cores are apart: the time in which a cache line that one has written reaches the other.
-// On a virtual machine it changes when the host moves the cores.
+// How far two cores are apart: the time in which a cache line that one has written reaches the
+// other. On a virtual machine it changes when the host moves the cores.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

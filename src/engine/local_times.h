@@ -42,7 +42,7 @@ class LocalTimes {
   }
   /// What has been published of the events before one event, as its thread saw it.
   struct Seen {
-    bool in_order;   ///< the event is later than all that its own thread has processed in the phase
+    bool in_order;  ///< the event is later than all that its own thread has processed in the phase
     // Of all events in the phase of other threads and, unless in order, of its own:
     TimeKey latest;  ///< the latest
     double fastest;  ///< the largest speed of a needle, just before its event [L/time]
