@@ -37,12 +37,14 @@ class CausalityLog {
   void clear() {
     for (Cell& cell : cells_) cell.clear();
   }
+  std::size_t cell_of(const Vec3d& r) const { return grid_.index_of(grid_.cell_of(r)); }
   /// Prefetches the memory that add() will access.
-  void prefetch(const Vec3d& r) const { needlework::prefetch(&cells_[cell_of(r)]); }
-  /// No event before `hindmost` is expected any more, so that earlier entries can be forgotten. If
-  /// one comes nevertheless, all needles of forgotten entries may have been met.
-  void add(const LoggedEvent& event, TimeKey hindmost) {
-    Cell& cell = cells_[cell_of(event.r)];
+  void prefetch(std::size_t cell) const { needlework::prefetch(&cells_[cell]); }
+  /// Adds an event to the cell of its position. No event before `hindmost` is expected any more, so
+  /// that earlier entries can be forgotten. If one comes nevertheless, all needles of forgotten
+  /// entries may have been met.
+  void add(const LoggedEvent& event, std::size_t its_cell, TimeKey hindmost) {
+    Cell& cell = cells_[its_cell];
     if (cell.events.size() == cell.events.capacity()) cell.forget_before(hindmost);
     cell.events.push_back(event);
     cell.latest = std::max(cell.latest, event.key);
@@ -99,7 +101,6 @@ class CausalityLog {
     }
   };
 
-  std::size_t cell_of(const Vec3d& r) const { return grid_.index_of(grid_.cell_of(r)); }
   static bool comes_after(const LoggedEvent& a, const LoggedEvent& b) {
     if (a.time != b.time) return a.time > b.time;
     // The order of two searches at the same time does not matter.

@@ -103,9 +103,10 @@ class CellBall {
  public:
   CellBall(const CellGrid& grid, double distance)
       : cells_(grid.counts()),
-        sides_(grid.sides()),
+        squared_sides_(grid.sides()),
         distance_(distance),
         reach_(cells_within(grid, distance)) {
+    for (double& side : squared_sides_) side *= side;
     for (std::int32_t z = -reach_[2]; z <= reach_[2]; ++z) {
       for (std::int32_t y = -reach_[1]; y <= reach_[1]; ++y) {
         std::int32_t x = -1;
@@ -118,14 +119,16 @@ class CellBall {
   /// Largest distance of a cell of the ball from the centre along each axis, in cells.
   const CellCounts& reach() const { return reach_; }
 
-  /// Whether `cell` is in the ball around `centre`.
-  bool holds(const CellCounts& centre, const CellCounts& cell) const {
-    CellCounts steps;
+  /// Whether a cell is closer than the distance to a position, which is given as
+  /// CellGrid::in_sides.
+  bool comes_near(const Vec3d& position, const CellCounts& cell) const {
+    double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int32_t ahead = std::abs(cell[axis] - centre[axis]);
-      steps[axis] = std::min(ahead, cells_[axis] - ahead);
+      const double ahead = std::abs((&position.x)[axis] - (cell[axis] + 0.5));
+      const double gap = std::max(0.0, std::min(ahead, cells_[axis] - ahead) - 0.5);
+      squares += gap * gap * squared_sides_[axis];
     }
-    return comes_near(steps);
+    return squares < distance_ * distance_;
   }
 
   /// Whether visit(first, end) returns true for any row of cells of the ball around `centre`; see
@@ -153,8 +156,8 @@ class CellBall {
   bool comes_near(const CellCounts& steps) const {
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double gap = std::max(0, std::abs(steps[axis]) - 1) * sides_[axis];
-      squares += gap * gap;
+      const double gap = std::max(0, std::abs(steps[axis]) - 1);
+      squares += gap * gap * squared_sides_[axis];
     }
     return squares < distance_ * distance_;
   }
@@ -163,7 +166,7 @@ class CellBall {
   }
 
   CellCounts cells_;
-  std::array<double, 3> sides_;
+  std::array<double, 3> squared_sides_;  ///< of cells [L^2]
   double distance_;
   CellCounts reach_;
   std::vector<Row> rows_;

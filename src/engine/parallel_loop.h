@@ -48,9 +48,10 @@ namespace needlework {
 /// How far threads look and how much work they share. Values other than the defaults are for
 /// tests.
 struct ParallelTuning {
-  /// Distance from its cell within which an event looks for earlier ones. If it is shorter, phases
-  /// are rolled back repeatedly; if it is longer, events wait without need. [L]
-  double sight = 1.5;
+  /// Distance from each of its needles within which an event looks for earlier ones of other
+  /// needles, wherever these may be in or near their cells. If it is shorter, phases are rolled
+  /// back repeatedly; if it is longer, events wait without need. [L]
+  double sight = 1.6;
   double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
                                           ///< shared
   bool by_cost = true;                    ///< whether one thread works alone where that is faster

@@ -87,7 +87,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       // Needles closer than this may meet before one of them is placed again; includes rounding.
       sight_of_log(1.01 * run.gas.longest + 2 * search.drift()),
       neighbours(cells_within(search.grid(), sight_of_log)),
-      reach(search.grid(), sight * run.gas.longest),
+      reach(search.grid(), sight * run.gas.longest + search.drift()),
       region_locks(cells, neighbours, threads),
       causality_log(search.grid(), run.gas.box, run.gas.longest),
       local_times(threads, sight_of_log, run.gas.longest),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "src/engine/backoff.h"
@@ -23,25 +24,37 @@ class RegionLocks {
 
   enum Part { owner, partner };
 
+  /// Part of the lock of another thread, as it was when it was in the way.
+  struct Conflict {
+    std::size_t thread;
+    int part;
+    std::uint64_t bits;
+  };
+
   /// Sets or enlarges one part of a thread's lock, and waits until no other lock conflicts. If a
-  /// thread of lower number is in conflict, releases the whole lock and returns false.
-  bool acquire(std::size_t thread, Part part, const CellBox& box) {
+  /// thread of lower number is in conflict, releases the whole lock and returns the conflict.
+  [[nodiscard]] std::optional<Conflict> acquire(std::size_t thread, Part part, const CellBox& box) {
     std::atomic<std::uint64_t>& mine = locks_[thread].part[part];
-    if (mine.load(std::memory_order_relaxed) == packed(box)) return true;
+    if (mine.load(std::memory_order_relaxed) == packed(box)) return {};
     mine.store(packed(box), std::memory_order_seq_cst);
     look_away();
     for (std::size_t other = 0; other < locks_.size(); ++other) {
       if (other == thread) continue;
       Backoff backoff(32);
-      while (in_the_way(other, box)) {
+      while (const auto conflict = conflict_with(other, box)) {
         if (other < thread) {
           release(thread);
-          return false;
+          return conflict;
         }
         backoff.wait();
       }
     }
-    return true;
+    return {};
+  }
+  /// Whether the other thread has not changed that part of its lock since.
+  bool lasts(const Conflict& conflict) const {
+    const auto& part = locks_[conflict.thread].part[conflict.part];
+    return part.load(std::memory_order_relaxed) == conflict.bits;
   }
   void release(std::size_t thread) {
     for (auto& part : locks_[thread].part) part.store(nothing, std::memory_order_release);
@@ -82,12 +95,14 @@ class RegionLocks {
     }
     return out;
   }
-  bool in_the_way(std::size_t other, const CellBox& box) const {
-    for (const auto& part : locks_[other].part) {
-      const std::uint64_t bits = part.load(std::memory_order_seq_cst);
-      if (bits != nothing && near(unpacked(bits), box, cells_, distance_)) return true;
+  std::optional<Conflict> conflict_with(std::size_t other, const CellBox& box) const {
+    for (const int part : {owner, partner}) {
+      const std::uint64_t bits = locks_[other].part[part].load(std::memory_order_seq_cst);
+      if (bits != nothing && near(unpacked(bits), box, cells_, distance_)) {
+        return Conflict{other, part, bits};
+      }
     }
-    return false;
+    return {};
   }
 
   CellCounts cells_, distance_;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -82,11 +83,19 @@ class alignas(128) SubdomainThread {
  private:
   using Block = CellCalendar::Block;
 
-  // An event that must wait until `for_block` has no earlier one.
+  static constexpr Block nobody = ~Block{0};
+
+  // What an event waits for: that a block has no earlier one, or else that another thread changes
+  // its lock.
+  struct Obstacle {
+    Block block = nobody;
+    RegionLocks::Conflict lock{};
+  };
   struct Deferred {
     Needle needle;
-    Block block, for_block;
+    Block block;
     TimeKey key;
+    Obstacle obstacle;
   };
 
   // What came of an attempt: the event has been processed; it has been deferred or replaced, and
@@ -103,20 +112,25 @@ class alignas(128) SubdomainThread {
     phase_.calendar.prefetch(i);
     processor_.prefetch(i);
   }
-  Block earlier_around(Block centre, Block block, TimeKey key) const;
+  std::optional<Obstacle> earlier_around(const Vec3d& r, Block centre, Block block,
+                                         TimeKey key) const;
   void sort_reports();
   static double speed_of(const Record& record) {
     const Vec3d& v = record.flight.v;
     return std::sqrt(dot(v, v));
   }
-  LoggedEvent take(Needle i, const Event& event, TimeKey key) const;
+  // A needle of the event that is attempted, and the cell of the log to which it belongs.
+  struct Taken {
+    LoggedEvent event;
+    std::size_t cell = 0;
+  };
+  Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   bool may_have_met(const LoggedEvent& mine, double speed, const LocalTimes::Seen& seen,
                     bool alone) const;
 
   // Largest number of waiting events while the thread looks for one that can proceed.
   static constexpr std::size_t most_deferred = 12;
-  static constexpr Block nobody = ~Block{0};
 
   Phase<S>& phase_;
   const M& model_;
@@ -211,69 +225,88 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   // Else it has just left, and mail is on its way.
   if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::blocked;
   const bool alone = phase_.inner[block] && deferred_.empty();
-  const auto give_up = [&](Block for_block) {
+  const auto give_up = [&] {
     phase_.region_locks.release(subdomain_);
-    if (for_block == nobody) return Outcome::other;
-    ++tally_.counters.held;
-    deferred_.push_back({i, block, for_block, key});
-    phase_.calendar.follow(i, subdomain_, CellCalendar::no_event);
     return Outcome::other;
   };
+  const auto defer = [&](const Obstacle& obstacle) {
+    ++tally_.counters.held;
+    deferred_.push_back({i, block, key, obstacle});
+    phase_.calendar.follow(i, subdomain_, CellCalendar::no_event);
+    return give_up();
+  };
+  const auto roll_back = [&] {
+    phase_.must_roll_back = true;
+    return give_up();
+  };
   const auto lock = [&](RegionLocks::Part part, const CellBox& box) {
-    return alone || phase_.region_locks.acquire(subdomain_, part, box);
+    return alone ? std::nullopt : phase_.region_locks.acquire(subdomain_, part, box);
+  };
+  // Waits for the lock unless another event can be processed meanwhile.
+  const auto wait_for = [&](const RegionLocks::Conflict& conflict) {
+    for (const Deferred& deferred : deferred_) {
+      if (deferred.obstacle.block == nobody) return Outcome::blocked;
+    }
+    return defer({nobody, conflict});
   };
   if (!alone) {
     ++tally_.counters.border;
-    const Block earlier = earlier_around(block, block, key);
-    if (earlier != nobody) return give_up(earlier);
-    if (!lock(RegionLocks::owner, phase_.cell_of(block))) return Outcome::blocked;
+    if (const auto conflict = lock(RegionLocks::owner, phase_.cell_of(block))) {
+      return wait_for(*conflict);
+    }
     // Another thread may have changed this event, or others of the subdomain near it, just before
     // the lock.
     if (phase_.calendar.key_of(i) != key || phase_.calendar.block_of(i) != block ||
         phase_.mail.has_some(subdomain_)) {
-      return give_up(nobody);
+      return give_up();
     }
   }
   assert(phase_.calendar.key_of(i) == key);
   const Event event = phase_.calendar.of(i);
   if (event.has_partner()) prefetch(event.partner);
-  bool stale = false, near_partner = false;
+  const Taken owner = take(event.owner, event, key);
+  if (!alone) {
+    if (const auto earlier = earlier_around(owner.event.r, block, block, key))
+      return defer(*earlier);
+  }
+  Taken partner;
+  bool changes_partner = false;
   if (event.has_partner()) {
     // If the partner is no longer near, it has collided since the prediction.
     const Block other = phase_.calendar.block_of(event.partner);
     const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
-    near_partner = near(here, there, phase_.cells, phase_.neighbours);
-    stale = !near_partner;
-    if (near_partner) {
-      if (!alone && other != block) {
-        const Block earlier = earlier_around(other, block, key);
-        if (earlier != nobody) return give_up(earlier);
-      }
-      if (!lock(RegionLocks::partner, there)) return Outcome::blocked;
-      if (phase_.calendar.block_of(event.partner) != other) return give_up(nobody);
-      stale = processor_.is_stale(event);
-      if (!stale && phase_.calendar.of(event.partner) < event) {
-        // The event would replace one that comes before it, by less than keys can tell.
-        phase_.must_roll_back = true;
-        return give_up(nobody);
+    if (near(here, there, phase_.cells, phase_.neighbours)) {
+      if (const auto conflict = lock(RegionLocks::partner, there)) return wait_for(*conflict);
+      if (phase_.calendar.block_of(event.partner) != other) return give_up();
+      changes_partner = !processor_.is_stale(event);
+      if (!changes_partner && phase_.run.gas.records[event.partner].time > event.time) {
+        // The contact might have taken place, had it been processed in its turn.
+        return roll_back();
       }
     }
+    if (changes_partner) {
+      partner = take(event.partner, event, key);
+      if (!alone) {
+        if (const auto earlier = earlier_around(partner.event.r, other, block, key)) {
+          return defer(*earlier);
+        }
+      }
+      // The event would replace one that comes before it, by less than keys can tell.
+      if (phase_.calendar.of(event.partner) < event) return roll_back();
+    }
   }
-  const bool changes_partner = event.has_partner() && !stale;
-  const LoggedEvent owner = take(event.owner, event, key);
-  phase_.causality_log.prefetch(owner.r);
-  if (!lock(RegionLocks::owner, cells_of(event.owner, owner.r))) return Outcome::blocked;
-  LoggedEvent partner;
+  const bool stale = event.has_partner() && !changes_partner;
+  if (const auto conflict = lock(RegionLocks::owner, cells_of(event.owner, owner.event.r))) {
+    return wait_for(*conflict);
+  }
   if (changes_partner) {
-    partner = take(event.partner, event, key);
-    phase_.causality_log.prefetch(partner.r);
-    if (!lock(RegionLocks::partner, cells_of(event.partner, partner.r))) return Outcome::blocked;
-  } else if (stale && near_partner && phase_.run.gas.records[event.partner].time > event.time) {
-    // The contact might have taken place, had it been processed in its turn.
-    phase_.must_roll_back = true;
-    return give_up(nobody);
+    if (const auto conflict =
+            lock(RegionLocks::partner, cells_of(event.partner, partner.event.r))) {
+      return wait_for(*conflict);
+    }
   }
-  const double fastest = changes_partner ? std::max(owner.speed, partner.speed) : owner.speed;
+  double fastest = owner.event.speed;
+  if (changes_partner) fastest = std::max(fastest, partner.event.speed);
   const LocalTimes::Seen seen = phase_.local_times.publish_event(subdomain_, key, fastest);
   changes_.needles.clear();
   changes_.blocks.clear();
@@ -283,10 +316,10 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   processor_.process(event, stale);
   latest_ = std::max(latest_, event.time);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
-  const auto record = [&](Needle i, const LoggedEvent& taken) {
+  const auto record = [&](Needle i, const Taken& taken) {
     const double speed = speed_of(phase_.run.gas.records[i]);
-    if (may_have_met(taken, speed, seen, alone)) phase_.must_roll_back = true;
-    phase_.causality_log.add(taken, hindmost_);
+    if (may_have_met(taken.event, speed, seen, alone)) phase_.must_roll_back = true;
+    phase_.causality_log.add(taken.event, taken.cell, hindmost_);
   };
   record(event.owner, owner);
   if (changes_partner) record(event.partner, partner);
@@ -302,11 +335,15 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::release_deferred() {
   std::erase_if(deferred_, [&](const Deferred& deferred) {
     look_away();
-    assert(phase_.calendar.is_shown(deferred.for_block));
-    const TimeKey published = phase_.calendar.published_key(deferred.for_block);
-    if (published < deferred.key ||
-        (published == deferred.key && deferred.for_block < deferred.block)) {
-      return false;
+    const Block other = deferred.obstacle.block;
+    if (other == nobody) {
+      if (phase_.region_locks.lasts(deferred.obstacle.lock)) return false;
+    } else {
+      assert(phase_.calendar.is_shown(other));
+      const TimeKey published = phase_.calendar.published_key(other);
+      if (published < deferred.key || (published == deferred.key && other < deferred.block)) {
+        return false;
+      }
     }
     phase_.calendar.follow(deferred.needle, subdomain_, deferred.key);
     return true;
@@ -355,26 +392,31 @@ void SubdomainThread<S, M>::follow(Needle i) {
                          is_here ? phase_.calendar.key_of(i) : CellCalendar::no_event);
 }
 
-// A block within reach of `centre` that has an event before that of `block`, or nobody. Among the
-// subdomain's own blocks only deferred ones can have one.
+// A block within reach of r, which is in the block `centre`, that has an event before that of
+// `block`; what that event waits for, if no block can tell when it has been processed; or nothing.
+// Among the subdomain's own blocks only deferred ones can have one.
 template <Search S, Model M>
-auto SubdomainThread<S, M>::earlier_around(Block centre, Block block, TimeKey key) const -> Block {
+auto SubdomainThread<S, M>::earlier_around(const Vec3d& r, Block centre, Block block,
+                                           TimeKey key) const -> std::optional<Obstacle> {
   look_away();
+  const Vec3d position = phase_.search.grid().in_sides(r);
   for (const Deferred& deferred : deferred_) {
     const bool before = deferred.key < key || (deferred.key == key && deferred.block < block);
-    if (before && phase_.reach.holds(phase_.places[centre], phase_.places[deferred.block])) {
+    if (before && phase_.reach.comes_near(position, phase_.places[deferred.block])) {
       // Only blocks that are shown tell when the event has been processed.
-      return phase_.calendar.is_shown(deferred.block) ? deferred.block : deferred.for_block;
+      return phase_.calendar.is_shown(deferred.block) ? Obstacle{deferred.block}
+                                                      : deferred.obstacle;
     }
   }
-  Block found = nobody;
+  std::optional<Obstacle> found;
   if (key < next_of_others_) return found;
   const auto has_earlier = [&](Block first, Block end) {
     for (Block b = first; b < end; ++b) {
       assert(phase_.calendar.is_shown(b) || phase_.calendar.subdomain_of(b) == subdomain_);
       const TimeKey published = phase_.calendar.published_key(b);
       if (published > key || (published == key && b >= block)) continue;
-      found = b;
+      if (!phase_.reach.comes_near(position, phase_.places[b])) continue;
+      found = Obstacle{b};
       return true;
     }
     return false;
@@ -390,12 +432,13 @@ auto SubdomainThread<S, M>::earlier_around(Block centre, Block block, TimeKey ke
 }
 
 template <Search S, Model M>
-auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> LoggedEvent {
+auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Taken {
   const Record& record = phase_.run.gas.records[i];
   const double elapsed = phase_.run.gas.clock.difference(event.time, record.time);
-  return {
-      key,       model_.centre(record, elapsed), speed_of(record), event.lower_id, event.higher_id,
-      event.time};
+  const Vec3d r = model_.centre(record, elapsed);
+  const std::size_t cell = phase_.causality_log.cell_of(r);
+  phase_.causality_log.prefetch(cell);
+  return {{key, r, speed_of(record), event.lower_id, event.higher_id, event.time}, cell};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

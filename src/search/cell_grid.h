@@ -55,6 +55,15 @@ class CellGrid {
   Cell cell_of(const Vec3d& r) const {
     return {floor(r.x * reciprocal_[0]), floor(r.y * reciprocal_[1]), floor(r.z * reciprocal_[2])};
   }
+  /// A centre wrapped into the box, in sides of cells. [side]
+  Vec3d in_sides(const Vec3d& r) const {
+    const Vec3d at{r.x * reciprocal_[0], r.y * reciprocal_[1], r.z * reciprocal_[2]};
+    const auto wrapped = [&](double x, int axis) {
+      const std::int32_t cell = floor(x);
+      return x - cell + wrap(cell, axis);
+    };
+    return {wrapped(at.x, 0), wrapped(at.y, 1), wrapped(at.z, 2)};
+  }
   Vec3d corner(const Cell& cell) const {
     return {cell[0] * side_[0], cell[1] * side_[1], cell[2] * side_[2]};
   }

@@ -21,6 +21,6 @@ std::unique_ptr<Loop> make_parallel_loop(Run& run, const char* search, int threa
 }
 
 /// In which even few collisions make a phase worth sharing.
-inline constexpr ParallelTuning short_phases = {.sight = 1.5, .least = 1, .by_cost = false};
+inline constexpr ParallelTuning short_phases = {.least = 1, .by_cost = false};
 
 }  // namespace needlework::test

@@ -16,6 +16,11 @@ LoggedEvent at(double time, const Vec3d& r, double speed, std::uint32_t lower = 
   return {key_at(time), r, speed, Id{lower}, Id{higher}, {0, time}};
 }
 
+// Adds an event to the log, from now on without any before `hindmost`.
+void add(CausalityLog& log, const LoggedEvent& event, TimeKey hindmost = 0) {
+  log.add(event, log.cell_of(event.r), hindmost);
+}
+
 const std::array<double, 3> box{8, 9, 10};
 const Vec3d here{4, 4, 4};
 constexpr double far = 3;
@@ -30,7 +35,7 @@ bool may_have_met(const LoggedEvent& mine, double speed, const LoggedEvent& othe
     LoggedEvent a = mine, b = other;
     a.r = a.r + move;
     b.r = b.r + move;
-    log.add(b, 0);
+    add(log, b);
     const bool met = log.may_have_met(a, speed, far);
     EXPECT_EQ(met, out.value_or(met)) << "moved by " << move.x << ' ' << move.y << ' ' << move.z;
     out = met;
@@ -66,7 +71,7 @@ TEST(CausalityLog, FindsThoseThatMayHaveMet) {
 
 TEST(CausalityLog, FindsAnImage) {
   CausalityLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(2, {0.1, 8.9, 0.1}, 0), 0);
+  add(log, at(2, {0.1, 8.9, 0.1}, 0));
   EXPECT_TRUE(log.may_have_met(at(1, {7.6, 0.4, 9.7}, 0), 0, far));   // 0.5, 0.5, 0.4
   EXPECT_FALSE(log.may_have_met(at(1, {7.4, 0.4, 9.5}, 0), 0, far));  // 0.7, 0.5, 0.6
   EXPECT_TRUE(log.may_have_met(at(1, {8.6, -0.6, 0.4}, 0), 0, far));  // not wrapped
@@ -90,14 +95,14 @@ TEST(CausalityLog, DistinguishesTimesOfOneKey) {
 
 TEST(CausalityLog, LooksAtAllLaterEvents) {
   CausalityLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{0.1, 0, 0}, 0), 0);
-  log.add(at(0.5, here + Vec3d{0.1, 0, 0}, 0), 0);  // does not hide the one before it
+  add(log, at(1.25, here + Vec3d{0.1, 0, 0}, 0));
+  add(log, at(0.5, here + Vec3d{0.1, 0, 0}, 0));  // does not hide the one before it
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
   log.clear();
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(1, here, 0, 5, 5), 0);
+  add(log, at(1, here, 0, 5, 5));
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 0, far));
-  log.add(at(7, here + Vec3d{1, 1, 1}, 0.5), 0);
+  add(log, at(7, here + Vec3d{1, 1, 1}, 0.5));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
 }
 
@@ -106,7 +111,7 @@ TEST(CausalityLog, LooksAtAllLaterEvents) {
 TEST(CausalityLog, ForgetsWhatIsBeforeAllEventsToCome) {
   CausalityLog log(CellGrid(box, 0.7, 1000), box);
   const Vec3d apart{far - just, 0, 0};  // farther than needles come in these times
-  for (int n = 0; n < 1000; ++n) log.add(at(1 + n * 0.01, here, 0, 1, 2), key_at(1 + n * 0.01));
+  for (int n = 0; n < 1000; ++n) add(log, at(1 + n * 0.01, here, 0, 1, 2), key_at(1 + n * 0.01));
   EXPECT_LT(log.entries(), 10u);
   const double last = 1 + 999 * 0.01;
   EXPECT_FALSE(log.may_have_met(at(last - 1e-3, here + apart, 0), 0, far));
@@ -138,7 +143,7 @@ TEST(CausalityLog, OrdersEventsAtOnceByTheirNeedles) {
 // `farthest` is a bound that the caller knows; a larger one gives the same result.
 TEST(CausalityLog, SearchesToTheGivenDistance) {
   CausalityLog log(CellGrid(box, 0.7, 1000), box);
-  log.add(at(1.25, here + Vec3d{reach - just, 0, 0}, 1), 0);
+  add(log, at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, 100));
   EXPECT_FALSE(log.may_have_met(at(1, here, 0), 2, 0.1));

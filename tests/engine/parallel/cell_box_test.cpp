@@ -149,10 +149,44 @@ TEST(CellBall, HoldsTheCellsThatComeNearer) {
           }
         }
         EXPECT_EQ(seen.contains(cell), squares < distance * distance) << cell << " of " << distance;
-        EXPECT_EQ(ball.holds(centre, place), seen.contains(cell));
       }
     }
   }
+}
+
+// A cell comes near if any point of it does; of the nearest point each coordinate is as near as may
+// be.
+TEST(CellBall, KnowsWhichCellsComeNearAPosition) {
+  test::Random random(4);
+  int near = 0, tries = 0;
+  for (const CellGrid& of :
+       {grid, CellGrid({9, 9, 9}, 0.4, 100000), CellGrid({2.1, 2.1, 20}, 1, 9)}) {
+    const CellCounts cells = of.counts();
+    std::array<double, 3> box;
+    for (int axis = 0; axis < 3; ++axis) box[axis] = of.sides()[axis] * cells[axis];
+    const CellBall ball(of, 1.3);
+    for (int n = 0; n < 3000; ++n) {
+      Vec3d r;
+      CellCounts cell;
+      double squares = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        (&r.x)[axis] = (3 * random.uniform() - 1) * box[axis];  // not always in the box
+        cell[axis] = random.below(cells[axis]);
+        double gap = std::numeric_limits<double>::infinity();
+        for (int image = -2; image <= 2; ++image) {
+          const double low = cell[axis] * of.sides()[axis] + image * box[axis];
+          const double high = low + of.sides()[axis];
+          gap = std::min(gap, std::max({0.0, low - (&r.x)[axis], (&r.x)[axis] - high}));
+        }
+        squares += gap * gap;
+      }
+      EXPECT_EQ(ball.comes_near(of.in_sides(r), cell), squares < 1.3 * 1.3);
+      near += squares < 1.3 * 1.3;
+      ++tries;
+    }
+  }
+  EXPECT_GT(near, tries / 50);
+  EXPECT_LT(near, tries / 2);
 }
 
 }  // namespace
