@@ -160,7 +160,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
            std::move(replaced)),
       cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
       phase_(run, search_, cell_calendar_, subdomains_for(threads, tuning), tuning.sight),
-      plan_(run.gas.clock, tuning.least),
+      plan_(run.gas.clock, PhasePlan::usual_share * phase_.threads, tuning.least),
       by_cost_(tuning.by_cost) {
   const int team = team_of(threads);
   if (team != threads) {

@@ -3,6 +3,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -94,9 +95,13 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
       spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
-  const CellCounts moves = cells_within(search.grid(), search.drift() + search.radius());
+  // An event writes to the cells of its needles, which may be that far from the owner's. It reads
+  // no farther than `neighbours` from these.
+  const CellCounts written = cells_within(
+      search.grid(),
+      std::max(sight_of_log, 1.01 * run.gas.longest + search.drift() + search.radius()));
   for (int axis = 0; axis < 3; ++axis) {
-    apart[axis] = 3 * neighbours[axis] + 2 * moves[axis];
+    apart[axis] = 2 * written[axis] + neighbours[axis];
     if (cells[axis] >= RegionLocks::most_cells) {
       throw InputError("engine.threads = " + std::to_string(threads) +
                        ": expected 1 for a box of " + std::to_string(cells[axis]) +

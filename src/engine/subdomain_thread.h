@@ -127,7 +127,7 @@ class alignas(128) SubdomainThread {
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
   bool may_have_met(const LoggedEvent& mine, double speed, const LocalTimes::Seen& seen,
-                    bool alone) const;
+                    bool inner) const;
 
   // Largest number of waiting events while the thread looks for one that can proceed.
   static constexpr std::size_t most_deferred = 12;
@@ -224,7 +224,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const Block block = phase_.calendar.block_of(i);
   // Else it has just left, and mail is on its way.
   if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::blocked;
-  const bool alone = phase_.inner[block] && deferred_.empty();
+  const bool inner = phase_.inner[block];
   const auto give_up = [&] {
     phase_.region_locks.release(subdomain_);
     return Outcome::other;
@@ -240,7 +240,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
     return give_up();
   };
   const auto lock = [&](RegionLocks::Part part, const CellBox& box) {
-    return alone ? std::nullopt : phase_.region_locks.acquire(subdomain_, part, box);
+    return inner ? std::nullopt : phase_.region_locks.acquire(subdomain_, part, box);
   };
   // Waits for the lock unless another event can be processed meanwhile.
   const auto wait_for = [&](const RegionLocks::Conflict& conflict) {
@@ -249,7 +249,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
     }
     return defer({nobody, conflict});
   };
-  if (!alone) {
+  if (!inner) {
     ++tally_.counters.border;
     if (const auto conflict = lock(RegionLocks::owner, phase_.cell_of(block))) {
       return wait_for(*conflict);
@@ -265,7 +265,8 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const Event event = phase_.calendar.of(i);
   if (event.has_partner()) prefetch(event.partner);
   const Taken owner = take(event.owner, event, key);
-  if (!alone) {
+  const bool may_wait = !inner || !deferred_.empty();
+  if (may_wait) {
     if (const auto earlier = earlier_around(owner.event.r, block, block, key))
       return defer(*earlier);
   }
@@ -286,7 +287,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
     }
     if (changes_partner) {
       partner = take(event.partner, event, key);
-      if (!alone) {
+      if (may_wait) {
         if (const auto earlier = earlier_around(partner.event.r, other, block, key)) {
           return defer(*earlier);
         }
@@ -318,7 +319,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
   const auto record = [&](Needle i, const Taken& taken) {
     const double speed = speed_of(phase_.run.gas.records[i]);
-    if (may_have_met(taken.event, speed, seen, alone)) phase_.must_roll_back = true;
+    if (may_have_met(taken.event, speed, seen, inner)) phase_.must_roll_back = true;
     phase_.causality_log.add(taken.event, taken.cell, hindmost_);
   };
   record(event.owner, owner);
@@ -326,7 +327,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   // No event reads a record from later than its own time, unless the phase is rolled back.
   assert(!processor_.has_read_ahead() || phase_.must_roll_back);
   publish_changes();
-  if (!alone) phase_.region_locks.release(subdomain_);
+  if (!inner) phase_.region_locks.release(subdomain_);
   return Outcome::done;
 }
 
@@ -450,15 +451,15 @@ CellBox SubdomainThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
 }
 
 // Whether a needle that has had event `mine`, and flies with `speed` since, may have met a needle
-// whose later event has already been processed, before that later event. `alone`: no other thread
+// whose later event has already been processed, before that later event. `inner`: no other thread
 // works near.
 template <Search S, Model M>
 bool SubdomainThread<S, M>::may_have_met(const LoggedEvent& mine, double speed,
-                                         const LocalTimes::Seen& seen, bool alone) const {
+                                         const LocalTimes::Seen& seen, bool inner) const {
   const double farthest = phase_.local_times.reach_of_later(seen, mine.key, speed);
   if (farthest == 0) return false;
   if (phase_.local_times.is_out_of_sight(farthest)) return true;
-  return !(alone && seen.in_order) && phase_.causality_log.may_have_met(mine, speed, farthest);
+  return !(inner && seen.in_order) && phase_.causality_log.may_have_met(mine, speed, farthest);
 }
 
 }  // namespace needlework

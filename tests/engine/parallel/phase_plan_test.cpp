@@ -31,7 +31,7 @@ class PhasePlanTest : public testing::Test {
     EXPECT_DOUBLE_EQ(clock.since_start(stretch.end), until);
   }
 
-  PhasePlan plan{clock, 64};
+  PhasePlan plan{clock, 0x1p15, 64};
 };
 
 TEST_F(PhasePlanTest, HasPhasesOfSoManyCollisions) {
