@@ -27,7 +27,7 @@ struct Counters {
   std::uint64_t redone = 0;   ///< phases that one thread had to repeat
   std::uint64_t alone = 0;    ///< collisions that one thread processed while the others rested
   std::uint64_t border = 0;   ///< attempts of events that might read what another thread writes
-  std::uint64_t held = 0;     ///< times that an event had to wait for others near it
+  std::uint64_t held = 0;     ///< times that an event had to wait for others near it, or for a lock
   std::uint64_t waited = 0;   ///< times that a thread had no event that could proceed
   std::uint64_t foreign = 0;  ///< messages to other threads about changed events
   std::uint64_t turns = 0;    ///< sequences of events that a thread processed until it was blocked

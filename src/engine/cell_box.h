@@ -98,7 +98,7 @@ inline CellBox cells_around(const CellGrid& grid, const Vec3d& r, double distanc
   return out;
 }
 
-/// All cells closer than some distance to a given cell: approximately a ball.
+/// All cells closer than some distance to a given cell, approximately a ball, or to a position.
 class CellBall {
  public:
   CellBall(const CellGrid& grid, double distance)

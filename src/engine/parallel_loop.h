@@ -48,9 +48,9 @@ namespace needlework {
 /// How far threads look and how much work they share. Values other than the defaults are for
 /// tests.
 struct ParallelTuning {
-  /// Distance from each of its needles within which an event looks for earlier ones of other
-  /// needles, wherever these may be in or near their cells. If it is shorter, phases are rolled
-  /// back repeatedly; if it is longer, events wait without need. [L]
+  /// Distance from its needles within which an event looks for earlier ones, besides the distance
+  /// that needles may be outside of their cells. If it is shorter, phases are rolled back
+  /// repeatedly; if it is longer, events wait without need. [L]
   double sight = 1.6;
   double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
                                           ///< shared

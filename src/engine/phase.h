@@ -3,8 +3,8 @@
 
 #include <omp.h>
 
-#include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -29,8 +29,8 @@ template <Search S>
 struct Phase {
   using Block = CellCalendar::Block;
 
-  /// `sight`: distance from its cell within which an event looks for earlier ones, in lengths of
-  /// the longest needles.
+  /// `sight`: distance from its needles within which an event looks for earlier ones, in lengths
+  /// of the longest needles.
   Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
 
   /// Divides the box into subdomains by the present positions of the needles.
@@ -95,13 +95,11 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
       spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
-  // An event writes to the cells of its needles, which may be that far from the owner's. It reads
-  // no farther than `neighbours` from these.
-  const CellCounts written = cells_within(
-      search.grid(),
-      std::max(sight_of_log, 1.01 * run.gas.longest + search.drift() + search.radius()));
+  // An event writes no farther than `neighbours` from the cell of its owner, as a partner and the
+  // places of both may be, and reads no farther than that from where it writes.
+  assert(search.radius() <= search.drift());
   for (int axis = 0; axis < 3; ++axis) {
-    apart[axis] = 2 * written[axis] + neighbours[axis];
+    apart[axis] = 3 * neighbours[axis];
     if (cells[axis] >= RegionLocks::most_cells) {
       throw InputError("engine.threads = " + std::to_string(threads) +
                        ": expected 1 for a box of " + std::to_string(cells[axis]) +
@@ -119,7 +117,7 @@ template <Search S>
 void Phase<S>::divide() {
   const std::vector<std::uint32_t> subdomain =
       divide_box(cells, run.gas.box, calendar.needles_in_blocks(), threads);
-  // An event looks for earlier ones around its own cell and around that of its partner.
+  // An event looks for earlier ones from its own cell, and from that of its partner.
   CellCounts far = reach.reach();
   for (int axis = 0; axis < 3; ++axis) far[axis] += neighbours[axis];
   std::vector<std::uint8_t> shown = inner_cells(cells, subdomain, far);

@@ -27,7 +27,7 @@ class RegionLocks {
   /// Part of the lock of another thread, as it was when it was in the way.
   struct Conflict {
     std::size_t thread;
-    int part;
+    Part part;
     std::uint64_t bits;
   };
 
@@ -51,7 +51,8 @@ class RegionLocks {
     }
     return {};
   }
-  /// Whether the other thread has not changed that part of its lock since.
+  /// Whether that part of the other thread's lock is as it was. It may have been released and set
+  /// to the same cells again.
   bool lasts(const Conflict& conflict) const {
     const auto& part = locks_[conflict.thread].part[conflict.part];
     return part.load(std::memory_order_relaxed) == conflict.bits;
@@ -96,7 +97,7 @@ class RegionLocks {
     return out;
   }
   std::optional<Conflict> conflict_with(std::size_t other, const CellBox& box) const {
-    for (const int part : {owner, partner}) {
+    for (const Part part : {owner, partner}) {
       const std::uint64_t bits = locks_[other].part[part].load(std::memory_order_seq_cst);
       if (bits != nothing && near(unpacked(bits), box, cells_, distance_)) {
         return Conflict{other, part, bits};

@@ -85,11 +85,12 @@ class alignas(128) SubdomainThread {
 
   static constexpr Block nobody = ~Block{0};
 
-  // What an event waits for: that a block has no earlier one, or else that another thread changes
-  // its lock.
+  // What an event waits for: that a block has no earlier one, or that another thread changes its
+  // lock.
   struct Obstacle {
     Block block = nobody;
     RegionLocks::Conflict lock{};
+    bool is_lock() const { return block == nobody; }
   };
   struct Deferred {
     Needle needle;
@@ -126,6 +127,9 @@ class alignas(128) SubdomainThread {
   };
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
+  bool is_near(Block a, Block b) const {
+    return near(phase_.cell_of(a), phase_.cell_of(b), phase_.cells, phase_.neighbours);
+  }
   bool may_have_met(const LoggedEvent& mine, double speed, const LocalTimes::Seen& seen,
                     bool inner) const;
 
@@ -245,7 +249,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   // Waits for the lock unless another event can be processed meanwhile.
   const auto wait_for = [&](const RegionLocks::Conflict& conflict) {
     for (const Deferred& deferred : deferred_) {
-      if (deferred.obstacle.block == nobody) return Outcome::blocked;
+      if (deferred.obstacle.is_lock()) return Outcome::blocked;
     }
     return defer({nobody, conflict});
   };
@@ -267,47 +271,46 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const Taken owner = take(event.owner, event, key);
   const bool may_wait = !inner || !deferred_.empty();
   if (may_wait) {
-    if (const auto earlier = earlier_around(owner.event.r, block, block, key))
+    if (const auto earlier = earlier_around(owner.event.r, block, block, key)) {
       return defer(*earlier);
+    }
   }
-  Taken partner;
-  bool changes_partner = false;
+  std::optional<Taken> partner;  // unless the event changes the owner alone
   if (event.has_partner()) {
     // If the partner is no longer near, it has collided since the prediction.
     const Block other = phase_.calendar.block_of(event.partner);
-    const CellBox here = phase_.cell_of(block), there = phase_.cell_of(other);
-    if (near(here, there, phase_.cells, phase_.neighbours)) {
-      if (const auto conflict = lock(RegionLocks::partner, there)) return wait_for(*conflict);
+    if (is_near(block, other)) {
+      if (const auto conflict = lock(RegionLocks::partner, phase_.cell_of(other))) {
+        return wait_for(*conflict);
+      }
       if (phase_.calendar.block_of(event.partner) != other) return give_up();
-      changes_partner = !processor_.is_stale(event);
-      if (!changes_partner && phase_.run.gas.records[event.partner].time > event.time) {
+      if (!processor_.is_stale(event)) {
+        partner = take(event.partner, event, key);
+      } else if (phase_.run.gas.records[event.partner].time > event.time) {
         // The contact might have taken place, had it been processed in its turn.
         return roll_back();
       }
     }
-    if (changes_partner) {
-      partner = take(event.partner, event, key);
-      if (may_wait) {
-        if (const auto earlier = earlier_around(partner.event.r, other, block, key)) {
-          return defer(*earlier);
-        }
+    if (partner && may_wait) {
+      if (const auto earlier = earlier_around(partner->event.r, other, block, key)) {
+        return defer(*earlier);
       }
-      // The event would replace one that comes before it, by less than keys can tell.
-      if (phase_.calendar.of(event.partner) < event) return roll_back();
     }
+    // The event would replace one that comes before it, by less than keys can tell.
+    if (partner && phase_.calendar.of(event.partner) < event) return roll_back();
   }
-  const bool stale = event.has_partner() && !changes_partner;
-  if (const auto conflict = lock(RegionLocks::owner, cells_of(event.owner, owner.event.r))) {
-    return wait_for(*conflict);
-  }
-  if (changes_partner) {
-    if (const auto conflict =
-            lock(RegionLocks::partner, cells_of(event.partner, partner.event.r))) {
+  const bool stale = event.has_partner() && !partner;
+  if (!inner) {
+    if (const auto conflict = lock(RegionLocks::owner, cells_of(event.owner, owner.event.r))) {
       return wait_for(*conflict);
+    }
+    if (partner) {
+      const CellBox there = cells_of(event.partner, partner->event.r);
+      if (const auto conflict = lock(RegionLocks::partner, there)) return wait_for(*conflict);
     }
   }
   double fastest = owner.event.speed;
-  if (changes_partner) fastest = std::max(fastest, partner.event.speed);
+  if (partner) fastest = std::max(fastest, partner->event.speed);
   const LocalTimes::Seen seen = phase_.local_times.publish_event(subdomain_, key, fastest);
   changes_.needles.clear();
   changes_.blocks.clear();
@@ -318,12 +321,14 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   latest_ = std::max(latest_, event.time);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
   const auto record = [&](Needle i, const Taken& taken) {
+    assert(is_near(block, phase_.calendar.block_of(i)) &&
+           is_near(block, static_cast<Block>(taken.cell)));
     const double speed = speed_of(phase_.run.gas.records[i]);
     if (may_have_met(taken.event, speed, seen, inner)) phase_.must_roll_back = true;
     phase_.causality_log.add(taken.event, taken.cell, hindmost_);
   };
   record(event.owner, owner);
-  if (changes_partner) record(event.partner, partner);
+  if (partner) record(event.partner, *partner);
   // No event reads a record from later than its own time, unless the phase is rolled back.
   assert(!processor_.has_read_ahead() || phase_.must_roll_back);
   publish_changes();
@@ -336,10 +341,10 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::release_deferred() {
   std::erase_if(deferred_, [&](const Deferred& deferred) {
     look_away();
-    const Block other = deferred.obstacle.block;
-    if (other == nobody) {
+    if (deferred.obstacle.is_lock()) {
       if (phase_.region_locks.lasts(deferred.obstacle.lock)) return false;
     } else {
+      const Block other = deferred.obstacle.block;
       assert(phase_.calendar.is_shown(other));
       const TimeKey published = phase_.calendar.published_key(other);
       if (published < deferred.key || (published == deferred.key && other < deferred.block)) {
@@ -393,7 +398,7 @@ void SubdomainThread<S, M>::follow(Needle i) {
                          is_here ? phase_.calendar.key_of(i) : CellCalendar::no_event);
 }
 
-// A block within reach of r, which is in the block `centre`, that has an event before that of
+// A block within reach of r, of a needle in the block `centre`, that has an event before that of
 // `block`; what that event waits for, if no block can tell when it has been processed; or nothing.
 // Among the subdomain's own blocks only deferred ones can have one.
 template <Search S, Model M>
