@@ -68,9 +68,9 @@ class EventProcessor {
   /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
-  RollbackLog* rollback_log = nullptr;        ///< if not null, receives what the processor replaces
-  std::vector<Collision>* reports = nullptr;  ///< if not null, receives collisions in place of the
-                                              ///< callback
+  RollbackLog* rollback_log = nullptr;  ///< if not null, receives what the processor replaces
+  CollisionReports* reports = nullptr;  ///< if not null, receives collisions in place of the
+                                        ///< callbacks
 #ifndef NDEBUG
   /// Whether a prediction has read a record that another thread has made at a later time than now,
   /// of a needle that was then near enough to the other one to touch it.
@@ -194,7 +194,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   const double apart = model_.time_apart(model_.pair(a, first, b, second, shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
-  if (reports || run_.callback) run_.report(report, a, b, reports);
+  if (run_.has_callback()) run_.report(report, a, b, reports);
 }
 
 template <Search S, Model M>

@@ -314,9 +314,12 @@ void ParallelLoop<S, M>::roll_back() {
   ordered_ = true;
 }
 
-// Reports the collisions of the phase in order of time.
+// Reports the collisions of the phase, whole ones in order of time.
 template <Search S, Model M>
 void ParallelLoop<S, M>::report() {
+  if (run_.times_callback) {
+    for (const auto& thread : threads_) run_.times_callback(thread.times());
+  }
   if (!run_.callback) return;
   std::vector<const Collision*> all, before;
   for (const auto& thread : threads_) {

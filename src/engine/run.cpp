@@ -188,14 +188,22 @@ double Run::energy_drift() const {
   return drift_of_windows_ + drift_to(sums.energy * static_cast<double>(gas.size()), energy());
 }
 
-void Run::report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const {
+void Run::report(Collision& collision, Needle a, Needle b, CollisionReports* later) const {
+  if (times_callback) {
+    if (later) {
+      later->times.push_back(collision.time);
+    } else {
+      times_callback({&collision.time, 1});
+    }
+  }
+  if (!callback) return;
   const auto state_of = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return StateAfterCollision{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
   };
   collision.after = {state_of(a), state_of(b)};
   if (later) {
-    later->push_back(collision);
+    later->collisions.push_back(collision);
   } else {
     callback(collision);
   }

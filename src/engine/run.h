@@ -6,6 +6,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
@@ -18,6 +19,12 @@
 namespace needlework {
 
 class Archive;
+
+/// What callbacks will need of collisions that have been processed.
+struct CollisionReports {
+  std::vector<Collision> collisions;
+  std::vector<double> times;
+};
 
 /// State, physics, windows and counters of a run.
 ///
@@ -69,9 +76,11 @@ class Run {
   /// move, their next events are beyond the range of the clock: throws InvalidStateError.
   Stop end_of_events() const;
 
-  /// Passes a collision of these two needles to the callback, or appends it to `later`. Kept out
-  /// of the event loops, whose code it would enlarge.
-  void report(Collision& collision, Needle a, Needle b, std::vector<Collision>* later) const;
+  /// Whether anybody wants to know of collisions.
+  bool has_callback() const { return callback || times_callback; }
+  /// Passes a collision of these two needles to the callbacks, or appends what they need to
+  /// `later`. Kept out of the event loops, whose code it would enlarge.
+  void report(Collision& collision, Needle a, Needle b, CollisionReports* later) const;
 
   /// Replaces the velocities of all needles at the present time and opens a new window. The event
   /// loop must be made again afterwards. `velocity(i)` and `angular_velocity(i)` are indexed by
@@ -92,6 +101,7 @@ class Run {
   double initial_energy = 0;
   Tally tally;
   std::function<void(const Collision&)> callback;
+  std::function<void(std::span<const double>)> times_callback;
   std::atomic<bool> interrupted = false;
   Time window_end;
   /// To be set to the number of threads that have just worked together, which can share work on all

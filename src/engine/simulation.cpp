@@ -178,6 +178,10 @@ void Simulation::on_collision(std::function<void(const Collision&)> callback) {
   implementation_->run.callback = std::move(callback);
 }
 
+void Simulation::on_collision_times(std::function<void(std::span<const double>)> callback) {
+  implementation_->run.times_callback = std::move(callback);
+}
+
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
 Totals Simulation::totals() const { return implementation_->run.totals(); }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }

@@ -57,6 +57,7 @@ class alignas(128) SubdomainThread {
         changes_(phase.calendar),
         search_(phase.search, tally_.counters),
         processor_(phase.run, model, search_, changes_, tally_) {
+    processor_.reports = &reports_;
     processor_.rollback_log = &rollback_log_;
   }
   SubdomainThread(const SubdomainThread&) = delete;
@@ -77,8 +78,9 @@ class alignas(128) SubdomainThread {
   /// The time of the latest event processed, which need not be the last one processed.
   Time latest() const { return latest_; }
   Tally& tally() { return tally_; }
-  /// The collisions in order of time, if they are to be reported.
+  /// The collisions in order of time, if they are to be reported, and their times in any order.
   const std::vector<const Collision*>& reports() const { return sorted_reports_; }
+  const std::vector<double>& times() const { return reports_.times; }
 
  private:
   using Block = CellCalendar::Block;
@@ -147,19 +149,19 @@ class alignas(128) SubdomainThread {
   std::vector<Deferred> deferred_;
   TimeKey next_of_others_ = 0;  ///< earliest event of other subdomains, as last seen
   TimeKey hindmost_ = 0;        ///< earliest event of all subdomains, as last seen
-  std::vector<Collision> reports_;
+  CollisionReports reports_;
   std::vector<const Collision*> sorted_reports_;
   Time latest_;
 };
 
 template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
-  reports_.clear();
+  reports_.collisions.clear();
+  reports_.times.clear();
   deferred_.clear();
   latest_ = phase_.run.now;
   rollback_log_.begin(latest_);
   processor_.set_now(latest_);
-  processor_.reports = phase_.run.callback ? &reports_ : nullptr;
 }
 
 template <Search S, Model M>
@@ -216,7 +218,7 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::sort_reports() {
   sorted_reports_.clear();
   if (phase_.must_roll_back) return;
-  for (const Collision& collision : reports_) sorted_reports_.push_back(&collision);
+  for (const Collision& collision : reports_.collisions) sorted_reports_.push_back(&collision);
   std::sort(sorted_reports_.begin(), sorted_reports_.end(), comes_before);
 }
 

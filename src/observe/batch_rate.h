@@ -31,7 +31,7 @@ class BatchRate {
   /// at least the time over which events are correlated.
   explicit BatchRate(double batch_length);
 
-  /// Counts an event. Times must be >= 0 and must not decrease.
+  /// Counts an event. Events may come in any order. Times must be >= 0.
   void add(double time);
 
   /// The rate over all batches that are complete at time `now`, which must not be before the last

@@ -144,13 +144,19 @@ void RunDriver::require_restored(const Archive& archive) const {
 void RunDriver::listen_to_collisions() {
   const bool events = output_.writer && scene_.output.events;
   const bool observes = output_.observation && output_.observation->reads_collisions();
-  if (!rate_ && !events && !observes) {
+  if (rate_) {
+    simulation_.on_collision_times([this](std::span<const double> times) {
+      for (const double time : times) rate_->add(time);
+    });
+  } else {
+    simulation_.on_collision_times({});
+  }
+  if (!events && !observes) {
     simulation_.on_collision(callback_);
     return;
   }
-  simulation_.on_collision([this, events, observes](const Collision& collision) {
-    if (rate_) rate_->add(collision.time);
-    if (events || observes) record(collision);
+  simulation_.on_collision([this](const Collision& collision) {
+    record(collision);
     if (callback_) callback_(collision);
   });
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
@@ -47,6 +50,32 @@ TEST(Simulation, EndsAtTheExactCollision) {
   EXPECT_EQ(simulation.advance(until_collisions(4)), Stop::collisions);
   EXPECT_EQ(simulation.totals().collisions, 200u);
   EXPECT_EQ(simulation.time(), last);
+}
+
+TEST(Simulation, TellsTheTimesOfCollisions) {
+  for (const int threads : {1, 2, 5}) {
+    Scene scene = test::scene_of(1000, 9);
+    scene.engine.threads = threads;
+    scene.engine.team = "all";
+    for (const bool both : {false, true}) {
+      Simulation simulation(scene);
+      std::vector<double> times, whole;
+      simulation.on_collision_times([&](std::span<const double> some) {
+        times.insert(times.end(), some.begin(), some.end());
+      });
+      if (both) simulation.on_collision([&](const Collision& c) { whole.push_back(c.time); });
+      simulation.advance(until_collisions(6));
+      ASSERT_EQ(times.size(), 3000u);
+      std::sort(times.begin(), times.end());
+      EXPECT_EQ(times.back(), simulation.time());
+      if (both) {
+        EXPECT_EQ(times, whole) << threads;
+      }
+      simulation.on_collision_times({});
+      simulation.advance(until_collisions(8));
+      EXPECT_EQ(times.size(), 3000u);
+    }
+  }
 }
 
 TEST(Simulation, DriftOfEnergyIsThatOfAnElasticGas) {

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace needlework {
 namespace {
@@ -26,6 +28,20 @@ TEST(BatchRate, TakesItsErrorFromTheSpreadOfBatches) {
   const auto estimate = rate.estimate(16);
   EXPECT_DOUBLE_EQ(estimate.rate, 4.0 / 2);
   EXPECT_DOUBLE_EQ(estimate.standard_error, std::sqrt(8.0 / 7 / 8) / 2);
+}
+
+TEST(BatchRate, CountsEventsInAnyOrder) {
+  std::mt19937 random(7);
+  std::exponential_distribution<double> gap(3);
+  std::vector<double> times;
+  for (double time = 0; times.size() < 2000;) times.push_back(time += gap(random));
+  const double end = times.back();
+  BatchRate in_order(0.7), shuffled(0.7);
+  for (const double time : times) in_order.add(time);
+  std::shuffle(times.begin(), times.end(), random);
+  for (const double time : times) shuffled.add(time);
+  EXPECT_EQ(shuffled.estimate(end).rate, in_order.estimate(end).rate);
+  EXPECT_EQ(shuffled.estimate(end).standard_error, in_order.estimate(end).standard_error);
 }
 
 TEST(BatchRate, LeavesOutTheUnfinishedBatch) {
