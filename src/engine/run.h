@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "kernels/isa.h"
 #include "needlework/simulation.h"
