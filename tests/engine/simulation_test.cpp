@@ -54,7 +54,7 @@ TEST(Simulation, EndsAtTheExactCollision) {
 
 TEST(Simulation, TellsTheTimesOfCollisions) {
   for (const int threads : {1, 2, 5}) {
-    Scene scene = test::scene_of(1000, 9);
+    Scene scene = test::scene_of(2000, 14);
     scene.engine.threads = threads;
     scene.engine.team = "all";
     for (const bool both : {false, true}) {
@@ -64,16 +64,19 @@ TEST(Simulation, TellsTheTimesOfCollisions) {
         times.insert(times.end(), some.begin(), some.end());
       });
       if (both) simulation.on_collision([&](const Collision& c) { whole.push_back(c.time); });
-      simulation.advance(until_collisions(6));
-      ASSERT_EQ(times.size(), 3000u);
+      simulation.advance(until_collisions(20));
+      ASSERT_EQ(times.size(), 20000u);
+      if (threads > 1) {
+        EXPECT_GT(simulation.counters().phases, 5u);
+      }
       std::sort(times.begin(), times.end());
       EXPECT_EQ(times.back(), simulation.time());
       if (both) {
         EXPECT_EQ(times, whole) << threads;
       }
       simulation.on_collision_times({});
-      simulation.advance(until_collisions(8));
-      EXPECT_EQ(times.size(), 3000u);
+      simulation.advance(until_collisions(22));
+      EXPECT_EQ(times.size(), 20000u);
     }
   }
 }
