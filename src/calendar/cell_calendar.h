@@ -81,10 +81,10 @@ class CellCalendar {
 
   // Blocks and subdomains.
 
-  Block blocks() const { return static_cast<Block>(subdomain_of_.size()); }
+  Block blocks() const { return static_cast<Block>(assigned_.size()); }
   std::uint32_t subdomains() const { return static_cast<std::uint32_t>(trees_.size()); }
-  std::uint32_t subdomain_of(Block b) const { return subdomain_of_[b]; }
-  bool is_shown(Block b) const { return content_of_[b] != none; }
+  std::uint32_t subdomain_of(Block b) const { return assigned_[b].subdomain; }
+  bool is_shown(Block b) const { return assigned_[b].content != none; }
   /// The block of a needle. Any thread may call this.
   Block block_of(Needle i) const { return places_[i].block.load(std::memory_order_relaxed); }
   /// The key of a needle's event. Any thread may call this.
@@ -101,11 +101,10 @@ class CellCalendar {
   /// tournaments.
   void divide(const std::vector<std::uint32_t>& subdomain_of, std::uint32_t subdomains,
               const std::vector<std::uint8_t>& shown) {
-    subdomain_of_ = subdomain_of;
-    content_of_.assign(blocks(), none);
+    assigned_.clear();
     std::uint32_t contents = 0;
-    for (Block b = 0; b < blocks(); ++b) {
-      if (shown[b]) content_of_[b] = contents++;
+    for (std::size_t b = 0; b < subdomain_of.size(); ++b) {
+      assigned_.push_back({subdomain_of[b], shown[b] ? contents++ : none});
     }
     contents_.clear();
     contents_.resize(contents);
@@ -208,13 +207,18 @@ class CellCalendar {
 
     TimeKey& key(std::size_t slot) { return keys[slot / KeyLine::width][slot % KeyLine::width]; }
   };
+  // Of a block. Side by side, as an event reads both.
+  struct Assignment {
+    std::uint32_t subdomain;
+    std::uint32_t content;  ///< index, or none
+  };
   struct PublishedKey : std::atomic<TimeKey> {
     PublishedKey() : std::atomic<TimeKey>(no_event) {}
     PublishedKey(PublishedKey&& other) noexcept : std::atomic<TimeKey>(other.load()) {}
   };
 
-  Content& content(Block b) { return contents_[content_of_[b]]; }
-  const Content& content(Block b) const { return contents_[content_of_[b]]; }
+  Content& content(Block b) { return contents_[assigned_[b].content]; }
+  const Content& content(Block b) const { return contents_[assigned_[b].content]; }
 
   /// The subdomain with the first of all events.
   std::uint32_t first_subdomain() const {
@@ -260,9 +264,8 @@ class CellCalendar {
 
   EventTable events_;
   LargeArray<Place> places_;
-  std::vector<std::uint32_t> subdomain_of_;  ///< of each block
-  std::vector<std::uint32_t> content_of_;    ///< index of each block, or none
-  std::vector<Content> contents_;            ///< of the blocks that are shown
+  std::vector<Assignment> assigned_;
+  std::vector<Content> contents_;  ///< of the blocks that are shown
   std::vector<PublishedKey> published_keys_;
   std::vector<WinnerTree> trees_;  ///< one for each subdomain
   std::vector<Block> changed_;

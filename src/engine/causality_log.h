@@ -3,13 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <tuple>
-#include <vector>
 
 #include "src/calendar/event_table.h"
 #include "src/engine/cell_box.h"
+#include "src/memory/large_array.h"
 #include "src/memory/prefetch.h"
 
 namespace needlework {
@@ -17,42 +20,58 @@ namespace needlework {
 /// One needle of a processed event: its position at the event, and its speed before.
 struct LoggedEvent {
   TimeKey key;
-  Vec3d r;                 ///< not wrapped into the box [L]
-  double speed;            ///< [L/time]
-  Id lower_id, higher_id;  ///< of the event's two needles, or twice that of one alone
-  Time time;               ///< the exact time, of which the key has 53 bits
-
-  bool has_partner() const { return lower_id != higher_id; }
+  Vec3d r;             ///< not wrapped into the box [L]
+  double speed;        ///< [L/time]
+  bool only_searches;  ///< it replaces no record
 };
-static_assert(sizeof(LoggedEvent) == 64);
 
 /// The processed events, grouped by the cell in which they took place. Several threads may use it
 /// at once, as long as none adds to cells that another reads or adds to.
 class CausalityLog {
  public:
   /// `longest`: length of the longest needles. [L]
-  CausalityLog(const CellGrid& grid, const std::array<double, 3>& box, double longest = 1)
-      : grid_(grid), box_(box), longest_(longest), cells_(grid.size()) {}
+  explicit CausalityLog(const CellGrid& grid, double longest = 1)
+      : grid_(grid), longest_(longest), latest_(grid.size()), cells_(grid.size()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      rounding_ += 0x1p-23 * grid.sides()[axis] * grid.counts()[axis];
+    }
+  }
 
+  /// Forgets everything. Needed only when time goes back: all that a phase has left is earlier than
+  /// the events of the next one, and does not count.
   void clear() {
-    for (Cell& cell : cells_) cell.clear();
+    std::fill(latest_.begin(), latest_.end(), 0);
+    for (Cell& cell : cells_) {
+      cell.entries.clear();
+      cell.forgotten = 0;
+    }
   }
   std::size_t cell_of(const Vec3d& r) const { return grid_.index_of(grid_.cell_of(r)); }
   /// Prefetches the memory that add() will access.
-  void prefetch(std::size_t cell) const { needlework::prefetch(&cells_[cell]); }
+  void prefetch(std::size_t cell) const {
+    const auto* const memory = reinterpret_cast<const char*>(&cells_[cell]);
+    needlework::prefetch(&latest_[cell]);
+    needlework::prefetch(memory);
+    needlework::prefetch(memory + 64);
+  }
   /// Adds an event to the cell of its position. No event before `hindmost` is expected any more, so
   /// that earlier entries can be forgotten. If one comes nevertheless, all needles of forgotten
   /// entries may have been met.
   void add(const LoggedEvent& event, std::size_t its_cell, TimeKey hindmost) {
+    latest_[its_cell] = std::max(latest_[its_cell], event.key);
     Cell& cell = cells_[its_cell];
-    if (cell.events.size() == cell.events.capacity()) cell.forget_before(hindmost);
-    cell.events.push_back(event);
-    cell.latest = std::max(cell.latest, event.key);
+    if (cell.entries.size() == cell.entries.capacity()) cell.forget_before(hindmost);
+    cell.entries.emplace_back(event, grid_.in_sides(event.r));
   }
 
+  /// Whether all events of the log have earlier keys.
+  bool is_before(TimeKey key) const {
+    return std::all_of(latest_.begin(), latest_.end(),
+                       [&](TimeKey latest) { return latest < key; });
+  }
   std::size_t entries() const {
     std::size_t out = 0;
-    for (const Cell& cell : cells_) out += cell.events.size();
+    for (const Cell& cell : cells_) out += cell.entries.size();
     return out;
   }
 
@@ -70,59 +89,79 @@ class CausalityLog {
   /// event has already been processed, before that later event. Looks no farther than `farthest`
   /// along each axis.
   bool may_have_met(const LoggedEvent& mine, double speed, double farthest) const {
+    const Vec3d here = grid_.in_sides(mine.r);
     return any_in(cells_around(grid_, mine.r, farthest), grid_.counts(), [&](std::uint32_t index) {
+      if (latest_[index] < mine.key) return false;
       const Cell& cell = cells_[index];
-      if (cell.latest < mine.key) return false;
       if (mine.key <= cell.forgotten) return true;
-      return std::any_of(cell.events.begin(), cell.events.end(), [&](const LoggedEvent& other) {
-        return comes_after(other, mine) &&
-               are_nearer(other.r, mine.r,
-                          reach(mine.key, other.key, speed + other.speed, longest_));
+      return std::any_of(cell.entries.begin(), cell.entries.end(), [&](const Entry& other) {
+        if (other.key < mine.key) return false;
+        // The order of two searches does not matter if no needle can move far between them.
+        if (other.key == mine.key && mine.only_searches && other.only_searches()) return false;
+        const double distance =
+            reach(mine.key, other.key, speed + other.speed(), longest_) + rounding_;
+        return square_of_distance(other, here) < distance * distance;
       });
     });
   }
 
  private:
-  struct Cell {
-    std::vector<LoggedEvent> events;
-    TimeKey latest = 0;     ///< of all events of the phase
+  // A logged event, rounded: the log competes with the gas for the cache.
+  struct Entry {
+    TimeKey key;
+    float at[3];  // as CellGrid::in_sides [side]
+    // Sign: whether it only searches. The rest is the upper half of its speed, rounded up.
+    std::uint32_t sign_and_speed;
+
+    Entry(const LoggedEvent& event, const Vec3d& in_sides)
+        : key(event.key),
+          at{static_cast<float>(in_sides.x), static_cast<float>(in_sides.y),
+             static_cast<float>(in_sides.z)},
+          sign_and_speed(
+              static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(event.speed) >> 32) + 1) {
+      if (event.only_searches) sign_and_speed |= sign;
+    }
+    bool only_searches() const { return (sign_and_speed & sign) != 0; }
+    double speed() const {
+      return std::bit_cast<double>(std::uint64_t{sign_and_speed & ~sign} << 32);
+    }
+
+   private:
+    static constexpr std::uint32_t sign = std::uint32_t{1} << 31;
+  };
+  static_assert(sizeof(Entry) == 24);
+  struct alignas(128) Cell {
+    boost::container::small_vector<Entry, 4> entries;
     TimeKey forgotten = 0;  ///< latest of those that are no longer among them
 
-    void clear() {
-      events.clear();
-      latest = forgotten = 0;
-    }
     void forget_before(TimeKey hindmost) {
-      std::erase_if(events, [&](const LoggedEvent& event) {
-        if (event.key >= hindmost) return false;
-        forgotten = std::max(forgotten, event.key);
+      const auto before = [&](const Entry& entry) {
+        if (entry.key >= hindmost) return false;
+        forgotten = std::max(forgotten, entry.key);
         return true;
-      });
+      };
+      entries.erase(std::remove_if(entries.begin(), entries.end(), before), entries.end());
     }
   };
+  static_assert(sizeof(Cell) == 128);
 
-  static bool comes_after(const LoggedEvent& a, const LoggedEvent& b) {
-    if (a.time != b.time) return a.time > b.time;
-    // The order of two searches at the same time does not matter.
-    const auto order = [](const LoggedEvent& event) {
-      return std::tuple(event.has_partner(), event.lower_id, event.higher_id);
-    };
-    return (a.has_partner() || b.has_partner()) && order(a) > order(b);
-  }
-  bool are_nearer(const Vec3d& a, const Vec3d& b, double distance) const {
+  double square_of_distance(const Entry& a, const Vec3d& b) const {
+    const std::array<double, 3> sides = grid_.sides();
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double gap = (&a.x)[axis] - (&b.x)[axis];
-      const double nearest = gap - std::nearbyint(gap / box_[axis]) * box_[axis];
+      const double gap = a.at[axis] - (&b.x)[axis], count = grid_.counts()[axis];
+      const double nearest = (gap - std::nearbyint(gap / count) * count) * sides[axis];
       squares += nearest * nearest;
     }
-    return squares < distance * distance;
+    return squares;
   }
 
   CellGrid grid_;
-  std::array<double, 3> box_;
   double longest_;
-  std::vector<Cell> cells_;
+  double rounding_ = 0;         ///< how far entries may be from where their events were [L]
+  LargeArray<TimeKey> latest_;  ///< of all events of a cell; apart from them, so that a look
+                                ///< around touches little memory
+  LargeArray<Cell> cells_;
 };
 
 }  // namespace needlework

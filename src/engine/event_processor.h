@@ -134,7 +134,7 @@ template <class Renew>
 Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
   if (rollback_log) {
     rollback_log->replaced(i, gas_.records[i], gas_.images[i],
-                           M::effects.contact_time ? run_.last_collision[i] : Time{});
+                           M::effects.contact_time ? &run_.last_collision[i] : nullptr);
   }
   return predictor_.replace(i, renew);
 }

@@ -248,6 +248,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   for (auto& thread : threads_) thread.begin();
   [[maybe_unused]] const Time base = search_.volumes().base;
   const TimeKey end_key = cell_calendar_.key_of(end);
+  assert(phase_.causality_log.is_before(cell_calendar_.key_of(cell_calendar_.top().time)));
   ordered_ = false;
   const int threads = static_cast<int>(threads_.size());
   {
@@ -301,6 +302,7 @@ template <Search S, Model M>
 void ParallelLoop<S, M>::roll_back() {
   std::vector<Needle> needles;
   for (auto& thread : threads_) thread.roll_back(needles);
+  phase_.causality_log.clear();  // the same times come again
   std::sort(needles.begin(), needles.end());
   needles.erase(std::unique(needles.begin(), needles.end()), needles.end());
   cell_calendar_.order_again();  // they may include deferred events

@@ -90,7 +90,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       neighbours(cells_within(search.grid(), sight_of_log)),
       reach(search.grid(), sight * run.gas.longest + search.drift()),
       region_locks(cells, neighbours, threads),
-      causality_log(search.grid(), run.gas.box, run.gas.longest),
+      causality_log(search.grid(), run.gas.longest),
       local_times(threads, sight_of_log, run.gas.longest),
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
@@ -142,7 +142,6 @@ void Phase<S>::divide() {
 
 template <Search S>
 void Phase<S>::begin(double fastest, std::uint64_t most) {
-  causality_log.clear();
   mail.begin();
   local_times.begin(fastest);
   must_roll_back = too_many = too_slow = false;

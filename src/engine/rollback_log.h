@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/memory/large_array.h"
 #include "src/physics/gas.h"
 
 namespace needlework {
@@ -14,23 +15,27 @@ class RollbackLog {
  public:
   /// Takes room for the records of a long phase at once: to move a log as it grows costs a thread
   /// more than to write it. Memory that is never used is never touched.
-  RollbackLog() { entries_.reserve(std::size_t{1} << 15); }
+  RollbackLog() {
+    constexpr std::size_t many = std::size_t{1} << 15;
+    records_.reserve(many);
+    places_.reserve(many);
+  }
 
   /// Starts a new phase, whose events are not before this time.
   void begin(Time time) {
     start_ = time;
-    used_ = 0;
+    records_.clear();
+    places_.clear();
+    last_collisions_.clear();
     scheduled_.clear();
   }
-  /// To be called before the record of needle i is replaced.
-  void replaced(Needle i, const Record& record, const Shift& image, Time last_collision) {
+  /// To be called before the record of needle i is replaced. `last_collision` is null in scenes
+  /// that do not use it.
+  void replaced(Needle i, const Record& record, const Shift& image, const Time* last_collision) {
     if (is_of_phase(record)) return;
-    if (used_ == entries_.size()) entries_.emplace_back();
-    Entry& entry = entries_[used_++];
-    entry.needle = i;
-    entry.record = record;
-    entry.image = image;
-    entry.last_collision = last_collision;
+    records_.push_back(record);
+    places_.push_back({i, image});
+    if (last_collision) last_collisions_.push_back(*last_collision);
     scheduled_.push_back(i);
   }
   /// To be called before the event of needle i, which has this record, is replaced.
@@ -38,20 +43,20 @@ class RollbackLog {
     if (!is_of_phase(record)) scheduled_.push_back(i);
   }
 
-  std::size_t entries() const { return used_; }
+  std::size_t entries() const { return records_.size(); }
   /// Needles whose event has been replaced; a needle may occur several times.
   const std::vector<Needle>& scheduled() const { return scheduled_; }
 
   /// Restores the records that are older than the present ones. After this has been done for the
   /// logs of all threads, the oldest records are in place. `last_collision` may be empty.
   void put_back(Gas& gas, std::vector<Time>& last_collision) {
-    for (std::size_t n = 0; n < used_; ++n) {
-      Entry& entry = entries_[n];
-      Record& record = gas.records[entry.needle];
-      if (!is_older(entry.record, record)) continue;
-      std::swap(record, entry.record);
-      gas.images[entry.needle] = entry.image;
-      if (!last_collision.empty()) last_collision[entry.needle] = entry.last_collision;
+    for (std::size_t n = 0; n < records_.size(); ++n) {
+      const Needle i = places_[n].needle;
+      Record& record = gas.records[i];
+      if (!is_older(records_[n], record)) continue;
+      record = records_[n];
+      gas.images[i] = places_[n].image;
+      if (!last_collisions_.empty()) last_collision[i] = last_collisions_[n];
     }
   }
 
@@ -63,15 +68,15 @@ class RollbackLog {
     return static_cast<std::int32_t>(b.serial - a.serial) > 0;
   }
 
-  struct Entry {
+  struct Place {
     Needle needle;
-    Record record;
-    Shift image{};
-    Time last_collision;
+    Shift image;
   };
   Time start_;
-  std::vector<Entry> entries_;
-  std::size_t used_ = 0;
+  // Apart, so that none has room that is not used.
+  LargeArray<Record> records_;
+  LargeArray<Place> places_;
+  std::vector<Time> last_collisions_;
   std::vector<Needle> scheduled_;
 };
 

@@ -322,15 +322,16 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   processor_.process(event, stale);
   latest_ = std::max(latest_, event.time);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
-  const auto record = [&](Needle i, const Taken& taken) {
+  const auto check = [&](Needle i, const Taken& taken) {
     assert(is_near(block, phase_.calendar.block_of(i)) &&
            is_near(block, static_cast<Block>(taken.cell)));
     const double speed = speed_of(phase_.run.gas.records[i]);
     if (may_have_met(taken.event, speed, seen, inner)) phase_.must_roll_back = true;
-    phase_.causality_log.add(taken.event, taken.cell, hindmost_);
   };
-  record(event.owner, owner);
-  if (partner) record(event.partner, *partner);
+  check(event.owner, owner);
+  if (partner) check(event.partner, *partner);
+  phase_.causality_log.add(owner.event, owner.cell, hindmost_);
+  if (partner) phase_.causality_log.add(partner->event, partner->cell, hindmost_);
   // No event reads a record from later than its own time, unless the phase is rolled back.
   assert(!processor_.has_read_ahead() || phase_.must_roll_back);
   publish_changes();
@@ -446,7 +447,8 @@ auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) cons
   const Vec3d r = model_.centre(record, elapsed);
   const std::size_t cell = phase_.causality_log.cell_of(r);
   phase_.causality_log.prefetch(cell);
-  return {{key, r, speed_of(record), event.lower_id, event.higher_id, event.time}, cell};
+  const bool only_searches = !event.has_partner() && record.renewal > event.time;
+  return {{key, r, speed_of(record), only_searches}, cell};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

@@ -18,7 +18,7 @@ TEST(RollbackLogs, PutRecordsBackWhoseNumbersHaveWrappedAround) {
   gas.records[0].flight.r.x = 1;
   RollbackLog log;
   log.begin({});
-  log.replaced(Needle(0), gas.records[0], gas.images[0], {});
+  log.replaced(Needle(0), gas.records[0], gas.images[0], nullptr);
   gas.records[0].serial += 1;
   gas.records[0].flight.r.x = 2;
   std::vector<Time> none;
@@ -39,7 +39,7 @@ TEST(RollbackLogs, HoldOnlyRecordsFromBeforeThePhase) {
   log.begin(time(2));
   const auto replace = [&](Needle i, double when) {
     Record& record = gas.records[i];
-    log.replaced(i, record, gas.images[i], {});
+    log.replaced(i, record, gas.images[i], nullptr);
     ++record.serial;
     record.time = time(when);
     log.scheduled(i, record);
