@@ -33,10 +33,11 @@ class EventTable {
     return key_of(event.time);
   }
   TimeKey key(Needle i) const { return key_of(slots_[i].event.time); }
-  TimeKey key_of(const Time& time) const {
+  TimeKey key_of(const Time& time) const { return key_of(time, clock_); }
+  static TimeKey key_of(const Time& time, const Clock& clock) {
     // Numbers >= 0 have the same order as their bits, read as integers. Adding 0.0 turns -0 into
     // 0.
-    return std::bit_cast<std::uint64_t>(clock_.since_start(time) + 0.0);
+    return std::bit_cast<std::uint64_t>(clock.since_start(time) + 0.0);
   }
 
   static double time_of(TimeKey key) { return std::bit_cast<double>(key); }

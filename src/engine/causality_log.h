@@ -1,5 +1,5 @@
-// A log of the events processed since the threads last met. Each new event is checked against
-// later ones that have already been processed near it.
+// A log of processed events. Each new event is checked against later ones that have already been
+// processed near it.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,10 @@ namespace needlework {
 /// One needle of a processed event: its position at the event, and its speed before.
 struct LoggedEvent {
   TimeKey key;
-  Vec3d r;             ///< not wrapped into the box [L]
-  double speed;        ///< [L/time]
-  bool only_searches;  ///< it replaces no record
+  Vec3d r;       ///< not wrapped into the box [L]
+  double speed;  ///< [L/time]
+  bool alone;    ///< the event concerns no other needle
+  Time time;     ///< the exact time, of which the key has 53 bits
 };
 
 /// The processed events, grouped by the cell in which they took place. Several threads may use it
@@ -30,15 +31,16 @@ struct LoggedEvent {
 class CausalityLog {
  public:
   /// `longest`: length of the longest needles. [L]
-  explicit CausalityLog(const CellGrid& grid, double longest = 1)
-      : grid_(grid), longest_(longest), latest_(grid.size()), cells_(grid.size()) {
+  CausalityLog(const CellGrid& grid, const Clock& clock, double longest = 1)
+      : grid_(grid), clock_(clock), longest_(longest), latest_(grid.size()), cells_(grid.size()) {
     for (int axis = 0; axis < 3; ++axis) {
+      // Positions below 2^k sides are off by 2^(k - 25) at most.
       rounding_ += 0x1p-23 * grid.sides()[axis] * grid.counts()[axis];
     }
   }
 
-  /// Forgets everything. Needed only when time goes back: all that a phase has left is earlier than
-  /// the events of the next one, and does not count.
+  /// Forgets everything. Needed only when time goes back: what a phase has left is earlier than all
+  /// events of the next one, and does not count.
   void clear() {
     std::fill(latest_.begin(), latest_.end(), 0);
     for (Cell& cell : cells_) {
@@ -60,14 +62,14 @@ class CausalityLog {
   void add(const LoggedEvent& event, std::size_t its_cell, TimeKey hindmost) {
     latest_[its_cell] = std::max(latest_[its_cell], event.key);
     Cell& cell = cells_[its_cell];
-    if (cell.entries.size() == cell.entries.capacity()) cell.forget_before(hindmost);
+    if (cell.entries.size() == cell.entries.capacity()) forget_before(hindmost, cell);
     cell.entries.emplace_back(event, grid_.in_sides(event.r));
   }
 
-  /// Whether all events of the log have earlier keys.
+  /// Whether all events of the log have earlier keys; to check that it need not be cleared.
   bool is_before(TimeKey key) const {
     return std::all_of(latest_.begin(), latest_.end(),
-                       [&](TimeKey latest) { return latest < key; });
+                       [&](TimeKey latest) { return latest == 0 || latest < key; });
   }
   std::size_t entries() const {
     std::size_t out = 0;
@@ -95,11 +97,11 @@ class CausalityLog {
       const Cell& cell = cells_[index];
       if (mine.key <= cell.forgotten) return true;
       return std::any_of(cell.entries.begin(), cell.entries.end(), [&](const Entry& other) {
-        if (other.key < mine.key) return false;
-        // The order of two searches does not matter if no needle can move far between them.
-        if (other.key == mine.key && mine.only_searches && other.only_searches()) return false;
+        if (other.time < mine.time) return false;
+        // Each concerns one needle.
+        if (other.time == mine.time && mine.alone && other.is_alone()) return false;
         const double distance =
-            reach(mine.key, other.key, speed + other.speed(), longest_) + rounding_;
+            reach(mine.key, key_of(other), speed + other.speed(), longest_) + rounding_;
         return square_of_distance(other, here) < distance * distance;
       });
     });
@@ -108,20 +110,20 @@ class CausalityLog {
  private:
   // A logged event, rounded: the log competes with the gas for the cache.
   struct Entry {
-    TimeKey key;
+    Time time;
     float at[3];  // as CellGrid::in_sides [side]
-    // Sign: whether it only searches. The rest is the upper half of its speed, rounded up.
+    // Sign: whether it is alone. The rest is the upper half of its speed, rounded up.
     std::uint32_t sign_and_speed;
 
     Entry(const LoggedEvent& event, const Vec3d& in_sides)
-        : key(event.key),
+        : time(event.time),
           at{static_cast<float>(in_sides.x), static_cast<float>(in_sides.y),
              static_cast<float>(in_sides.z)},
           sign_and_speed(
               static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(event.speed) >> 32) + 1) {
-      if (event.only_searches) sign_and_speed |= sign;
+      if (event.alone) sign_and_speed |= sign;
     }
-    bool only_searches() const { return (sign_and_speed & sign) != 0; }
+    bool is_alone() const { return (sign_and_speed & sign) != 0; }
     double speed() const {
       return std::bit_cast<double>(std::uint64_t{sign_and_speed & ~sign} << 32);
     }
@@ -129,21 +131,24 @@ class CausalityLog {
    private:
     static constexpr std::uint32_t sign = std::uint32_t{1} << 31;
   };
-  static_assert(sizeof(Entry) == 24);
+  static_assert(sizeof(Entry) == 32);
   struct alignas(128) Cell {
-    boost::container::small_vector<Entry, 4> entries;
+    boost::container::small_vector<Entry, 3> entries;
     TimeKey forgotten = 0;  ///< latest of those that are no longer among them
-
-    void forget_before(TimeKey hindmost) {
-      const auto before = [&](const Entry& entry) {
-        if (entry.key >= hindmost) return false;
-        forgotten = std::max(forgotten, entry.key);
-        return true;
-      };
-      entries.erase(std::remove_if(entries.begin(), entries.end(), before), entries.end());
-    }
   };
   static_assert(sizeof(Cell) == 128);
+
+  TimeKey key_of(const Entry& entry) const { return EventTable::key_of(entry.time, clock_); }
+  void forget_before(TimeKey hindmost, Cell& cell) const {
+    const auto before = [&](const Entry& entry) {
+      const TimeKey key = key_of(entry);
+      if (key >= hindmost) return false;
+      cell.forgotten = std::max(cell.forgotten, key);
+      return true;
+    };
+    cell.entries.erase(std::remove_if(cell.entries.begin(), cell.entries.end(), before),
+                       cell.entries.end());
+  }
 
   double square_of_distance(const Entry& a, const Vec3d& b) const {
     const std::array<double, 3> sides = grid_.sides();
@@ -157,6 +162,7 @@ class CausalityLog {
   }
 
   CellGrid grid_;
+  Clock clock_;
   double longest_;
   double rounding_ = 0;         ///< how far entries may be from where their events were [L]
   LargeArray<TimeKey> latest_;  ///< of all events of a cell; apart from them, so that a look

@@ -90,7 +90,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       neighbours(cells_within(search.grid(), sight_of_log)),
       reach(search.grid(), sight * run.gas.longest + search.drift()),
       region_locks(cells, neighbours, threads),
-      causality_log(search.grid(), run.gas.longest),
+      causality_log(search.grid(), run.gas.clock, run.gas.longest),
       local_times(threads, sight_of_log, run.gas.longest),
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.

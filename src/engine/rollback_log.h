@@ -33,10 +33,10 @@ class RollbackLog {
   /// that do not use it.
   void replaced(Needle i, const Record& record, const Shift& image, const Time* last_collision) {
     if (is_of_phase(record)) return;
-    records_.push_back(record);
+    scheduled_.push_back(i);
     places_.push_back({i, image});
     if (last_collision) last_collisions_.push_back(*last_collision);
-    scheduled_.push_back(i);
+    records_.push_back(record);  // last, as it counts the entries, and memory may run out
   }
   /// To be called before the event of needle i, which has this record, is replaced.
   void scheduled(Needle i, const Record& record) {
@@ -73,7 +73,7 @@ class RollbackLog {
     Shift image;
   };
   Time start_;
-  // Apart, so that none has room that is not used.
+  // Apart, as they would be padded to whole cache lines together with a record.
   LargeArray<Record> records_;
   LargeArray<Place> places_;
   std::vector<Time> last_collisions_;

@@ -447,8 +447,7 @@ auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) cons
   const Vec3d r = model_.centre(record, elapsed);
   const std::size_t cell = phase_.causality_log.cell_of(r);
   phase_.causality_log.prefetch(cell);
-  const bool only_searches = !event.has_partner() && record.renewal > event.time;
-  return {{key, r, speed_of(record), only_searches}, cell};
+  return {{key, r, speed_of(record), !event.has_partner(), event.time}, cell};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

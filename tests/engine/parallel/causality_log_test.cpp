@@ -12,10 +12,12 @@ namespace {
 TimeKey key_at(double time) { return std::bit_cast<TimeKey>(time); }
 
 // A search of one needle.
-LoggedEvent at(double time, const Vec3d& r, double speed) { return {key_at(time), r, speed, true}; }
+LoggedEvent at(double time, const Vec3d& r, double speed) {
+  return {key_at(time), r, speed, true, {0, time}};
+}
 // One needle of a contact.
 LoggedEvent contact_at(double time, const Vec3d& r, double speed) {
-  return {key_at(time), r, speed, false};
+  return {key_at(time), r, speed, false, {0, time}};
 }
 
 // Adds an event to the log, from now on without any before `hindmost`.
@@ -23,6 +25,7 @@ void add(CausalityLog& log, const LoggedEvent& event, TimeKey hindmost = 0) {
   log.add(event, log.cell_of(event.r), hindmost);
 }
 
+const Clock clock{1};
 const std::array<double, 3> box{8, 9, 10};
 const Vec3d here{4, 4, 4};
 constexpr double far = 3;
@@ -33,7 +36,7 @@ constexpr double just = 1e-5;
 bool may_have_met(const LoggedEvent& mine, double speed, const LoggedEvent& other) {
   std::optional<bool> out;
   for (const Vec3d& move : {Vec3d{0, 0, 0}, {3.9, 0, 0}, {0, 5.1, 0}, {0, 0, -3.8}, {-4, -4, -4}}) {
-    CausalityLog log(CellGrid(box, 0.7, 1000));
+    CausalityLog log(CellGrid(box, 0.7, 1000), clock);
     LoggedEvent a = mine, b = other;
     a.r = a.r + move;
     b.r = b.r + move;
@@ -72,7 +75,7 @@ TEST(CausalityLog, FindsThoseThatMayHaveMet) {
 }
 
 TEST(CausalityLog, FindsAnImage) {
-  CausalityLog log(CellGrid(box, 0.7, 1000));
+  CausalityLog log(CellGrid(box, 0.7, 1000), clock);
   add(log, at(2, {0.1, 8.9, 0.1}, 0));
   EXPECT_TRUE(log.may_have_met(at(1, {7.6, 0.4, 9.7}, 0), 0, far));   // 0.5, 0.5, 0.4
   EXPECT_FALSE(log.may_have_met(at(1, {7.4, 0.4, 9.5}, 0), 0, far));  // 0.7, 0.5, 0.6
@@ -93,21 +96,33 @@ TEST(CausalityLog, RoundsOutwards) {
     const CellGrid grid(large, length / 10, 1000);
     for (int n = 1; n < 200; ++n) {
       const double place = length * std::fmod(n * 0.618034, 1), way = 1 + 0.25 * n;
-      CausalityLog log(grid);
+      CausalityLog log(grid, clock);
       add(log, at(1.25, {place + way * (1 - 0x1p-40), place, place}, n / 3.0));
       EXPECT_TRUE(log.may_have_met(at(1, {place, place, place}, 0), n - n / 3.0, 2 * way)) << n;
     }
   }
   for (const double unit : {1e-300, 1e-45, 1e-38, 1e38, 1e300}) {
-    CausalityLog log(CellGrid(box, 0.7, 1000));
+    CausalityLog log(CellGrid(box, 0.7, 1000), clock);
     add(log, at(2 / unit, here + Vec3d{2 - just, 0, 0}, unit));
     EXPECT_TRUE(log.may_have_met(at(1 / unit, here, 0), 0, far)) << unit;
     EXPECT_FALSE(log.may_have_met(at(1 / unit, here - Vec3d{2 * just, 0, 0}, 0), 0, far)) << unit;
   }
 }
 
+// After many epochs two times may have one key.
+TEST(CausalityLog, DistinguishesTimesOfOneKey) {
+  const double time = 0x1p40 + 0.5;
+  for (const auto& event : {at, contact_at}) {
+    LoggedEvent early = event(time, here, 0), late = event(time, here, 0);
+    early.time = {std::int64_t{1} << 40, 0.5};
+    late.time = {std::int64_t{1} << 40, std::nextafter(0.5, 1)};
+    EXPECT_TRUE(may_have_met(early, 1, late));
+    EXPECT_FALSE(may_have_met(late, 1, early));
+  }
+}
+
 TEST(CausalityLog, LooksAtAllLaterEvents) {
-  CausalityLog log(CellGrid(box, 0.7, 1000));
+  CausalityLog log(CellGrid(box, 0.7, 1000), clock);
   add(log, at(1.25, here + Vec3d{0.1, 0, 0}, 0));
   add(log, at(0.5, here + Vec3d{0.1, 0, 0}, 0));  // does not hide the one before it
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 0, far));
@@ -122,7 +137,7 @@ TEST(CausalityLog, LooksAtAllLaterEvents) {
 // What is before all events to come is forgotten, so that the log stays small. An event that comes
 // nevertheless may have met what is forgotten.
 TEST(CausalityLog, ForgetsWhatIsBeforeAllEventsToCome) {
-  CausalityLog log(CellGrid(box, 0.7, 1000));
+  CausalityLog log(CellGrid(box, 0.7, 1000), clock);
   const Vec3d apart{far - just, 0, 0};  // farther than needles come in these times
   for (int n = 0; n < 1000; ++n) add(log, at(1 + n * 0.01, here, 0), key_at(1 + n * 0.01));
   EXPECT_LT(log.entries(), 10u);
@@ -136,8 +151,8 @@ TEST(CausalityLog, ForgetsWhatIsBeforeAllEventsToCome) {
   EXPECT_FALSE(log.may_have_met(at(2, here + apart, 0), 0, far));
 }
 
-// Events of one key may be in either order, which matters unless both only search.
-TEST(CausalityLog, TakesEventsOfOneKeyForLater) {
+// Events at one time may be in either order, which matters unless each concerns one needle.
+TEST(CausalityLog, TakesEventsAtOnceForLater) {
   const auto after = [](const LoggedEvent& other, const LoggedEvent& mine) {
     return may_have_met(mine, 1, other);
   };
@@ -151,7 +166,7 @@ TEST(CausalityLog, TakesEventsOfOneKeyForLater) {
 
 // What a phase leaves does not count in the next, although it is not cleared.
 TEST(CausalityLog, DoesNotCountWhatIsEarlier) {
-  CausalityLog log(CellGrid(box, 0.7, 1000));
+  CausalityLog log(CellGrid(box, 0.7, 1000), clock);
   EXPECT_TRUE(log.is_before(key_at(0.5)));
   for (int n = 0; n < 100; ++n) add(log, contact_at(1 + n * 0.01, here, 1), key_at(1 + n * 0.01));
   EXPECT_FALSE(log.is_before(key_at(1 + 99 * 0.01)));
@@ -161,7 +176,7 @@ TEST(CausalityLog, DoesNotCountWhatIsEarlier) {
 
 // `farthest` is a bound that the caller knows; a larger one gives the same result.
 TEST(CausalityLog, SearchesToTheGivenDistance) {
-  CausalityLog log(CellGrid(box, 0.7, 1000));
+  CausalityLog log(CellGrid(box, 0.7, 1000), clock);
   add(log, at(1.25, here + Vec3d{reach - just, 0, 0}, 1));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, reach));
   EXPECT_TRUE(log.may_have_met(at(1, here, 0), 2, 100));
