@@ -1,8 +1,10 @@
 """Several threads are not much slower than one beside other programs that keep all cores busy.
 
-    busy_machine.py NEEDLEWORK [SCENE] [--load N] [--threads 2,8] [--repetitions N] [--most RATIO]
+    busy_machine.py NEEDLEWORK SCENE [--load N] [--threads 2,8] [--repetitions N] [--most RATIO]
+                    [--attempts N]
 
 Prints the median wall time of interleaved runs for each number of threads, over that of one thread.
+Fails if in each attempt one of them is larger than the largest ratio: other programs may disturb one.
 """
 
 import argparse
@@ -11,17 +13,8 @@ import os
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
-from pathlib import Path
 
-SCENE = """
-[needles]
-count = 2000
-box = 14.0
-[until]
-collisions_per_needle = 50
-"""
 BUSY = "while True: pass"
 
 
@@ -43,32 +36,35 @@ def seconds(program, scene, threads):
     return time.perf_counter() - begin
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("program")
-    parser.add_argument("scene", nargs="?")
-    parser.add_argument("--load", type=int, default=os.cpu_count(), help="busy programs")
-    parser.add_argument("--threads", default="2,8")
-    parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--most", type=float, default=3, help="largest ratio that passes")
-    arguments = parser.parse_args()
-    settings = [1] + [int(threads) for threads in arguments.threads.split(",")]
+def largest_ratio(arguments, settings):
     times = {threads: [] for threads in settings}
-    with tempfile.TemporaryDirectory() as folder, load(arguments.load):
-        scene = arguments.scene or Path(folder) / "scene.toml"
-        if not arguments.scene:
-            scene.write_text(SCENE)
-        for _ in range(arguments.repetitions):
-            for threads in settings:
-                times[threads].append(seconds(arguments.program, scene, threads))
+    for _ in range(arguments.repetitions):
+        for threads in settings:
+            times[threads].append(seconds(arguments.program, arguments.scene, threads))
     one = statistics.median(times[1])
-    failed = False
     for threads in settings:
         median = statistics.median(times[threads])
         print(f"{threads} threads: {median:.2f} s, {median / one:.2f} of one thread "
               f"({min(times[threads]) / one:.2f} to {max(times[threads]) / one:.2f})")
-        failed |= median > arguments.most * one
-    sys.exit(failed)
+    return max(statistics.median(each) for each in times.values()) / one
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("scene")
+    parser.add_argument("--load", type=int, default=os.cpu_count(), help="busy programs")
+    parser.add_argument("--threads", default="2,8")
+    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--most", type=float, default=1.3, help="largest ratio that passes")
+    parser.add_argument("--attempts", type=int, default=1)
+    arguments = parser.parse_args()
+    settings = [1] + [int(threads) for threads in arguments.threads.split(",")]
+    with load(arguments.load):
+        for _ in range(arguments.attempts):
+            if largest_ratio(arguments, settings) <= arguments.most:
+                return
+    sys.exit(f"larger than {arguments.most:g}")
 
 
 if __name__ == "__main__":
