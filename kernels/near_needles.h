@@ -12,36 +12,15 @@
 // forward before they exceed `longest_time`.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "kernels/isa.h"
+#include "kernels/needle_block.h"
 
 namespace needlework::kernels {
 
-inline constexpr std::size_t block_size = 16;  ///< needles in a block: one vector of AVX-512
-inline constexpr float longest_time = 8;       ///< largest present time; the margins rely on it
-
-/// Up to 16 needles of one cell, in the first places of columns, with centres relative to the
-/// corner of the cell. For capsules x and a are centre and director of the capsule; for cells they
-/// are centre and velocity of the needle at `time`. Cells with more needles chain blocks, of which
-/// all but the last are full.
-struct alignas(64) NeedleBlock {
-  enum Column { x, y, z, a_x, a_y, a_z, time, columns };
-  static constexpr std::uint32_t none = 0xffffffff;  ///< no needle, or no block
-
-  float column[columns][block_size];  ///< centre; director or velocity; time of the centre
-  std::uint32_t needle[block_size];   ///< none in free places, whose columns may hold anything
-
-  NeedleBlock() : column{} { std::fill_n(needle, block_size, none); }
-  std::uint32_t size() const {
-    std::uint32_t out = 0;
-    for (const std::uint32_t i : needle) out += i != none;
-    return out;
-  }
-  bool is_full() const { return needle[block_size - 1] != none; }
-};
+inline constexpr float longest_time = 8;  ///< largest present time; the margins rely on it
 
 /// A needle's flight since `time`, centre relative to the corner of its cell: one cache line.
 struct alignas(64) Motion {
@@ -65,6 +44,7 @@ struct Surroundings {
   const std::uint32_t* next;  ///< for each block: the next one of its cell, or none
   const CellView* cells;
   std::size_t cell_count;
+  WordFormat format;                ///< of the words in the blocks
   const Motion* motions = nullptr;  ///< of all needles, if those of found ones are to be prefetched
 };
 
@@ -77,7 +57,7 @@ struct Found {
 /// The needle that searches.
 struct Seeker {
   Motion motion;         ///< at `now`
-  float r[3], u[3];      ///< centre and director of its bounding volume, as in its block
+  float r[3], u[3];      ///< centre and director of its capsule, as in its block
   float now;             ///< present time
   float ahead;           ///< how far it searches
   float margin;          ///< of lengths; covers what rounding did to the columns
@@ -146,8 +126,8 @@ struct NearKernels {
   /// placed, overlap the seeker's.
   Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius,
                       const Found& found);
-  /// Needles whose bounding spheres overlap the seeker's at some time ahead; the columns a of
-  /// their blocks are velocities.
+  /// Needles whose bounding spheres overlap the seeker's at some time ahead. None may fly farther
+  /// along an axis, from the time of its entry until it is placed again, than words can tell.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
   /// The contact function of the first n pairs at time s from now, as bracket() computes it.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,

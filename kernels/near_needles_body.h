@@ -80,10 +80,22 @@ NEEDLEWORK_INLINE Scan scan(const Surroundings& around, const Seeker& seeker, co
   return {seen, count};
 }
 
-inline V3 load(const NeedleBlock& block, int first_column, std::size_t lane) {
-  return {load_floats(block.column[first_column] + lane),
-          load_floats(block.column[first_column + 1] + lane),
-          load_floats(block.column[first_column + 2] + lane)};
+/// One word for each axis of the needles in a block, see WordFormat.
+NEEDLEWORK_INLINE V3 load_words(const NeedleBlock& block, std::size_t lane) {
+  return {load_numbers(block.word[0] + lane), load_numbers(block.word[1] + lane),
+          load_numbers(block.word[2] + lane)};
+}
+
+/// A place that words may hold, such that its difference from what place_in() makes of the words
+/// of another is theirs. Off by half a step; again when the offset of a cell is subtracted.
+inline V3 beside_words(const float (&r)[3], const WordFormat& format) {
+  const Floats to_base(format.base - format.low);
+  return broadcast(r) + V3{to_base, to_base, to_base};
+}
+NEEDLEWORK_INLINE V3 place_in(const V3& words, Floats base) {
+  const Floats mask = number(WordFormat::places - 1);
+  return {with_bits(base, words.x, mask), with_bits(base, words.y, mask),
+          with_bits(base, words.z, mask)};
 }
 
 /// segment_gap() in a third less operations, for unit directors. Cancellation puts the first guess
@@ -101,8 +113,12 @@ NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
 
 Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
                  const Found& found) {
-  const V3 r = broadcast(seeker.r), u = broadcast(seeker.u);
-  const float near = 2 * radius + seeker.margin;
+  const Floats base(around.format.base);
+  const V3 r = beside_words(seeker.r, around.format), u = broadcast(seeker.u);
+  // Along each axis the places of both capsules are off by half a step, and their difference by
+  // one; directors by 2^-19.
+  const float near =
+      2 * radius + seeker.margin + 4 * static_cast<float>(around.format.step()) + 0x1p-17f;
   // What rough_segment_gap() may add. For capsules so wide that it adds more, the margin has room.
   const Floats near_squared(near * near + 0x1p-19f);
   const HalfLengths<Floats> half =
@@ -110,28 +126,37 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
-    const V3 d = from - load(block, NeedleBlock::x, lane);
+    const V3 words = load_words(block, lane);
+    const V3 d = from - place_in(words, base);
+    const V3 a = V3{signed_numbers(words.x), signed_numbers(words.y), signed_numbers(words.z)} *
+                 Floats(0x1p-31f);
     // A cheaper test before this one does not pay: of many needles one would nearly always pass it.
-    const V3 gap = rough_segment_gap(d, u, load(block, NeedleBlock::a_x, lane), half);
+    const V3 gap = rough_segment_gap(d, u, a, half);
     return dot(gap, gap) <= near_squared;
   };
   return scan(around, seeker, found, test);
 }
 
 Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
-  const V3 r = broadcast(seeker.motion.r), v = broadcast(seeker.motion.v);
+  const Floats base(around.format.base);
+  const V3 r = beside_words(seeker.motion.r, around.format), v = broadcast(seeker.motion.v);
   const Floats now(seeker.now), ahead(seeker.ahead), zero(0.0f);
+  // Along each axis a velocity is off by 2^-11 of itself, which makes 4 steps in the time that it
+  // is valid for; its place by half a step, and the difference from the seeker's by one.
+  const float rounding = 10 * static_cast<float>(around.format.step());
   // The errors of times, 2^-20, enter by the speeds. That of the other needle is at most the
   // seeker's and the relative one w, of which (x + |w| 2^-17)^2 <= x^2 (1 + 2^-10) + w^2 2^-23.
-  const Floats reach = Floats(seeker.motion.half + seeker.longest_half + seeker.margin + 0x1p-10f) +
-                       norm_1(v) * Floats(0x1p-17f);
+  const Floats reach =
+      Floats(seeker.motion.half + seeker.longest_half + seeker.margin + rounding + 0x1p-10f) +
+      norm_1(v) * Floats(0x1p-17f);
   const Floats reach_squared = reach * reach * Floats(1 + 0x1p-10f);
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
-    const V3 other_v = load(block, NeedleBlock::a_x, lane);
-    const Floats age = now - load_floats(block.column[NeedleBlock::time] + lane);
-    const V3 d = (from - load(block, NeedleBlock::x, lane)) - other_v * age, w = v - other_v;
+    // A word is a velocity as it is.
+    const V3 other_v = load_words(block, lane);
+    const Floats age = now - load_floats(block.time + lane);
+    const V3 d = (from - place_in(other_v, base)) - other_v * age, w = v - other_v;
     const Floats b = dot(d, w), a = dot(w, w);
     // The square of the distance less that of the reach: now, and at the end of the time ahead.
     const Floats c = dot(d, d) * Floats(1 - 0x1p-18f) - (reach_squared + a * Floats(0x1p-23f));

@@ -111,6 +111,17 @@ HWY_INLINE Mask same_numbers(Floats a, Floats b) {
   return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
+/// Floats of which the last bits, where `mask` has ones, are those of the numbers.
+HWY_INLINE Floats with_bits(Floats a, Floats numbers, Floats mask) {
+  const hn::RebindToUnsigned<Tag> whole;
+  return hn::BitCast(Tag(), hn::OrAnd(hn::BitCast(whole, a.v), hn::BitCast(whole, numbers.v),
+                                      hn::BitCast(whole, mask.v)));
+}
+/// The numbers, read as signed ones.
+HWY_INLINE Floats signed_numbers(Floats numbers) {
+  return hn::ConvertTo(Tag(), hn::BitCast(hn::RebindToSigned<Tag>(), numbers.v));
+}
+
 /// Turns (cosine, sine) by k quarters of a circle, k in the last bits of `shifted`, which is
 /// 1.5 * 2^23 + k.
 HWY_INLINE void turn(Floats shifted, Floats& cosine, Floats& sine) {

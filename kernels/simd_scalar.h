@@ -61,6 +61,14 @@ inline Mask same_numbers(Floats a, Floats b) {
   return {std::bit_cast<std::uint32_t>(a.v) == std::bit_cast<std::uint32_t>(b.v)};
 }
 
+inline Floats with_bits(Floats a, Floats numbers, Floats mask) {
+  const auto bits = [](Floats x) { return std::bit_cast<std::uint32_t>(x.v); };
+  return std::bit_cast<float>(bits(a) | (bits(numbers) & bits(mask)));
+}
+inline Floats signed_numbers(Floats numbers) {
+  return static_cast<float>(std::bit_cast<std::int32_t>(numbers.v));
+}
+
 inline void turn(Floats shifted, Floats& cosine, Floats& sine) {
   const auto q = std::bit_cast<std::uint32_t>(shifted.v);
   const auto flipped = [](float a, bool flip) {

@@ -131,6 +131,7 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
     return Vec3d{cell_of(r, 0) * side, cell_of(r, 1) * side, cell_of(r, 2) * side};
   };
 
+  format = kernels::WordFormat::holding(0, side);
   blocks.resize(static_cast<std::size_t>(cells) * cells * cells);
   next.resize(blocks.size(), NeedleBlock::none);
   for (std::uint32_t i = 0; i < needles.size(); ++i) {
@@ -149,10 +150,11 @@ Neighbourhoods::Neighbourhoods(double density, Columns columns, std::size_t coun
     const Vec3d r = needle.r - corner_of(needle.r);
     const Vec3d& a = columns == Columns::directors ? needle.u : needle.v;
     for (int axis = 0; axis < 3; ++axis) {
-      blocks[b].column[NeedleBlock::x + axis][lane] = static_cast<float>(component(r, axis));
-      blocks[b].column[NeedleBlock::a_x + axis][lane] = static_cast<float>(component(a, axis));
+      const double place = component(r, axis);
+      blocks[b].word[axis][lane] = columns == Columns::directors
+                                       ? format.with_director(place, component(a, axis))
+                                       : format.with_velocity(place, component(a, axis));
     }
-    blocks[b].column[NeedleBlock::time][lane] = 0;
     blocks[b].needle[lane] = i;
   }
 

@@ -41,16 +41,17 @@ struct Neighbourhood {
 };
 
 /// Cells of a gas, of the sides that the searches choose, and neighbourhoods of `count` of its
-/// needles. The columns a of the blocks are directors (for overlapping) or velocities (for
+/// needles. The words of the blocks hold directors (for overlapping) or velocities (for
 /// approaching).
 struct Neighbourhoods {
   enum class Columns { directors, velocities };
   Neighbourhoods(double density, Columns columns, std::size_t count);
 
   kernels::Surroundings around(const Neighbourhood& one) const {
-    return {blocks.data(), next.data(), one.cells.data(), one.cells.size()};
+    return {blocks.data(), next.data(), one.cells.data(), one.cells.size(), format};
   }
 
+  kernels::WordFormat format;
   std::vector<kernels::NeedleBlock> blocks;
   std::vector<std::uint32_t> next;
   std::vector<Neighbourhood> all;

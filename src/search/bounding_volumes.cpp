@@ -18,8 +18,8 @@ using kernels::NeedleBlock;
 // A needle stays in its cell until it is out of it by this share of the cell's side: one that goes
 // to and fro across a border, or crosses a corner, need not be placed again so often.
 constexpr double overlap_of_side = 0.2;
-// Cells that a search may choose to have, by needles: those around a cloud are empty, and take half
-// a kilobyte each.
+// Cells that a search may choose to have, by needles: those around a cloud are empty, and take a
+// third of a kilobyte each.
 constexpr double cells_per_needle = 2;
 
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
@@ -59,7 +59,8 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
   }
-  const double widest = std::max({sides[0], sides[1], sides[2]}) + overlap;
+  const double side = std::max({sides[0], sides[1], sides[2]}), widest = side + overlap;
+  format = kernels::WordFormat::holding(-overlap * per_length, widest * per_length);
   margin = static_cast<float>(0x1p-16 + widest * per_length * 0x1p-19);
 }
 
@@ -153,9 +154,14 @@ void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a,
   const Place& place = places[i];
   NeedleBlock& block = cells[place.slot.block];
   const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
-  const double values[NeedleBlock::columns] = {r.x, r.y, r.z, a.x, a.y, a.z, since_base(now)};
-  for (int column = 0; column < NeedleBlock::columns; ++column) {
-    block.column[column][place.slot.lane] = static_cast<float>(values[column]);
+  const double place_in_cell[3] = {r.x, r.y, r.z}, direction[3] = {a.x, a.y, a.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    block.word[axis][place.slot.lane] =
+        kind == BoundingVolume::cell ? format.with_velocity(place_in_cell[axis], direction[axis])
+                                     : format.with_director(place_in_cell[axis], direction[axis]);
+  }
+  if (kind == BoundingVolume::cell) {
+    block.time[place.slot.lane] = static_cast<float>(since_base(now));
   }
 }
 

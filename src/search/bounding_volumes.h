@@ -24,7 +24,7 @@ namespace needlework {
 /// writes to the cells that it leaves and enters, finding its neighbours reads cells within
 /// `Phase::neighbours` of its own (src/engine/phase.h).
 ///
-/// Blocks and motions hold floats in units that are powers of two: lengths in units of
+/// Blocks and motions are in units that are powers of two: lengths in units of
 /// 1 / per_length, times in units of 1 / per_time and counted from `base`.
 struct BoundingVolumes {
   struct Place {
@@ -61,9 +61,10 @@ struct BoundingVolumes {
   double per_length;  ///< 1 / unit of length
   double radius;      ///< of capsules; else 0 [L]
   CellGrid grid;
-  double overlap = 0;   ///< how far a needle may go beyond its cell; 0 for capsules [L]
-  float margin = 0;     ///< of lengths, see kernels::Seeker [unit of length]
-  double per_time = 0;  ///< 1 / unit of time; 0 before the first needle
+  double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
+  kernels::WordFormat format;  ///< of the words in blocks
+  float margin = 0;            ///< of lengths, see kernels::Seeker [unit of length]
+  double per_time = 0;         ///< 1 / unit of time; 0 before the first needle
   Time base;
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;

@@ -49,11 +49,14 @@ inline kernels::Seeker NearSearch::seeker_for(Needle i, double ahead) const {
   seeker.margin = volumes.margin;
   seeker.longest_half = static_cast<float>(0.5 * volumes.longest * volumes.per_length);
   seeker.needle = i.index;
-  const NeedleCells::Slot& slot = volumes.places[i].slot;
-  const NeedleBlock& block = volumes.cells[slot.block];
-  for (int axis = 0; axis < 3; ++axis) {
-    seeker.r[axis] = block.column[NeedleBlock::x + axis][slot.lane];
-    seeker.u[axis] = block.column[NeedleBlock::a_x + axis][slot.lane];
+  if (volumes.kind == BoundingVolume::capsule) {
+    const NeedleCells::Slot& slot = volumes.places[i].slot;
+    const NeedleBlock& block = volumes.cells[slot.block];
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t word = block.word[axis][slot.lane];
+      seeker.r[axis] = static_cast<float>(volumes.format.coordinate(word));
+      seeker.u[axis] = volumes.format.director(word);
+    }
   }
   return seeker;
 }
@@ -71,15 +74,16 @@ inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
   // length and both radii. The margins cover the rounding of the seeker's place in its cell, and
   // that of distances below, which grows with the sides of cells; the factor covers what grows with
   // the reach.
+  const auto step = static_cast<float>(volumes.format.step());
   const float reach =
-      ((capsules ? longest_half + 2 * static_cast<float>(volumes.radius * volumes.per_length)
+      ((capsules ? longest_half + 2 * static_cast<float>(volumes.radius * volumes.per_length) + step
                  : longest_half + half) +
        (static_cast<float>(volume_margin) + 2 * volumes.margin)) *
       (1 + 0x1p-18f);
   const auto overlap = static_cast<float>(volumes.overlap * volumes.per_length);
   std::span<const CellGrid::AxisCell> near[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const float r = seeker.r[axis];
+    const float r = capsules ? seeker.r[axis] : seeker.motion.r[axis];
     const float moved = capsules ? 0 : seeker.motion.v[axis] * time;
     const float beside = capsules ? half * std::abs(seeker.u[axis]) : overlap;
     const std::size_t count = volumes.grid.find_near(
@@ -106,7 +110,9 @@ inline void NearSearch::look_around(const kernels::Seeker& seeker, const Cell& c
       for (const auto& x : near[0]) {
         const std::uint32_t first = static_cast<std::uint32_t>(row + x.wrapped);
         if (gap_squared + x.gap_squared > reach_squared) continue;
-        needlework::prefetch(&blocks[first]);
+        needlework::prefetch(&blocks[first].word);
+        needlework::prefetch(&blocks[first].needle);
+        if (!capsules) needlework::prefetch(&blocks[first].time);
         *view++ = {first, {x.offset, y.offset, z.offset}};
         *view_cell++ = {x.cell, y.cell, z.cell};
       }
@@ -162,8 +168,10 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
   const kernels::Seeker seeker = seeker_for(i, ahead);
   look_around(seeker, volumes.places[i].cell, ahead);
   const bool in_cache = volumes.motions.size() <= motions_in_cache;
-  const kernels::Surroundings around{volumes.cells.blocks(), volumes.cells.next(), views_.data(),
-                                     view_count_, in_cache ? nullptr : volumes.motions.data()};
+  const kernels::Surroundings around{
+      volumes.cells.blocks(), volumes.cells.next(),
+      views_.data(),          view_count_,
+      volumes.format,         in_cache ? nullptr : volumes.motions.data()};
   const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
   const auto radius = static_cast<float>(volumes.radius * volumes.per_length);
   const auto [entries, count] = volumes.kind == BoundingVolume::cell

@@ -43,9 +43,8 @@ Needle NeedleCells::leave(std::uint32_t cell, const Slot& slot) {
   const std::uint32_t lane = from.size() - 1;
   const Needle now_there(from.needle[lane]);
   if (last != slot.block || lane != slot.lane) {
-    for (int column = 0; column < NeedleBlock::columns; ++column) {
-      to.column[column][slot.lane] = from.column[column][lane];
-    }
+    for (int axis = 0; axis < 3; ++axis) to.word[axis][slot.lane] = from.word[axis][lane];
+    to.time[slot.lane] = from.time[lane];
     to.needle[slot.lane] = from.needle[lane];
   }
   from.needle[lane] = NeedleBlock::none;

@@ -28,13 +28,13 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
     Motion motion{};
     motion.half = static_cast<float>(h1);
     Seeker seeker = seeker_of(motion, 1, h2);
-    const auto store = [](auto* to, const Vec3d& a) {
-      to[0] = static_cast<float>(a.x);
-      to[1] = static_cast<float>(a.y);
-      to[2] = static_cast<float>(a.z);
-    };
-    store(seeker.r, corner + r);
-    store(seeker.u, u);
+    const double farthest = 2 * radius + 3;
+    const WordFormat format = WordFormat::holding(4 - farthest, 4 + farthest);
+    const BlockRow own = row_with_director(format, corner + r, u);
+    for (int axis = 0; axis < 3; ++axis) {
+      seeker.r[axis] = static_cast<float>(format.coordinate(own.word[axis]));
+      seeker.u[axis] = WordFormat::director(own.word[axis]);
+    }
     std::vector<BlockRow> rows(40);
     std::vector<double> distance;
     for (BlockRow& row : rows) {
@@ -54,10 +54,9 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
       }
       const Vec3d gap = test::nearest_points(r, u, other, a, h1, h2).gap;
       distance.push_back(std::sqrt(dot(gap, gap)));
-      store(row.data() + NeedleBlock::x, corner + other);
-      store(row.data() + NeedleBlock::a_x, a);
+      row = row_with_director(format, corner + other, a);
     }
-    const Neighbourhood near = fill(random, seeker, rows);
+    const Neighbourhood near = fill(random, seeker, format, rows);
     std::vector<bool> found(rows.size());
     for (const auto& [needle, cell] :
          overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius))) {
@@ -66,7 +65,8 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const double off = distance[k] - 2 * radius;
       // Squares of distances have a margin of 2^-19.
-      const double wide = std::hypot(2 * radius + 1e-4 * (1 + radius), std::sqrt(0x1p-19));
+      const double wide =
+          std::hypot(2 * radius + 1e-4 * (1 + radius) + 7 * format.step(), std::sqrt(0x1p-19));
       if (off <= 0) {
         ++overlaps;
         ASSERT_TRUE(found[k]) << "overlap by " << -off << ", radius " << radius << ", seed "
@@ -92,10 +92,13 @@ bool spheres_meet(const Vec3d& r, const Vec3d& v, double reach, double until) {
   return product(r, r) + 2 * rv * s + vv * s * s <= test::Quad(reach) * reach;
 }
 
-// Centres in a cell of side 8, at times up to the longest, speeds around the unit and far from it.
+// Centres in a cell of side 8 or up to 2 beyond, at times up to the longest, speeds around the unit
+// and far from it.
 TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
   Random random(seed);
   std::size_t meetings = 0, found_apart = 0, apart = 0;
+  const WordFormat format = WordFormat::holding(-2, 10);
+  const double range = WordFormat::places * format.step();
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
     const double now = random.uniform(0, longest_time), ahead = random.log_uniform(1e-3, 4);
     const auto speed = [&] {
@@ -112,6 +115,7 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
     seeker.motion.time = seeker.now = static_cast<float>(now);
     std::vector<BlockRow> rows(40);
     std::vector<Flight> others(rows.size());
+    std::vector<bool> fit(rows.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
       Flight& other = others[k];
       const double age = random.below(3) == 0 ? 0 : random.uniform(0, now);
@@ -125,24 +129,25 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
         other.r = mine.r + across * passing - w * random.uniform(0, 1.2 * ahead);
       }
       const Vec3d then = other.r - other.v * age - Vec3d{-4, -4, -4};
-      const Vec3d v = other.v;
-      const double values[] = {then.x, then.y, then.z, v.x, v.y, v.z, now - age};
-      for (int c = 0; c < NeedleBlock::columns; ++c) rows[k][c] = static_cast<float>(values[c]);
+      // Its entry would have been written again before it has flown farther.
+      const auto fits = [&](double from, double speed) {
+        return from > -2 && from < 10 && std::abs(speed) * (age + ahead) < range;
+      };
+      fit[k] = fits(then.x, other.v.x) && fits(then.y, other.v.y) && fits(then.z, other.v.z);
+      if (fit[k]) rows[k] = row_with_velocity(format, then, other.v, now - age);
     }
-    const Neighbourhood near = fill(random, seeker, rows);
+    const Neighbourhood near = fill(random, seeker, format, rows);
     std::vector<bool> found(rows.size());
     for (const auto& [needle, cell] : approaching(near_kernels(Isa::scalar), near)) {
       found[needle - 1] = true;
     }
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      // Within a cell while it flew there; beyond, its block would have been written again.
-      const Vec3d then{rows[k][0], rows[k][1], rows[k][2]};
-      if (dot(then, then) > 400) continue;
+      if (!fit[k]) continue;
       const Vec3d r = mine.r - others[k].r, v = mine.v - others[k].v;
       if (spheres_meet(r, v, reach, ahead)) {
         ++meetings;
         ASSERT_TRUE(found[k]) << "seed " << seed << ", case " << n;
-      } else if (!spheres_meet(r, v, reach + 0.01, ahead)) {
+      } else if (!spheres_meet(r, v, reach + 0.01 + 16 * format.step(), ahead)) {
         ++apart;
         found_apart += found[k];
       }

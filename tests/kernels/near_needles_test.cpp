@@ -149,11 +149,19 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
       seeker.motion.v[axis] = draw();
     }
     std::vector<BlockRow> rows(random.below(200));
+    const WordFormat format = WordFormat::holding(-4, 4);
+    const bool directors = random.coin();
     for (BlockRow& row : rows) {
-      for (float& value : row) value = draw();
+      const auto coordinate = [&] { return std::clamp(random.normal(), -4.0, 4.0); };
+      const auto r = vec3({coordinate(), coordinate(), coordinate()});
+      row = directors ? row_with_director(format, r, vec3(random.direction()))
+                      : row_with_velocity(format, r, vec3(random.normal_vector(1)), draw());
+      for (std::uint32_t& word : row.word) {
+        if (wild && random.below(6) == 0) word = static_cast<std::uint32_t>(random.bits());
+      }
     }
     seeker.longest_half = wild ? draw() : 0.5f;
-    Neighbourhood near = fill(random, seeker, rows);
+    Neighbourhood near = fill(random, seeker, format, rows);
     if (!rows.empty()) {
       near.seeker.needle =
           static_cast<std::uint32_t>(1 + random.below(static_cast<int>(rows.size())));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "kernels/near_needles.h"
+#include "kernels/vec3.h"
 #include "tests/support/random.h"
 
 namespace needlework::kernels {
@@ -22,8 +24,11 @@ struct Neighbourhood {
   std::vector<std::uint32_t> next;
   std::vector<CellView> cells;
   Seeker seeker{};
+  WordFormat format;
 
-  Surroundings around() const { return {blocks.data(), next.data(), cells.data(), cells.size()}; }
+  Surroundings around() const {
+    return {blocks.data(), next.data(), cells.data(), cells.size(), format};
+  }
 };
 
 /// What a kernel finds around a seeker; `apply` calls it. What it leaves behind the last one does
@@ -39,30 +44,49 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhoo
   return out;
 }
 
-/// Numbers for one needle in a block.
-using BlockRow = std::array<float, NeedleBlock::columns>;
+/// What a block holds of one needle.
+struct BlockRow {
+  std::array<std::uint32_t, 3> word;
+  float time = 0;
+};
+
+inline BlockRow row_with_velocity(const WordFormat& format, const Vec3d& r, const Vec3d& v,
+                                  double time) {
+  return {{format.with_velocity(r.x, v.x), format.with_velocity(r.y, v.y),
+           format.with_velocity(r.z, v.z)},
+          static_cast<float>(time)};
+}
+inline BlockRow row_with_director(const WordFormat& format, const Vec3d& r, const Vec3d& u) {
+  return {{format.with_director(r.x, u.x), format.with_director(r.y, u.y),
+           format.with_director(r.z, u.z)}};
+}
 
 /// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
 /// stands beyond the last needle of a block is not a number, and what follows one that is not full
 /// is no block.
-inline Neighbourhood fill(Random& random, const Seeker& seeker, const std::vector<BlockRow>& rows) {
+inline Neighbourhood fill(Random& random, const Seeker& seeker, const WordFormat& format,
+                          const std::vector<BlockRow>& rows) {
   Neighbourhood out;
   out.seeker = seeker;
+  out.format = format;
   std::size_t next = 0;
   while (next < rows.size()) {
     const auto first = static_cast<std::uint32_t>(out.blocks.size());
     out.cells.push_back({first, {}});
     for (int chained = random.below(3); chained >= 0; --chained) {
       NeedleBlock& block = out.blocks.emplace_back();
-      for (auto& column : block.column) {
-        std::fill(std::begin(column), std::end(column), std::numeric_limits<float>::quiet_NaN());
+      constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+      for (auto& words : block.word) {
+        std::fill(std::begin(words), std::end(words), std::bit_cast<std::uint32_t>(no_number));
       }
+      std::fill(std::begin(block.time), std::end(block.time), no_number);
       const auto size = chained > 0 ? block_size : random.below(block_size + 1);
       const auto taken = std::min<std::size_t>(size, rows.size() - next);
       const auto after = static_cast<std::uint32_t>(out.blocks.size());
       out.next.push_back(taken < block_size ? 12345u : chained > 0 ? after : NeedleBlock::none);
       for (std::size_t lane = 0; lane < taken; ++lane, ++next) {
-        for (int c = 0; c < NeedleBlock::columns; ++c) block.column[c][lane] = rows[next][c];
+        for (int axis = 0; axis < 3; ++axis) block.word[axis][lane] = rows[next].word[axis];
+        block.time[lane] = rows[next].time;
         block.needle[lane] = static_cast<std::uint32_t>(next + 1);
       }
     }

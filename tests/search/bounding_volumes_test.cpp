@@ -116,10 +116,14 @@ struct Moving {
     const BoundingVolumes::Place& place = volumes.places[i];
     const kernels::NeedleBlock& block = volumes.cells[place.slot.block];
     EXPECT_EQ(block.needle[place.slot.lane], i);
-    const auto column = [&](int c) { return double{block.column[c][place.slot.lane]}; };
-    using B = kernels::NeedleBlock;
-    return {volumes.grid.corner(place.cell) + Vec3d{column(B::x), column(B::y), column(B::z)},
-            {column(B::a_x), column(B::a_y), column(B::a_z)}};
+    const auto coordinate = [&](int axis) {
+      return volumes.format.coordinate(block.word[axis][place.slot.lane]);
+    };
+    const auto director = [&](int axis) {
+      return double{kernels::WordFormat::director(block.word[axis][place.slot.lane])};
+    };
+    return {volumes.grid.corner(place.cell) + Vec3d{coordinate(0), coordinate(1), coordinate(2)},
+            {director(0), director(1), director(2)}};
   }
 
   std::set<Candidate> found(Needle i, double ahead) {
@@ -166,7 +170,8 @@ double share_of_capsule(const Moving& moving, Needle i, Time t) {
   const Segment needle = needle_at(moving.gas, i, t), axis = moving.axis(i);
   const double off = std::max(distance(needle.r + needle.u * 0.5, axis),
                               distance(needle.r - needle.u * 0.5, axis));
-  return (off - moving.search.volumes().margin) / moving.search.radius();
+  const BoundingVolumes& volumes = moving.search.volumes();
+  return (off - volumes.margin - volumes.format.step()) / moving.search.radius();
 }
 double share_of_cell(const Moving& moving, Needle i, Time t) {
   const BoundingVolumes& volumes = moving.search.volumes();
@@ -237,7 +242,9 @@ void expect_found(BoundingVolume volume, const Setting& setting) {
       const Nearness pair = nearness(moving, i, j, image, ahead);
       const bool proposed = found.contains({j, shift});
       near += pair.here < pair.within;
-      spare += proposed && pair.here > 1.01 * pair.within + 8 * moving.search.volumes().margin;
+      const BoundingVolumes& volumes = moving.search.volumes();
+      const double margin = 8 * volumes.margin + 4 * volumes.format.step();
+      spare += proposed && pair.here > 1.01 * pair.within + margin;
       ASSERT_TRUE(proposed || pair.here >= pair.within)
           << "needles " << i << " and " << j << " at " << pair.here << ", step " << n;
     });

@@ -48,7 +48,10 @@ void expect_consistent(const NeedleCells& cells, std::size_t count,
         ASSERT_EQ(its.cell, cell);
         ASSERT_EQ(its.slot.block, b);
         ASSERT_EQ(its.slot.lane, lane);
-        ASSERT_EQ(block.column[0][lane], static_cast<float>(needle));
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+          ASSERT_EQ(block.word[axis][lane], needle + axis);
+        }
+        ASSERT_EQ(block.time[lane], static_cast<float>(needle));
       }
       ++chain;
     }
@@ -75,7 +78,9 @@ TEST(NeedleCells, HoldNeedlesByCell) {
     if (random.below(n / 1000 % 2 ? 8 : 2) == 0) continue;
     const auto cell = static_cast<std::uint32_t>(random.below(n / 3000 % 2 ? 1 : count));
     const NeedleCells::Slot slot = cells.enter(cell, Needle(i));
-    cells[slot.block].column[0][slot.lane] = static_cast<float>(i);
+    NeedleBlock& block = cells[slot.block];
+    for (std::uint32_t axis = 0; axis < 3; ++axis) block.word[axis][slot.lane] = i + axis;
+    block.time[slot.lane] = static_cast<float>(i);
     stored[i] = {cell, slot};
     if (n % 16 == 0) {
       ASSERT_NO_FATAL_FAILURE(expect_consistent(cells, count, stored));
