@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +35,12 @@ struct WordFormat {
   }
 
   double step() const { return 0x1p-23 * base; }
+  bool holds(double coordinate) const {
+    const double steps = (coordinate - low) * per_length + 0.5;
+    return steps >= 0 && steps < places;
+  }
+
+  // What words do not hold becomes what they hold nearest to it.
 
   std::uint32_t with_velocity(double coordinate, double velocity) const {
     // Processors are slow with floats nearer to 0 than these.
@@ -61,7 +66,6 @@ struct WordFormat {
  private:
   std::uint32_t place_of(double coordinate) const {
     const double steps = (coordinate - low) * per_length + 0.5;
-    assert(steps >= 0 && steps < places);
     return static_cast<std::uint32_t>(std::clamp<double>(steps, 0, places - 1));
   }
   // The integer next to `number` that ends in the bits of `place`.

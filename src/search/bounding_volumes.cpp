@@ -1,6 +1,7 @@
 #include "src/search/bounding_volumes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "kernels/in_parallel.h"
@@ -87,7 +88,8 @@ bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   const bool crosses = enter(i, grid.cell_of(r));
   places[i].next_event = gas.clock.add(now, stay);
   motions[i].half = static_cast<float>(half_length * per_length);
-  write_entry(i, r, a, now);
+  [[maybe_unused]] const bool fits = write_entry(i, r, a, now);
+  assert(fits);
   set_motion(i, now);
   return crosses;
 }
@@ -126,6 +128,8 @@ void BoundingVolumes::rebase(Time now, int threads) {
       if (kind == BoundingVolume::capsule) continue;
       const Record& record = gas.records[i];
       const double elapsed = gas.clock.difference(now, record.time);
+      // Fits as well, but for a needle that has just collided and was taken to the other side of
+      // the box, which is placed again before any needle searches.
       write_entry(i, centre_after(record.flight, elapsed),
                   record.flight.v * (per_length / per_time), now);
     }
@@ -149,8 +153,8 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   out.until = rounded_up(places[i].next_event);
 }
 
-// Writes the needle's entry into its slot.
-void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
+// Writes the needle's entry into its slot. Returns whether the entry can hold the place.
+bool BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
   const Place& place = places[i];
   NeedleBlock& block = cells[place.slot.block];
   const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
@@ -163,6 +167,7 @@ void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a,
   if (kind == BoundingVolume::cell) {
     block.time[place.slot.lane] = static_cast<float>(since_base(now));
   }
+  return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
 }
 
 bool BoundingVolumes::enter(Needle i, const Cell& cell) {
