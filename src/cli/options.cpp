@@ -74,8 +74,8 @@ void add_isa(CLI::App& command, std::optional<std::string>& isa) {
 void add_engine_options(CLI::App& command, EngineOptions& engine) {
   command
       .add_option("--threads", engine.threads,
-                  "number of threads; auto takes one for each core, but no more than there are "
-                  "needles to share")
+                  "number of threads; auto takes one for each core, if each then has 4000 "
+                  "needles or more, else fewer")
       ->option_text("N|auto")
       ->check(auto_or(number_in(1, 1024)));
   add_isa(command, engine.isa);

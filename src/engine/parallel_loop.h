@@ -24,6 +24,7 @@
 #pragma once
 
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cassert>
@@ -79,6 +80,13 @@ class WholeTeams {
  private:
   int dynamic_;
 };
+
+/// Whether OpenMP has threads for this process. In a child that was forked after they were made, it
+/// would wait for them without end.
+inline bool has_threads() {
+  static const pid_t first = getpid();
+  return getpid() == first;
+}
 
 /// How many threads there are when so many are asked for.
 inline int team_of(int threads) {
@@ -162,7 +170,7 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
       phase_(run, search_, cell_calendar_, subdomains_for(threads, tuning), tuning.sight),
       plan_(run.gas.clock, PhasePlan::usual_share * phase_.threads, tuning.least),
       by_cost_(tuning.by_cost) {
-  const int team = team_of(threads);
+  const int team = has_threads() ? team_of(threads) : threads;
   if (team != threads) {
     throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
                      std::to_string(team) +
@@ -216,7 +224,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
     const bool together =
-        stretch.together && keys_resolve(next) &&
+        stretch.together && has_threads() && keys_resolve(next) &&
         cell_calendar_.key_of(next) < cell_calendar_.key_of(stretch.end);  // else nobody works
     const WallTime time;
     double preparing = 0;

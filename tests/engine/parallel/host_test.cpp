@@ -70,7 +70,7 @@ TEST(HostThreads, RunSimulationsOnDifferentInstructionSets) {
 }
 
 // As Python's multiprocessing makes it: the child has none of OpenMP's threads.
-TEST(HostProcess, MayForkAndReadSumsInTheChild) {
+TEST(HostProcess, MayForkAndGoOnInTheChild) {
   Scene scene = test::scene_of(6000, 14, 1);
   scene.engine.threads = 2;
   scene.engine.team = "all";
@@ -79,10 +79,19 @@ TEST(HostProcess, MayForkAndReadSumsInTheChild) {
   until.time = simulation.mean_free_time() / std::sqrt(test::thin);
   simulation.advance(until);
   ASSERT_GT(simulation.counters().phases, simulation.counters().redone);
+  *until.time *= 2;
   const pid_t child = fork();
   if (child == 0) {
-    alarm(20);
-    _exit(simulation.totals().energy > 0 ? 0 : 1);
+    alarm(120);
+    if (!(simulation.totals().energy > 0)) _exit(1);
+    const auto phases = simulation.counters().phases;
+    simulation.advance(until);
+    if (simulation.counters().phases != phases) _exit(2);
+    // Another one, from its beginning.
+    Simulation again(scene);
+    again.advance(until);
+    if (again.trajectory_hash() != simulation.trajectory_hash()) _exit(3);
+    _exit(again.collisions() > 0 ? 0 : 4);
   }
   int status = 1;
   ASSERT_EQ(waitpid(child, &status, 0), child);
