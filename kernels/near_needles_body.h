@@ -98,9 +98,11 @@ NEEDLEWORK_INLINE V3 place_in(const V3& words, Floats base) {
           with_bits(base, words.z, mask)};
 }
 
-/// segment_gap() in a third less operations, for unit directors. Cancellation puts the first guess
-/// off by up to 2^-21 / xx, and by no more than the length of the first segment: the square of the
-/// distance is too large by min(2^-42 / xx, xx) <= 2^-21, when the centres are within two units.
+/// segment_gap() in a third less operations, for directors of about length 1. Words hold these to
+/// 2^-19 in each component, so that xx is off by up to 2^-16, with cancellation, and what is
+/// divided by it by |r| 2^-17. With both, the first guess is off by e / xx, e < 2^-15.8 for centres
+/// within 1.5 units; and by no more than the length of the first segment. So the square of the
+/// distance is too large by (xx + 2^-16) min(1, e / xx)^2 < 2^-15.
 NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
                                        const HalfLengths<Floats>& half) {
   const Floats b = dot(u1, u2), r1 = dot(r, u1), r2 = dot(r, u2);
@@ -120,7 +122,7 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
   const float near =
       2 * radius + seeker.margin + 4 * static_cast<float>(around.format.step()) + 0x1p-17f;
   // What rough_segment_gap() may add. For capsules so wide that it adds more, the margin has room.
-  const Floats near_squared(near * near + 0x1p-19f);
+  const Floats near_squared(near * near + 0x1p-15f);
   const HalfLengths<Floats> half =
       half_lengths(Floats(seeker.motion.half), Floats(seeker.longest_half));
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
