@@ -60,7 +60,7 @@ struct Seeker {
   float r[3], u[3];      ///< centre and director of its capsule, as in its block
   float now;             ///< present time
   float ahead;           ///< how far it searches
-  float margin;          ///< of lengths; covers what rounding did to the columns
+  float margin;          ///< of lengths; covers rounding to floats, but not to words
   float longest_half;    ///< half the length of the longest needle, which each other one may have
   std::uint32_t needle;  ///< itself; not reported, nor its images
 };
@@ -126,8 +126,9 @@ struct NearKernels {
   /// placed, overlap the seeker's.
   Scan (*overlapping)(const Surroundings& around, const Seeker& seeker, float radius,
                       const Found& found);
-  /// Needles whose bounding spheres overlap the seeker's at some time ahead. None may fly farther
-  /// along an axis, from the time of its entry until it is placed again, than words can tell.
+  /// Needles whose bounding spheres overlap the seeker's at some time ahead. Between the time of
+  /// its entry and its next placing no needle may move along an axis by more than the range of
+  /// words.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
   /// The contact function of the first n pairs at time s from now, as bracket() computes it.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,

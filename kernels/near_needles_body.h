@@ -3,10 +3,11 @@
 //
 // Margins. A float carries 24 bits, so each operation is off by 2^-24 of its result. Needles are no
 // longer than the unit of length, and centres are within a few units (the caller's margin grows
-// with its cells). Directors come from sines and cosines good to 2^-20 and phases good to 2^-23 of
-// themselves; times are good to 2^-20 and enter by the speeds. Lengths below are off by less than
-// `margin` of SimdBounds, which has a reserve of more than four. Rounding does not shrink with the
-// needles: where a margin or an error contains a length, it is the unit.
+// with its cells). What words round is said where they are read. Directors of motions come from
+// sines and cosines good to 2^-20 and phases good to 2^-23 of themselves; times are good to 2^-20
+// and enter by the speeds. Lengths below are off by less than `margin` of SimdBounds, which has a
+// reserve of more than four. Rounding does not shrink with the needles: where a margin or an error
+// contains a length, it is the unit.
 
 #include "kernels/vec3_body.h"
 
@@ -86,23 +87,25 @@ NEEDLEWORK_INLINE V3 load_words(const NeedleBlock& block, std::size_t lane) {
           load_numbers(block.word[2] + lane)};
 }
 
-/// A place that words may hold, such that its difference from what place_in() makes of the words
-/// of another is theirs. Off by half a step; again when the offset of a cell is subtracted.
-inline V3 beside_words(const float (&r)[3], const WordFormat& format) {
+/// A centre on the scale of places_of(): plus base - low, so that the difference of the two is that
+/// of the centres. Rounded to a step: off by half a step, and by half a step more once the offset
+/// of a cell is subtracted.
+inline V3 on_scale_of_words(const float (&r)[3], const WordFormat& format) {
   const Floats to_base(format.base - format.low);
   return broadcast(r) + V3{to_base, to_base, to_base};
 }
-NEEDLEWORK_INLINE V3 place_in(const V3& words, Floats base) {
+NEEDLEWORK_INLINE V3 places_of(const V3& words, Floats base) {
   const Floats mask = number(WordFormat::places - 1);
   return {with_bits(base, words.x, mask), with_bits(base, words.y, mask),
           with_bits(base, words.z, mask)};
 }
 
-/// segment_gap() in a third less operations, for directors of about length 1. Words hold these to
-/// 2^-19 in each component, so that xx is off by up to 2^-16, with cancellation, and what is
-/// divided by it by |r| 2^-17. With both, the first guess is off by e / xx, e < 2^-15.8 for centres
-/// within 1.5 units; and by no more than the length of the first segment. So the square of the
-/// distance is too large by (xx + 2^-16) min(1, e / xx)^2 < 2^-15.
+/// segment_gap() with a third fewer operations, for directors of about length 1. Words hold these
+/// to 2^-19 in each component, which puts xx off by d < 2^-15.9, all roundings and its least value
+/// included, and the numerator of the first guess by less than |r| 2^-17. So the guess is off by
+/// less than e / xx, e = |r| 2^-17 + d / 2 < 2^-15.5 for centres within 1.5 units, and by no more
+/// than the length of the first segment. The square of the distance is too large by no more than
+/// (xx + d) min(1, e / xx)^2 <= e + d < 2^-14.
 NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
                                        const HalfLengths<Floats>& half) {
   const Floats b = dot(u1, u2), r1 = dot(r, u1), r2 = dot(r, u2);
@@ -116,20 +119,21 @@ NEEDLEWORK_INLINE V3 rough_segment_gap(const V3& r, const V3& u1, const V3& u2,
 Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
                  const Found& found) {
   const Floats base(around.format.base);
-  const V3 r = beside_words(seeker.r, around.format), u = broadcast(seeker.u);
-  // Along each axis the places of both capsules are off by half a step, and their difference by
-  // one; directors by 2^-19.
+  const V3 r = on_scale_of_words(seeker.r, around.format), u = broadcast(seeker.u);
+  // Along each axis the places of both capsules are off by half a step each, and subtracting them
+  // adds up to one more: 2 sqrt(3) steps in all. Directors are off by 2^-19, next to +-1 by 2^-18.
   const float near =
       2 * radius + seeker.margin + 4 * static_cast<float>(around.format.step()) + 0x1p-17f;
-  // What rough_segment_gap() may add. For capsules so wide that it adds more, the margin has room.
-  const Floats near_squared(near * near + 0x1p-15f);
+  // What rough_segment_gap() may add. Capsules wider than a quarter unit may overlap with centres
+  // farther apart, where it adds more; the square grows faster by the margin of lengths.
+  const Floats near_squared(near * near + 0x1p-14f);
   const HalfLengths<Floats> half =
       half_lengths(Floats(seeker.motion.half), Floats(seeker.longest_half));
   const auto test = [&](const NeedleBlock& block, std::size_t lane,
                         const float* offset) NEEDLEWORK_TARGET {
     const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
     const V3 words = load_words(block, lane);
-    const V3 d = from - place_in(words, base);
+    const V3 d = from - places_of(words, base);
     const V3 a = V3{signed_numbers(words.x), signed_numbers(words.y), signed_numbers(words.z)} *
                  Floats(0x1p-31f);
     // A cheaper test before this one does not pay: of many needles one would nearly always pass it.
@@ -141,10 +145,11 @@ Scan overlapping(const Surroundings& around, const Seeker& seeker, float radius,
 
 Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& found) {
   const Floats base(around.format.base);
-  const V3 r = beside_words(seeker.motion.r, around.format), v = broadcast(seeker.motion.v);
+  const V3 r = on_scale_of_words(seeker.motion.r, around.format), v = broadcast(seeker.motion.v);
   const Floats now(seeker.now), ahead(seeker.ahead), zero(0.0f);
-  // Along each axis a velocity is off by 2^-11 of itself, which makes 4 steps in the time that it
-  // is valid for; its place by half a step, and the difference from the seeker's by one.
+  // Along each axis a velocity is off by 2^-11 of itself, which makes 4 of the 2^13 steps that a
+  // needle may fly before it is placed again; a place is off by half a step, and subtracting it
+  // adds up to one more: 5.5 sqrt(3) steps in all.
   const float rounding = 10 * static_cast<float>(around.format.step());
   // The errors of times, 2^-20, enter by the speeds. That of the other needle is at most the
   // seeker's and the relative one w, of which (x + |w| 2^-17)^2 <= x^2 (1 + 2^-10) + w^2 2^-23.
@@ -158,7 +163,7 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
     // A word is a velocity as it is.
     const V3 other_v = load_words(block, lane);
     const Floats age = now - load_floats(block.time + lane);
-    const V3 d = (from - place_in(other_v, base)) - other_v * age, w = v - other_v;
+    const V3 d = (from - places_of(other_v, base)) - other_v * age, w = v - other_v;
     const Floats b = dot(d, w), a = dot(w, w);
     // The square of the distance less that of the reach: now, and at the end of the time ahead.
     const Floats c = dot(d, d) * Floats(1 - 0x1p-18f) - (reach_squared + a * Floats(0x1p-23f));

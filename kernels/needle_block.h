@@ -12,19 +12,20 @@ namespace needlework::kernels {
 
 inline constexpr std::size_t block_size = 16;  ///< needles in a block: one vector of AVX-512
 
-/// How a word holds one coordinate of a needle's place and, beside it, one of its velocity or
-/// director. The last bits count steps of the place from `low`. The velocity is the whole word,
-/// read as a float; the director is the whole word, read as a number of 2^-31. Either is the
-/// nearest that ends in the bits of the place.
+/// How a word of 32 bits holds one coordinate of a centre, and one of a velocity or a director. The
+/// lowest 13 bits count steps of the coordinate from `low`. All 32 bits, these included, are the
+/// velocity, read as a float, or the director, read as a number of 2^-31: the nearest that ends in
+/// the bits of the coordinate. So velocities are off by up to 2^-11 of themselves, directors by
+/// 2^-19, next to +-1 by 2^-18.
 struct WordFormat {
   static constexpr int place_bits = 13;
   static constexpr std::uint32_t places = std::uint32_t{1} << place_bits;
 
-  float low = 0;          ///< the least coordinate, a multiple of the step [unit of length]
-  float base = 0x1p23f;   ///< 2^23 steps: floats from here on are a step apart [unit of length]
-  double per_length = 1;  ///< 1 / step
+  float low = 0;              ///< the least coordinate, a multiple of the step [unit of length]
+  float base = 0x1p23f;       ///< 2^23 steps: floats from here on are a step apart [unit of length]
+  double steps_per_unit = 1;  ///< [1 / unit of length]
 
-  /// For coordinates between two, and beyond them by a tenth of the range. [unit of length]
+  /// For coordinates from `from` to `to`, and beyond by a tenth of their distance. [unit of length]
   static WordFormat holding(double from, double to) {
     int exponent;
     std::frexp((to - from) * 1.25, &exponent);
@@ -36,15 +37,15 @@ struct WordFormat {
 
   double step() const { return 0x1p-23 * base; }
   bool holds(double coordinate) const {
-    const double steps = (coordinate - low) * per_length + 0.5;
+    const double steps = (coordinate - low) * steps_per_unit + 0.5;
     return steps >= 0 && steps < places;
   }
 
   // What words do not hold becomes what they hold nearest to it.
 
   std::uint32_t with_velocity(double coordinate, double velocity) const {
-    // Processors are slow with floats nearer to 0 than these.
-    const auto least = std::bit_cast<std::uint32_t>(0x1p-60f);
+    // Squares of smaller ones would be subnormal, with which processors are slow.
+    const auto least = std::bit_cast<std::uint32_t>(0x1p-50f);
     const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(velocity));
     const std::uint32_t sign = bits & 0x80000000;
     return sign | static_cast<std::uint32_t>(
@@ -65,7 +66,7 @@ struct WordFormat {
 
  private:
   std::uint32_t place_of(double coordinate) const {
-    const double steps = (coordinate - low) * per_length + 0.5;
+    const double steps = (coordinate - low) * steps_per_unit + 0.5;
     return static_cast<std::uint32_t>(std::clamp<double>(steps, 0, places - 1));
   }
   // The integer next to `number` that ends in the bits of `place`.
@@ -74,15 +75,15 @@ struct WordFormat {
   }
 };
 
-/// Up to 16 needles of one cell, in the first places of columns, with centres relative to the
-/// corner of the cell. For capsules the words hold centre and director of the capsule; for cells
+/// Up to 16 needles of one cell, in the first lanes of columns, with centres relative to the corner
+/// of the cell. For capsules the words hold centre and director of the capsule; for cells
 /// they hold centre and velocity of the needle at `time`. Cells with more needles chain blocks, of
 /// which all but the last are full.
 struct alignas(64) NeedleBlock {
   static constexpr std::uint32_t none = 0xffffffff;  ///< no needle, or no block
 
   std::uint32_t word[3][block_size];  ///< by axis, see WordFormat
-  std::uint32_t needle[block_size];   ///< none in free places, whose columns may hold anything
+  std::uint32_t needle[block_size];   ///< none in free lanes, whose columns may hold anything
   float time[block_size];             ///< of the centre; not used for capsules
 
   NeedleBlock() : word{}, time{} { std::fill_n(needle, block_size, none); }

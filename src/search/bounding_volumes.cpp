@@ -128,8 +128,8 @@ void BoundingVolumes::rebase(Time now, int threads) {
       if (kind == BoundingVolume::capsule) continue;
       const Record& record = gas.records[i];
       const double elapsed = gas.clock.difference(now, record.time);
-      // Fits as well, but for a needle that has just collided and was taken to the other side of
-      // the box, which is placed again before any needle searches.
+      // The centre fits its words, except that of a needle that has just collided and was taken to
+      // the other side of the box: it is placed again before any needle searches.
       write_entry(i, centre_after(record.flight, elapsed),
                   record.flight.v * (per_length / per_time), now);
     }
@@ -153,16 +153,18 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   out.until = rounded_up(places[i].next_event);
 }
 
-// Writes the needle's entry into its slot. Returns whether the entry can hold the place.
-bool BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& a, Time now) {
+// Writes the needle's entry, with its velocity or director, into its slot. Returns whether the
+// centre fits the words.
+bool BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now) {
   const Place& place = places[i];
   NeedleBlock& block = cells[place.slot.block];
   const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
-  const double place_in_cell[3] = {r.x, r.y, r.z}, direction[3] = {a.x, a.y, a.z};
+  const double coordinate[3] = {r.x, r.y, r.z};
+  const double component[3] = {direction.x, direction.y, direction.z};
   for (int axis = 0; axis < 3; ++axis) {
     block.word[axis][place.slot.lane] =
-        kind == BoundingVolume::cell ? format.with_velocity(place_in_cell[axis], direction[axis])
-                                     : format.with_director(place_in_cell[axis], direction[axis]);
+        kind == BoundingVolume::cell ? format.with_velocity(coordinate[axis], component[axis])
+                                     : format.with_director(coordinate[axis], component[axis]);
   }
   if (kind == BoundingVolume::cell) {
     block.time[place.slot.lane] = static_cast<float>(since_base(now));

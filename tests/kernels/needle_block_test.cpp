@@ -59,11 +59,23 @@ TEST(WordFormat, HoldsAPlaceAndAVelocity) {
     ASSERT_LE(std::abs(drawn.format.coordinate(word) - drawn.coordinate),
               0.500001 * drawn.format.step());
     const double off = std::abs(WordFormat::velocity(word) - v);
-    ASSERT_LE(off, 0x1.00001p-11 * std::abs(v) + 0x1p-59) << v;
+    ASSERT_LE(off, 0x1.00001p-11 * std::abs(v) + 0x1p-49) << v;
     ASSERT_TRUE(std::isnormal(WordFormat::velocity(word)));
     if (std::abs(v) > 1e-9) worst = std::max(worst, off / std::abs(v));
   }
   EXPECT_GT(worst, 0x1p-12);
+}
+
+TEST(WordFormat, KnowsWhatItHolds) {
+  const WordFormat format = WordFormat::holding(0, 1);
+  const double step = format.step(), range = WordFormat::places * step;
+  EXPECT_TRUE(format.holds(format.low));
+  EXPECT_TRUE(format.holds(format.low + range - step));
+  EXPECT_FALSE(format.holds(format.low - step));
+  EXPECT_FALSE(format.holds(format.low + range));
+  // The nearest.
+  EXPECT_EQ(format.coordinate(format.with_velocity(-1e9, 1)), format.low);
+  EXPECT_EQ(format.coordinate(format.with_director(1e9, 1)), format.low + range - step);
 }
 
 TEST(WordFormat, HoldsAPlaceAndADirector) {
@@ -76,7 +88,7 @@ TEST(WordFormat, HoldsAPlaceAndADirector) {
     ASSERT_LE(std::abs(drawn.format.coordinate(word) - drawn.coordinate),
               0.500001 * drawn.format.step());
     ASSERT_LE(std::abs(WordFormat::director(word) - u), 0x1.02p-18) << u;
-    if (std::abs(u) < 0.999) {
+    if (std::abs(u) < 1 - 0x1p-18) {
       ASSERT_LE(std::abs(WordFormat::director(word) - u), 0x1.04p-19) << u;
     }
   }
