@@ -88,8 +88,8 @@ bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   const bool crosses = enter(i, grid.cell_of(r));
   places[i].next_event = gas.clock.add(now, stay);
   motions[i].half = static_cast<float>(half_length * per_length);
-  [[maybe_unused]] const bool fits = write_entry(i, r, a, now);
-  assert(fits);
+  assert(fits_words(i, r));
+  write_entry(i, r, a, now);
   set_motion(i, now);
   return crosses;
 }
@@ -153,9 +153,14 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   out.until = rounded_up(places[i].next_event);
 }
 
-// Writes the needle's entry, with its velocity or director, into its slot. Returns whether the
-// centre fits the words.
-bool BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now) {
+// Whether words can hold a centre in the needle's cell.
+bool BoundingVolumes::fits_words(Needle i, const Vec3d& centre) const {
+  const Vec3d r = (centre - grid.corner(places[i].cell)) * per_length;
+  return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
+}
+
+// Writes the needle's entry, with its velocity or director, into its slot.
+void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now) {
   const Place& place = places[i];
   NeedleBlock& block = cells[place.slot.block];
   const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
@@ -169,7 +174,6 @@ bool BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& di
   if (kind == BoundingVolume::cell) {
     block.time[place.slot.lane] = static_cast<float>(since_base(now));
   }
-  return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
 }
 
 bool BoundingVolumes::enter(Needle i, const Cell& cell) {

@@ -74,7 +74,8 @@ struct BoundingVolumes {
   float rounded_up(Time t) const { return static_cast<float>(since_base(t) * (1 + 0x1p-20)); }
   void rebase(Time now, int threads);
   void set_motion(Needle i, Time now);
-  bool write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now);
+  bool fits_words(Needle i, const Vec3d& centre) const;
+  void write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now);
   bool enter(Needle i, const Cell& cell);
 };
 
