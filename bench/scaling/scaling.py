@@ -165,7 +165,9 @@ def table(contents):
             gain, n = gains[kind, threads], case["threads"]
             scene = f"{name} {kind.replace('-', ' ')} busy" if "beside" in kind else name
             cells = [scene, case["needles"], n, spread(case["us_per_collision"])]
-            cells += ["1", "1"] if n == 1 else [spread(gain), spread([g / n for g in gain])]
+            cells.append("1" if n == 1 else spread(gain))
+            if kind == "together":  # a core for each thread, and nothing beside them
+                cells.append(spread([g / n for g in gain]))
             if kind == "together" and ("apart", threads) in gains:
                 cells += [spread(quotients(gain, gains["apart", threads])),
                           *(spread(case[key]) for key in ("border_tries", "events_per_turn")),

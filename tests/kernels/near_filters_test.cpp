@@ -15,6 +15,15 @@ namespace {
 
 using test::vec3;
 
+// Places the seeker's capsule as its block holds it.
+void place(Seeker& seeker, const WordFormat& format, const Vec3d& r, const Vec3d& u) {
+  const auto words = BlockRow{r, u, true}.words(format, {});
+  for (int axis = 0; axis < 3; ++axis) {
+    seeker.r[axis] = static_cast<float>(format.coordinate(words[axis]));
+    seeker.u[axis] = WordFormat::director(words[axis]);
+  }
+}
+
 // Capsules that just overlap, just do not, and any.
 TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
   Random random(seed);
@@ -30,11 +39,7 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
     Seeker seeker = seeker_of(motion, 1, h2);
     const double farthest = 2 * radius + 3;
     const WordFormat format = WordFormat::holding(4 - farthest, 4 + farthest);
-    const BlockRow own = row_with_director(format, corner + r, u);
-    for (int axis = 0; axis < 3; ++axis) {
-      seeker.r[axis] = static_cast<float>(format.coordinate(own.word[axis]));
-      seeker.u[axis] = WordFormat::director(own.word[axis]);
-    }
+    place(seeker, format, corner + r, u);
     std::vector<BlockRow> rows(40);
     std::vector<double> distance;
     for (BlockRow& row : rows) {
@@ -54,9 +59,9 @@ TEST(Overlapping, LosesNoCapsulesThatOverlapAndFindsFewOthers) {
       }
       const Vec3d gap = test::nearest_points(r, u, other, a, h1, h2).gap;
       distance.push_back(std::sqrt(dot(gap, gap)));
-      row = row_with_director(format, corner + other, a);
+      row = {corner + other, a, true};
     }
-    const Neighbourhood near = fill(random, seeker, format, rows);
+    const Neighbourhood near = fill(random, seeker, format, 0.1 * farthest, rows);
     std::vector<bool> found(rows.size());
     for (const auto& [needle, cell] :
          overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius))) {
@@ -94,20 +99,16 @@ TEST(Overlapping, LosesNoCapsulesThatCrossAtSmallAngles) {
     motion.half = half;
     Seeker seeker = seeker_of(motion, 1, half);
     seeker.margin = 0x1p-16f;
-    const BlockRow own = row_with_director(format, r, u);
-    for (int axis = 0; axis < 3; ++axis) {
-      seeker.r[axis] = static_cast<float>(format.coordinate(own.word[axis]));
-      seeker.u[axis] = WordFormat::director(own.word[axis]);
-    }
+    place(seeker, format, r, u);
     std::vector<BlockRow> rows(40);
     for (BlockRow& row : rows) {
       const Vec3d a = normalised(u + vec3(random.direction()) * random.log_uniform(2.5e-3, 4e-3));
       const Vec3d across = normalised(cross(u, a));
       const double s = random.uniform(-half, half), t = s + random.uniform(-0.3, 0.3) * side;
       const double distance = 2 * radius * (1 - random.log_uniform(1e-8, 1e-3));
-      row = row_with_director(format, r + u * s - a * t + across * distance, a);
+      row = {r + u * s - a * t + across * distance, a, true};
     }
-    const Neighbourhood near = fill(random, seeker, format, rows);
+    const Neighbourhood near = fill(random, seeker, format, 0.05 * side, rows);
     ASSERT_EQ(overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius)).size(),
               rows.size())
         << "seed " << seed << ", case " << n;
@@ -167,9 +168,9 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
         return from > -2 && from < 10 && std::abs(speed) * (age + ahead) < range;
       };
       fit[k] = fits(then.x, other.v.x) && fits(then.y, other.v.y) && fits(then.z, other.v.z);
-      if (fit[k]) rows[k] = row_with_velocity(format, then, other.v, now - age);
+      if (fit[k]) rows[k] = {then, other.v, false, static_cast<float>(now - age)};
     }
-    const Neighbourhood near = fill(random, seeker, format, rows);
+    const Neighbourhood near = fill(random, seeker, format, 0.5, rows);
     std::vector<bool> found(rows.size());
     for (const auto& [needle, cell] : approaching(near_kernels(Isa::scalar), near)) {
       found[needle - 1] = true;
@@ -189,6 +190,45 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
   EXPECT_GT(meetings, 10000 / thin);
   EXPECT_GT(apart, 10000 / thin);
   EXPECT_LT(found_apart, apart / 50);
+}
+
+// Needles that fly nearly as far as they may, with words that make them seem late by nearly as much
+// as they can: they come up with the seeker just in time.
+TEST(Approaching, LosesNoSpheresWhoseWordsAreFarthestOff) {
+  Random random(seed);
+  const WordFormat format = WordFormat::holding(0, 8);
+  const double range = WordFormat::places * format.step(), reach = 1;
+  constexpr double now = 7.5, ahead = 1.5;
+  const Vec3d corner{test::simd_cell_corner, test::simd_cell_corner, test::simd_cell_corner};
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    // Words are off most, beside the velocity, just above a power of two.
+    constexpr double least = 2, most = 2.02;
+    const double span = random.uniform(0.98, 1) * range / most;
+    double from[3]{}, velocity[3]{}, late[3]{}, squares = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double sign = random.coin() ? 1 : -1;
+      for (int draw = 0; draw < 300; ++draw) {
+        const double r = random.uniform(0, 8), v = sign * random.uniform(least, most);
+        const std::uint32_t word = format.with_velocity(r, v);
+        const double off = (r - format.coordinate(word)) + (v - WordFormat::velocity(word)) * span;
+        if (sign * off <= late[axis]) continue;
+        late[axis] = sign * off;
+        from[axis] = r;
+        velocity[axis] = v;
+      }
+      squares += late[axis] * late[axis];
+    }
+    ASSERT_GT(std::sqrt(squares), 6.5 * format.step());
+    const Vec3d r{from[0], from[1], from[2]}, v{velocity[0], velocity[1], velocity[2]};
+    Flight mine;
+    mine.r = corner + r + v * span + normalised(v) * (reach * (1 - 1e-6));
+    Seeker seeker = seeker_of(motion_of(mine, 0, 1, reach / 2), ahead, reach / 2);
+    seeker.motion.time = seeker.now = now;
+    const auto entered = static_cast<float>(now + ahead - span);
+    const Neighbourhood near = fill(random, seeker, format, 0, {{r, v, false, entered}});
+    ASSERT_EQ(approaching(near_kernels(Isa::scalar), near).size(), 1U)
+        << "seed " << seed << ", case " << n;
+  }
 }
 
 }  // namespace

@@ -154,14 +154,18 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
     for (BlockRow& row : rows) {
       const auto coordinate = [&] { return std::clamp(random.normal(), -4.0, 4.0); };
       const auto r = vec3({coordinate(), coordinate(), coordinate()});
-      row = directors ? row_with_director(format, r, vec3(random.direction()))
-                      : row_with_velocity(format, r, vec3(random.normal_vector(1)), draw());
-      for (std::uint32_t& word : row.word) {
-        if (wild && random.below(6) == 0) word = static_cast<std::uint32_t>(random.bits());
-      }
+      row = directors ? BlockRow{r, vec3(random.direction()), true}
+                      : BlockRow{r, vec3(random.normal_vector(1)), false, draw()};
     }
     seeker.longest_half = wild ? draw() : 0.5f;
-    Neighbourhood near = fill(random, seeker, format, rows);
+    Neighbourhood near = fill(random, seeker, format, 0, rows);
+    for (NeedleBlock& block : near.blocks) {
+      for (auto& words : block.word) {
+        for (std::uint32_t& word : words) {
+          if (wild && random.below(6) == 0) word = static_cast<std::uint32_t>(random.bits());
+        }
+      }
+    }
     if (!rows.empty()) {
       near.seeker.needle =
           static_cast<std::uint32_t>(1 + random.below(static_cast<int>(rows.size())));

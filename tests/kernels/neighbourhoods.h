@@ -44,35 +44,41 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> found_by(const Neighbourhoo
   return out;
 }
 
-/// What a block holds of one needle.
+/// A needle to be entered into a block: its centre relative to the seeker's cell, and the velocity
+/// or the director that goes with it.
 struct BlockRow {
-  std::array<std::uint32_t, 3> word;
+  Vec3d r;
+  Vec3d vector;
+  bool is_director = false;
   float time = 0;
-};
 
-inline BlockRow row_with_velocity(const WordFormat& format, const Vec3d& r, const Vec3d& v,
-                                  double time) {
-  return {{format.with_velocity(r.x, v.x), format.with_velocity(r.y, v.y),
-           format.with_velocity(r.z, v.z)},
-          static_cast<float>(time)};
-}
-inline BlockRow row_with_director(const WordFormat& format, const Vec3d& r, const Vec3d& u) {
-  return {{format.with_director(r.x, u.x), format.with_director(r.y, u.y),
-           format.with_director(r.z, u.z)}};
-}
+  /// In the columns of a block, for a cell whose corner is at `offset`.
+  std::array<std::uint32_t, 3> words(const WordFormat& format, const float (&offset)[3]) const {
+    const auto word = [&](double centre, double component) {
+      return is_director ? format.with_director(centre, component)
+                         : format.with_velocity(centre, component);
+    };
+    return {word(r.x - offset[0], vector.x), word(r.y - offset[1], vector.y),
+            word(r.z - offset[2], vector.z)};
+  }
+};
 
 /// Fills cells with needles of ids from 1 on, some of them with chains of blocks, some empty; what
 /// stands beyond the last needle of a block is not a number, and what follows one that is not full
-/// is no block.
+/// is no block. The corners of the cells are up to `farthest` from that of the seeker's cell along
+/// each axis.
 inline Neighbourhood fill(Random& random, const Seeker& seeker, const WordFormat& format,
-                          const std::vector<BlockRow>& rows) {
+                          double farthest, const std::vector<BlockRow>& rows) {
   Neighbourhood out;
   out.seeker = seeker;
   out.format = format;
   std::size_t next = 0;
   while (next < rows.size()) {
     const auto first = static_cast<std::uint32_t>(out.blocks.size());
-    out.cells.push_back({first, {}});
+    CellView& cell = out.cells.emplace_back(CellView{first, {}});
+    for (float& offset : cell.offset) {
+      offset = static_cast<float>(random.uniform(-farthest, farthest));
+    }
     for (int chained = random.below(3); chained >= 0; --chained) {
       NeedleBlock& block = out.blocks.emplace_back();
       constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
@@ -85,7 +91,8 @@ inline Neighbourhood fill(Random& random, const Seeker& seeker, const WordFormat
       const auto after = static_cast<std::uint32_t>(out.blocks.size());
       out.next.push_back(taken < block_size ? 12345u : chained > 0 ? after : NeedleBlock::none);
       for (std::size_t lane = 0; lane < taken; ++lane, ++next) {
-        for (int axis = 0; axis < 3; ++axis) block.word[axis][lane] = rows[next].word[axis];
+        const auto words = rows[next].words(format, cell.offset);
+        for (int axis = 0; axis < 3; ++axis) block.word[axis][lane] = words[axis];
         block.time[lane] = rows[next].time;
         block.needle[lane] = static_cast<std::uint32_t>(next + 1);
       }
