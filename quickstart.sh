@@ -8,5 +8,8 @@ install_packages build
 echo "Building needlework, which takes some minutes."
 configure_release OFF
 cmake --build --preset release
+if [[ ! -d build/release/python ]]; then
+  echo "Without the Python package, which needs section [python] of packages.txt (docs/python.md)."
+fi
 echo
 build/release/needlework run profiles/quickstart.toml --out build/quickstart.h5 --force

@@ -29,6 +29,8 @@ install(DIRECTORY profiles DESTINATION ${CMAKE_INSTALL_DATADIR}/needlework
 install(DIRECTORY include/needlework TYPE INCLUDE)
 install(FILES include/needlework.h TYPE INCLUDE)
 install(DIRECTORY examples TYPE DOC)
+# The man page names documents as docs/NAME.md.
+install(DIRECTORY docs TYPE DOC FILES_MATCHING PATTERN *.md)
 install(TARGETS needlework_core EXPORT NeedleworkCoreTargets)
 install(TARGETS needlework EXPORT NeedleworkTargets)
 install(TARGETS needlework_c EXPORT NeedleworkCTargets)

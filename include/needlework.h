@@ -134,8 +134,9 @@ NEEDLEWORK_API needlework_simulation* needlework_create_with_images(
  * by needlework_create(), with the threads of before; a function for collisions has to be set
  * again. If the newest checkpoint is damaged, the one before is used, and `error` has a warning
  * with the code NEEDLEWORK_OK. Returns NULL on failure: NEEDLEWORK_INPUT if there is no checkpoint
- * to continue from or it is not that of the file, NEEDLEWORK_IO if the file is missing, cannot be
- * written, or is written by another simulation. The caller destroys the simulation. [any] */
+ * to continue from, whether or not there is such a file, or if it is not that of the file;
+ * NEEDLEWORK_IO if the file alone is missing, cannot be written, or is written by another
+ * simulation. The caller destroys the simulation. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_resume(const char* file, needlework_error* error);
 
 /* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due, and

@@ -56,7 +56,7 @@ double Report::collisions_per_needle() const {
 }
 
 double Report::us_per_collision() const {
-  return ratio(1e6 * course.loop.cpu(), static_cast<double>(course.last.collisions));
+  return ratio(1e6 * course.loop.cpu(), static_cast<double>(course.collisions));
 }
 
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
@@ -109,7 +109,8 @@ std::string json_of(const Report& report) {
   json["wall_s"] = loop.wall();
   json["cpu_s"] = loop.cpu();
   json["total_s"] = runs::seconds_since_launch();
-  json["collisions_per_s"] = number(ratio(static_cast<double>(last.collisions), loop.wall()));
+  json["collisions_per_s"] =
+      number(ratio(static_cast<double>(report.course.collisions), loop.wall()));
   json["us_per_collision"] = number(report.us_per_collision());
   json["peak_rss_bytes"] = runs::peak_memory();
   json["threads"] = scene.engine.threads.value_or(1);

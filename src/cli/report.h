@@ -26,7 +26,8 @@ struct Report {
   double collision_rate_error() const;
   /// Collisions that a needle has taken part in; NaN without needles.
   double collisions_per_needle() const;
-  double us_per_collision() const;  ///< of CPU time
+  /// CPU time of the event loop, by this process; NaN without collisions.
+  double us_per_collision() const;
   /// What the cooling curve has for a sample; none for a state read from a file or at rest.
   std::optional<theory::Temperatures> theory_at(const Totals& sample) const;
 };

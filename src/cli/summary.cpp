@@ -181,7 +181,7 @@ std::string summary_of(const Report& report) {
   }
   const int threads = scene.engine.threads.value_or(1);
   text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
-  if (last.collisions > 0) {
+  if (report.course.collisions > 0) {
     text.pop_back();
     text += fmt::format("; {:.3g} us per collision of CPU time{}\n", report.us_per_collision(),
                         threads > 1 ? ", all threads together" : "");

@@ -19,8 +19,8 @@
 
 namespace needlework::runs {
 
-/// Throws InputError, which names the scene by `path`, if nothing can ever happen and no end in
-/// time is set.
+/// Throws InputError, which names the scene by `path`, if the run would never end: nothing can ever
+/// happen and no end in time is set, or collisions keep the energy and no other end is set.
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
 
 /// When a run with an output file is saved, besides every output.checkpoint_every.
@@ -34,7 +34,7 @@ enum class Saves {
 class PreparedRun {
  public:
   /// For drive(): `path` names the scene in messages; `force` replaces an existing file. Throws
-  /// InputError if nothing can ever happen, and IoError if the file cannot be written.
+  /// InputError if the run would never end, and IoError if the file cannot be written.
   PreparedRun(LoadedScene loaded, bool force, const std::string& path,
               Saves saves = Saves::start_and_end);
   /// For advance(): takes samples for the output file only.

@@ -46,7 +46,11 @@ class Timed {
 
 RunDriver::RunDriver(Simulation& simulation, const Scene& scene, const Totals& initial,
                      Output output, bool keeps_course)
-    : simulation_(simulation), scene_(scene), output_(output), keeps_course_(keeps_course) {
+    : simulation_(simulation),
+      scene_(scene),
+      output_(output),
+      keeps_course_(keeps_course),
+      collisions_before_(simulation.collisions()) {
   course_.initial = initial;
   if (!samples()) return;
   const double start = first_sample * simulation.mean_free_time();
@@ -80,7 +84,7 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
 Course RunDriver::finish() {
   if (failure_) std::rethrow_exception(failure_);
   if (!begun_) begin(nullptr);
-  course_.last = simulation_.totals();
+  take_last_totals();
   if (samples()) {
     // The end belongs to the series and to the frames, unless it has just been sampled.
     const bool series = last_sample_->time != course_.last.time ||
@@ -93,8 +97,13 @@ Course RunDriver::finish() {
 }
 
 Course RunDriver::abandon() {
-  course_.last = simulation_.totals();
+  take_last_totals();
   return std::move(course_);
+}
+
+void RunDriver::take_last_totals() {
+  course_.last = simulation_.totals();
+  course_.collisions = course_.last.collisions - collisions_before_;
 }
 
 void RunDriver::on_collision(std::function<void(const Collision&)> callback) {

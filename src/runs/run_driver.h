@@ -28,7 +28,8 @@ struct Course {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
   std::string bundle;                  ///< file that `needlework replay` takes then, or empty
-  Stopwatch loop;                      ///< time spent in the event loop
+  Stopwatch loop;                      ///< time spent in the event loop by this process
+  std::uint64_t collisions = 0;        ///< in that time
   BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
@@ -84,6 +85,7 @@ class RunDriver {
   void require_restored(const Archive& archive) const;
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
+  void take_last_totals();
   void flush();
   void flush_if_due();
   void save_checkpoint_if_due(RunMonitor& monitor);
@@ -93,6 +95,7 @@ class RunDriver {
   const Scene& scene_;
   const Output output_;
   const bool keeps_course_;
+  const std::uint64_t collisions_before_;  ///< by other processes
   bool begun_ = false;
   Schedule series_, frames_;
   std::optional<BatchRate> rate_;

@@ -9,6 +9,9 @@
 #include "needlework/error.h"
 
 namespace needlework {
+
+bool keep_energy(const Scene::Collisions& c) { return c.epsilon == 1 && std::abs(c.beta) == 1; }
+
 namespace {
 
 std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
@@ -41,10 +44,9 @@ std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
 std::vector<std::string> until_warnings(const Scene& scene) {
   std::vector<std::string> list;
   const auto ratio = scene.until.energy_ratio;
-  const bool elastic = scene.collisions.epsilon == 1 && std::abs(scene.collisions.beta) == 1;
   if (ratio && *ratio >= 1)
     list.push_back(fmt::format("until.energy_ratio = {}: is met from the start", *ratio));
-  if (ratio && *ratio < 1 && elastic)
+  if (ratio && *ratio < 1 && keep_energy(scene.collisions))
     list.push_back(fmt::format(
         "until.energy_ratio = {}: is never met, as collisions keep the energy", *ratio));
   return list;

@@ -100,6 +100,10 @@ std::string reason(std::string_view description) {
   std::string text(description);
   if (text.starts_with(prefix)) text = "bad " + text.substr(prefix.size());
   if (text.ends_with("could not determine value type")) text += " (text needs quotes)";
+  if (text.find("cannot redefine existing table") != std::string::npos) {
+    text +=
+        " (the keys of a section stand together: below [section], in braces, or as section.key)";
+  }
   return printable(text, reason_limit);
 }
 

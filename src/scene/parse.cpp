@@ -43,13 +43,23 @@ bool replaces(const std::string& override_name, const Entry& entry) {
   return false;
 }
 
+bool is_none(const Value& value) {
+  const auto* text = value.as<std::string>();
+  return text && *text == "none";
+}
+
+bool removes_end(const Entry& entry) {
+  return entry.is_override && entry.section == "until" && is_none(entry.value) &&
+         find_scene_key(entry.section, entry.key);
+}
+
 std::vector<Entry> with_overrides_applied(const std::vector<Entry>& entries) {
   std::vector<Entry> result;
   for (const Entry& entry : entries) {
     if (entry.is_override)
       std::erase_if(result,
                     [name = full_name(entry)](const Entry& e) { return replaces(name, e); });
-    result.push_back(entry);
+    if (!removes_end(entry)) result.push_back(entry);
   }
   return result;
 }
@@ -209,11 +219,6 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
 
 namespace {
 
-bool is_none(const Value& value) {
-  const auto* text = value.as<std::string>();
-  return text && *text == "none";
-}
-
 void remove_end(Scene::Until& until, std::string_view key) {
   auto& [time, collisions_per_needle, energy_ratio, wall_s] = until;
   for (const auto& [name, end] :
@@ -235,7 +240,7 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
     if (!key) throw document.error(entry, expected_instead(entry));
     if (entry.section != "until")
       throw document.error(entry, "expected a key of [until], as the rest of the scene is given");
-    if (is_none(entry.value)) {
+    if (removes_end(entry)) {
       remove_end(scene.until, entry.key);
     } else if (!key->read(scene, entry.value)) {
       throw document.error(entry, fmt::format("expected {}, or none to remove it", key->expected));

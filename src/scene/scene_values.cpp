@@ -46,7 +46,7 @@ class Collected {
  public:
   template <class T>
   void operator()(std::string_view section, std::string_view key, const T& value) {
-    values.push_back({section, key, toml_of(value)});
+    add(section, key, toml_of(value));
   }
   template <class T>
   void operator()(std::string_view section, std::string_view key, const std::optional<T>& value) {
@@ -54,13 +54,19 @@ class Collected {
   }
   void operator()(std::string_view section, std::string_view key, const std::string& text) {
     const bool is_given = section != "initial" || !text.empty();  // initial.file has no empty value
-    if (is_given) values.push_back({section, key, toml_of(text)});
+    if (is_given) add(section, key, toml_of(text));
   }
   void operator()(std::string_view, std::string_view, const std::vector<Scene::Species>& all) {
     for (const Scene::Species& species : all) visit_species(species, *this);
   }
 
   std::vector<KeyValue> values;
+
+ private:
+  // One function for all types: GCC 12 warns, wrongly, where it inlines this for a number.
+  void add(std::string_view section, std::string_view key, Value value) {
+    values.push_back({section, key, std::move(value)});
+  }
 };
 
 void refuse(std::string_view name, std::string_view expected) {

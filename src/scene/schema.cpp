@@ -335,6 +335,11 @@ std::string expected_instead(const Entry& unknown) {
     return fmt::format("expected a section [{}]", unknown.key);
   if (!unknown.section.empty() && !is_scene_section(unknown.section))
     return expected_instead_of_section(unknown.section);
+  if (is_scene_section(unknown.key)) {
+    return fmt::format(
+        "expected [{0}] as a section of its own, or {0}.KEY above the first [section]",
+        unknown.key);
+  }
   const std::vector<std::string_view> names = keys_of(unknown.section);
   const std::string_view nearest = nearest_word(unknown.key, names);
   std::string suggestion(nearest);

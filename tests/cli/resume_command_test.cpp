@@ -37,6 +37,17 @@ TEST_F(ResumeCommand, GoesOnToAnotherEnd) {
   EXPECT_EQ(back.json()["collisions"], 40 * 300 / 2) << "a run does not go backwards";
 }
 
+TEST_F(ResumeCommand, CountsTheCostOfItsOwnCollisions) {
+  hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=39");
+  const std::string none = run("resume a.h5").out;
+  EXPECT_NE(none.find("of wall time\n"), std::string::npos) << none;
+  const auto some = run("resume a.h5 --json --quiet --set until.collisions_per_needle=40").json();
+  EXPECT_EQ(some["collisions"], 40 * 300 / 2);
+  const double own = some["wall_s"].get<double>() * some["collisions_per_s"].get<double>();
+  EXPECT_NEAR(own, 300 / 2, 1);
+  EXPECT_NEAR(some["us_per_collision"].get<double>() * own, 1e6 * some["cpu_s"].get<double>(), 1);
+}
+
 TEST_F(ResumeCommand, SaysThatTheEndIsMetAlready) {
   hash_of("run gas.toml --out a.h5 --set until.collisions_per_needle=15");
   const Outcome again = run("resume a.h5 --quiet");

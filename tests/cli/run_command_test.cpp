@@ -7,6 +7,7 @@
 #include "kernels/isa.h"
 #include "needlework/h5md.h"
 #include "needlework/theory.h"
+#include "tests/cli/described_keys.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -67,6 +68,19 @@ TEST_F(RunCommand, PrintsAllKeysAndNothingElse) {
     EXPECT_TRUE(object["stats"][key].is_number_integer()) << key;
   }
   EXPECT_EQ(object["trajectory_hash"].get<std::string>().size(), 32u);
+}
+
+TEST_F(RunCommand, PrintsWhatItsDocumentDescribes) {
+  auto described = described_keys("json.md");
+  const json object = result("small.toml");
+  EXPECT_EQ(keys_of(object), sorted(described["Result"]));
+  EXPECT_EQ(keys_of(object["stats"]), sorted(described["Counters"]));
+  write("species.toml",
+        "needles.box = 5\nuntil.time = 1\n"
+        "[[species]]\nname = 'rods'\ncount = 50\n");
+  std::vector<std::string> all = described["Result"];
+  for (const std::string& key : described["Result with species"]) all.push_back(key);
+  EXPECT_EQ(keys_of(result("species.toml")), sorted(all));
 }
 
 TEST_F(RunCommand, ReportsConsistentNumbers) {

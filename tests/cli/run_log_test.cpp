@@ -1,11 +1,9 @@
 // `run --log`: a line of JSON for each step of a run, appended whole.
 #include <sys/stat.h>
 
-#include <algorithm>
-#include <fstream>
-#include <map>
 #include <sstream>
 
+#include "tests/cli/described_keys.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -169,26 +167,11 @@ TEST_F(RunLog, OfASweepHasTheEndsOfItsMembers) {
 
 // docs/log.md describes each key, and no other, in the order of the lines.
 TEST_F(RunLog, IsDescribedByItsDocument) {
-  std::map<std::string, std::vector<std::string>> described;  // keys by heading
-  std::ifstream document(NEEDLEWORK_SOURCE "/docs/log.md");
-  std::string heading;
-  for (std::string line; std::getline(document, line);) {
-    if (line.starts_with("## ")) heading = line.substr(3);
-    if (!line.starts_with("| `")) continue;
-    const std::string cell = line.substr(2, line.find(" |", 2) - 2);
-    for (std::size_t begin = 0; (begin = cell.find('`', begin)) != cell.npos;) {
-      const std::size_t end = cell.find('`', begin + 1);
-      described[heading].push_back(cell.substr(begin + 1, end - begin - 1));
-      begin = end + 1;
-    }
-  }
+  auto described = described_keys("log.md");
   const auto expect_described = [&](const json& line, const std::string& under) {
     std::vector<std::string> keys = described[""];
     keys.insert(keys.end(), described[under].begin(), described[under].end());
-    std::vector<std::string> found;
-    for (const auto& [key, value] : line.items()) found.push_back(key);
-    std::sort(keys.begin(), keys.end());  // as json has them
-    EXPECT_EQ(found, keys) << under;
+    EXPECT_EQ(keys_of(line), sorted(keys)) << under;
   };
   run("run small.toml --quiet --out a.dat --log log --progress-every 0");
   for (const json& line : lines()) expect_described(line, line["event"]);

@@ -104,6 +104,25 @@ TEST_F(Usage, RunsInWhichNothingHappensNeedAnEndTime) {
   EXPECT_EQ(alone.json()["stop"], "time");
 }
 
+TEST_F(Usage, ElasticNeedlesNeedAnotherEndThanTheirEnergy) {
+  write("kept.toml", "needles = {count = 20, box = 5}\nuntil.energy_ratio = 0.5\n");
+  for (const char* scene : {"", "--set collisions.beta=1"}) {
+    const Outcome endless = run(std::string("run kept.toml --quiet --out kept.h5 ") + scene);
+    EXPECT_EQ(endless.exit_code, 3) << scene;
+    EXPECT_NE(endless.err.find("needlework: kept.toml: line 2: until.energy_ratio = 0.5: is never "
+                               "met, as collisions keep the energy: expected another end"),
+              std::string::npos)
+        << endless.err;
+    EXPECT_FALSE(exists("kept.h5"));
+  }
+  for (const char* scene : {"--set until.collisions_per_needle=1", "--set until.wall_s=0.01",
+                            "--set until.energy_ratio=1",
+                            "--set collisions.epsilon=0.5 --set collisions.tc_relative=0.001"}) {
+    const int exit_code = run(std::string("run kept.toml --quiet ") + scene).exit_code;
+    EXPECT_TRUE(exit_code == 0 || exit_code == 75) << scene << ": " << exit_code;
+  }
+}
+
 TEST_F(Usage, FilesThatCannotBeReadExitWith5) {
   for (const char* arguments : {"run absent.toml", "check absent.toml", "info absent.h5",
                                 "run small.toml --set initial.file=absent.h5"}) {

@@ -206,6 +206,9 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
                                          ", did you mean collisions.epsilon?"},
       {"[needles]\nfile = 'a'\n", "s.toml: line 2: needles.file = 'a': " + of_needles +
                                       ", did you mean initial.file or output.file?"},
+      {"[needles]\ncount = 5\nuntil.time = 1\n",
+       "s.toml: line 3: needles.until = {...}: expected [until] as a section of its own, or "
+       "until.KEY above the first [section]"},
       {"[engine]\nthreads.count = 2\n",
        "s.toml: line 2: engine.threads = {...}: expected \"auto\" or a whole number in digits, "
        "from 1 to 1024"},
@@ -247,7 +250,12 @@ TEST(BadScene, SyntaxErrorIsNamedWithItsLine) {
       {"[needles]\ncount = 5\nk = 6\ncount = 6\n",
        "s.toml: line 4: bad key-value pair: cannot redefine existing integer 'count'"},
       {"[needles]\n[engine]\n[needles]\n",
-       "s.toml: line 3: bad table header: cannot redefine existing table 'needles'"},
+       "s.toml: line 3: bad table header: cannot redefine existing table 'needles' (the keys "
+       "of a section stand together: below [section], in braces, or as section.key)"},
+      {"needles = { count = 5 }\nneedles.seed = 2\n",
+       "s.toml: line 2: bad key-value pair: cannot redefine existing table as dotted key-value "
+       "pair (the keys of a section stand together: below [section], in braces, or as "
+       "section.key)"},
       {"[needles]\ncount = 99999999999999999999\n",
        "s.toml: line 2: bad decimal integer: '99999999999999999999' is not representable in 64 "
        "bits"},

@@ -73,6 +73,16 @@ TEST(Override, OfAnAlternativeReplacesTheChoiceOfTheFile) {
   EXPECT_EQ(restart.initial.t_tr, 1);
 }
 
+TEST(Override, RemovesAnEnd) {
+  const Scene scene = parse({"until.energy_ratio=none"}, "until.energy_ratio = 0.5");
+  EXPECT_FALSE(scene.until.energy_ratio);
+  EXPECT_EQ(parse({"until.energy_ratio=none", "until.energy_ratio=0.2"}).until.energy_ratio, 0.2);
+  EXPECT_EQ(message({"until.end=none"}).substr(0, 47),
+            "--set until.end=none: expected one of time, col");
+  EXPECT_EQ(message({"collisions.tc=none"}, "collisions.tc = 1").substr(0, 40),
+            "--set collisions.tc=none: expected a tim");
+}
+
 TEST(Override, CannotChooseBothAlternatives) {
   EXPECT_EQ(message({"collisions.tc=0.1", "collisions.tc_relative=1"}),
             "--set collisions.tc_relative=1: expected either tc or tc_relative, not both");
