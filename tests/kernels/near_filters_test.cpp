@@ -115,6 +115,57 @@ TEST(Overlapping, LosesNoCapsulesThatCrossAtSmallAngles) {
   }
 }
 
+// Side by side, with places and a corner of the cell whose roundings all make them seem too far
+// apart.
+TEST(Overlapping, LosesNoCapsulesWhosePlacesAreFarthestOff) {
+  Random random(seed);
+  const WordFormat format = WordFormat::holding(0, 8);
+  constexpr double half = 0.5;
+  // Differences of places are whole steps. They are off most, by nearly one and a half, where the
+  // true one is half a step more than a whole number.
+  const double along_axis = 118.55 * format.step();
+  const double radius = 0.5 * std::sqrt(3.0) * along_axis * (1 + 1e-6);
+  for (std::size_t n = 0; n < 400 / thin; ++n) {
+    double side[3];
+    for (double& sign : side) sign = random.coin() ? 1 : -1;
+    const Vec3d gap = Vec3d{side[0], side[1], side[2]} * along_axis;
+    const Vec3d u = normalised(cross(gap, vec3(random.direction())));
+    const double director[3] = {u.x, u.y, u.z};
+    double from[3]{}, off[3]{}, squares = 0;
+    float corner[3]{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto place_of = [&](double centre) {
+        return static_cast<float>(format.coordinate(format.with_director(centre, director[axis])));
+      };
+      for (int draw = 0; draw < 100000 && off[axis] < 1.25 * format.step(); ++draw) {
+        const double r = random.uniform(2, 6), other = r + side[axis] * along_axis;
+        const auto offset = static_cast<float>(random.uniform(-1, 1));
+        // As a filter has it: a step apart from each other.
+        const float seen = (place_of(r) + (format.base - format.low)) - offset;
+        const double seems =
+            (place_of(other - offset) + (format.base - format.low)) - static_cast<double>(seen);
+        const double more = side[axis] * seems - along_axis;
+        if (more <= off[axis]) continue;
+        off[axis] = more;
+        from[axis] = r;
+        corner[axis] = offset;
+      }
+      squares += off[axis] * off[axis];
+    }
+    ASSERT_GT(std::sqrt(squares), 2.4 * format.step());
+    Motion motion{};
+    motion.half = half;
+    Seeker seeker = seeker_of(motion, 1, half);
+    const Vec3d r{from[0], from[1], from[2]};
+    place(seeker, format, r, u);
+    const Vec3d relative = r + gap - Vec3d{corner[0], corner[1], corner[2]};
+    Neighbourhood near = fill(random, seeker, format, 0, {{relative, u, true}});
+    for (CellView& cell : near.cells) std::copy_n(corner, 3, cell.offset);
+    ASSERT_EQ(overlapping(near_kernels(Isa::scalar), near, static_cast<float>(radius)).size(), 1U)
+        << "seed " << seed << ", case " << n;
+  }
+}
+
 // Whether |r + v s| <= reach for some s in [0, until], in many digits.
 bool spheres_meet(const Vec3d& r, const Vec3d& v, double reach, double until) {
   const auto product = [](const Vec3d& a, const Vec3d& b) {
