@@ -9,9 +9,10 @@
 
 namespace needlework::test {
 
-/// The first root between two samples of opposite sign, both arms inside there; both samples clear
-/// of rounding. Starts half a step after s = 0, so that a touch there is no root.
-inline std::optional<double> sampled_contact(const kernels::Pair& pair, double until, int steps) {
+/// The first root between two samples of opposite sign, both arms inside there; both samples larger
+/// than `noise`, which is far above their rounding. Starts half a step after s = 0, so that a touch there is no root.
+inline std::optional<double> sampled_contact(const kernels::Pair& pair, double until, int steps,
+                                             double noise = 1e-14) {
   const double step = until / steps;
   const auto gap = [&](double t) { return kernels::gap_at(pair, t); };
   const auto inside = [&](double t) {
@@ -21,7 +22,7 @@ inline std::optional<double> sampled_contact(const kernels::Pair& pair, double u
   double before = gap(0.5 * step);
   for (int n = 1; n < steps; ++n) {
     const double here = gap((n + 0.5) * step);
-    if (before * here < 0 && std::abs(before) > 1e-14 && std::abs(here) > 1e-14) {
+    if (before * here < 0 && std::abs(before) > noise && std::abs(here) > noise) {
       double low = (n - 0.5) * step, high = low + step;
       for (int i = 0; i < 50; ++i) {
         const double middle = 0.5 * (low + high);
