@@ -10,7 +10,8 @@
 namespace needlework::test {
 
 /// The first root between two samples of opposite sign, both arms inside there; both samples larger
-/// than `noise`, which is far above their rounding. Starts half a step after s = 0, so that a touch there is no root.
+/// than `noise`, which is far above their rounding. Starts half a step after s = 0, so that a touch
+/// there is no root.
 inline std::optional<double> sampled_contact(const kernels::Pair& pair, double until, int steps,
                                              double noise = 1e-14) {
   const double step = until / steps;
