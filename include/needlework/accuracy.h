@@ -28,9 +28,10 @@ struct Accuracy {
   /// follows all pairs whose bounding volumes meet.
   bool float_filter = true;
   /// A root in double is accepted when a step is below this fraction of the time since the later
-  /// record; 0: when rounding limits it.
+  /// record; 0: when rounding limits it. At most 1e-3.
   double root_tolerance = 0;
-  /// Time between two samples, in units of 1 / (|v12| + |w1| + |w2|) up to a factor of 2.
+  /// Time between two samples, in units of 1 / (|v12| + |w1| + |w2|) up to a factor of 2:
+  /// from 1e-4 to 0.5.
   double sampling_step = 0x1p-5;
 };
 

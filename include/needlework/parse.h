@@ -10,8 +10,6 @@
 
 namespace needlework {
 
-struct Override;  // document.h
-
 /// Largest size of a scene that is read [bytes].
 inline constexpr std::size_t max_scene_bytes = std::size_t{1} << 20;
 
@@ -43,10 +41,6 @@ struct Provided {
 /// or "--set section.key=VALUE: expected ...". Messages contain no control characters.
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {}, Provided provided = {});
-
-/// The same for overrides that messages may attribute to another source than --set.
-Scene parse_overridden_scene(std::string_view text, std::string_view name,
-                             std::span<const Override> overrides, Provided provided = {});
 
 /// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value",
 /// and removes those that are "until.key=none". Throws InputError for other keys and for bad

@@ -30,9 +30,10 @@ struct FirstContact {
 /// The first contact of two needles in (0, horizon], without periodic images. `just_collided`
 /// means that they have collided at time 0 and separate; that contact is not found again. Throws
 /// InputError for positions beyond 1e150, velocities beyond 1e300, a director that is 0, a horizon
-/// below 0, numbers that are NaN, needles that come near each other so late that a double cannot
-/// tell where they are, and a search that would take more than about a second, as for needles that
-/// turn near each other for hundreds of thousands of radians without a contact.
+/// below 0, an accuracy out of range, numbers that are NaN, needles that come near each other so
+/// late that a double cannot tell where they are, and a search that would take more than about a
+/// second, as for needles that turn near each other for hundreds of thousands of radians without a
+/// contact.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 

@@ -32,7 +32,8 @@ class Simulation {
   /// Draws the initial state. Throws InputError for an invalid scene, and for a scene whose
   /// initial state is in a file: read the file (needlework/h5md.h) and use the other constructor.
   explicit Simulation(const Scene& scene);
-  /// Starts from the given state; box, count and temperatures of the scene are ignored.
+  /// Starts from the given state; box, count and temperatures of the scene are ignored. Throws
+  /// InputError for an invalid scene or state.
   Simulation(const Scene& scene, const State& initial);
   /// Continues a run from a checkpoint of it, with the same collisions to the last bit. Box,
   /// needles, collisions and accuracy of the scene must be those of the run; search, calendar,

@@ -9,6 +9,7 @@
 // std::invalid_argument, "NAME = VALUE: expected ...", for a number out of range or NaN.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>

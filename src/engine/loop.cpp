@@ -1,6 +1,9 @@
 #include "src/engine/loop.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 #include "needlework/error.h"
 
@@ -15,6 +18,14 @@ Limits::Limits(const Run& run, const Scene::Until& until)
       wall(std::chrono::steady_clock::time_point::max()) {
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
     throw InputError("until: expected at least one end condition");
+  }
+  for (const auto& [name, end] : {std::pair("time", until.time),
+                                  {"collisions_per_needle", until.collisions_per_needle},
+                                  {"energy_ratio", until.energy_ratio},
+                                  {"wall_s", until.wall_s}}) {
+    if (end && std::isnan(*end)) {
+      throw InputError(std::string("until.") + name + " = nan: expected a number");
+    }
   }
   if (until.wall_s) {
     const auto now = std::chrono::steady_clock::now();

@@ -15,6 +15,7 @@
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
+#include "src/scene/scene_values.h"
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
 #include "src/search/sizing.h"
@@ -157,16 +158,21 @@ Simulation::Simulation(const Scene& scene) {
                      ": expected none, as Simulation(scene) reads no files: read the state with "
                      "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
+  require_in_range(scene);
   // The state's arrays are freed before the rest of the run allocates its memory.
   Gas gas = make_gas(scene, draw_initial_state(scene));
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
 }
 
-Simulation::Simulation(const Scene& scene, const State& initial)
-    : implementation_(std::make_unique<Implementation>(scene, make_gas(scene, initial))) {}
+Simulation::Simulation(const Scene& scene, const State& initial) {
+  require_in_range(scene, {.state = true});
+  implementation_ = std::make_unique<Implementation>(scene, make_gas(scene, initial));
+}
 
-Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint)
-    : implementation_(std::make_unique<Implementation>(scene, checkpoint)) {}
+Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
+  require_in_range(scene, {.state = true});
+  implementation_ = std::make_unique<Implementation>(scene, checkpoint);
+}
 
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;

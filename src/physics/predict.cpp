@@ -26,6 +26,17 @@ constexpr double stretch = 0x1p4;
 // In that unit, too. Times in double are farther apart later on than the intervals of the search.
 constexpr double latest = 0x1p50;
 
+void require_in_range(const Accuracy& accuracy) {
+  const double tolerance = accuracy.root_tolerance, step = accuracy.sampling_step;
+  if (!(tolerance >= 0 && tolerance <= 1e-3)) {
+    throw InputError(
+        fmt::format("root_tolerance = {:g}: expected a number from 0 to 1e-3", tolerance));
+  }
+  if (!(step >= 1e-4 && step <= 0.5)) {
+    throw InputError(fmt::format("sampling_step = {:g}: expected a number from 1e-4 to 0.5", step));
+  }
+}
+
 Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
   for (double x : a) {
     if (!(std::abs(x) <= most)) {
@@ -109,6 +120,7 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
   if (!(horizon >= 0)) {
     throw InputError(fmt::format("horizon = {:g}: expected a time, 0 or later", horizon));
   }
+  require_in_range(accuracy);
   const kernels::Flight a = flight_of(first), b = flight_of(second);
   kernels::Pair pair;
   pair.first = &a;

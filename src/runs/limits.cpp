@@ -30,7 +30,8 @@ void require_valid(const Limits& limits) {
 /// Adds the limit on the number of collisions of all needles since the start, where the gas has
 /// `needles`. It is set half a collision lower, so that rounding cannot ask for one more.
 void add_collisions(Scene::Until& until, double collisions, double needles) {
-  const double per_needle = 2 * std::max(0.0, collisions - 0.5) / needles;
+  // Without needles nothing can happen.
+  const double per_needle = needles > 0 ? 2 * std::max(0.0, collisions - 0.5) / needles : 0;
   until.collisions_per_needle =
       std::min(per_needle, until.collisions_per_needle.value_or(per_needle));
 }

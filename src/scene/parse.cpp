@@ -14,6 +14,7 @@
 #include "needlework/error.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/document.h"
+#include "src/scene/overridden_scene.h"
 #include "src/scene/printable.h"
 #include "src/scene/schema.h"
 #include "src/scene/text_input.h"

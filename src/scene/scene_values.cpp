@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "needlework/error.h"
-#include "needlework/parse.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/schema.h"
@@ -73,21 +72,6 @@ void refuse(std::string_view name, std::string_view expected) {
   throw InputError(fmt::format("the scene: {}: expected {}", name, expected));
 }
 
-void require_agreement(const Scene& scene) {
-  if (scene.species.size() > 1) refuse("species", "one");
-  if (scene.collisions.tc && scene.collisions.tc_relative) {
-    refuse("collisions", "either tc or tc_relative, not both");
-  }
-  const Scene::Species species = scene.one_species();
-  if (species.count != scene.needles.count || species.k != scene.needles.k) {
-    refuse("species", "the count and k of [needles]");
-  }
-  const double least = least_edge(species.length);
-  if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; })) {
-    refuse("needles.box", "edges of at least 2.01 needle lengths");
-  }
-}
-
 }  // namespace
 
 std::vector<KeyValue> values_of(const Scene& scene) {
@@ -96,15 +80,34 @@ std::vector<KeyValue> values_of(const Scene& scene) {
   return std::move(collected.values);
 }
 
-void require_valid(const Scene& scene) {
+void require_in_range(const Scene& scene, Provided provided) {
   Scene again = scene;
   for (const auto& [section, name, value] : values_of(scene)) {
-    const SceneKey* key = find_scene_key(section, name);
-    if (key->read(again, value)) continue;
+    const auto* text = value.as<std::string>();
+    const bool no_name = section == "species" && name == "name" && text && text->empty();
+    const bool no_box = provided.state && section == "needles" && name == "box";
+    if (no_name || no_box || find_scene_key(section, name)->read(again, value)) continue;
     refuse(section.empty() ? std::string(name) : fmt::format("{}.{}", section, name),
-           key->expected);
+           find_scene_key(section, name)->expected);
   }
-  require_agreement(scene);
+  if (scene.collisions.tc && scene.collisions.tc_relative) {
+    refuse("collisions", "either tc or tc_relative, not both");
+  }
+  if (provided.state || scene.species.size() > 1) return;
+  const double least = least_edge(scene.one_species().length);
+  if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; })) {
+    refuse("needles.box", "edges of at least 2.01 needle lengths");
+  }
+}
+
+void require_valid(const Scene& scene) {
+  require_in_range(scene);
+  if (scene.species.size() > 1) refuse("species", "one");
+  const Scene::Species species = scene.one_species();
+  if (species.count != scene.needles.count || species.k != scene.needles.k) {
+    refuse("species", "the count and k of [needles]");
+  }
+  if (!scene.species.empty() && species.name.empty()) refuse("species.name", "a name");
   if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "needlework/parse.h"
 #include "needlework/scene.h"
 #include "src/scene/document.h"
 
@@ -20,8 +21,13 @@ struct KeyValue {
 /// others those that are set.
 std::vector<KeyValue> values_of(const Scene& scene);
 
-/// Throws InputError, "the scene: SECTION.KEY: expected ...", unless a scene file could describe
-/// this scene: for one that was restored from a file and has not been parsed.
+/// Throws InputError, "the scene: SECTION.KEY: expected ...", for a number out of range, a word
+/// that is none of those expected, or numbers that exclude each other, in a scene that was made in
+/// code. Where a state is provided, the box is not looked at.
+void require_in_range(const Scene& scene, Provided provided = {});
+
+/// The same for a scene that was restored from a file: besides, a scene file must be able to
+/// describe it.
 void require_valid(const Scene& scene);
 
 }  // namespace needlework

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "needlework/error.h"
@@ -378,6 +380,63 @@ TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
   EXPECT_NEAR(simulation.copy().image[0][0], 2e9, 1);
   simulation.advance(until_time(2.2e9));
   EXPECT_THROW(simulation.copy(), InvalidStateError);
+}
+
+// What the reader of scene files refuses must not hang or miss collisions in a scene made in code.
+TEST(SceneMadeInCode, IsRefusedWithNumbersOutOfRange) {
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct {
+    const char* message;
+    void (*spoil)(Scene&);
+  } cases[] = {
+      {"the scene: engine.capsule_radius: ", [](Scene& s) { s.engine.capsule_radius = nan; }},
+      {"the scene: engine.capsule_radius: ", [](Scene& s) { s.engine.capsule_radius = -1; }},
+      {"the scene: engine.cell_side: ", [](Scene& s) { s.engine.cell_side = 0; }},
+      {"the scene: engine.sampling_step: ", [](Scene& s) { s.engine.sampling_step = 0; }},
+      {"the scene: engine.root_tolerance: ", [](Scene& s) { s.engine.root_tolerance = 1; }},
+      {"the scene: engine.threads: ", [](Scene& s) { s.engine.threads = -3; }},
+      {"the scene: engine.team: ", [](Scene& s) { s.engine.team = "foo"; }},
+      {"the scene: engine.storage: ", [](Scene& s) { s.engine.storage = "foo"; }},
+      {"the scene: collisions.epsilon: ", [](Scene& s) { s.collisions.epsilon = 2; }},
+      {"the scene: collisions.epsilon: ", [](Scene& s) { s.collisions.epsilon = nan; }},
+      {"the scene: collisions.beta: ", [](Scene& s) { s.collisions.beta = 5; }},
+      {"the scene: collisions.tc: ", [](Scene& s) { s.collisions.tc = nan; }},
+      {"the scene: needles.k: ", [](Scene& s) { s.needles.k = 0; }},
+      {"the scene: initial.t_tr: ", [](Scene& s) { s.initial.t_tr = -1; }},
+      {"the scene: species.length: ",
+       [](Scene& s) { s.species.push_back({.name = "a", .count = 20, .length = -1}); }},
+  };
+  for (const auto& [message, spoil] : cases) {
+    Scene scene = test::scene_of(20, 5);
+    const State state = Simulation(scene).copy();
+    spoil(scene);
+    const auto expect_refusal = [&](auto&& make) {
+      try {
+        make();
+        ADD_FAILURE() << message << "accepted";
+      } catch (const InputError& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with(message)) << error.what();
+      }
+    };
+    expect_refusal([&] { Simulation simulation(scene); });
+    expect_refusal([&] { Simulation simulation(scene, state); });
+  }
+  Scene without_box = test::scene_of(20, 5);
+  const State state = Simulation(without_box).copy();
+  without_box.needles.box = {};
+  EXPECT_EQ(Simulation(without_box, state).needles(), 20U);
+}
+
+TEST(Simulation, RefusesEndsThatAreNoNumbers) {
+  Simulation simulation(test::scene_of(20, 5));
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const auto end : {&Scene::Until::time, &Scene::Until::collisions_per_needle,
+                         &Scene::Until::energy_ratio, &Scene::Until::wall_s}) {
+    Scene::Until until;
+    until.*end = nan;
+    EXPECT_THROW(simulation.advance(until), InputError);
+  }
+  EXPECT_EQ(simulation.advance(until_time(0.1)), Stop::time);
 }
 
 }  // namespace

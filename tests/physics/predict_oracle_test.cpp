@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/predict.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
@@ -231,6 +232,18 @@ TEST(PredictOracleByHand, SpinAboutTheOwnAxisIsNoRotation) {
   pair.second = {{0, 0, 0}, {0, 3, 0}, {0, 0, 0}, {0, -7, 0}};
   pair.horizon = 2;
   EXPECT_NEAR(engine(pair).time, 2.0 / 3, 1e-15);
+}
+
+TEST(Predict, RefusesAnAccuracyOutOfRange) {
+  const FreeNeedle first{{0.1, 0.05, -0.5}, {1, 0, 0}, {0, 0, 1}, {}},
+      second{{}, {0, 1, 0}, {}, {}};
+  for (const Accuracy& bad :
+       {Accuracy{.root_tolerance = 1}, Accuracy{.root_tolerance = std::nan("")},
+        Accuracy{.isolation = Isolation::sampling, .sampling_step = 0},
+        Accuracy{.isolation = Isolation::sampling, .sampling_step = 1e-12}}) {
+    EXPECT_THROW(predict(first, second, 1, false, bad), InputError);
+  }
+  EXPECT_EQ(predict(first, second, 1, false).time, 0.5);
 }
 
 /// Nearly parallel needles whose contact is next to the root at which they are parallel: f bends
