@@ -70,9 +70,6 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   return quick_two_sum(q1, q2) + DoubleDouble(q3);
 }
 
-inline DoubleDouble& operator+=(DoubleDouble& a, const DoubleDouble& b) { return a = a + b; }
-inline DoubleDouble& operator-=(DoubleDouble& a, const DoubleDouble& b) { return a = a - b; }
-
 /// Square root of a >= 0.
 inline DoubleDouble sqrt(const DoubleDouble& a) {
   if (!(a.hi > 0)) return {};

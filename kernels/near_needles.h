@@ -22,6 +22,15 @@ namespace needlework::kernels {
 
 inline constexpr float longest_time = 8;  ///< largest present time; the margins rely on it
 
+/// Twice what the roundings of times in blocks and motions amount to. More is added to the ends of
+/// searches, which may be far ahead. [unit of time]
+inline constexpr double time_margin = 0x1p-18;
+
+/// Covers the rounding of lengths to floats in cells of this side. [unit of length]
+constexpr float margin_of_lengths(double side) {
+  return static_cast<float>(0x1p-16 + side * 0x1p-19);
+}
+
 /// A needle's flight since `time`, centre relative to the corner of its cell: one cache line.
 struct alignas(64) Motion {
   float r[3], v[3], u[3], p[3];  ///< p = w x u / |w|, or 0
@@ -60,7 +69,7 @@ struct Seeker {
   float r[3], u[3];      ///< centre and director of its capsule, as in its block
   float now;             ///< present time
   float ahead;           ///< how far it searches
-  float margin;          ///< of lengths; covers rounding to floats, but not to words
+  float margin;          ///< margin_of_lengths(); does not cover words
   float longest_half;    ///< half the length of the longest needle, which each other one may have
   std::uint32_t needle;  ///< itself; not reported, nor its images
 };

@@ -60,7 +60,6 @@ HWY_INLINE Floats maximum(Floats a, Floats b) { return hn::Max(a.v, b.v); }
 HWY_INLINE Floats absolute(Floats a) { return hn::Abs(a.v); }
 HWY_INLINE Floats square_root(Floats a) { return hn::Sqrt(a.v); }
 HWY_INLINE Floats select(Mask m, Floats a, Floats b) { return hn::IfThenElse(m.m, a.v, b.v); }
-HWY_INLINE Mask select(Mask m, Mask a, Mask b) { return (m & a) | ((!m) & b); }
 HWY_INLINE bool any(Mask m) { return !hn::AllFalse(Tag(), m.m); }
 HWY_INLINE std::size_t count_of(Mask m) { return hn::CountTrue(Tag(), m.m); }
 
@@ -111,7 +110,7 @@ HWY_INLINE Mask same_numbers(Floats a, Floats b) {
   return {hn::RebindMask(Tag(), hn::Eq(hn::BitCast(whole, a.v), hn::BitCast(whole, b.v)))};
 }
 
-/// Floats of which the last bits, where `mask` has ones, are those of the numbers.
+/// Floats whose bits where `mask` has ones are those of the numbers; there `a` must have zeros.
 HWY_INLINE Floats with_bits(Floats a, Floats numbers, Floats mask) {
   const hn::RebindToUnsigned<Tag> whole;
   return hn::BitCast(Tag(), hn::OrAnd(hn::BitCast(whole, a.v), hn::BitCast(whole, numbers.v),

@@ -44,7 +44,6 @@ inline Floats maximum(Floats a, Floats b) { return a.v > b.v ? a : b; }
 inline Floats absolute(Floats a) { return std::abs(a.v); }
 inline Floats square_root(Floats a) { return std::sqrt(a.v); }
 inline Floats select(Mask m, Floats a, Floats b) { return m.m ? a : b; }
-inline Mask select(Mask m, Mask a, Mask b) { return m.m ? a : b; }
 inline bool any(Mask m) { return m.m; }
 inline std::size_t count_of(Mask m) { return m.m; }
 

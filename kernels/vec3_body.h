@@ -7,6 +7,10 @@ struct Vec3 {
 };
 
 template <class T>
+NEEDLEWORK_INLINE T component(const Vec3<T>& a, int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+template <class T>
 NEEDLEWORK_INLINE Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }

@@ -20,7 +20,6 @@ constexpr std::uint64_t needles_drawn = 4000;
 constexpr float margin = 0x1p-14f;
 
 Vec3d vector(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
-double component(const Vec3d& a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
 
 void store(float (&to)[3], const Vec3d& a) {
   to[0] = static_cast<float>(a.x);

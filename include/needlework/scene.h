@@ -11,8 +11,9 @@
 
 namespace needlework {
 
-/// What to simulate, in the engine's units: needle length L = 1 and mass m = 1. A temperature is
-/// then an energy, and times are in L sqrt(m / T). Each member is one key of a scene file.
+/// What to simulate, in the engine's units: needle length L = 1 and mass m = 1, unless a
+/// species says otherwise. A temperature is then an energy, and times are in L sqrt(m / T). Members
+/// are keys of a scene file, besides those that say where the scene comes from.
 struct Scene {
   struct Needles {
     std::uint64_t count = 0;      ///< number of needles; 0 and 1 are allowed

@@ -1,5 +1,5 @@
 // A calendar that is chosen at run time. The event loop is compiled once for all calendars: it
-// makes about ten virtual calls per collision, among about ten thousand instructions.
+// makes about ten virtual calls per collision, among some fifty thousand instructions.
 #pragma once
 
 #include <cstddef>

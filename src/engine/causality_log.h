@@ -154,7 +154,7 @@ class CausalityLog {
     const std::array<double, 3> sides = grid_.sides();
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double gap = a.at[axis] - (&b.x)[axis], count = grid_.counts()[axis];
+      const double gap = a.at[axis] - component(b, axis), count = grid_.counts()[axis];
       const double nearest = (gap - std::nearbyint(gap / count) * count) * sides[axis];
       squares += nearest * nearest;
     }

@@ -124,7 +124,7 @@ class CellBall {
   bool comes_near(const Vec3d& position, const CellCounts& cell) const {
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double ahead = std::abs((&position.x)[axis] - (cell[axis] + 0.5));
+      const double ahead = std::abs(component(position, axis) - (cell[axis] + 0.5));
       const double gap = std::max(0.0, std::min(ahead, cells_[axis] - ahead) - 0.5);
       squares += gap * gap * squared_sides_[axis];
     }

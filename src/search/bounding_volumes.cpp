@@ -62,7 +62,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   }
   const double side = std::max({sides[0], sides[1], sides[2]}), widest = side + overlap;
   format = kernels::WordFormat::holding(-overlap * per_length, widest * per_length);
-  margin = static_cast<float>(0x1p-16 + widest * per_length * 0x1p-19);
+  margin = kernels::margin_of_lengths(widest * per_length);
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {

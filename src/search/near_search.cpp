@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "src/search/time_margin.h"
-
 namespace needlework {
 namespace {
 
@@ -45,7 +43,7 @@ inline kernels::Seeker NearSearch::seeker_for(Needle i, double ahead) const {
   kernels::Seeker seeker;
   seeker.motion = volumes.motions[i];
   seeker.now = seeker.motion.time;
-  seeker.ahead = static_cast<float>(ahead * volumes.per_time * roundup + time_margin);
+  seeker.ahead = static_cast<float>(ahead * volumes.per_time * roundup + kernels::time_margin);
   seeker.margin = volumes.margin;
   seeker.longest_half = static_cast<float>(0.5 * volumes.longest * volumes.per_length);
   seeker.needle = i.index;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kernels/four.h"
-#include "src/search/time_margin.h"
 
 namespace needlework {
 
@@ -58,7 +57,7 @@ PairColumns PairTable::fill(const kernels::Seeker& seeker, const Motion* motions
     put(C::half, part[3][3]);
     put(C::age, age);
     const Four left = part[3][2] - four(seeker.now), zero = four(0);
-    const Four until = (left > zero ? left : zero) + four(static_cast<float>(time_margin));
+    const Four until = (left > zero ? left : zero) + four(static_cast<float>(kernels::time_margin));
     put(C::until, until < four(seeker.ahead) ? until : four(seeker.ahead));
   }
   return pairs;

@@ -14,11 +14,11 @@
 
 namespace needlework::test {
 
-inline constexpr float simd_time_margin = 0x1p-18f;
+inline constexpr auto simd_time_margin = static_cast<float>(kernels::time_margin);
 
 /// Cell in which needles of test pairs lie, and what a search takes as its margin then.
 inline constexpr double simd_cell_corner = -4, simd_cell_side = 8;
-inline constexpr float simd_margin = static_cast<float>(0x1p-16 + simd_cell_side * 0x1p-20);
+inline constexpr float simd_margin = kernels::margin_of_lengths(simd_cell_side);
 
 /// The motion at `elapsed` since its record of a needle of half length `half`, lengths from the
 /// corner of the cell, times in units of 1 / unit.

@@ -380,7 +380,9 @@ TEST(CellGrids, FindTheCellsNearAnInterval) {
       const double corner = (cell - origin) * side;
       const double gap = std::max({0.0, corner - high, low - (corner + side)});
       const bool is_found = next < count && found[next].cell == cell;
-      if (std::abs(gap - reach) > 1e-5) ASSERT_EQ(is_found, gap < reach) << gap << ", " << reach;
+      if (std::abs(gap - reach) > 1e-5) {
+        ASSERT_EQ(is_found, gap < reach) << gap << ", " << reach;
+      }
       if (!is_found) continue;
       const CellGrid::AxisCell& one = found[next++];
       EXPECT_EQ(one.wrapped, grid.wrap(cell, axis));
@@ -399,7 +401,7 @@ TEST(LinkedListsLayout, HasCellsNoSmallerThanANeedle) {
   using Counts = std::array<std::int32_t, 3>;
   EXPECT_EQ(counts(1000, {2.01, 3.5, 7}), (Counts{2, 3, 6}));  // 7 cells of side 1 have no margin
   EXPECT_EQ(counts(100000, {24, 24, 24.01}), (Counts{23, 23, 24}));
-  // One cell for two needles' worth of volume is enough.
+  // Two cells for each needle are enough.
   EXPECT_EQ(counts(4, {20, 20, 20}), (Counts{2, 2, 2}));
   const Counts dilute = counts(1000, {100, 100, 100});
   for (const std::int32_t n : dilute) EXPECT_LE(n, 13);
