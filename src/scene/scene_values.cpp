@@ -86,9 +86,10 @@ void require_in_range(const Scene& scene, Provided provided) {
     const auto* text = value.as<std::string>();
     const bool no_name = section == "species" && name == "name" && text && text->empty();
     const bool no_box = provided.state && section == "needles" && name == "box";
-    if (no_name || no_box || find_scene_key(section, name)->read(again, value)) continue;
+    const SceneKey* key = find_scene_key(section, name);
+    if (no_name || no_box || key->read(again, value)) continue;
     refuse(section.empty() ? std::string(name) : fmt::format("{}.{}", section, name),
-           find_scene_key(section, name)->expected);
+           key->expected);
   }
   if (scene.collisions.tc && scene.collisions.tc_relative) {
     refuse("collisions", "either tc or tc_relative, not both");
