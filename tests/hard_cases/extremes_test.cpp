@@ -22,6 +22,15 @@ using Three = std::array<double, 3>;
 
 Scene gas(std::uint64_t count, double side) { return scene_of(count, side, 77); }
 
+/// The initial state of a scene at temperatures that its file could not hold.
+State at_temperatures(Scene scene, double t_tr, double t_rot) {
+  scene.initial.t_tr = scene.initial.t_rot = 1;
+  State state = draw_initial_state(scene);
+  for (Three& v : state.velocity) v = std::sqrt(t_tr) * v;
+  for (Three& w : state.angular_velocity) w = std::sqrt(t_rot) * w;
+  return state;
+}
+
 Scene::Until until_energy(double ratio) {
   Scene::Until until;
   until.energy_ratio = ratio;
@@ -113,9 +122,7 @@ TEST(AtRest, AllButOneAreSetInMotion) {
 TEST(Scales, OfFlightAndRotationMayBeFarApart) {
   for (const auto& [t_tr, t_rot] : std::vector<std::array<double, 2>>{
            {1, 0}, {0, 1}, {1, 1e-12}, {1e-12, 1}, {1, 1e-300}, {1e-300, 1}, {1, 5e-324}}) {
-    Scene scene = gas(60, 3);
-    scene.initial.t_tr = t_tr;
-    scene.initial.t_rot = t_rot;
+    const Scene scene = gas(60, 3);
     SCOPED_TRACE("T_tr " + std::to_string(std::log10(t_tr)) + ", T_rot " +
                  std::to_string(std::log10(t_rot)));
     // Audited only where the audit, which is not made for rotation on the spot, does not take
@@ -123,7 +130,8 @@ TEST(Scales, OfFlightAndRotationMayBeFarApart) {
     const Watch watch{.everywhere = false,
                       .undecided = 2,
                       .audited = t_tr == 1 && (t_rot == 0 || t_rot > 1e-100)};
-    const HardRun run = run_hard(scene, until_collisions(6.0 / thin), watch);
+    const HardRun run =
+        run_hard(scene, at_temperatures(scene, t_tr, t_rot), until_collisions(6.0 / thin), watch);
     EXPECT_EQ(run.stop, Stop::collisions);
     EXPECT_NEAR(run.last.energy, run.first.energy, 1e-12 * run.first.energy);
   }
@@ -255,14 +263,14 @@ TEST(Scaling, ByPowersOfTwoToTheEndsOfTheRange) {
 // says so.
 TEST(Scaling, BeyondTheRangeIsAClearErrorOrRight) {
   for (const double temperature : {1e300, 1e307, 1e-300, 1e-306, 1e-310, 1e-320, 5e-324}) {
-    Scene scene = gas(40, 3);
-    scene.initial.t_tr = scene.initial.t_rot = temperature;
+    const Scene scene = gas(40, 3);
     SCOPED_TRACE(temperature);
     try {
-      const HardRun run = run_hard(scene, until_collisions(4),
-                                   {.everywhere = false,
-                                    .undecided = 2,
-                                    .audited = temperature > 1e-250 && temperature < 1e250});
+      const HardRun run =
+          run_hard(scene, at_temperatures(scene, temperature, temperature), until_collisions(4),
+                   {.everywhere = false,
+                    .undecided = 2,
+                    .audited = temperature > 1e-250 && temperature < 1e250});
       EXPECT_EQ(run.stop, Stop::collisions) << run.failure;
       std::printf("T %g: %zu collisions, failure %s\n", temperature, run.collisions.size(),
                   run.failure.c_str());
