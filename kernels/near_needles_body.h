@@ -309,7 +309,7 @@ struct SimdTimeSpan {
 };
 
 NEEDLEWORK_INLINE SimdTimeSpan overlap_of_spheres(const SimdPairs& pair, const SimdBounds& bounds) {
-  const Floats zero(0.0f), margin(0x1p-18f);
+  const Floats zero(0.0f), margin(static_cast<float>(time_margin));
   const Floats a = dot(pair.v, pair.v), b = dot(pair.r, pair.v);
   const Floats c = dot(pair.r, pair.r) - bounds.reach_squared;
   const Floats discriminant = b * b - a * c;
@@ -378,7 +378,7 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
                                   std::size_t end, const float* part, std::size_t parts) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  const Floats zero(0.0f), one(1.0f), half(0.5f), margin(0x1p-18f);
+  const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
   const SimdPairs pair = load_pairs(seeker, pairs, k);
   const SimdBounds bounds = bounds_of(seeker, pair, column(C::until));

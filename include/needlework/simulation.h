@@ -29,11 +29,13 @@ struct Checkpoint {
 /// any number of simulations may exist side by side.
 class Simulation {
  public:
-  /// Draws the initial state. Throws InputError for an invalid scene, and for a scene whose
-  /// initial state is in a file: read the file (needlework/h5md.h) and use the other constructor.
+  /// Draws the initial state. Throws InputError for a value that a scene file could not hold
+  /// (docs/scenes.md gives the ranges), and for a scene whose initial state is in a file: read the
+  /// file (needlework/h5md.h) and use the other constructor. Title, until and output of the scene
+  /// are ignored here, as by the other constructors.
   explicit Simulation(const Scene& scene);
   /// Starts from the given state; box, count and temperatures of the scene are ignored. Throws
-  /// InputError for an invalid scene or state.
+  /// InputError for a value of the scene that a file could not hold, and for an invalid state.
   Simulation(const Scene& scene, const State& initial);
   /// Continues a run from a checkpoint of it, with the same collisions to the last bit. Box,
   /// needles, collisions and accuracy of the scene must be those of the run; search, calendar,
@@ -46,8 +48,8 @@ class Simulation {
   /// Runs until the first of the conditions is met. They count from the start of the run, not from
   /// the present time. Throws InvalidStateError if the run cannot continue correctly; the state
   /// then stays as it was before the event that failed, unless the error is an
-  /// UnfinishedEventError. Throws InputError if no condition is given, or if OpenMP provides fewer
-  /// threads than at the start; the call may then be repeated.
+  /// UnfinishedEventError. Throws InputError if no condition is given, if one is not a number, or
+  /// if OpenMP provides fewer threads than at the start; the call may then be repeated.
   Stop advance(const Scene::Until& until);
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time

@@ -158,19 +158,19 @@ Simulation::Simulation(const Scene& scene) {
                      ": expected none, as Simulation(scene) reads no files: read the state with "
                      "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
-  require_in_range(scene);
+  require_simulable(scene);
   // The state's arrays are freed before the rest of the run allocates its memory.
   Gas gas = make_gas(scene, draw_initial_state(scene));
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
 }
 
 Simulation::Simulation(const Scene& scene, const State& initial) {
-  require_in_range(scene, {.state = true});
+  require_simulable(scene);
   implementation_ = std::make_unique<Implementation>(scene, make_gas(scene, initial));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
-  require_in_range(scene, {.state = true});
+  require_simulable(scene);
   implementation_ = std::make_unique<Implementation>(scene, checkpoint);
 }
 

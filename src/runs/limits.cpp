@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "needlework/error.h"
@@ -67,7 +68,9 @@ Scene::Until from_now(const Limits& limits, const Simulation& simulation) {
   if (limits.energy_ratio) {
     const double initial = simulation.initial_energy();
     const double share = initial > 0 ? simulation.totals().energy / initial : 1;
-    until.energy_ratio = *limits.energy_ratio * share;
+    // Of a gas at rest, an infinite ratio is no number.
+    constexpr double largest = std::numeric_limits<double>::max();
+    until.energy_ratio = std::min(*limits.energy_ratio, largest) * share;
   }
   return until;
 }

@@ -162,6 +162,7 @@ void adopt_count_and_box(Scene& scene, const State& state) {
                                  source));
   }
   needles.count = state.size();
+  if (!scene.species.empty()) scene.species.front().count = needles.count;
   needles.box = state.box;
   scene.places.emplace("needles.count", fmt::format("{}: {} needles", source, needles.count));
 }

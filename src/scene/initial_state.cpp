@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/scene/random.h"
+#include "src/scene/scene_values.h"
 
 namespace needlework {
 namespace {
@@ -67,6 +68,7 @@ void set_mean_square(std::vector<Vector>& vectors, double mean_square) {
 }  // namespace
 
 State draw_initial_state(const Scene& scene) {
+  require_drawable(scene);
   const Scene::Needles& needles = scene.needles;
   const Scene::Species species = scene.one_species();
   State state;

@@ -1,24 +1,29 @@
 #include "src/scene/scene_values.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "needlework/error.h"
+#include "needlework/parse.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/printable.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/schema.h"
 
 namespace needlework {
 namespace {
 
-// Whole numbers beyond those of TOML become a number that no key accepts.
+// Whole numbers beyond those of TOML become real ones, which no key for whole numbers accepts.
 Value toml_of(std::uint64_t n) {
-  constexpr auto most = std::numeric_limits<std::int64_t>::max();
-  return {n <= std::uint64_t{most} ? static_cast<std::int64_t>(n) : std::int64_t{-1}};
+  constexpr std::uint64_t most = std::numeric_limits<std::int64_t>::max();
+  if (n > most) return {static_cast<double>(n)};
+  return {static_cast<std::int64_t>(n)};
 }
 Value toml_of(int n) { return {std::int64_t{n}}; }
 Value toml_of(double x) { return {x}; }
@@ -68,8 +73,47 @@ class Collected {
   }
 };
 
-void refuse(std::string_view name, std::string_view expected) {
-  throw InputError(fmt::format("the scene: {}: expected {}", name, expected));
+// As messages quote it.
+std::string quoted(const Value& value) {
+  if (const auto* truth = value.as<bool>()) return *truth ? "true" : "false";
+  if (const auto* whole = value.as<std::int64_t>()) return fmt::to_string(*whole);
+  if (const auto* real = value.as<double>()) return fmt::to_string(*real);
+  if (const auto* text = value.as<std::string>()) return '"' + printable(*text, 60) + '"';
+  std::vector<std::string> elements;
+  for (const Value& element : *value.as<Value::Array>()) elements.push_back(quoted(element));
+  return printable(fmt::format("[{}]", fmt::join(elements, ", ")), 60);
+}
+
+void refuse(std::string_view what, std::string_view expected) {
+  throw InputError(fmt::format("the scene: {}: expected {}", what, expected));
+}
+
+// Of the keys for which is_looked_at(section, key) holds.
+template <class Predicate>
+void require_in_range(const Scene& scene, Predicate&& is_looked_at) {
+  Scene again = scene;
+  for (const auto& [section, name, value] : values_of(scene)) {
+    const SceneKey* key = find_scene_key(section, name);
+    if (!is_looked_at(section, name) || key->read(again, value)) continue;
+    refuse(fmt::format("{}{}{} = {}", section, section.empty() ? "" : ".", name, quoted(value)),
+           key->expected);
+  }
+}
+
+bool is_among(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+void require_one_contact_time(const Scene::Collisions& collisions) {
+  if (collisions.tc && collisions.tc_relative)
+    refuse("collisions", "either tc or tc_relative, not both");
+}
+
+void require_room(const Scene& scene) {
+  const double least = least_edge(scene.one_species().length);
+  if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; }))
+    refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))),
+           fmt::format("edges of at least {:.10g} (2.01 needle lengths)", least));
 }
 
 }  // namespace
@@ -80,35 +124,34 @@ std::vector<KeyValue> values_of(const Scene& scene) {
   return std::move(collected.values);
 }
 
-void require_in_range(const Scene& scene, Provided provided) {
-  Scene again = scene;
-  for (const auto& [section, name, value] : values_of(scene)) {
-    const auto* text = value.as<std::string>();
-    const bool no_name = section == "species" && name == "name" && text && text->empty();
-    const bool no_box = provided.state && section == "needles" && name == "box";
-    const SceneKey* key = find_scene_key(section, name);
-    if (no_name || no_box || key->read(again, value)) continue;
-    refuse(section.empty() ? std::string(name) : fmt::format("{}.{}", section, name),
-           key->expected);
-  }
-  if (scene.collisions.tc && scene.collisions.tc_relative) {
-    refuse("collisions", "either tc or tc_relative, not both");
-  }
-  if (provided.state || scene.species.size() > 1) return;
-  const double least = least_edge(scene.one_species().length);
-  if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; })) {
-    refuse("needles.box", "edges of at least 2.01 needle lengths");
-  }
+void require_simulable(const Scene& scene) {
+  require_in_range(scene, [&](std::string_view section, std::string_view key) {
+    if (section == "species") return is_among(key, {"length", "mass", "k"});
+    if (section == "needles") return key == "k" && scene.species.empty();
+    return section == "collisions" || section == "engine";
+  });
+  require_one_contact_time(scene.collisions);
+}
+
+void require_drawable(const Scene& scene) {
+  require_in_range(scene, [&](std::string_view section, std::string_view key) {
+    if (section == "species") return key != "name";
+    if (section == "needles")
+      return key == "box" || (is_among(key, {"count", "k"}) && scene.species.empty());
+    return section == "initial" && key != "file" && scene.species.empty();
+  });
+  require_room(scene);
 }
 
 void require_valid(const Scene& scene) {
-  require_in_range(scene);
+  require_in_range(scene, [](std::string_view, std::string_view) { return true; });
+  require_one_contact_time(scene.collisions);
+  require_room(scene);
   if (scene.species.size() > 1) refuse("species", "one");
   const Scene::Species species = scene.one_species();
   if (species.count != scene.needles.count || species.k != scene.needles.k) {
     refuse("species", "the count and k of [needles]");
   }
-  if (!scene.species.empty() && species.name.empty()) refuse("species.name", "a name");
   if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");
 }
 

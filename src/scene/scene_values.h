@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "needlework/parse.h"
 #include "needlework/scene.h"
 #include "src/scene/document.h"
 
@@ -21,13 +20,14 @@ struct KeyValue {
 /// others those that are set.
 std::vector<KeyValue> values_of(const Scene& scene);
 
-/// Throws InputError, "the scene: SECTION.KEY: expected ...", for a number out of range, a word
-/// that is none of those expected, or numbers that exclude each other, in a scene that was made in
-/// code. Where a state is provided, the box is not looked at.
-void require_in_range(const Scene& scene, Provided provided = {});
+// These throw InputError, "the scene: SECTION.KEY = VALUE: expected ...", for a value that a scene
+// file could not hold.
 
-/// The same for a scene that was restored from a file: besides, a scene file must be able to
-/// describe it.
+/// For what the engine reads of every scene: the needles' properties, [collisions] and [engine].
+void require_simulable(const Scene& scene);
+/// For what an initial state is drawn from, but the seed, which may be any.
+void require_drawable(const Scene& scene);
+/// For all keys of a scene that was restored from a file, which may be damaged.
 void require_valid(const Scene& scene);
 
 }  // namespace needlework

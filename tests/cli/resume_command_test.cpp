@@ -115,6 +115,28 @@ TEST_F(ResumeCommand, FindsCheckpointsByALinkAndByTheFileItLeadsTo) {
   EXPECT_TRUE(run("run gas.toml --out link.h5").complains("can be continued"));
 }
 
+// A title has to be printable, the name of a file need not be.
+TEST_F(ResumeCommand, TakesFilesOfAnyName) {
+  const std::string whole = whole_hash();
+  for (const char* name : {"'two\nlines.h5'", "'latin-1 \xe4.h5'", "'turned \u202e.h5'"}) {
+    hash_of(std::string("run gas.toml --set until.collisions_per_needle=15 --out ") + name);
+    EXPECT_EQ(hash_of(std::string("resume --set until.collisions_per_needle=40 ") + name), whole);
+  }
+}
+
+TEST_F(ResumeCommand, TakesSpeciesThatAFileCounts) {
+  hash_of("run gas.toml --out first.h5 --set until.collisions_per_needle=1");
+  write("species.toml", R"(
+initial.file = "first.h5"
+until.collisions_per_needle = 5
+[[species]]
+name = "rods"
+)");
+  const std::string whole = hash_of("run species.toml --out whole.h5");
+  hash_of("run species.toml --out a.h5 --set until.collisions_per_needle=2");
+  EXPECT_EQ(hash_of("resume a.h5 --set until.collisions_per_needle=5"), whole);
+}
+
 TEST_F(ResumeCommand, EndsAtTheSameFailureAgain) {
   const std::string collapse =
       "run gas.toml --quiet --out a.h5 --set collisions.epsilon=0.3 --set collisions.tc=1e-300 "

@@ -382,49 +382,89 @@ TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
   EXPECT_THROW(simulation.copy(), InvalidStateError);
 }
 
+void expect_refusal(std::string_view message, const std::function<void()>& make) {
+  try {
+    make();
+    ADD_FAILURE() << message << " accepted";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("the scene: " + std::string(message)))
+        << error.what();
+  }
+}
+
 // What the reader of scene files refuses must not hang or miss collisions in a scene made in code.
 TEST(SceneMadeInCode, IsRefusedWithNumbersOutOfRange) {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const struct {
     const char* message;
     void (*spoil)(Scene&);
+    bool only_drawn = false;
   } cases[] = {
-      {"the scene: engine.capsule_radius: ", [](Scene& s) { s.engine.capsule_radius = nan; }},
-      {"the scene: engine.capsule_radius: ", [](Scene& s) { s.engine.capsule_radius = -1; }},
-      {"the scene: engine.cell_side: ", [](Scene& s) { s.engine.cell_side = 0; }},
-      {"the scene: engine.sampling_step: ", [](Scene& s) { s.engine.sampling_step = 0; }},
-      {"the scene: engine.root_tolerance: ", [](Scene& s) { s.engine.root_tolerance = 1; }},
-      {"the scene: engine.threads: ", [](Scene& s) { s.engine.threads = -3; }},
-      {"the scene: engine.team: ", [](Scene& s) { s.engine.team = "foo"; }},
-      {"the scene: engine.storage: ", [](Scene& s) { s.engine.storage = "foo"; }},
-      {"the scene: collisions.epsilon: ", [](Scene& s) { s.collisions.epsilon = 2; }},
-      {"the scene: collisions.epsilon: ", [](Scene& s) { s.collisions.epsilon = nan; }},
-      {"the scene: collisions.beta: ", [](Scene& s) { s.collisions.beta = 5; }},
-      {"the scene: collisions.tc: ", [](Scene& s) { s.collisions.tc = nan; }},
-      {"the scene: needles.k: ", [](Scene& s) { s.needles.k = 0; }},
-      {"the scene: initial.t_tr: ", [](Scene& s) { s.initial.t_tr = -1; }},
-      {"the scene: species.length: ",
+      {"engine.capsule_radius = nan: ", [](Scene& s) { s.engine.capsule_radius = nan; }},
+      {"engine.capsule_radius = -1: ", [](Scene& s) { s.engine.capsule_radius = -1; }},
+      {"engine.cell_side = 0: ", [](Scene& s) { s.engine.cell_side = 0; }},
+      {"engine.sampling_step = 0: ", [](Scene& s) { s.engine.sampling_step = 0; }},
+      {"engine.root_tolerance = 1: ", [](Scene& s) { s.engine.root_tolerance = 1; }},
+      {"engine.threads = -3: ", [](Scene& s) { s.engine.threads = -3; }},
+      {"engine.team = \"foo\": ", [](Scene& s) { s.engine.team = "foo"; }},
+      {"engine.storage = \"a\\nb\": ", [](Scene& s) { s.engine.storage = "a\nb"; }},
+      {"collisions.epsilon = 2: ", [](Scene& s) { s.collisions.epsilon = 2; }},
+      {"collisions.epsilon = nan: ", [](Scene& s) { s.collisions.epsilon = nan; }},
+      {"collisions.beta = 5: ", [](Scene& s) { s.collisions.beta = 5; }},
+      {"collisions.tc = nan: ", [](Scene& s) { s.collisions.tc = nan; }},
+      {"collisions: ", [](Scene& s) { s.collisions.tc = s.collisions.tc_relative = 1; }},
+      {"needles.k = 0: ", [](Scene& s) { s.needles.k = 0; }},
+      {"species.length = -1: ",
        [](Scene& s) { s.species.push_back({.name = "a", .count = 20, .length = -1}); }},
+      {"initial.t_tr = -1: ", [](Scene& s) { s.initial.t_tr = -1; }, true},
+      {"species.t_rot = nan: ",
+       [](Scene& s) { s.species.push_back({.name = "a", .count = 20, .t_rot = nan}); }, true},
+      {"needles.count = 1.8446744073709552e+19: ",
+       [](Scene& s) { s.needles.count = ~std::uint64_t{0}; }, true},
+      {"needles.box = [6, nan, 6]: ",
+       [](Scene& s) {
+         s.needles.box = {6, nan, 6};
+       },
+       true},
+      {"needles.box = [6, 6, 2]: expected edges of at least 2.01",
+       [](Scene& s) {
+         s.needles.box = {6, 6, 2};
+       },
+       true},
   };
-  for (const auto& [message, spoil] : cases) {
+  for (const auto& [message, spoil, only_drawn] : cases) {
     Scene scene = test::scene_of(20, 5);
     const State state = Simulation(scene).copy();
     spoil(scene);
-    const auto expect_refusal = [&](auto&& make) {
-      try {
-        make();
-        ADD_FAILURE() << message << "accepted";
-      } catch (const InputError& error) {
-        EXPECT_TRUE(std::string(error.what()).starts_with(message)) << error.what();
-      }
-    };
-    expect_refusal([&] { Simulation simulation(scene); });
-    expect_refusal([&] { Simulation simulation(scene, state); });
+    expect_refusal(message, [&] { Simulation simulation(scene); });
+    if (only_drawn) {
+      expect_refusal(message, [&] { draw_initial_state(scene); });
+      EXPECT_EQ(Simulation(scene, state).needles(), 20U) << message;
+    } else {
+      expect_refusal(message, [&] { Simulation simulation(scene, state); });
+    }
   }
-  Scene without_box = test::scene_of(20, 5);
-  const State state = Simulation(without_box).copy();
-  without_box.needles.box = {};
-  EXPECT_EQ(Simulation(without_box, state).needles(), 20U);
+}
+
+TEST(SceneMadeInCode, MayHoldAnythingWhereItIsNotRead) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Scene scene = test::scene_of(20, 5);
+  scene.title = "two\nlines";
+  scene.needles.seed = ~std::uint64_t{0};
+  scene.until.time = infinity;
+  scene.until.energy_ratio = 0;
+  scene.output.file = "latin-1 \xe4.h5";
+  scene.output.frame_times = {2, 1};
+  scene.output.observables = {"of my own"};
+  scene.output.checkpoint_every = infinity;
+  scene.species.push_back({.name = {}, .count = 20});
+  scene.needles.k = 0;
+  scene.initial.t_tr = -1;
+  Simulation simulation(scene);
+  const State state = simulation.copy();
+  EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::collisions);
+  scene.initial.file = "any\nfile";
+  EXPECT_EQ(Simulation(scene, state).needles(), 20U);
 }
 
 TEST(Simulation, RefusesEndsThatAreNoNumbers) {

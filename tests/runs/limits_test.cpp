@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "needlework/error.h"
 #include "tests/support/runs.h"
@@ -43,6 +45,18 @@ TEST(Limits, AnyNumberOfCollisionsIsMetExactly) {
   for (std::uint64_t n = 1; n <= 200; ++n) {
     simulation.advance(from_now({.collisions = 1}, simulation));
     ASSERT_EQ(simulation.collisions(), n);
+  }
+}
+
+TEST(Limits, MayBeInfinite) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Simulation simulation = cooling_gas();
+  EXPECT_EQ(simulation.advance(from_now({.energy_ratio = infinity}, simulation)), Stop::energy);
+  const std::vector<std::array<double, 3>> none(50);
+  simulation.set_velocities(none, none);
+  for (const double ratio : {0.5, infinity}) {
+    EXPECT_EQ(simulation.advance(from_now({.energy_ratio = ratio}, simulation)),
+              Stop::nothing_can_happen);
   }
 }
 

@@ -169,21 +169,21 @@ TEST(CellBall, KnowsWhichCellsComeNearAPosition) {
     for (int axis = 0; axis < 3; ++axis) box[axis] = of.sides()[axis] * cells[axis];
     const CellBall ball(of, 1.3);
     for (int n = 0; n < 3000; ++n) {
-      Vec3d r;
+      std::array<double, 3> r;
       CellCounts cell;
       double squares = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        (&r.x)[axis] = (3 * random.uniform() - 1) * box[axis];  // not always in the box
+        r[axis] = (3 * random.uniform() - 1) * box[axis];  // not always in the box
         cell[axis] = random.below(cells[axis]);
         double gap = std::numeric_limits<double>::infinity();
         for (int image = -2; image <= 2; ++image) {
           const double low = cell[axis] * of.sides()[axis] + image * box[axis];
           const double high = low + of.sides()[axis];
-          gap = std::min(gap, std::max({0.0, low - (&r.x)[axis], (&r.x)[axis] - high}));
+          gap = std::min(gap, std::max({0.0, low - r[axis], r[axis] - high}));
         }
         squares += gap * gap;
       }
-      EXPECT_EQ(ball.comes_near(of.in_sides(r), cell), squares < 1.3 * 1.3);
+      EXPECT_EQ(ball.comes_near(of.in_sides({r[0], r[1], r[2]}), cell), squares < 1.3 * 1.3);
       near += squares < 1.3 * 1.3;
       ++tries;
     }
