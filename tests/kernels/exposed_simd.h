@@ -7,9 +7,17 @@
 #include "kernels/near_needles.h"
 #include "kernels/simd_scalar.h"
 
+// Apart from the twin that the library holds, and once in each file that includes this; few tests
+// use all of it.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
 #define NEEDLEWORK_TARGET
-// Apart from the twin that the library holds.
-namespace needlework::kernels::scalar::exposed {
+namespace needlework::kernels::scalar {
+namespace {
+namespace exposed {
 #include "kernels/near_needles_body.h"
-}  // namespace needlework::kernels::scalar::exposed
+}  // namespace exposed
+}  // namespace
+}  // namespace needlework::kernels::scalar
 #undef NEEDLEWORK_TARGET
+#pragma GCC diagnostic pop

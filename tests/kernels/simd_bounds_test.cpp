@@ -125,7 +125,7 @@ TEST_P(Bracket, OfAnyLengthsIsNeverTooLate) {
 INSTANTIATE_TEST_SUITE_P(Families, Bracket, testing::ValuesIn(test::pair_families()),
                          [](const auto& info) { return family_id(info.param); });
 
-// 99.9 % of the pairs, and times before 98 % of the contacts by less than a tenth.
+// At least 99 % of the pairs, and times before 90 % of the contacts by less than a tenth.
 TEST(BracketOfThermalPairs, RulesOutMostThatDoNotMeet) {
   Random random(seed);
   std::size_t apart = 0, ruled_out = 0, contacts = 0, close = 0;
