@@ -1,12 +1,13 @@
 """Pictures of runs, drawn with Matplotlib (python3-matplotlib).
 
-``source`` is what needlework.read() gives, or a Series beside the ``gas`` of its simulation. Each
-function draws into ``axes``, or into new ones, and returns them.
+``source`` is what needlework.read() gives or the path of such a file, or a Series beside the
+``gas`` of its simulation. Each function draws into ``axes``, or into new ones, and returns them.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import os
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 
@@ -19,13 +20,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
+Source = Union[Recording, Series, str, "os.PathLike[str]"]
+
 __all__ = ["cooling", "needles", "temperature_ratio"]
 
 _MEASURED = {"color": "#d1495b", "marker": "o", "markersize": 4, "linestyle": "none"}
 _THEORY = {"color": "#1d3557", "linewidth": 1.6, "label": "kinetic theory"}
 
 
-def cooling(source: Recording | Series, gas: Values | None = None,
+def cooling(source: Source, gas: Values | None = None,
             axes: Axes | None = None) -> Axes:
     """The energy over its first value against time, beside kinetic theory."""
     series, gas = _series_and_gas(source, gas)
@@ -37,7 +40,7 @@ def cooling(source: Recording | Series, gas: Values | None = None,
     return _finished(axes, "E / E(0)")
 
 
-def temperature_ratio(source: Recording | Series, gas: Values | None = None,
+def temperature_ratio(source: Source, gas: Values | None = None,
                       axes: Axes | None = None) -> Axes:
     """The ratio of translational and rotational temperature against time, beside theory."""
     series, gas = _series_and_gas(source, gas)
@@ -73,12 +76,15 @@ def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
     return axes
 
 
-def _series_and_gas(source: Recording | Series, gas: Values | None) -> tuple[Series, Values]:
+def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values]:
     if isinstance(source, Series):
         if gas is None:
             raise InputError("gas is missing: expected that of the simulation, as in "
                              "plot.cooling(series, gas=sim.gas)")
         return source, gas
+    if not isinstance(source, Recording):
+        with Recording(source) as recording:
+            return recording.series, recording.gas
     return source.series, source.gas
 
 

@@ -409,6 +409,8 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
 
 def _number(name: str, value: float | None) -> float | None:
     try:
+        if isinstance(value, (str, bytes, bool)):
+            raise TypeError
         return None if value is None else float(value)
     except (TypeError, ValueError):
         raise InputError(f"{name} = {value!r}: expected a number >= 0") from None

@@ -8,7 +8,7 @@
 #include "src/runs/exit_codes.h"
 #include "src/runs/explanation.h"
 #include "src/runs/output_path.h"
-#include "src/scene/check.h"
+#include "src/runs/prepared_run.h"
 
 namespace needlework::cli {
 
@@ -16,9 +16,8 @@ using enum runs::ExitCode;
 
 int run(const CheckArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
-  const std::string& file = loaded.scene.output.file;
-  if (!file.empty())
-    runs::require_writable(file, true, place_of(loaded.scene, "output.file", file));
+  runs::require_writable_output(loaded.scene, true);
+  runs::require_reachable_end(loaded.scene);
   const runs::Explanation explanation(loaded);
   for (const std::string& warning : explanation.warnings) print_warning(warning);
   fmt::print("{}", arguments.json ? json_of(explanation) + '\n' : text_of(explanation));

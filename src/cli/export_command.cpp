@@ -73,6 +73,7 @@ std::vector<std::string> names_of_export_formats() {
 int run(const ExportArguments& arguments) {
   const std::string& to = arguments.to;
   runs::require_writable(to, arguments.force, to);
+  runs::require_other_file(to, arguments.from, to);
   const bool many = arguments.frame == "all";
   const io::ExportFormat* format = io::find_export_format(arguments.format, to, many);
   if (!format) {

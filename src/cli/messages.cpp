@@ -40,12 +40,13 @@ std::string shell_word(std::string_view word) {
 }
 
 std::optional<std::string> warning_of_name(std::string_view place, std::string_view file,
+                                           std::string_view kind,
                                            std::initializer_list<std::string_view> endings) {
   const bool fits = std::any_of(endings.begin(), endings.end(),
                                 [&](std::string_view ending) { return file.ends_with(ending); });
   if (fits) return std::nullopt;
-  return fmt::format("{}: will be an HDF5 file nevertheless: expected a name that ends in {}",
-                     place, *endings.begin());
+  return fmt::format("{}: will be {} nevertheless: expected a name that ends in {}", place, kind,
+                     *endings.begin());
 }
 
 }  // namespace needlework::cli

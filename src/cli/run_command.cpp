@@ -73,7 +73,7 @@ std::vector<std::string> warn(const Scene& scene) {
   std::vector<std::string> warnings = runs::all_warnings(scene);
   const std::string& file = scene.output.file;
   const std::string place = place_of(scene, "output.file", file);
-  const auto of_name = warning_of_name(place, file, {".h5", ".hdf5", ".h5md"});
+  const auto of_name = warning_of_name(place, file, "an HDF5 file", {".h5", ".hdf5", ".h5md"});
   if (!file.empty() && of_name) warnings.insert(warnings.begin(), *of_name);
   for (const std::string& warning : warnings) print_warning(warning);
   return warnings;
@@ -104,9 +104,11 @@ int run(const RunArguments& arguments) {
   const std::string file = scene.output.file;
   if (!file.empty()) {
     const std::string place = place_of(scene, "output.file", file);
-    runs::require_writable(file, arguments.force, place);
+    runs::require_writable_output(scene, arguments.force);
+    runs::require_other_file(file, arguments.scene.path, place);
     io::require_not_being_written(file, place + ": cannot be replaced");
   }
+  runs::require_reachable_end(scene);
   const std::vector<std::string> warnings = warn(scene);
   RunLog log = open_log(arguments.printing, file);
   return logged(log, [&] {

@@ -57,6 +57,7 @@ int run(const ViewArguments& arguments) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const std::string name = name_of(to, i, series);
     runs::require_writable(name, arguments.force, name);
+    runs::require_other_file(name, arguments.from, name);
   }
 
   picture::NeedlePicture settings = arguments.picture;

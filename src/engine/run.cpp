@@ -30,6 +30,15 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
                    ": expected " + std::to_string(expected));
 }
 
+[[noreturn]] void refuse_vector(const Vec3d& a, const char* what, Id id, const char* expected) {
+  throw InputError(fmt::format("state: needle {}: {} = ({}, {}, {}): expected {}", id.value, what,
+                               a.x, a.y, a.z, expected));
+}
+
+void check_vector(const Vec3d& a, const char* what, Id id) {
+  if (!is_finite(a)) refuse_vector(a, what, id, "finite numbers");
+}
+
 // The numbers that add_boxes() counts to.
 void check_image(const Shift& image, Id id) {
   constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
@@ -113,12 +122,12 @@ Gas make_gas(const Scene& scene, const State& initial) {
       gas.images[i] = initial.image[from];
       check_image(gas.images[i], gas.ids[i]);
     }
-    const bool finite =
-        is_finite(flight.r) && is_finite(flight.u) && is_finite(flight.v) && is_finite(flight.w);
-    if (!finite || flight.u == Vec3d{}) {
-      throw InputError("state: needle " + std::to_string(gas.ids[i].value) +
-                       ": expected finite numbers and a director that is not 0");
-    }
+    check_vector(flight.r, "position", gas.ids[i]);
+    check_vector(flight.v, "velocity", gas.ids[i]);
+    check_vector(flight.u, "orientation", gas.ids[i]);
+    check_vector(flight.w, "angular velocity", gas.ids[i]);
+    if (flight.u == Vec3d{})
+      refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
   return gas;
 }

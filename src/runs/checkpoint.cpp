@@ -51,6 +51,8 @@ namespace {
 // function `transfer`. The version is there because the trajectory may change without that.
 constexpr std::string_view mark = "needlework checkpoint 3 of " NEEDLEWORK_VERSION "\n";
 
+constexpr std::string_view checkpoint_ending = ".checkpoint";
+
 // Follows the first line.
 struct Header {
   std::uint64_t size = 0;      // of what follows the header
@@ -214,6 +216,17 @@ std::string behind_links(const std::string& path) {
   return error ? path : file.string();
 }
 
+// What else may be wrong with the name of a run's file, if its checkpoint is missing.
+std::string hint_for_missing(const std::string& checkpoint) {
+  const std::string file = checkpoint.substr(0, checkpoint.size() - checkpoint_ending.size());
+  if (file.ends_with(checkpoint_ending)) {
+    return fmt::format("; expected the file of the run, {}",
+                       file.substr(0, file.size() - checkpoint_ending.size()));
+  }
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored) ? "" : fmt::format(", nor is there {}", file);
+}
+
 }  // namespace
 
 RunCheckpoint CheckpointFiles::read(const std::string& path) {
@@ -222,7 +235,7 @@ RunCheckpoint CheckpointFiles::read(const std::string& path) {
 }
 
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
-    : newest_(behind_links(output_file) + ".checkpoint"),
+    : newest_(behind_links(output_file) + std::string(checkpoint_ending)),
       older_(newest_ + ".old"),
       bundle_(behind_links(output_file) + ".failure") {}
 
@@ -270,8 +283,9 @@ CheckpointFiles::Latest CheckpointFiles::latest() const {
   }
   // The program was stopped between two renames.
   if (auto older = read_if_present(older_)) return {*std::move(older), {}};
-  throw InputError(fmt::format(
-      "{}: missing: expected the checkpoint of a run; there is nothing to continue", newest_));
+  throw InputError(
+      fmt::format("{}: missing: expected the checkpoint of a run; there is nothing to continue{}",
+                  newest_, hint_for_missing(newest_)));
 }
 
 void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {

@@ -10,6 +10,8 @@
 
 #include "kernels/isa.h"
 #include "needlework/error.h"
+#include "needlework/theory.h"
+#include "src/runs/loaded_scene.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -107,6 +109,16 @@ int cores() { return omp_get_num_procs(); }
 
 std::vector<std::string> all_warnings(const Scene& scene) {
   std::vector<std::string> all = warnings(scene);
+  if (const Scene::Collisions& c = scene.collisions;
+      c.tc && !keep_energy(c) && scene.initial.file.empty() && scene.needles.count > 0) {
+    const double rate = theory::collision_rate(
+        theory_density_of(scene), {scene.initial.t_tr, scene.initial.t_rot}, scene.needles.k);
+    if (*c.tc * rate >= long_contact) {
+      all.push_back(fmt::format("{}: is {:.3g} mean free times at the start: {}",
+                                place_of(scene, "collisions.tc", fmt::to_string(*c.tc)),
+                                *c.tc * rate, effect_of_long_contact));
+    }
+  }
   const int threads = scene.engine.threads.value_or(1);
   if (threads > cores()) {
     all.push_back(

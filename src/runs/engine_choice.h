@@ -26,7 +26,8 @@ int threads_by_size(std::size_t needles);
 /// The number of threads, and what it follows from if the engine has chosen it.
 std::string threads_text(const Scene& scene);
 
-/// The warnings of check.h, and one if there are more threads than cores.
+/// The warnings of check.h, one of a contact time that is long beside the initial mean free time,
+/// and one if there are more threads than cores.
 std::vector<std::string> all_warnings(const Scene& scene);
 
 /// Cores that the process may use.

@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "src/runs/checkpoint.h"
 #include "src/scene/check.h"
+#include "src/scene/printable.h"
 
 namespace needlework::runs {
 
@@ -38,9 +39,20 @@ void require_writable(const std::string& file, bool force, const std::string& pl
   }
 }
 
+void require_other_file(const std::string& file, const std::string& input,
+                        const std::string& place) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(file, input, ignored)) return;
+  throw IoError(fmt::format("{}: cannot be written: {} is read: expected another file", place,
+                            printable(input)));
+}
+
 void require_writable_output(const Scene& scene, bool force, const char* option) {
   const std::string& file = scene.output.file;
-  if (!file.empty()) require_writable(file, force, place_of(scene, "output.file", file), option);
+  if (file.empty()) return;
+  const std::string place = place_of(scene, "output.file", file);
+  require_writable(file, force, place, option);
+  if (!scene.initial.file.empty()) require_other_file(file, scene.initial.file, place);
 }
 
 }  // namespace needlework::runs

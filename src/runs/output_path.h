@@ -14,7 +14,12 @@ namespace needlework::runs {
 void require_writable(const std::string& file, bool force, const std::string& place,
                       const char* option = "--force");
 
-/// The same for the output file of a scene, if it has one.
+/// Throws IoError, "PLACE: REASON", if `file` is `input`, by whatever names: force or not, what is
+/// read must not be replaced.
+void require_other_file(const std::string& file, const std::string& input,
+                        const std::string& place);
+
+/// Both for the output file of a scene, if it has one, and the file of its initial state.
 void require_writable_output(const Scene& scene, bool force, const char* option = "--force");
 
 }  // namespace needlework::runs

@@ -17,20 +17,26 @@
 namespace needlework::runs {
 
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
+  require_reachable_end(scene);
+  if (scene.until.time) return;
+  Scene::Until at_once;
+  at_once.collisions_per_needle = 0;
+  if (simulation.advance(at_once) == Stop::nothing_can_happen) {
+    throw InputError(path +
+                     ": nothing can ever happen: expected two needles or more, one of which "
+                     "moves, or until.time");
+  }
+}
+
+void require_reachable_end(const Scene& scene) {
   const Scene::Until& until = scene.until;
-  if (until.time) return;
-  if (until.energy_ratio && *until.energy_ratio < 1 && keep_energy(scene.collisions) &&
-      !until.collisions_per_needle && !until.wall_s) {
+  if (!until.time && until.energy_ratio && *until.energy_ratio < 1 &&
+      keep_energy(scene.collisions) && !until.collisions_per_needle && !until.wall_s) {
     throw InputError(
         fmt::format("{}: is never met, as collisions keep the energy: expected another end, or "
                     "collisions.epsilon "
                     "< 1",
                     place_of(scene, "until.energy_ratio", fmt::to_string(*until.energy_ratio))));
-  }
-  Scene::Until at_once;
-  at_once.collisions_per_needle = 0;
-  if (simulation.advance(at_once) == Stop::nothing_can_happen) {
-    throw InputError(path + ": nothing can ever happen: expected needles that move, or until.time");
   }
 }
 

@@ -23,6 +23,9 @@ namespace needlework::runs {
 /// happen and no end in time is set, or collisions keep the energy and no other end is set.
 void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
 
+/// Throws InputError if collisions keep the energy and no end but one in energy is set.
+void require_reachable_end(const Scene& scene);
+
 /// When a run with an output file is saved, besides every output.checkpoint_every.
 enum class Saves {
   start_and_end,  ///< so that a run can be continued beyond its end, too

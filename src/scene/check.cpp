@@ -32,9 +32,8 @@ std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
         "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
         "collapse is not prevented",
         tc));
-  if (c.tc_relative && tc > 0.1)
-    list.push_back(fmt::format(
-        "collisions.tc_relative = {}: a large part of all collisions will be elastic", tc));
+  if (c.tc_relative && tc >= long_contact)
+    list.push_back(fmt::format("collisions.tc_relative = {}: {}", tc, effect_of_long_contact));
   if (c.epsilon == 1 && c.beta == -1 && tc > 0)
     list.push_back(
         fmt::format("collisions.{} = {}: has no effect on elastic smooth needles", tc_key, tc));
@@ -56,11 +55,14 @@ std::vector<std::string> output_warnings(const Scene& scene) {
   std::vector<std::string> list;
   const Scene::Output& output = scene.output;
   const bool frames = output.frames_per_decade || !output.frame_times.empty();
-  if (output.file.empty() && (frames || output.events || !output.observables.empty()))
-    list.push_back(fmt::format("output.{}: nothing is written without output.file",
-                               frames          ? "frames"
-                               : output.events ? "events"
-                                               : "observables"));
+  const char* lost = frames                        ? "frames"
+                     : output.events               ? "events"
+                     : !output.observables.empty() ? "observables"
+                     : output.series_every         ? "series_every"
+                     : output.grid                 ? "grid"
+                                                   : nullptr;
+  if (output.file.empty() && lost)
+    list.push_back(fmt::format("output.{}: nothing is written without output.file", lost));
   if (scene.until.time && !output.frame_times.empty() &&
       output.frame_times.back() > *scene.until.time)
     list.push_back(fmt::format("output.frames: the frame at {} lies behind until.time = {}",

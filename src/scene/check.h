@@ -16,6 +16,11 @@ namespace needlework {
 /// intended: an inelastic gas without the t_c rule, end conditions that cannot be met, output that
 /// is not written anywhere. Overrides and options must have been applied.
 std::vector<std::string> warnings(const Scene& scene);
+/// From this contact time on [mean free times] there is a warning, which says:
+inline constexpr double long_contact = 0.1;
+inline constexpr const char* effect_of_long_contact =
+    "a large part of all collisions will be elastic, and the gas cools more slowly than theory says";
+
 /// The warnings about accuracy: keys that have no effect together with the others.
 std::vector<std::string> accuracy_warnings(const Scene::Engine& engine);
 

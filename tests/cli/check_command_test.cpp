@@ -39,6 +39,26 @@ TEST_F(CheckCommand, WarnsOfDoubtfulSettings) {
   EXPECT_TRUE(outcome.complains("warning: collisions.epsilon = 0.9: "));
 }
 
+// In the wrong unit, say.
+TEST_F(CheckCommand, WarnsOfAContactTimeBeyondTheMeanFreeTime) {
+  const std::string cooling = "check small.toml --set collisions.epsilon=0.9 --set collisions.tc=";
+  EXPECT_TRUE(run(cooling + "100").complains("warning: --set collisions.tc=100: is "));
+  EXPECT_TRUE(run(cooling + "100").complains("mean free times at the start: a large part of all"));
+  EXPECT_EQ(run(cooling + "0.05").err, "");
+}
+
+TEST_F(CheckCommand, RefusesWhatRunRefuses) {
+  write("never.toml", "needles = { count = 50, box = 5 }\nuntil.energy_ratio = 0.5\n");
+  for (const char* command : {"check", "run"}) {
+    const Outcome refused = run(std::string(command) + " never.toml");
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(
+        refused.err,
+        "needlework: never.toml: line 2: until.energy_ratio = 0.5: is never met, as collisions "
+        "keep the energy: expected another end, or collisions.epsilon < 1\n");
+  }
+}
+
 TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {
   const auto json =
       run("check small.toml --json --set initial.t_tr=0 --set initial.t_rot=0").json();

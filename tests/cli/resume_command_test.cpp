@@ -161,10 +161,14 @@ TEST_F(ResumeCommand, RefusesOtherKeysThanEnds) {
 TEST_F(ResumeCommand, SaysThatThereIsNothingToContinue) {
   const Outcome missing = run("resume none.h5");
   EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_TRUE(missing.complains("none.h5.checkpoint: missing"));
+  EXPECT_TRUE(missing.complains(
+      "none.h5.checkpoint: missing: expected the checkpoint of a run; there is nothing to "
+      "continue, nor is there none.h5"));
   hash_of("run gas.toml --out a.h5 --set output.checkpoint_every=0");
   EXPECT_FALSE(exists("a.h5.checkpoint"));
-  EXPECT_TRUE(run("resume a.h5").complains("there is nothing to continue"));
+  EXPECT_TRUE(run("resume a.h5").complains("there is nothing to continue\n"));
+  hash_of("run gas.toml --out b.h5");
+  EXPECT_TRUE(run("resume b.h5.checkpoint").complains("; expected the file of the run, b.h5\n"));
 }
 
 // A checkpoint and a file that do not belong together.

@@ -231,6 +231,25 @@ TEST_F(RunCommand, GoesOnFromItsOwnFile) {
                   .complains("fewer.toml: line 4: needles.count = 7: expected 50, as in first.h5"));
 }
 
+// By whatever name, and whatever --force says.
+TEST_F(RunCommand, NeverReplacesWhatACommandReads) {
+  ASSERT_EQ(run("run small.toml --out a.h5 --quiet").exit_code, 0);
+  std::filesystem::create_symlink("a.h5", path("link.png"));
+  write("next.toml", "initial.file = \"a.h5\"\nuntil.collisions_per_needle = 5\n");
+  const std::string run_file = read("a.h5"), scene = read("next.toml");
+  for (const char* command : {"run next.toml --out a.h5", "run next.toml --out link.png",
+                              "check next.toml --set "
+                              "output.file=a.h5",
+                              "run next.toml --out next.toml", "report a.h5 -o ./a.h5",
+                              "export a.h5 a.h5 --to xyz", "view a.h5 -o link.png"}) {
+    const bool may_force = !std::string_view(command).starts_with("check");
+    const Outcome refused = run(std::string(command) + (may_force ? " --force" : ""));
+    EXPECT_EQ(refused.exit_code, 5) << command << refused.err;
+    EXPECT_TRUE(refused.complains(" is read: expected another file")) << refused.err;
+    EXPECT_TRUE(read("a.h5") == run_file && read("next.toml") == scene) << command;
+  }
+}
+
 TEST_F(RunCommand, SavesAndExitsWith75AfterASignal) {
   for (const std::string signal : {"INT", "TERM"}) {
     const std::string file = signal + ".h5";

@@ -369,6 +369,27 @@ TEST(Simulation, RefusesStatesWithoutDirectorsOrVelocities) {
   }
 }
 
+TEST(Simulation, NamesTheNumberOfAStateThatItRefuses) {
+  const Scene scene = test::scene_of(10, 6);
+  const auto refused = [&](auto part, std::array<double, 3> value) -> std::string {
+    State state = draw_initial_state(scene);
+    (state.*part)[3] = value;
+    try {
+      Simulation simulation(scene, state);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused(&State::position, {1, nan, 2}),
+            "state: needle 3: position = (1, nan, 2): expected finite numbers");
+  EXPECT_EQ(refused(&State::angular_velocity, {HUGE_VAL, 0, 0}),
+            "state: needle 3: angular velocity = (inf, 0, 0): expected finite numbers");
+  EXPECT_EQ(refused(&State::orientation, {0, 0, 0}),
+            "state: needle 3: orientation = (0, 0, 0): expected one that is not 0");
+}
+
 // Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2e9.
 TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
   const Scene scene = test::scene_of(1, 4);

@@ -76,6 +76,11 @@ class Pictures(unittest.TestCase):
             self.assertEqual(ends.shape, (200, 2, 3))
             np.testing.assert_allclose(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), 1)
 
+    def test_a_path_is_read(self):
+        for read_here, read_before in zip(plot.cooling(self.recording.path).lines,
+                                          plot.cooling(self.recording).lines):
+            np.testing.assert_array_equal(read_here.get_xydata(), read_before.get_xydata())
+
     def test_a_series_alone_needs_the_gas(self):
         with self.assertRaisesRegex(needlework.InputError, "gas is missing"):
             plot.cooling(self.series)

@@ -87,6 +87,11 @@ class Limits(unittest.TestCase):
             self.assertEqual(sim.run(collisions=limit), "collisions")
             self.assertEqual(sim.totals.collisions, expected)
 
+    def test_limits_are_numbers(self):
+        for limit in ("3", True, float("nan")):
+            with self.assertRaisesRegex(needlework.InputError, "^time = .*: expected a number >= 0"):
+                Simulation(ELASTIC).run(time=limit)
+
     def test_limits_of_advance_count_from_now(self):
         sim = Simulation(GAS)
         for expected in (300, 600, 900):

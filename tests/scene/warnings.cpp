@@ -46,8 +46,9 @@ TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {
             Keys{"collisions.tc"});
   EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 1e-8}"),
             Keys{"collisions.tc_relative"});
-  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 0.5}"),
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 0.1}"),
             Keys{"collisions.tc_relative"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, tc_relative = 0.09}"), Keys{});
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc = 0.1"), Keys{"collisions.tc"});
 }
 
@@ -96,6 +97,8 @@ TEST(Warning, IsGivenForOutputThatIsLost) {
   EXPECT_EQ(warned_of("until.time = 1\noutput.frames = 2"), Keys{"output.frames"});
   EXPECT_EQ(warned_of("until.time = 1\noutput.observables = ['fields']"),
             Keys{"output.observables"});
+  EXPECT_EQ(warned_of("until.time = 1\noutput.series_every = 1"), Keys{"output.series_every"});
+  EXPECT_EQ(warned_of("until.time = 1\noutput.grid = 2"), Keys{"output.grid"});
   EXPECT_EQ(warned_of("until.time = 1\noutput = {file = 'a', frames = [0, 2]}"),
             Keys{"output.frames"});
 }

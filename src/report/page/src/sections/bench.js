@@ -150,7 +150,7 @@ function sideBySide(cases, unit) {
     const nameOf = (list) => list.filter((word, n) => !lists.every((other) => other[n] === word)).join("/");
     return rangesChart({
       title,
-      caption: "Median of the repetitions with their range; a cross marks the baseline.",
+      caption: `Median of the repetitions with their range${members.some((one) => one.baseline) ? "; a cross marks the baseline" : ""}.`,
       x: { label: unit, log: spread > 20 },
       rows: members.map((one, n) => ({ ...one, name: nameOf(lists[n]) || one.name })),
     });

@@ -50,7 +50,7 @@ export function factsOfRun({ scene, parameters, frames }) {
       ["Length, mass", scene.length === 1 && scene.mass === 1 ? null : `${numberText(scene.length)}, ${numberText(scene.mass)}`],
       ["Initial state", scene.initial_file || `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`],
       ["Contact-time rule", contactTime(scene)],
-      ["Runs until", endText(scene.until)],
+      ["Started to run until", endText(scene.until)],
       ["Search, calendar", `${scene.search}, ${scene.queue}`],
     );
   }
