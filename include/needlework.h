@@ -18,9 +18,9 @@
  * Where the environment variable NEEDLEWORK_FORK is 0 they do not, and a file made to crash HDF5
  * then ends the process. It computes in the default floating-point environment, whatever that of
  * the caller is, and leaves the caller's as it was. A function that fails changes nothing, except
- * where it says so. If memory runs out while a simulation runs, or a defect of the library is found
- * in the middle of an event, every function on it returns NEEDLEWORK_INVALID_STATE from then on;
- * what its file holds stays.
+ * where it says so. If memory runs out while a simulation runs, a needle has crossed 2^31 boxes
+ * along an axis, or a defect of the library is found in the middle of an event, every function on
+ * it returns NEEDLEWORK_INVALID_STATE from then on; what its file holds stays.
  *
  * Threads. Each function says in square brackets which calls may run at the same time:
  *   [any]     with every other function
@@ -166,7 +166,8 @@ enum needlework_stop {
   NEEDLEWORK_STOP_ENERGY = 2,
   NEEDLEWORK_STOP_WALL_TIME = 3,
   NEEDLEWORK_STOP_INTERRUPTED = 4,
-  NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5 /* and there is no limit on time */
+  NEEDLEWORK_STOP_NOTHING_CAN_HAPPEN = 5 /* and there is no limit on time below the largest,
+                                            2^62 mean free times, or 2^62 of a gas at rest */
 };
 
 /* Runs until a limit is met, at once if it is met already. Limits count from the start of the

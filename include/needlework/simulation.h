@@ -25,7 +25,8 @@ struct Checkpoint {
   std::string bytes;
 };
 
-/// A running simulation. Only one thread at a time may use a simulation, except for interrupt();
+/// A running simulation. It computes in the default floating-point environment, whatever the caller
+/// has chosen for itself; callbacks find that, too. Only one thread at a time may use a simulation, except for interrupt();
 /// any number of simulations may exist side by side.
 class Simulation {
  public:
@@ -54,7 +55,8 @@ class Simulation {
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time
   /// and the new states from the Collision: time() and copy() are not yet, or with several threads
-  /// no longer, at that moment. If it throws, the simulation cannot go on.
+  /// no longer, at that moment. If it throws, the simulation cannot go on. It must not set another
+  /// function, but may call interrupt().
   void on_collision(std::function<void(const Collision&)> callback);
   /// Sets a function that is called with the times of collisions [time], each once, in any order,
   /// and before advance() returns. It costs less than on_collision(), above all with several

@@ -10,7 +10,12 @@ from .errors import InputError
 
 def numbers(name: str, values: ArrayLike) -> np.ndarray:
     """The values in double precision."""
+    if np.ma.is_masked(values):
+        raise InputError(f"{name}: expected an array without masked values")
     try:
+        kind = np.asarray(values).dtype
+        if kind.kind in "cmM":
+            raise TypeError(f"not {kind}")
         return np.asarray(values, dtype=float)
     except (TypeError, ValueError) as error:
         raise InputError(f"{name}: expected an array of numbers: {error}") from None

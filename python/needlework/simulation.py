@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 import os
 import warnings
+import weakref
 from collections.abc import Callable
 from typing import Optional
 
@@ -88,6 +89,8 @@ class Simulation:
 
     Raises InputError for a scene or a state that cannot be simulated, and IoError for files.
     """
+
+    _callback: Optional[Callback] = None
 
     def __init__(self, scene: SceneLike, *, position: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
@@ -205,7 +208,9 @@ class Simulation:
         size = _whole("batch", batch)
         if size is None or size < 1:
             raise InputError(f"batch = {batch!r}: expected a whole number, 1 or more")
-        self._run.on_collisions(callback, size, COLLISION_WITH_STATES if states else COLLISION)
+        self._run.on_collisions(None if callback is None else _callback_of(self), size,
+                                COLLISION_WITH_STATES if states else COLLISION)
+        self._callback = callback
 
     def set_velocities(self, velocity: ArrayLike, angular_velocity: ArrayLike) -> None:
         """Replaces the velocities of all needles, as arrays [N, 3] in order of id.
@@ -387,6 +392,22 @@ class Simulation:
                 line.clear()
 
 
+def _callback_of(simulation: Simulation) -> Callback:
+    """Calls the callback that the simulation holds.
+
+    The compiled part keeps this and no more. A callback that refers to its simulation would keep
+    it alive there, where the garbage collector does not look.
+    """
+    reference = weakref.ref(simulation)
+
+    def call(rows: np.ndarray) -> None:
+        owner = reference()
+        if owner is not None and owner._callback is not None:
+            owner._callback(rows)
+
+    return call
+
+
 def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
            ids: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
     """The six arrays of an initial state, or None if there are none."""
@@ -412,7 +433,7 @@ def _number(name: str, value: float | None) -> float | None:
         if isinstance(value, (str, bytes, bool)):
             raise TypeError
         return None if value is None else float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} = {value!r}: expected a number >= 0") from None
 
 
@@ -424,6 +445,6 @@ def _whole(name: str, value: float | None) -> int | None:
         number = None if value is None else operator.index(value)
     except TypeError:
         number = -1
-    if number is not None and number < 0:
-        raise InputError(f"{name} = {value!r}: expected a whole number, 0 or more")
+    if number is not None and not 0 <= number < 2**63:
+        raise InputError(f"{name} = {value!r}: expected a whole number from 0 to 2^63 - 1")
     return number

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -41,6 +42,8 @@ requests are answered. docs/serve.md describes the requests.
 Example:
   echo '{"do": "create", "path": "profiles/quickstart.toml"}' | needlework serve)");
   command->callback([&exit_code] {
+    // A front end that has gone is a failed write, with a message, and not the end.
+    std::signal(SIGPIPE, SIG_IGN);
     serve::serve(std::cin, std::cout);
     exit_code = ok;
   });

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   // A file that reaches a limit of its size is a failed write, with a message, and not the end.
   std::signal(SIGXFSZ, SIG_IGN);
   const int exit_code = run_program(argc, argv);
-  if (output_is_complete()) return exit_code;
+  if (exit_code == input_output_error || output_is_complete()) return exit_code;
   print_error("standard output: cannot be written");
   return input_output_error;
 }

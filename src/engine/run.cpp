@@ -30,6 +30,16 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
                    ": expected " + std::to_string(expected));
 }
 
+// Of a gas with more, the kernels could not square and add velocities.
+constexpr double largest_energy = std::numeric_limits<double>::max() * 0x1p-16;
+
+void require_energy(const char* what, double energy) {
+  if (energy <= largest_energy) return;
+  throw InputError(
+      fmt::format("{}: an energy of {:.3g}: expected at most {:.3g}, in the units of the engine",
+                  what, energy, largest_energy));
+}
+
 [[noreturn]] void refuse_vector(const Vec3d& a, const char* what, Id id, const char* expected) {
   throw InputError(fmt::format("state: needle {}: {} = ({}, {}, {}): expected {}", id.value, what,
                                a.x, a.y, a.z, expected));
@@ -145,9 +155,7 @@ Run::Run(const Scene& scene)
 Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   gas = std::move(initial);
   open_window();
-  if (!std::isfinite(energy())) {
-    throw InputError("state: its energy is beyond the range of double: expected slower needles");
-  }
+  require_energy("state", energy());
   gas.clock = Clock(mean_free_time);
   for (Needle i{0}; i < gas.size(); ++i) {
     const kernels::Flight flight = gas.records[i].flight;
@@ -218,6 +226,20 @@ void Run::report(Collision& collision, Needle a, Needle b, CollisionReports* lat
   }
 }
 
+void Run::require_followable(double v2, double w2) const {
+  if (gas.size() == 0) return;
+  Totals sums;
+  set_energies(v2, w2, sums);
+  require_energy("set_velocities", sums.energy * static_cast<double>(gas.size()));
+  const double between = mean_free_time_of(gas, sums), least = 0x1p10 * gas.clock.resolution();
+  if (between < least) {
+    throw InputError(fmt::format(
+        "set_velocities: a mean free time of {:.3g}: expected at least {:.3g}, as times of this "
+        "run are told apart to {:.3g}: start another simulation of the new state",
+        between, least, gas.clock.resolution()));
+  }
+}
+
 ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                         const std::function<Vec3d(Needle)>& angular_velocity) {
   ReplacedRecords replaced;
@@ -243,9 +265,9 @@ bool Run::nothing_can_happen() const {
 Stop Run::end_of_events() const {
   if (nothing_can_happen()) return Stop::nothing_can_happen;
   throw InvalidStateError(fmt::format(
-      "time {:.6g}: the next event is after {:.6g}, the largest time of this run (2^62 times the "
-      "mean free time at its start): expected an earlier end",
-      gas.clock.since_start(now), gas.clock.since_start(Time::never())));
+      "time {:.6g}: the next event is after {:.6g}, the largest time of this run (2^62 epochs of "
+      "{:.3g}): expected an earlier end",
+      gas.clock.since_start(now), gas.clock.since_start(Time::never()), gas.clock.epoch_length()));
 }
 
 void Run::sum_energies(Totals& out) const {

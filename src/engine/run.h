@@ -83,6 +83,10 @@ class Run {
   /// `later`. Kept out of the event loops, whose code it would enlarge.
   void report(Collision& collision, Needle a, Needle b, CollisionReports* later) const;
 
+  /// Throws InputError, "set_velocities: ...", if velocities with these sums of squares, of which
+  /// parts along the directors may be too much, have no energy in double, or if needles would
+  /// collide at times that the clock of this run does not tell apart.
+  void require_followable(double v2, double w2) const;
   /// Replaces the velocities of all needles at the present time and opens a new window. The event
   /// loop must be made again afterwards. `velocity(i)` and `angular_velocity(i)` are indexed by
   /// place in storage. Returns the previous records.

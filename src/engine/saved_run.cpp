@@ -2,6 +2,8 @@
 // their touches, the present window, sums and counts. Search, calendar and the order of storage
 // are not saved, because no trajectory depends on them. What follows from saved numbers is computed
 // again by the functions that have computed it in the run, to the same bits.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -198,6 +200,11 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
     throw InputError(
         "the saved state is of another box, or of other needles, collisions or accuracy than those "
         "of the scene: expected the same");
+  }
+  const std::uint64_t of_scene = scene.one_species().count;
+  if (of_scene != 0 && of_scene != count) {
+    throw InputError(fmt::format("the saved state has {} needles, the scene {}: expected the same",
+                                 count, of_scene));
   }
   require(count <= saved.bytes.size() / least_bytes_of_a_needle);
   gas.records.resize(count);

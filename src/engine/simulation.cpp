@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "src/calendar/choice.h"
@@ -49,23 +50,26 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
           .replaced = {}};
 }
 
-// Its square enters the energy.
-bool has_finite_square(const std::array<double, 3>& a) {
-  return std::isfinite(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
+double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-void check_velocities(std::span<const std::array<double, 3>> values, std::size_t count,
-                      const char* what) {
+// The sum of their squares, which enters the energy.
+double checked_sum_of_squares(std::span<const std::array<double, 3>> values, std::size_t count,
+                              const char* what) {
   if (values.size() != count) {
     throw InputError(
         fmt::format("set_velocities: {} rows of {}: expected {}", values.size(), what, count));
   }
-  const auto bad = std::find_if_not(values.begin(), values.end(), has_finite_square);
-  if (bad != values.end()) {
-    throw InputError(
-        fmt::format("set_velocities: row {} of {}: expected finite numbers, their squares too",
-                    bad - values.begin(), what));
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<double, 3>& a = values[i];
+    if (!std::isfinite(square(a))) {
+      throw InputError(fmt::format(
+          "set_velocities: row {} of {} = ({}, {}, {}): expected finite numbers, their squares too",
+          i, what, a[0], a[1], a[2]));
+    }
+    sum += square(a);
   }
+  return sum;
 }
 
 std::string name_effects(const Scene::Collisions& collisions) {
@@ -115,8 +119,9 @@ struct Simulation::Implementation {
 
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity) {
-    check_velocities(velocity, run.gas.size(), "velocity");
-    check_velocities(angular_velocity, run.gas.size(), "angular velocity");
+    const double v2 = checked_sum_of_squares(velocity, run.gas.size(), "velocity");
+    const double w2 = checked_sum_of_squares(angular_velocity, run.gas.size(), "angular velocity");
+    run.require_followable(v2, w2);
     const std::vector<Needle> ranks = ranks_of(by_id());
     loop.reset();  // all of its contents depend on the velocities
     replaced =
@@ -158,6 +163,7 @@ Simulation::Simulation(const Scene& scene) {
                      ": expected none, as Simulation(scene) reads no files: read the state with "
                      "io::read_last_frame() and pass it to Simulation(scene, state)");
   }
+  const kernels::DefaultArithmetic arithmetic;
   require_simulable(scene);
   // The state's arrays are freed before the rest of the run allocates its memory.
   Gas gas = make_gas(scene, draw_initial_state(scene));
@@ -165,11 +171,13 @@ Simulation::Simulation(const Scene& scene) {
 }
 
 Simulation::Simulation(const Scene& scene, const State& initial) {
+  const kernels::DefaultArithmetic arithmetic;
   require_simulable(scene);
   implementation_ = std::make_unique<Implementation>(scene, make_gas(scene, initial));
 }
 
 Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
+  const kernels::DefaultArithmetic arithmetic;
   require_simulable(scene);
   implementation_ = std::make_unique<Implementation>(scene, checkpoint);
 }
@@ -178,7 +186,10 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Stop Simulation::advance(const Scene::Until& until) { return implementation_->advance(until); }
+Stop Simulation::advance(const Scene::Until& until) {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->advance(until);
+}
 
 void Simulation::on_collision(std::function<void(const Collision&)> callback) {
   implementation_->run.callback = std::move(callback);
@@ -189,7 +200,10 @@ void Simulation::on_collision_times(std::function<void(std::span<const double>)>
 }
 
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
-Totals Simulation::totals() const { return implementation_->run.totals(); }
+Totals Simulation::totals() const {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->run.totals();
+}
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
   return implementation_->run.gas.clock.since_start(implementation_->run.now);
@@ -204,6 +218,7 @@ double Simulation::epoch_length() const { return implementation_->run.gas.clock.
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
 void Simulation::copy(State& into) const {
+  const kernels::DefaultArithmetic arithmetic;
   implementation_->run.copy(implementation_->isa, implementation_->by_id(), into);
 }
 State Simulation::copy() const {
@@ -214,6 +229,7 @@ State Simulation::copy() const {
 FreeNeedle Simulation::needle(std::uint32_t id) const { return implementation_->run.needle({id}); }
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {
+  const kernels::DefaultArithmetic arithmetic;
   implementation_->set_velocities(velocity, angular_velocity);
 }
 Checkpoint Simulation::checkpoint() const {

@@ -56,6 +56,7 @@ struct DriverFile : H5FD_t {
   };
 
   int descriptor = -1;
+  pid_t process = -1;  // which has opened it
   int* error = nullptr;
   OutputMode mode = OutputMode::whole;
   haddr_t end_of_allocation = 0;
@@ -69,6 +70,13 @@ struct DriverFile : H5FD_t {
 DriverFile& driver_file(H5FD_t* file) { return *static_cast<DriverFile*>(file); }
 
 const DriverFile& driver_file(const H5FD_t* file) { return *static_cast<const DriverFile*>(file); }
+
+// Whether nothing more goes to the disk: after a failed write, and in a forked child, which would
+// otherwise write what the file held at the fork, at the latest when HDF5 ends with the process.
+bool is_lost(DriverFile& file) {
+  if (*file.error == 0 && getpid() != file.process) *file.error = EPERM;
+  return *file.error != 0;
+}
 
 // Exceptions must not pass through HDF5, which is written in C.
 template <class Action>
@@ -97,6 +105,7 @@ H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
     return nullptr;
   }
   file->descriptor = descriptor;
+  file->process = getpid();
   file->error = settings->error;
   file->mode = settings->mode;
   file->end_of_file = file->size_on_disk = file->flushed_end = static_cast<haddr_t>(status.st_size);
@@ -183,7 +192,7 @@ void keep(DriverFile& file, H5FD_mem_t type, haddr_t address, const std::byte* b
       return;
     }
     for (DriverFile::Kept& kept : file.kept) replace_kept(kept, address, size, bytes);
-    if (*file.error == 0) write_to_disk(file, address, bytes, size);
+    if (!is_lost(file)) write_to_disk(file, address, bytes, size);
   }
 }
 
@@ -192,14 +201,14 @@ herr_t driver_write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t address, std::
   DriverFile& file = driver_file(base);
   const auto* const bytes = static_cast<const std::byte*>(buffer);
   const bool at_once = type == H5FD_MEM_DRAW && file.mode != OutputMode::shortening;
-  if (at_once && *file.error == 0) write_to_disk(file, address, bytes, size);
+  if (at_once && !is_lost(file)) write_to_disk(file, address, bytes, size);
   if (!at_once || *file.error != 0) keep(file, type, address, bytes, size);
   file.end_of_file = std::max(file.end_of_file, address + size);
   return 0;
 }
 
 void set_size_on_disk(DriverFile& file, haddr_t size) {
-  if (*file.error != 0 || size == file.size_on_disk) return;
+  if (is_lost(file) || size == file.size_on_disk) return;
   const auto resize = [&] { return ftruncate(file.descriptor, static_cast<off_t>(size)); };
   if (uninterrupted(resize) != 0) *file.error = errno;
   file.size_on_disk = size;
@@ -234,7 +243,7 @@ bool is_object_header(const DriverFile::Kept& kept) {
 // the dataset grows.
 void write_object_headers(DriverFile& file) {
   for (const DriverFile::Kept& kept : file.kept) {
-    if (*file.error != 0) return;
+    if (is_lost(file)) return;
     if (!is_object_header(kept)) continue;
     write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
   }
@@ -254,7 +263,7 @@ void write_kept(DriverFile& file) {
   std::stable_partition(file.kept.begin(), file.kept.end(),
                         [](const DriverFile::Kept& kept) { return kept.address == 0; });
   for (const DriverFile::Kept& kept : file.kept) {
-    if (*file.error != 0) return;
+    if (is_lost(file)) return;
     write_to_disk(file, kept.address, kept.bytes.data(), kept.bytes.size());
   }
   file.kept.clear();
@@ -337,6 +346,11 @@ OutputFile::OutputFile(std::string name, std::string place, Use use)
 OutputFile::~OutputFile() = default;
 
 void OutputFile::require_written() const {
+  if (getpid() != process_) {
+    throw IoError(place_ +
+                  ": belongs to the process that opened it: expected a simulation without this "
+                  "file in a forked child");
+  }
   if (*error_ == 0) return;
   throw IoError(fmt::format("{}: {}", place_, std::generic_category().message(*error_)));
 }

@@ -1,6 +1,9 @@
 // HDF5 files to write, for which a full disk is an ordinary error.
 #pragma once
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <memory>
 #include <string>
 
@@ -53,7 +56,8 @@ class OutputFile {
 
   hid_t get() const { return file_.get(); }
 
-  /// Throws IoError with the reason of the operating system if a write has failed so far.
+  /// Throws IoError with the reason of the operating system if a write has failed so far, and in a
+  /// child that was forked since the file was opened: nothing of it is written there.
   void require_written() const;
   /// Opens the file, or opens it again, such that rows can be removed from the ends of datasets,
   /// and nothing else changed. At any moment, also between the writes of a flush, a dataset on disk
@@ -80,6 +84,7 @@ class OutputFile {
 
   std::string name_;
   std::string place_;
+  const pid_t process_ = getpid();
   WriteLock lock_;
   std::unique_ptr<int> error_;  // errno of the first failed write, or 0; set by the driver
   hdf5::Handle driver_;  // must outlive the file: H5FD_close frees a driver that nothing else

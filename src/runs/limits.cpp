@@ -66,11 +66,16 @@ Scene::Until from_now(const Limits& limits, const Simulation& simulation) {
     add_collisions(until, done + static_cast<double>(*limits.collisions), needles);
   }
   if (limits.energy_ratio) {
-    const double initial = simulation.initial_energy();
-    const double share = initial > 0 ? simulation.totals().energy / initial : 1;
-    // Of a gas at rest, an infinite ratio is no number.
+    const double ratio = *limits.energy_ratio, initial = simulation.initial_energy(),
+                 energy = simulation.totals().energy;
+    if (initial == 0 && energy > 0) {
+      throw InputError(fmt::format(
+          "energy_ratio = {}: expected another limit, as the gas was at rest at its start", ratio));
+    }
+    // One that is met already has to be met in spite of rounding, and be a number for gases at
+    // rest.
     constexpr double largest = std::numeric_limits<double>::max();
-    until.energy_ratio = std::min(*limits.energy_ratio, largest) * share;
+    until.energy_ratio = ratio >= 1 ? largest : initial > 0 ? ratio * (energy / initial) : ratio;
   }
   return until;
 }

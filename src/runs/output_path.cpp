@@ -16,6 +16,9 @@ void require_writable(const std::string& file, bool force, const std::string& pl
                       const char* option) {
   namespace fs = std::filesystem;
   std::error_code ignored;
+  if (file.find('\0') != std::string::npos) {
+    throw IoError(printable(place) + ": cannot be written: expected a name without a zero byte");
+  }
   const fs::path path(file);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {

@@ -60,7 +60,9 @@ std::optional<std::string> text_in(const Json& request, const char* field) {
   const Json* value = find(request, field);
   if (!value) return std::nullopt;
   if (!value->is_string()) throw wrong(field, *value, "a string");
-  return value->get<std::string>();
+  std::string text = value->get<std::string>();
+  if (text.find('\0') != std::string::npos) throw wrong(field, *value, "text without zero bytes");
+  return text;
 }
 
 bool flag_in(const Json& request, const char* field) {

@@ -105,6 +105,9 @@ class Monitor : public runs::RunMonitor {
  public:
   Monitor(const Json& request, const Connection& connection)
       : connection_(connection), every_(number_in(request, "progress_s")), next_(every_) {
+    if (every_ && !(*every_ >= 0)) {
+      throw RequestError(fmt::format("progress_s = {}: expected a number >= 0", *every_));
+    }
     if (request.contains("id")) id_ = request["id"];
   }
 

@@ -104,8 +104,9 @@ class Server {
   void work() {
     Requests requests;
     while (const std::optional<Line> line = next()) {
-      const Connection connection{.interrupted = [&] { return interrupted_ > line->number; },
-                                  .notify = [&](const Json& progress) { send(progress); }};
+      const Connection connection{
+          .interrupted = [&] { return broken_ || interrupted_ > line->number; },
+          .notify = [&](const Json& progress) { send(progress); }};
       send(answer(requests, *line, connection));
     }
   }

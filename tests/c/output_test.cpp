@@ -1,4 +1,8 @@
 // Files that a C program writes are those of the program, and nothing is lost.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
 #include <filesystem>
 
 #include "tests/c/c_simulation.h"
@@ -42,6 +46,43 @@ TEST_F(COutput, IsReadByTheProgram) {
   limits.collisions = 300;
   EXPECT_EQ(needlework_run_until(simulation, &limits, nullptr), NEEDLEWORK_USAGE);
   EXPECT_EQ(simulation.message(), "the simulation is closed: expected one that can be run");
+}
+
+// A forked child has the state of the fork, and would write it when it ends.
+TEST_F(COutput, IsLeftAloneByForkedChildren) {
+  enum { destroys, closes, advances, exits };
+  for (const int what : {destroys, closes, advances, exits}) {
+    std::filesystem::remove(path("gas.h5"));
+    const CSimulation simulation(scene_with_file("output.events = true\n"));
+    ASSERT_NE(simulation, nullptr) << simulation.error.message;
+    simulation.run_to(100);
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      close(ready[1]);
+      char byte;
+      if (::read(ready[0], &byte, 1) != 0) _exit(99);  // until the parent is done
+      int code = NEEDLEWORK_IO;
+      needlework_limits limits{};
+      limits.collisions = 5000;
+      if (what == closes) code = needlework_close(simulation);
+      if (what == advances) code = needlework_run_until(simulation, &limits, nullptr);
+      if (what == destroys) needlework_destroy(simulation);
+      if (what == exits) exit(NEEDLEWORK_IO);  // HDF5 writes what it holds
+      _exit(code);
+    }
+    close(ready[0]);
+    simulation.run_to(200);
+    EXPECT_EQ(needlework_close(simulation), NEEDLEWORK_OK);
+    const std::string before = read("gas.h5"), checkpoint = read("gas.h5.checkpoint");
+    close(ready[1]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status)) << what;
+    EXPECT_EQ(WEXITSTATUS(status), NEEDLEWORK_IO) << what;
+    EXPECT_TRUE(read("gas.h5") == before && read("gas.h5.checkpoint") == checkpoint) << what;
+  }
 }
 
 TEST_F(COutput, IsTheFileOfTheProgram) {

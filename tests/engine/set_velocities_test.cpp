@@ -1,6 +1,7 @@
 // Velocities replaced by a caller: the run continues from them.
 #include "tests/engine/set_velocities.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -364,16 +365,19 @@ TEST(SetVelocities, RefusesBadRowsAndChangesNothing) {
   EXPECT_EQ(refused(Rows(41), w), "set_velocities: 41 rows of velocity: expected 40");
   EXPECT_EQ(refused(v, Rows(39)), "set_velocities: 39 rows of angular velocity: expected 40");
   EXPECT_EQ(refused(v, {}), "set_velocities: 0 rows of angular velocity: expected 40");
-  EXPECT_EQ(refused(with(v, 7, nan), w),
-            "set_velocities: row 7 of velocity: expected finite numbers, their squares too");
-  EXPECT_EQ(
-      refused(v, with(w, 39, -infinity)),
-      "set_velocities: row 39 of angular velocity: expected finite numbers, their squares too");
-  EXPECT_EQ(refused(with(v, 3, 1e200), w),
-            "set_velocities: row 3 of velocity: expected finite numbers, their squares too");
-  EXPECT_EQ(
-      refused(v, with(w, 0, nan)),
-      "set_velocities: row 0 of angular velocity: expected finite numbers, their squares too");
+  const auto expect_row = [](const std::string& message, const std::string& row, double value) {
+    EXPECT_TRUE(message.starts_with("set_velocities: " + row + " = (") &&
+                message.ends_with("): expected finite numbers, their squares too") &&
+                message.find(fmt::format(", {}, ", value)) != std::string::npos)
+        << message;
+  };
+  expect_row(refused(with(v, 7, nan), w), "row 7 of velocity", nan);
+  expect_row(refused(v, with(w, 39, -infinity)), "row 39 of angular velocity", -infinity);
+  expect_row(refused(with(v, 3, 1e200), w), "row 3 of velocity", 1e200);
+  EXPECT_EQ(refused(Rows(40, {0, 1e153, 0}), w),
+            "set_velocities: an energy of 2e+307: expected at most 2.74e+303, in the units of the "
+            "engine");
+  EXPECT_TRUE(refused(with(v, 3, 1e20), w).starts_with("set_velocities: a mean free time of "));
   EXPECT_EQ(simulation.copy().position, state.position);
   EXPECT_EQ(simulation.copy().velocity, state.velocity);
   for (Simulation* each : {&simulation, &truth}) each->advance(until_collisions(10));

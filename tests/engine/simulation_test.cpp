@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -197,7 +198,7 @@ TEST(Simulation, RefusesStatesThatAreNotGases) {
     }
   };
   refused([](State& s) { s.position[1][2] = NAN; }, "finite");
-  refused([](State& s) { s.orientation[0] = {0, 0, 0}; }, "director");
+  refused([](State& s) { s.orientation[0] = {0, 0, 0}; }, "orientation = (0, 0, 0)");
   refused([](State& s) { s.box[1] = 2.0; }, "2.01");
   refused([](State& s) { s.velocity.pop_back(); }, "velocity");
   refused([](State& s) { s.id = {4, 7, 4}; }, "distinct");
@@ -486,6 +487,39 @@ TEST(SceneMadeInCode, MayHoldAnythingWhereItIsNotRead) {
   EXPECT_EQ(simulation.advance(until_collisions(1)), Stop::collisions);
   scene.initial.file = "any\nfile";
   EXPECT_EQ(Simulation(scene, state).needles(), 20U);
+}
+
+// Whatever a host program has chosen for itself, which it finds again.
+TEST(Simulation, ComputesInTheDefaultFloatingPointEnvironment) {
+  const Scene scene = test::scene_of(100, 5);
+  const auto hash_of = [](Simulation& simulation) {
+    simulation.advance(until_collisions(5));
+    const State state = simulation.copy();
+    simulation.set_velocities(state.angular_velocity, state.velocity);
+    simulation.advance(until_collisions(10));
+    return simulation.trajectory_hash();
+  };
+  Simulation usual(scene);
+  const std::string expected = hash_of(usual);
+  for (const int mode : {FE_UPWARD, FE_TOWARDZERO}) {
+    ASSERT_EQ(std::fesetround(mode), 0);
+    Simulation simulation(scene);
+    const std::string found = hash_of(simulation);
+    const double energy = simulation.totals().energy;
+    EXPECT_EQ(std::fegetround(), mode);
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(energy, usual.totals().energy);
+  }
+}
+
+TEST(Simulation, ContinuesCheckpointsOfAsManyNeedlesAsItsScene) {
+  Scene scene = test::scene_of(20, 5);
+  const Checkpoint saved = Simulation(scene).checkpoint();
+  scene.needles.count = 21;
+  EXPECT_THROW(Simulation(scene, saved), InputError);
+  scene.needles.count = 0;  // as where a file has given it
+  EXPECT_EQ(Simulation(scene, saved).needles(), 20U);
 }
 
 TEST(Simulation, RefusesEndsThatAreNoNumbers) {

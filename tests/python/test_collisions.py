@@ -1,8 +1,10 @@
 """Callbacks: every collision once and in order, and what happens when they fail."""
 
+import gc
 import tempfile
 import unittest
 import warnings
+import weakref
 from pathlib import Path
 
 import needlework
@@ -127,6 +129,17 @@ class Failures(unittest.TestCase):
         sim.on_collisions(callback, 10)
         self.assertEqual(sim.run(time=1e9), "interrupted")
         self.assertGreaterEqual(len(seen), 1)
+
+    def test_a_callback_that_knows_its_simulation_does_not_keep_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            sim = Simulation(gas(output={"file": str(Path(folder, "run.h5"))}))
+            sim.on_collisions(lambda rows: sim.interrupt(), 1)
+            gone = weakref.ref(sim)
+            self.assertEqual(sim.run(), "interrupted")
+            del sim
+            gc.collect()
+            self.assertIsNone(gone())
+            Simulation(gas(output={"file": str(Path(folder, "run.h5"))}), force=True).close()
 
     def test_wrong_arguments_are_named(self):
         sim = Simulation(GAS)

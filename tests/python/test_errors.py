@@ -58,6 +58,12 @@ class Scenes(unittest.TestCase):
                      **arrays)
         self.rejects(scene, r"^velocity: shape \(3, 3\): expected \(2, 3\)",
                      position=positions[:2], **arrays)
+        for values, expected in (
+                (np.ma.masked_array(rows, mask=np.eye(3)), "without masked values"),
+                (rows + 1j, "of numbers: not complex128"),
+                (rows.astype("datetime64[s]"), "of numbers: not datetime64")):
+            self.rejects(scene, f"^velocity: expected an array {expected}", position=positions,
+                         orientation=arrays["orientation"], velocity=values)
         self.rejects({"needles": {"count": 4, "box": 20}}, r"needles.count = 4: expected 3",
                      position=positions, **arrays)
         self.rejects({}, "needles.box is missing", position=positions, **arrays)

@@ -48,6 +48,29 @@ TEST(Limits, AnyNumberOfCollisionsIsMetExactly) {
   }
 }
 
+// Also where rounding has moved the energy by account away from that of the needles.
+TEST(Limits, AreMetAtOnceByTheEnergyThatThereIs) {
+  for (const double epsilon : {0.8, 1.0}) {
+    Scene scene = test::scene_of(50, 5);
+    scene.collisions.epsilon = epsilon;
+    Simulation simulation(scene);
+    for (std::uint64_t n = 1; n <= 40; ++n) {
+      simulation.advance(from_now({.collisions = 3}, simulation));
+      EXPECT_EQ(simulation.advance(from_now({.energy_ratio = 1}, simulation)), Stop::energy);
+      EXPECT_EQ(simulation.collisions(), 3 * n);
+    }
+  }
+}
+
+TEST(Limits, OfEnergyNeedAnEnergyAtTheStart) {
+  Scene scene = test::scene_of(50, 5);
+  scene.initial.t_tr = scene.initial.t_rot = 0;
+  Simulation simulation(scene);
+  const State moving = Simulation(test::scene_of(50, 5)).copy();
+  simulation.set_velocities(moving.velocity, moving.angular_velocity);
+  EXPECT_THROW(from_now({.energy_ratio = 0.5}, simulation), InputError);
+}
+
 TEST(Limits, MayBeInfinite) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Simulation simulation = cooling_gas();

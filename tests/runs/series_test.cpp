@@ -1,6 +1,8 @@
 // What a run writes at its samples: when, and with what beside.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "needlework/h5md.h"
 #include "needlework/initial_state.h"
 #include "src/runs/prepared_run.h"
@@ -42,6 +44,26 @@ TEST_F(Series, IsAtTheMultiplesOfAStep) {
   std::vector<double> times;
   for (const Totals& sample : io::read_run(path).series) times.push_back(sample.time);
   EXPECT_EQ(times, (std::vector<double>{0, 0.25, 0.5, 0.75, 1, 1.1}));
+}
+
+TEST_F(Series, BeginsWhenAGasAtRestIsSetInMotion) {
+  Scene resting = scene();
+  resting.initial.t_tr = resting.initial.t_rot = 0;
+  resting.output.frames_per_decade = 2;
+  Silent monitor;
+  PreparedRun run(complete_scene(resting), true);
+  run.advance({.time = 3}, monitor);
+  const State moving = draw_initial_state(scene());
+  run.simulation().set_velocities(moving.velocity, moving.angular_velocity);
+  run.advance({.time = 11}, monitor);
+  run.close();
+  std::vector<double> times;
+  for (const Totals& sample : io::read_run(path).series) times.push_back(sample.time);
+  ASSERT_EQ(times.size(), 8U);  // 0, 10^0.5 to 10^1 by tenths of a decade, and the end
+  EXPECT_EQ(times[0], 0);
+  EXPECT_NEAR(times[1], std::pow(10, 0.5), 1e-12);
+  EXPECT_EQ(times[7], 11);
+  EXPECT_EQ(io::FrameFile(path).count(), 4U);
 }
 
 TEST_F(Series, HasTheoryBesideItWhereTheStateIsDrawn) {

@@ -260,6 +260,10 @@ TEST(Serve, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(message({{"do", "advance"}, {"time", "soon"}}), "time = \"soon\": expected a number");
   EXPECT_EQ(message({{"do", "advance"}, {"collisions", -1}}),
             "collisions = -1: expected a whole number >= 0");
+  EXPECT_EQ(message({{"do", "advance"}, {"time", 1}, {"progress_s", -1}}),
+            "progress_s = -1: expected a number >= 0");
+  EXPECT_EQ(message({{"do", "state"}, {"file", std::string("a\0b.h5", 6)}}),
+            "file = \"a\\u0000b.h5\": expected text without zero bytes");
   EXPECT_EQ(message({{"do", "advance"}, {"collisons", 1}}).substr(0, 46),
             "collisons = 1: expected one of the fields do, ");
   EXPECT_NE(message({{"do", "advance"}}).find("no end condition"), std::string::npos);
