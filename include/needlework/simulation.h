@@ -26,8 +26,8 @@ struct Checkpoint {
 };
 
 /// A running simulation. It computes in the default floating-point environment, whatever the caller
-/// has chosen for itself; callbacks find that, too. Only one thread at a time may use a simulation, except for interrupt();
-/// any number of simulations may exist side by side.
+/// has chosen for itself; callbacks find that, too. Only one thread at a time may use a simulation,
+/// except for interrupt(); any number of simulations may exist side by side.
 class Simulation {
  public:
   /// Draws the initial state. Throws InputError for a value that a scene file could not hold

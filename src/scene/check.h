@@ -19,7 +19,7 @@ std::vector<std::string> warnings(const Scene& scene);
 /// From this contact time on [mean free times] there is a warning, which says:
 inline constexpr double long_contact = 0.1;
 inline constexpr const char* effect_of_long_contact =
-    "a large part of all collisions will be elastic, and the gas cools more slowly than theory says";
+    "a large part of all collisions will be elastic, and the gas cools more slowly than in theory";
 
 /// The warnings about accuracy: keys that have no effect together with the others.
 std::vector<std::string> accuracy_warnings(const Scene::Engine& engine);
