@@ -17,7 +17,7 @@ def numbers(name: str, values: ArrayLike) -> np.ndarray:
         if kind.kind in "cmM":
             raise TypeError(f"not {kind}")
         return np.asarray(values, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name}: expected an array of numbers: {error}") from None
 
 

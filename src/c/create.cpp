@@ -57,13 +57,14 @@ State state_of(const needlework_initial& initial, const int32_t* image,
 }
 
 template <class Load>
-needlework_simulation* create(unsigned flags, needlework_error* error, Load&& load) noexcept {
+needlework_simulation* create(unsigned flags, needlework_error* error, Load&& load,
+                              const char* path = nullptr) noexcept {
   needlework_simulation* made = nullptr;
   guarded(error, [&] {
     require_flags(flags);
     const bool replaces = flags & NEEDLEWORK_REPLACE;
     runs::LoadedScene loaded = load();
-    runs::require_writable_output(loaded.scene, replaces, "NEEDLEWORK_REPLACE");
+    runs::require_writable_output(loaded.scene, replaces, path ? path : "", "NEEDLEWORK_REPLACE");
     made = new needlework_simulation(std::move(loaded), replaces);
   });
   return made;
@@ -83,10 +84,11 @@ needlework_simulation* needlework_create(const char* scene, unsigned flags,
 }
 
 needlework_simulation* needlework_open(const char* path, unsigned flags, needlework_error* error) {
-  return c::create(flags, error, [&] {
+  const auto load = [&] {
     c::require(path, "path");
     return runs::complete_scene(read_scene(path, {}, {.end = true}));
-  });
+  };
+  return c::create(flags, error, load, path);
 }
 
 needlework_simulation* needlework_create_from(const char* scene, const needlework_initial* initial,

@@ -188,7 +188,7 @@ int run(const AuditArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
   require_unit_needles(scene);
-  for (const std::string& warning : runs::all_warnings(scene)) print_warning(warning);
+  for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);

@@ -108,6 +108,9 @@ void require_json_file(const BenchArguments& arguments) {
     throw InputError(place + ": expected a name that ends in .json");
   }
   runs::require_writable(arguments.json_file, arguments.force, place);
+  for (const std::string& read : {arguments.compare, arguments.results}) {
+    if (!read.empty()) runs::require_other_file(arguments.json_file, read, place);
+  }
 }
 
 void write_file(const std::string& file, const std::string& text) {

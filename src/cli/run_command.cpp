@@ -69,8 +69,9 @@ std::unique_ptr<runs::RunMonitor> make_monitor(const Scene& scene, const Printin
 }
 
 // Prints the warnings about a scene that is about to be run.
-std::vector<std::string> warn(const Scene& scene) {
-  std::vector<std::string> warnings = runs::all_warnings(scene);
+std::vector<std::string> warn(const runs::LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  std::vector<std::string> warnings = runs::all_warnings(loaded);
   const std::string& file = scene.output.file;
   const std::string place = place_of(scene, "output.file", file);
   const auto of_name = warning_of_name(place, file, "an HDF5 file", {".h5", ".hdf5", ".h5md"});
@@ -104,12 +105,11 @@ int run(const RunArguments& arguments) {
   const std::string file = scene.output.file;
   if (!file.empty()) {
     const std::string place = place_of(scene, "output.file", file);
-    runs::require_writable_output(scene, arguments.force);
-    runs::require_other_file(file, arguments.scene.path, place);
+    runs::require_writable_output(scene, arguments.force, arguments.scene.path);
     io::require_not_being_written(file, place + ": cannot be replaced");
   }
   runs::require_reachable_end(scene);
-  const std::vector<std::string> warnings = warn(scene);
+  const std::vector<std::string> warnings = warn(loaded);
   RunLog log = open_log(arguments.printing, file);
   return logged(log, [&] {
     runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);

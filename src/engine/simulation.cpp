@@ -206,14 +206,19 @@ Totals Simulation::totals() const {
 }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
+  const kernels::DefaultArithmetic arithmetic;
   return implementation_->run.gas.clock.since_start(implementation_->run.now);
 }
 std::size_t Simulation::needles() const { return implementation_->run.gas.size(); }
 std::uint64_t Simulation::collisions() const { return implementation_->run.tally.collisions; }
 double Simulation::initial_energy() const {
+  const kernels::DefaultArithmetic arithmetic;
   return implementation_->run.initial_energy / static_cast<double>(implementation_->run.gas.size());
 }
-double Simulation::energy_drift() const { return implementation_->run.energy_drift(); }
+double Simulation::energy_drift() const {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->run.energy_drift();
+}
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
 double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
@@ -226,7 +231,10 @@ State Simulation::copy() const {
   copy(out);
   return out;
 }
-FreeNeedle Simulation::needle(std::uint32_t id) const { return implementation_->run.needle({id}); }
+FreeNeedle Simulation::needle(std::uint32_t id) const {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->run.needle({id});
+}
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {
   const kernels::DefaultArithmetic arithmetic;

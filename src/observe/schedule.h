@@ -31,6 +31,9 @@ class Schedule {
   /// The next time [time], or infinity if there is none.
   double next() const { return next_; }
 
+  /// Whether it has had no times from the start.
+  bool is_empty() const { return per_decade_ == 0 && step_ == 0 && times_.empty(); }
+
   /// Removes all times up to and including `time`.
   void pass(double time);
 
@@ -42,10 +45,9 @@ class Schedule {
   }
   /// Whether its times are those of `whole`, or none, and the next one is at `time` or later.
   bool is_rest_of(const Schedule& whole, double time) const {
-    const bool is_empty = per_decade_ == 0 && step_ == 0 && times_.empty();
     const bool same =
         per_decade_ == whole.per_decade_ && step_ == whole.step_ && times_ == whole.times_;
-    return (is_empty || same) && next_ >= time;
+    return (is_empty() || same) && next_ >= time;
   }
 
  private:

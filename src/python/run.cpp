@@ -44,8 +44,8 @@ runs::Limits of_scene(const Scene::Until& until) {
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
   const py::gil_scoped_release release;
   runs::LoadedScene loaded = load_scene(source, std::move(state));
-  runs::require_writable_output(loaded.scene, force, "force=True");
-  warnings_ = runs::all_warnings(loaded.scene);
+  runs::require_writable_output(loaded.scene, force, source.text ? "" : source.name, "force=True");
+  warnings_ = runs::all_warnings(loaded);
   run_.emplace(std::move(loaded), force);
 }
 

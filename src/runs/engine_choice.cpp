@@ -11,7 +11,6 @@
 #include "kernels/isa.h"
 #include "needlework/error.h"
 #include "needlework/theory.h"
-#include "src/runs/loaded_scene.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -107,12 +106,16 @@ std::string threads_text(const Scene& scene) {
 
 int cores() { return omp_get_num_procs(); }
 
-std::vector<std::string> all_warnings(const Scene& scene) {
+std::vector<std::string> all_warnings(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
   std::vector<std::string> all = warnings(scene);
-  if (const Scene::Collisions& c = scene.collisions;
-      c.tc && !keep_energy(c) && scene.initial.file.empty() && scene.needles.count > 0) {
-    const double rate = theory::collision_rate(
-        theory_density_of(scene), {scene.initial.t_tr, scene.initial.t_rot}, scene.needles.k);
+  if (const Scene::Collisions& c = scene.collisions; c.tc && !keep_energy(c)) {
+    theory::Temperatures initial{scene.initial.t_tr, scene.initial.t_rot};
+    if (loaded.initial) {
+      const Totals totals = totals_of(*loaded.initial, scene);
+      initial = {totals.t_tr, totals.t_rot};
+    }
+    const double rate = theory::collision_rate(theory_density_of(scene), initial, scene.needles.k);
     if (*c.tc * rate >= long_contact) {
       all.push_back(fmt::format("{}: is {:.3g} mean free times at the start: {}",
                                 place_of(scene, "collisions.tc", fmt::to_string(*c.tc)),

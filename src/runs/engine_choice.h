@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "needlework/scene.h"
+#include "src/runs/loaded_scene.h"
 
 namespace needlework::runs {
 
@@ -28,7 +29,7 @@ std::string threads_text(const Scene& scene);
 
 /// The warnings of check.h, one of a contact time that is long beside the initial mean free time,
 /// and one if there are more threads than cores.
-std::vector<std::string> all_warnings(const Scene& scene);
+std::vector<std::string> all_warnings(const LoadedScene& loaded);
 
 /// Cores that the process may use.
 int cores();

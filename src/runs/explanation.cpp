@@ -46,6 +46,6 @@ Explanation::Explanation(const LoadedScene& loaded)
       accuracy(accuracy_name(scene.engine)),
       isa(resolved_isa(scene.engine)),
       threads(scene.engine.threads.value_or(1)),
-      warnings(all_warnings(scene)) {}
+      warnings(all_warnings(loaded)) {}
 
 }  // namespace needlework::runs

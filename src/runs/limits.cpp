@@ -12,7 +12,7 @@
 namespace needlework::runs {
 namespace {
 
-void require_valid(const Limits& limits) {
+void require_valid(const Limits& limits, const Simulation& simulation) {
   for (const auto& [name, value] :
        {std::pair("time", limits.time),
         std::pair("collisions_per_needle", limits.collisions_per_needle),
@@ -20,6 +20,12 @@ void require_valid(const Limits& limits) {
     if (value && !(*value >= 0)) {
       throw InputError(fmt::format("{} = {}: expected a number >= 0", name, *value));
     }
+  }
+  // Its energy now is no multiple of that at its start, which ends are measured in.
+  if (limits.energy_ratio && simulation.initial_energy() == 0 && simulation.totals().energy > 0) {
+    throw InputError(fmt::format(
+        "energy_ratio = {}: expected another limit, as the gas was at rest at its start",
+        *limits.energy_ratio));
   }
   if (limits.empty()) {
     throw InputError(
@@ -40,7 +46,7 @@ void add_collisions(Scene::Until& until, double collisions, double needles) {
 }  // namespace
 
 Scene::Until from_start(const Limits& limits, const Simulation& simulation) {
-  require_valid(limits);
+  require_valid(limits, simulation);
   Scene::Until until{.time = limits.time,
                      .collisions_per_needle = limits.collisions_per_needle,
                      .energy_ratio = limits.energy_ratio,
@@ -53,7 +59,7 @@ Scene::Until from_start(const Limits& limits, const Simulation& simulation) {
 }
 
 Scene::Until from_now(const Limits& limits, const Simulation& simulation) {
-  require_valid(limits);
+  require_valid(limits, simulation);
   Scene::Until until{
       .time = {}, .collisions_per_needle = {}, .energy_ratio = {}, .wall_s = limits.wall_s};
   const auto needles = static_cast<double>(simulation.needles());
@@ -68,10 +74,6 @@ Scene::Until from_now(const Limits& limits, const Simulation& simulation) {
   if (limits.energy_ratio) {
     const double ratio = *limits.energy_ratio, initial = simulation.initial_energy(),
                  energy = simulation.totals().energy;
-    if (initial == 0 && energy > 0) {
-      throw InputError(fmt::format(
-          "energy_ratio = {}: expected another limit, as the gas was at rest at its start", ratio));
-    }
     // One that is met already has to be met in spite of rounding, and be a number for gases at
     // rest.
     constexpr double largest = std::numeric_limits<double>::max();

@@ -50,12 +50,15 @@ void require_other_file(const std::string& file, const std::string& input,
                             printable(input)));
 }
 
-void require_writable_output(const Scene& scene, bool force, const char* option) {
+void require_writable_output(const Scene& scene, bool force, const std::string& scene_file,
+                             const char* option) {
   const std::string& file = scene.output.file;
   if (file.empty()) return;
   const std::string place = place_of(scene, "output.file", file);
   require_writable(file, force, place, option);
-  if (!scene.initial.file.empty()) require_other_file(file, scene.initial.file, place);
+  for (const std::string& read : {scene_file, scene.initial.file}) {
+    if (!read.empty()) require_other_file(file, read, place);
+  }
 }
 
 }  // namespace needlework::runs

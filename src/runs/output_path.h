@@ -19,7 +19,9 @@ void require_writable(const std::string& file, bool force, const std::string& pl
 void require_other_file(const std::string& file, const std::string& input,
                         const std::string& place);
 
-/// Both for the output file of a scene, if it has one, and the file of its initial state.
-void require_writable_output(const Scene& scene, bool force, const char* option = "--force");
+/// Both for the output file of a scene, if it has one, which is neither `scene_file`, unless that
+/// is empty, nor the file of its initial state.
+void require_writable_output(const Scene& scene, bool force, const std::string& scene_file,
+                             const char* option = "--force");
 
 }  // namespace needlework::runs

@@ -318,6 +318,11 @@ Course PreparedRun::drive(RunMonitor& monitor) {
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   if (cut_off_) throw InvalidStateError(cut_off_by_an_error);
+  if (is_copy_of_parent()) {
+    throw IoError(scene_.output.file +
+                  ": belongs to the process that opened it: expected a simulation without this "
+                  "file in a forked child");
+  }
   Stop stop{};
   std::exception_ptr failure;
   try {

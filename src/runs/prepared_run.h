@@ -1,6 +1,9 @@
 // A run made ready to go: its simulation and the output that its scene asks for.
 #pragma once
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -90,6 +93,8 @@ class PreparedRun {
   void open_output(Open&& open);
   void observe();
   Output output();
+  /// In a child that was forked since: the file and what is beside it are those of the parent.
+  bool is_copy_of_parent() const { return writer_ && getpid() != process_; }
   void save_checkpoint(CheckpointFiles::Newest present);
   struct Kept;
   Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);
@@ -99,6 +104,7 @@ class PreparedRun {
   std::optional<RunCheckpoint> before_failure() const;
   CheckpointFiles checkpoints() const;
 
+  const pid_t process_ = getpid();
   Scene scene_;
   Saves saves_;
   std::string output_file_;  ///< absolute, as the process may go to another folder

@@ -52,25 +52,30 @@ RunDriver::RunDriver(Simulation& simulation, const Scene& scene, const Totals& i
       keeps_course_(keeps_course),
       collisions_before_(simulation.collisions()) {
   course_.initial = initial;
-  if (samples()) make_schedules();
+  if (!samples()) return;
+  const double start = first_sample * simulation.mean_free_time();
+  series_ = series_schedule(scene.output, start);
+  // A run that is replayed has frames in its schedule, too, as it had when it was saved.
+  if (output_.observation) frames_ = frame_schedule(scene.output, start);
 }
 
-void RunDriver::make_schedules() {
+// Without a mean free time logarithmic schedules have no beginning.
+void RunDriver::schedule_if_set_in_motion() {
   const double start = first_sample * simulation_.mean_free_time();
-  at_rest_ = !std::isfinite(start);
-  series_ = series_schedule(scene_.output, start);
-  // A run that is replayed has frames in its schedule, too, as it had when it was saved.
-  if (output_.observation) frames_ = frame_schedule(scene_.output, start);
+  if (!std::isfinite(start)) return;
+  const auto begin = [&](Schedule& schedule, Schedule whole) {
+    if (!schedule.is_empty()) return;
+    schedule = std::move(whole);
+    schedule.pass(std::nextafter(simulation_.time(), 0));  // what is due now is to come
+  };
+  begin(series_, series_schedule(scene_.output, start));
+  if (output_.observation) begin(frames_, frame_schedule(scene_.output, start));
 }
 
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   const auto start = SteadyClock::now();
   if (!begun_) begin(&monitor);
-  if (at_rest_ && std::isfinite(simulation_.mean_free_time())) {
-    make_schedules();
-    series_.pass(simulation_.time());
-    frames_.pass(simulation_.time());
-  }
+  if (samples()) schedule_if_set_in_motion();
   monitor.begin(course_.initial, course_.samples);
   // A sum over all needles, which short advances that nobody follows can do without.
   pace_.reset();

@@ -80,8 +80,7 @@ class RunDriver {
 
   bool samples() const { return output_.writer || output_.observation || keeps_course_; }
   void begin(RunMonitor* monitor);
-  /// Those of a gas at rest begin when it is set in motion.
-  void make_schedules();
+  void schedule_if_set_in_motion();
   void record(const Collision& collision);
   void listen_to_collisions();
   void require_restored(const Archive& archive) const;
@@ -95,7 +94,6 @@ class RunDriver {
 
   Simulation& simulation_;
   const Scene& scene_;
-  bool at_rest_ = false;  ///< when the schedules were made
   const Output output_;
   const bool keeps_course_;
   const std::uint64_t collisions_before_;  ///< by other processes

@@ -32,7 +32,7 @@ std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
         "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
         "collapse is not prevented",
         tc));
-  if (c.tc_relative && tc >= long_contact)
+  if (c.tc_relative && tc >= long_contact && !keep_energy(c))
     list.push_back(fmt::format("collisions.tc_relative = {}: {}", tc, effect_of_long_contact));
   if (c.epsilon == 1 && c.beta == -1 && tc > 0)
     list.push_back(

@@ -174,7 +174,8 @@ Json Requests::create(const Json& request, const Connection&) {
                          "angular_velocity", "image", "needle_id"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
-  runs::require_writable_output(loaded.scene, force, "\"force\": true");
+  runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
+                                "\"force\": true");
   return add(std::make_unique<runs::PreparedRun>(std::move(loaded), force));
 }
 

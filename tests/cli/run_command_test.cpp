@@ -237,11 +237,13 @@ TEST_F(RunCommand, NeverReplacesWhatACommandReads) {
   std::filesystem::create_symlink("a.h5", path("link.png"));
   write("next.toml", "initial.file = \"a.h5\"\nuntil.collisions_per_needle = 5\n");
   const std::string run_file = read("a.h5"), scene = read("next.toml");
-  for (const char* command : {"run next.toml --out a.h5", "run next.toml --out link.png",
-                              "check next.toml --set "
-                              "output.file=a.h5",
-                              "run next.toml --out next.toml", "report a.h5 -o ./a.h5",
-                              "export a.h5 a.h5 --to xyz", "view a.h5 -o link.png"}) {
+  for (const char* command :
+       {"run next.toml --out a.h5", "run next.toml --out link.png",
+        "check next.toml --set "
+        "output.file=a.h5",
+        "run next.toml --out next.toml", "check next.toml --set output.file=next.toml",
+        "check next.toml --set output.file=next.toml", "report a.h5 -o ./a.h5",
+        "export a.h5 a.h5 --to xyz", "view a.h5 -o link.png"}) {
     const bool may_force = !std::string_view(command).starts_with("check");
     const Outcome refused = run(std::string(command) + (may_force ? " --force" : ""));
     EXPECT_EQ(refused.exit_code, 5) << command << refused.err;

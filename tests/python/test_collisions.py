@@ -133,7 +133,7 @@ class Failures(unittest.TestCase):
     def test_a_callback_that_knows_its_simulation_does_not_keep_it(self):
         with tempfile.TemporaryDirectory() as folder:
             sim = Simulation(gas(output={"file": str(Path(folder, "run.h5"))}))
-            sim.on_collisions(lambda rows: sim.interrupt(), 1)
+            sim.on_collisions(lambda rows, its=sim: its.interrupt(), 1)
             gone = weakref.ref(sim)
             self.assertEqual(sim.run(), "interrupted")
             del sim

@@ -69,6 +69,7 @@ TEST(Limits, OfEnergyNeedAnEnergyAtTheStart) {
   const State moving = Simulation(test::scene_of(50, 5)).copy();
   simulation.set_velocities(moving.velocity, moving.angular_velocity);
   EXPECT_THROW(from_now({.energy_ratio = 0.5}, simulation), InputError);
+  EXPECT_THROW(from_start({.energy_ratio = 1}, simulation), InputError);
 }
 
 TEST(Limits, MayBeInfinite) {

@@ -74,8 +74,31 @@ TEST(LoadedScene, HasAnEngineThatIsOnOffer) {
   EXPECT_THROW(complete_scene(scene), InputError);
 }
 
+TEST(LoadedScene, WarnsOfContactTimesByTheVelocitiesThatThereAre) {
+  Scene scene = test::scene_of(50, 5);
+  scene.collisions.epsilon = 0.9;
+  State state = draw_initial_state(scene);
+  const auto is_warned_of = [&](double tc, const State* given) {
+    scene.collisions.tc = tc;
+    const LoadedScene loaded = given ? complete_scene(scene, *given) : complete_scene(scene);
+    const std::vector<std::string> all = all_warnings(loaded);
+    return !all.empty() && all.back().find(" mean free times at the start: ") != std::string::npos;
+  };
+  EXPECT_FALSE(is_warned_of(0.05, nullptr));
+  EXPECT_TRUE(is_warned_of(1, nullptr));
+  EXPECT_TRUE(is_warned_of(1, &state));
+  for (auto part : {&State::velocity, &State::angular_velocity}) {
+    for (auto& row : state.*part) row = {1e-4 * row[0], 1e-4 * row[1], 1e-4 * row[2]};
+  }
+  EXPECT_FALSE(is_warned_of(1, &state));
+  EXPECT_TRUE(is_warned_of(1e4, &state));
+}
+
 TEST(LoadedScene, WarnsOfMoreThreadsThanCoresInWordsThatFitTheTeam) {
   Scene scene = test::scene_of(3, 3);
+  const auto all_warnings = [](const Scene& given) {
+    return runs::all_warnings({.scene = given, .initial = {}});
+  };
   scene.engine.threads = cores();
   EXPECT_TRUE(all_warnings(scene).empty());
   scene.engine.threads = cores() + 1;

@@ -1,10 +1,16 @@
 // What a run writes at its samples: when, and with what beside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "needlework/h5md.h"
 #include "needlework/initial_state.h"
+#include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
@@ -47,23 +53,46 @@ TEST_F(Series, IsAtTheMultiplesOfAStep) {
 }
 
 TEST_F(Series, BeginsWhenAGasAtRestIsSetInMotion) {
-  Scene resting = scene();
-  resting.initial.t_tr = resting.initial.t_rot = 0;
-  resting.output.frames_per_decade = 2;
-  Silent monitor;
-  PreparedRun run(complete_scene(resting), true);
-  run.advance({.time = 3}, monitor);
   const State moving = draw_initial_state(scene());
-  run.simulation().set_velocities(moving.velocity, moving.angular_velocity);
-  run.advance({.time = 11}, monitor);
-  run.close();
-  std::vector<double> times;
-  for (const Totals& sample : io::read_run(path).series) times.push_back(sample.time);
-  ASSERT_EQ(times.size(), 8U);  // 0, 10^0.5 to 10^1 by tenths of a decade, and the end
-  EXPECT_EQ(times[0], 0);
-  EXPECT_NEAR(times[1], std::pow(10, 0.5), 1e-12);
-  EXPECT_EQ(times[7], 11);
-  EXPECT_EQ(io::FrameFile(path).count(), 4U);
+  Silent monitor;
+  // Begun at rest, set in motion at time 3, and continued from a checkpoint in between or not.
+  const auto sampled = [&](const Scene::Output& output, bool continued) {
+    Scene resting = scene();
+    resting.initial.t_tr = resting.initial.t_rot = 0;
+    resting.output = output;
+    auto run = std::make_unique<PreparedRun>(complete_scene(resting), true);
+    run->advance({.time = 3}, monitor);
+    run->simulation().set_velocities(moving.velocity, moving.angular_velocity);
+    if (continued) {
+      run->save_checkpoint();
+      run.reset();
+      run = std::make_unique<PreparedRun>(load_checkpoint(path).checkpoint);
+    }
+    run->advance({.time = 11}, monitor);
+    run->close();
+    std::vector<double> times;
+    for (const Totals& sample : io::read_run(path).series) times.push_back(sample.time);
+    return std::pair(times, io::FrameFile(path).count());
+  };
+  const auto is_near = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) < 1e-12; });
+  };
+  for (const bool continued : {false, true}) {
+    Scene::Output output = scene().output;
+    output.frames_per_decade = 2;
+    auto [times, frames] = sampled(output, continued);
+    std::vector<double> expected{0};
+    for (int n = 5; n <= 10; ++n) expected.push_back(std::pow(10, n / 10.0));
+    expected.push_back(11);
+    EXPECT_TRUE(is_near(times, expected)) << testing::PrintToString(times);
+    EXPECT_EQ(frames, 4U);
+    output = scene().output;
+    output.series_every = 3;
+    output.frame_times = {0, 3, 5};
+    std::tie(times, frames) = sampled(output, continued);
+    EXPECT_EQ(times, (std::vector<double>{0, 3, 6, 9, 11}));
+    EXPECT_EQ(frames, 4U);
+  }
 }
 
 TEST_F(Series, HasTheoryBesideItWhereTheStateIsDrawn) {
