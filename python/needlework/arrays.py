@@ -13,10 +13,10 @@ def numbers(name: str, values: ArrayLike) -> np.ndarray:
     if np.ma.is_masked(values):
         raise InputError(f"{name}: expected an array without masked values")
     try:
-        kind = np.asarray(values).dtype
-        if kind.kind in "cmM":
-            raise TypeError(f"not {kind}")
-        return np.asarray(values, dtype=float)
+        array = np.asarray(values)
+        if array.dtype.kind in "cmM":
+            raise TypeError(f"not {array.dtype}")
+        return np.asarray(array, dtype=float)
     except (TypeError, ValueError, OverflowError) as error:
         raise InputError(f"{name}: expected an array of numbers: {error}") from None
 

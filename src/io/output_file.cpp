@@ -326,6 +326,13 @@ void set_pages(hid_t creation, const std::string& place) {
 
 }  // namespace
 
+void require_process(pid_t opener, const std::string& place) {
+  if (getpid() == opener) return;
+  throw IoError(place +
+                ": belongs to the process that opened it: expected a simulation without this file "
+                "in a forked child");
+}
+
 OutputFile::OutputFile(std::string name, std::string place)
     : name_(std::move(name)),
       place_(std::move(place)),
@@ -346,11 +353,7 @@ OutputFile::OutputFile(std::string name, std::string place, Use use)
 OutputFile::~OutputFile() = default;
 
 void OutputFile::require_written() const {
-  if (getpid() != process_) {
-    throw IoError(place_ +
-                  ": belongs to the process that opened it: expected a simulation without this "
-                  "file in a forked child");
-  }
+  require_process(process_, place_);
   if (*error_ == 0) return;
   throw IoError(fmt::format("{}: {}", place_, std::generic_category().message(*error_)));
 }

@@ -19,6 +19,10 @@ enum class OutputMode {
   shortening,  ///< the numbers of rows of datasets; anybody
 };
 
+/// Throws IoError, "PLACE: ...", unless this process is the one that opened the file: a child that
+/// was forked since must not write it.
+void require_process(pid_t opener, const std::string& place);
+
 /// An HDF5 file, which HDF5 writes through a file driver of this library. The driver solves three
 /// problems.
 ///

@@ -10,7 +10,6 @@
 
 #include "kernels/isa.h"
 #include "needlework/error.h"
-#include "needlework/theory.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -110,12 +109,8 @@ std::vector<std::string> all_warnings(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   std::vector<std::string> all = warnings(scene);
   if (const Scene::Collisions& c = scene.collisions; c.tc && !keep_energy(c)) {
-    theory::Temperatures initial{scene.initial.t_tr, scene.initial.t_rot};
-    if (loaded.initial) {
-      const Totals totals = totals_of(*loaded.initial, scene);
-      initial = {totals.t_tr, totals.t_rot};
-    }
-    const double rate = theory::collision_rate(theory_density_of(scene), initial, scene.needles.k);
+    const double rate = theory::collision_rate(theory_density_of(scene),
+                                               initial_temperatures(loaded), scene.needles.k);
     if (*c.tc * rate >= long_contact) {
       all.push_back(fmt::format("{}: is {:.3g} mean free times at the start: {}",
                                 place_of(scene, "collisions.tc", fmt::to_string(*c.tc)),

@@ -15,12 +15,6 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
-  if (!loaded.initial) return {loaded.scene.initial.t_tr, loaded.scene.initial.t_rot};
-  const Totals totals = totals_of(*loaded.initial, loaded.scene);
-  return {totals.t_tr, totals.t_rot};
-}
-
 double collisions_of(const std::optional<Forecast>& expected, const Scene& scene) {
   if (!expected) return undefined;
   return 0.5 * expected->collisions_per_needle * static_cast<double>(scene.needles.count);

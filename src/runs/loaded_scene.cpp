@@ -72,6 +72,12 @@ Totals totals_of(const State& state, const Scene& scene) {
   return totals;
 }
 
+theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
+  if (!loaded.initial) return {loaded.scene.initial.t_tr, loaded.scene.initial.t_rot};
+  const Totals totals = totals_of(*loaded.initial, loaded.scene);
+  return {totals.t_tr, totals.t_rot};
+}
+
 bool starts_in_equilibrium(const Scene& scene) {
   const Scene::Collisions& c = scene.collisions;
   const Scene::Initial& initial = scene.initial;

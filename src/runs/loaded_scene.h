@@ -5,6 +5,7 @@
 
 #include "needlework/scene.h"
 #include "needlework/state.h"
+#include "needlework/theory.h"
 #include "needlework/totals.h"
 
 namespace needlework::runs {
@@ -25,6 +26,9 @@ LoadedScene complete_scene(Scene given, State initial);
 
 /// The state's sums at time 0.
 Totals totals_of(const State& state, const Scene& scene);
+
+/// Those that are drawn, or those of the state that is given.
+theory::Temperatures initial_temperatures(const LoadedScene& loaded);
 
 /// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
 bool starts_in_equilibrium(const Scene& scene);

@@ -8,6 +8,7 @@
 
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
+#include "src/io/output_file.h"
 #include "src/observe/cooling_theory.h"
 #include "src/runs/failure.h"
 #include "src/runs/state_file.h"
@@ -34,8 +35,7 @@ void require_reachable_end(const Scene& scene) {
       keep_energy(scene.collisions) && !until.collisions_per_needle && !until.wall_s) {
     throw InputError(
         fmt::format("{}: is never met, as collisions keep the energy: expected another end, or "
-                    "collisions.epsilon "
-                    "< 1",
+                    "collisions.epsilon < 1",
                     place_of(scene, "until.energy_ratio", fmt::to_string(*until.energy_ratio))));
   }
 }
@@ -318,11 +318,7 @@ Course PreparedRun::drive(RunMonitor& monitor) {
 
 Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   if (cut_off_) throw InvalidStateError(cut_off_by_an_error);
-  if (is_copy_of_parent()) {
-    throw IoError(scene_.output.file +
-                  ": belongs to the process that opened it: expected a simulation without this "
-                  "file in a forked child");
-  }
+  if (writer_) io::require_process(process_, scene_.output.file);
   Stop stop{};
   std::exception_ptr failure;
   try {

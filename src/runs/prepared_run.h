@@ -93,8 +93,6 @@ class PreparedRun {
   void open_output(Open&& open);
   void observe();
   Output output();
-  /// In a child that was forked since: the file and what is beside it are those of the parent.
-  bool is_copy_of_parent() const { return writer_ && getpid() != process_; }
   void save_checkpoint(CheckpointFiles::Newest present);
   struct Kept;
   Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);

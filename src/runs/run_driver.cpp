@@ -63,13 +63,13 @@ RunDriver::RunDriver(Simulation& simulation, const Scene& scene, const Totals& i
 void RunDriver::schedule_if_set_in_motion() {
   const double start = first_sample * simulation_.mean_free_time();
   if (!std::isfinite(start)) return;
-  const auto begin = [&](Schedule& schedule, Schedule whole) {
+  const auto begin = [&](Schedule& schedule, auto make) {
     if (!schedule.is_empty()) return;
-    schedule = std::move(whole);
+    schedule = make(scene_.output, start);
     schedule.pass(std::nextafter(simulation_.time(), 0));  // what is due now is to come
   };
-  begin(series_, series_schedule(scene_.output, start));
-  if (output_.observation) begin(frames_, frame_schedule(scene_.output, start));
+  begin(series_, series_schedule);
+  if (output_.observation) begin(frames_, frame_schedule);
 }
 
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
