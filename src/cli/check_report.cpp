@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/json.h"
+#include "src/machine/available_cores.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
@@ -99,6 +100,15 @@ std::string engine_text(const runs::Explanation& e) {
                      e.accuracy, e.isa, runs::threads_text(e.scene));
 }
 
+Json json_of(const AvailableCores& cores) {
+  return {{"usable", cores.usable()},
+          {"online", cores.online},
+          {"affinity", cores.affinity},
+          {"quota", optional_number(cores.quota)},
+          {"quota_file", cores.quota ? Json(cores.quota_file.string()) : Json(nullptr)},
+          {"slurm_cpus_per_task", cores.slurm_per_task ? Json(*cores.slurm_per_task) : Json()}};
+}
+
 std::string output_text(const Scene::Output& output) {
   if (output.file.empty()) return "none";
   std::string text =
@@ -154,6 +164,7 @@ std::string json_of(const runs::Explanation& e) {
   json["accuracy"] = e.accuracy;
   json["threads"] = e.threads;
   json["isa"] = e.isa;
+  json["cores"] = json_of(available_cores());
   json["memory_bytes"] = number(e.memory);
   json["available_bytes"] = number(runs::available_memory());
   json["warnings"] = e.warnings;
@@ -181,6 +192,7 @@ std::string text_of(const runs::Explanation& e) {
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));
   text += line("engine", engine_text(e));
+  text += line("cores", available_cores().text());
   text += line("output", output_text(scene.output));
   text += line("memory", fmt::format("about {} of {}", runs::bytes_text(e.memory),
                                      runs::bytes_text(runs::available_memory())));

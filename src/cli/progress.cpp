@@ -73,8 +73,19 @@ void SweepProgress::show(double elapsed, double fraction, std::size_t finished,
                            {"members", members}});
 }
 
-void SweepProgress::report_finished(const runs::sweep::Member& member) {
-  if (log_) log_->write("member_finished", {{"member", member.name}});
+nlohmann::ordered_json json_of(const runs::MemberCost& cost) {
+  const double us = 1e6 * cost.cpu_s / static_cast<double>(cost.collisions);
+  return {
+      {"collisions", cost.collisions}, {"wall_s", cost.wall_s}, {"us_per_collision", number(us)}};
+}
+
+void SweepProgress::report_finished(const runs::sweep::Member& member,
+                                    const runs::MemberCost& cost) {
+  costs_[member.name] = cost;
+  if (!log_) return;
+  nlohmann::ordered_json line{{"member", member.name}};
+  line.update(json_of(cost));
+  log_->write("member_finished", line);
 }
 
 void SweepProgress::report_failure(const runs::sweep::Member& member,

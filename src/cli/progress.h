@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "src/cli/log_file.h"
@@ -52,6 +55,9 @@ class RunProgress : public runs::RunMonitor {
   ProgressLine line_;
 };
 
+/// In JSON: its collisions, time and time per collision; null for that of none.
+nlohmann::ordered_json json_of(const runs::MemberCost& cost);
+
 /// Shows the progress of a sweep and its errors, and logs them where there is a log; signals stop
 /// it.
 class SweepProgress : public runs::SweepMonitor {
@@ -63,12 +69,15 @@ class SweepProgress : public runs::SweepMonitor {
     return line_.is_due(elapsed) || (log_ && elapsed >= next_in_log_);
   }
   void show(double elapsed, double fraction, std::size_t finished, std::size_t members) override;
-  void report_finished(const runs::sweep::Member& member) override;
+  void report_finished(const runs::sweep::Member& member, const runs::MemberCost& cost) override;
   void report_failure(const runs::sweep::Member& member, const runs::Failure& failure) override;
   bool stop_requested() const override;
+  /// What the members that have finished have cost, by their names.
+  const std::map<std::string, runs::MemberCost>& costs() const { return costs_; }
 
  private:
   ProgressLine line_;
+  std::map<std::string, runs::MemberCost> costs_;
   LogFile* log_ = nullptr;
   double log_interval_ = 0, next_in_log_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "src/cli/reproduce_command.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "src/reproduce/claims.h"
 #include "src/reproduce/embedded_files.h"
 #include "src/reproduce/reproduction.h"
+#include "src/runs/engine_choice.h"
 #include "src/runs/exit_codes.h"
 
 namespace needlework::cli {
@@ -69,8 +69,8 @@ int run_sets(const ReproduceArguments& arguments, std::span<const Figure* const>
   for (const std::string& set : sets) {
     SweepProgress progress(arguments.quiet);
     if (!arguments.quiet) fmt::print(stderr, "runs of {}\n", set);
-    const auto outcome =
-        runs.run(set, arguments.threads.value_or(omp_get_max_threads()), progress, arguments.force);
+    const auto outcome = runs.run(set, arguments.threads.value_or(runs::threads_on_offer()),
+                                  progress, arguments.force);
     code = std::max(code, outcome.exit_code);
     if (SignalGuard::received()) return stopped;
   }

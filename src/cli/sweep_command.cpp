@@ -1,13 +1,13 @@
 #include "src/cli/sweep_command.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -111,6 +111,7 @@ class Sweep {
   void look_at_those_of_others();
   void sum_up();
   void print(std::span<const sweep::PointSummary> summary);
+  Json costs_of_members() const;
   std::vector<std::string> names_of(int code) const;
 
   const SweepArguments& arguments_;
@@ -119,7 +120,8 @@ class Sweep {
   std::unique_ptr<LogFile> log_;  ///< if there is one
   sweep::Grid grid_;
   std::optional<runs::SweepFolder> folder_;
-  std::vector<double> costs_;
+  std::vector<double> costs_;  ///< as estimated
+  std::map<std::string, runs::MemberCost> member_costs_;
   std::vector<std::size_t> members_;  ///< of the share
   std::vector<int> codes_;            ///< of all members of the grid
   std::size_t computed_ = 0, missing_ = 0;
@@ -182,7 +184,7 @@ void Sweep::prepare() {
   std::vector<std::size_t> all(grid_.members.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   members_ = runs::share_of(all, costs_, share_.k, share_.m);
-  threads_ = arguments_.threads.value_or(omp_get_max_threads());
+  threads_ = arguments_.threads.value_or(runs::threads_on_offer());
   begin_log();
   for (const std::string& warning : all_warnings(grid_)) warn(warning);
   if (arguments_.threads && threads_ > runs::cores()) {
@@ -223,6 +225,7 @@ void Sweep::run_what_is_missing() {
   }
   const SignalGuard guard;
   runs::run_members(runs, progress, codes_);
+  member_costs_ = progress.costs();
 }
 
 // Members that another process was running may be complete by now.
@@ -274,11 +277,25 @@ void Sweep::print(std::span<const sweep::PointSummary> summary) {
               {"total_s", runs::seconds_since_launch()},
               {"version", NEEDLEWORK_VERSION},
               {"file", summary.empty() ? Json(nullptr) : Json(folder_->summary_file())},
+              {"costs", costs_of_members()},
               {"points", json_of(grid_, summary)}};
     fmt::print("{}\n", json_text(json, 2));
   } else if (!arguments_.quiet && !summary.empty()) {
     fmt::print("{}", table_of(grid_, summary));
   }
+}
+
+// Of those that were run here, in the order of the grid.
+Json Sweep::costs_of_members() const {
+  Json out = Json::array();
+  for (const sweep::Member& member : grid_.members) {
+    const auto cost = member_costs_.find(member.name);
+    if (cost == member_costs_.end()) continue;
+    Json one{{"member", member.name}};
+    one.update(json_of(cost->second));
+    out.push_back(std::move(one));
+  }
+  return out;
 }
 
 std::vector<std::string> Sweep::names_of(int code) const {

@@ -43,6 +43,7 @@
 #include "src/engine/phase_plan.h"
 #include "src/engine/subdomain_thread.h"
 #include "src/engine/team_choice.h"
+#include "src/machine/available_cores.h"
 
 namespace needlework {
 
@@ -100,7 +101,7 @@ inline int team_of(int threads) {
 
 /// More threads than cores only wait for each other.
 inline int subdomains_for(int threads, const ParallelTuning& tuning) {
-  return tuning.by_cost ? std::min(threads, omp_get_num_procs()) : threads;
+  return tuning.by_cost ? std::min(threads, available_cores().usable()) : threads;
 }
 
 template <Search S, Model M>

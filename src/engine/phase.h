@@ -1,8 +1,6 @@
 // The data that threads share in a phase, from one meeting of all threads to the next.
 #pragma once
 
-#include <omp.h>
-
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -19,6 +17,7 @@
 #include "src/engine/region_locks.h"
 #include "src/engine/run.h"
 #include "src/engine/subdomains.h"
+#include "src/machine/available_cores.h"
 #include "src/search/search.h"
 
 namespace needlework {
@@ -94,7 +93,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       local_times(threads, sight_of_log, run.gas.longest),
       mail(threads),
       // If each thread has a core, most waits are shorter than a system call.
-      spins(its_threads <= omp_get_num_procs() ? 1000 : 32) {
+      spins(its_threads <= available_cores().usable() ? 1000 : 32) {
   // An event writes no farther than `neighbours` from the cell of its owner, as a partner and the
   // places of both may be, and reads no farther than that from where it writes.
   assert(search.radius() <= search.drift());

@@ -25,7 +25,7 @@
 #include "needlework/h5md.h"
 #include "src/io/hdf5.h"
 #include "src/io/write_lock.h"
-#include "src/memory/available_memory.h"
+#include "src/machine/available_memory.h"
 
 namespace needlework::io {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "kernels/isa.h"
 #include "needlework/error.h"
+#include "src/machine/available_cores.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {
@@ -50,6 +51,11 @@ constexpr std::size_t least_needles_of_a_thread = 4000;
 
 }  // namespace
 
+bool is_for_threads(const Scene::Engine& engine) {
+  return (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
+         (engine.queue == "auto" || contains(parallel_calendars, engine.queue));
+}
+
 int threads_by_size(std::size_t needles) {
   const std::size_t shares = std::max<std::size_t>(1, needles / least_needles_of_a_thread);
   const int most = std::min(cores(), omp_get_max_threads());
@@ -74,8 +80,7 @@ void choose_engine(Scene& scene) {
 
   const std::string threads_place =
       place_of(scene, "engine.threads", fmt::to_string(engine.threads.value_or(1)));
-  const bool parallel = (engine.search == "auto" || contains(parallel_searches, engine.search)) &&
-                        (engine.queue == "auto" || contains(parallel_calendars, engine.queue));
+  const bool parallel = is_for_threads(engine);
   if (engine.threads && *engine.threads > 1 && !parallel) {
     throw InputError(
         fmt::format("{}: expected 1 with search {} and queue {}; several threads need "
@@ -103,7 +108,9 @@ std::string threads_text(const Scene& scene) {
                      here == 1 ? "" : "s");
 }
 
-int cores() { return omp_get_num_procs(); }
+int cores() { return available_cores().usable(); }
+
+int threads_on_offer() { return std::getenv("OMP_NUM_THREADS") ? omp_get_max_threads() : cores(); }
 
 std::vector<std::string> all_warnings(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;

@@ -20,6 +20,9 @@ std::vector<std::string> instruction_sets();
 /// naming the value, where it was set, and what is available.
 void choose_engine(Scene& scene);
 
+/// Whether search and calendar are for several threads.
+bool is_for_threads(const Scene::Engine& engine);
+
 /// How many threads `engine.threads = "auto"` takes: one for each core that the process may use, at
 /// most as many as OMP_NUM_THREADS says, and only as many as have enough needles each.
 int threads_by_size(std::size_t needles);
@@ -31,8 +34,11 @@ std::string threads_text(const Scene& scene);
 /// and one if there are more threads than cores.
 std::vector<std::string> all_warnings(const LoadedScene& loaded);
 
-/// Cores that the process may use.
+/// Cores that the process may use; see src/machine/available_cores.h.
 int cores();
+
+/// How many runs go on at once by default: as many as OMP_NUM_THREADS says, else one for each core.
+int threads_on_offer();
 
 /// The name that `auto` stands for.
 std::string resolved_isa(const Scene::Engine& engine);

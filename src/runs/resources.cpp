@@ -10,9 +10,9 @@ namespace {
 
 const auto launch = std::chrono::steady_clock::now();
 
-double process_cpu_seconds() {
+double seconds_of(clockid_t clock) {
   std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(clock, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
@@ -35,11 +35,13 @@ std::string processor_name() {
 
 void Stopwatch::start() {
   wall_start_ = std::chrono::steady_clock::now();
-  cpu_start_ = process_cpu_seconds();
+  cpu_start_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  thread_cpu_start_ = seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 void Stopwatch::stop() {
-  cpu_ += process_cpu_seconds() - cpu_start_;
+  thread_cpu_ += seconds_of(CLOCK_THREAD_CPUTIME_ID) - thread_cpu_start_;
+  cpu_ += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_start_;
   wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count();
 }
 

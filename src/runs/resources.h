@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/memory/available_memory.h"
+#include "src/machine/available_memory.h"
 
 namespace needlework::runs {
 
@@ -18,17 +18,19 @@ std::uint64_t peak_memory();
 /// What the processor calls itself, or "unknown".
 std::string processor_name();
 
-/// Wall and CPU time (of all threads) of the stretches between start() and stop() [s].
+/// Wall and CPU time of the stretches between start() and stop() [s], which one thread calls.
 class Stopwatch {
  public:
   void start();
   void stop();
   double wall() const { return wall_; }
-  double cpu() const { return cpu_; }
+  double cpu() const { return cpu_; }                ///< of all threads of the process
+  double thread_cpu() const { return thread_cpu_; }  ///< of the calling thread
 
  private:
   std::chrono::steady_clock::time_point wall_start_;
-  double cpu_start_ = 0, wall_ = 0, cpu_ = 0;
+  double cpu_start_ = 0, thread_cpu_start_ = 0;
+  double wall_ = 0, cpu_ = 0, thread_cpu_ = 0;
 };
 
 /// Seconds since the program began, of wall time.

@@ -39,9 +39,9 @@ class SharedProgress {
     monitor_.show(elapsed.count(), std::clamp(done_ / cost_, 0.0, 1.0), finished_, members_);
   }
 
-  void report_finished(const sweep::Member& member) {
+  void report_finished(const sweep::Member& member, const MemberCost& cost) {
     const std::lock_guard lock(mutex_);
-    monitor_.report_finished(member);
+    monitor_.report_finished(member, cost);
   }
 
   void report_failure(const sweep::Member& member, const Failure& failure) {
@@ -72,7 +72,9 @@ class MemberMonitor : public RunMonitor {
     reported_ = progress.fraction * cost_;
   }
   bool stop_requested() const override { return sweep_.stop_requested(); }
-  void report_finished(const sweep::Member& member) { sweep_.report_finished(member); }
+  void report_finished(const sweep::Member& member, const MemberCost& cost) {
+    sweep_.report_finished(member, cost);
+  }
 
  private:
   SharedProgress& sweep_;
@@ -135,7 +137,9 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberM
   }
   if (course.stop == Stop::interrupted) return stopped;
   folder.keep(member, SweepFolder::State::finished);
-  monitor.report_finished(member);
+  monitor.report_finished(member, {.collisions = course.collisions,
+                                   .wall_s = course.loop.wall(),
+                                   .cpu_s = course.loop.thread_cpu()});
   return ok;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,12 @@ std::vector<double> estimated_costs(const sweep::Grid& grid);
 std::vector<std::size_t> share_of(std::span<const std::size_t> members,
                                   std::span<const double> costs, std::size_t k, std::size_t m);
 
+/// What a member has cost in this process, which may have continued it.
+struct MemberCost {
+  std::uint64_t collisions = 0;  ///< computed here
+  double wall_s = 0, cpu_s = 0;  ///< time of the event loop, the CPU time that of its thread
+};
+
 /// How a front end follows the members that run. Calls do not overlap, but for those of
 /// stop_requested(), which several threads may call at once.
 class SweepMonitor {
@@ -30,7 +37,7 @@ class SweepMonitor {
   /// `fraction` is the share of the work done, in [0, 1]; `finished` counts members.
   virtual void show(double elapsed, double fraction, std::size_t finished, std::size_t members) = 0;
   /// A member has been run to its end, and its file has its name.
-  virtual void report_finished(const sweep::Member& /*member*/) {}
+  virtual void report_finished(const sweep::Member& /*member*/, const MemberCost& /*cost*/) {}
   /// A member could not be run; the others are continued.
   virtual void report_failure(const sweep::Member& member, const Failure& failure) = 0;
   /// Whether to end all members; asked several times a second.

@@ -33,6 +33,20 @@ TEST_F(CheckCommand, PrintsOneJsonObject) {
   EXPECT_GT(json["memory_bytes"].get<double>(), 0);
 }
 
+TEST_F(CheckCommand, SaysWhatLimitsCores) {
+  const std::string large = "check small.toml --set needles.count=9000 --set needles.box=30 ";
+  const auto json = run(large + "--threads auto --json", "SLURM_CPUS_PER_TASK=1").json();
+  EXPECT_EQ(json["threads"], 1);
+  EXPECT_EQ(json["cores"]["usable"], 1);
+  EXPECT_EQ(json["cores"]["slurm_cpus_per_task"], 1);
+  EXPECT_GE(json["cores"]["online"], json["cores"]["affinity"]);
+  if (json["cores"]["online"] > 1) {
+    EXPECT_NE(run(large, "SLURM_CPUS_PER_TASK=1").out.find("SLURM_CPUS_PER_TASK=1\n"),
+              std::string::npos);
+  }
+  EXPECT_TRUE(run("check small.toml --json").json()["cores"]["slurm_cpus_per_task"].is_null());
+}
+
 TEST_F(CheckCommand, WarnsOfDoubtfulSettings) {
   const Outcome outcome = run("check small.toml --set collisions.epsilon=0.9");
   EXPECT_EQ(outcome.exit_code, 0);

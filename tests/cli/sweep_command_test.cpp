@@ -62,6 +62,12 @@ TEST_F(SweepCommand, GivesMeansAndStandardErrorsOfItsRuns) {
   const json sweep = result("grid.toml --out all");
   EXPECT_EQ(sweep["members"], 6);
   EXPECT_EQ(sweep["computed"], 6);
+  ASSERT_EQ(sweep["costs"].size(), 6u);
+  for (const json& member : sweep["costs"]) {
+    EXPECT_GT(member["collisions"], 0) << member;
+    EXPECT_GT(member["us_per_collision"], 0) << member;
+    EXPECT_GT(member["wall_s"], 0) << member;
+  }
   ASSERT_EQ(sweep["points"].size(), 2u);
   const json& point = sweep["points"][1];
   EXPECT_EQ(point["parameters"]["collisions.epsilon"], 0.8);
@@ -150,6 +156,7 @@ TEST_F(SweepCommand, RunsNothingTwice) {
   const json first = result("grid.toml --out twice");
   const json again = result("grid.toml --out twice");
   EXPECT_EQ(again["computed"], 0);
+  EXPECT_EQ(again["costs"].size(), 0u);
   EXPECT_EQ(again["points"], first["points"]);
   std::filesystem::remove(path("twice/epsilon=0.9,seed=2.h5"));
   write("twice/epsilon=0.9,seed=2.h5.part", "cut short");
