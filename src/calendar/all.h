@@ -10,14 +10,13 @@
 
 namespace needlework {
 
-/// A list of types, to be deduced from an argument.
-template <class... Calendars>
+/// A list of types, to be deduced from an argument. Does not compile with a type that is not a
+/// calendar.
+template <Calendar... Calendars>
 struct CalendarList {};
 
-static_assert(Calendar<LazyHeap> && Calendar<IndexedHeap> && Calendar<Tournament> &&
-              Calendar<BucketCalendar> && Calendar<CellCalendar>);
-
-/// The types of all calendars in a list such as CalendarList or testing::Types.
+/// The types of all calendars in a list such as CalendarList or testing::Types. Names, choices,
+/// tests and benchmarks all follow from it.
 template <template <class...> class List>
 using AllCalendars = List<LazyHeap, IndexedHeap, Tournament, BucketCalendar, CellCalendar>;
 

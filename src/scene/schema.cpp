@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/calendar/names.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/observable_names.h"
 #include "src/scene/printable.h"
@@ -76,6 +77,25 @@ std::optional<std::string> one_of(const Value& value,
   const auto name = text(value);
   const bool known = name && std::find(names.begin(), names.end(), *name) != names.end();
   return known ? name : std::nullopt;
+}
+
+std::optional<std::string> calendar(const Value& value) {
+  const auto name = text(value);
+  const auto& names = calendar_names();
+  const bool known = name == "auto" || std::find(names.begin(), names.end(), name) != names.end();
+  return known ? name : std::nullopt;
+}
+
+// "auto", "a", "b" or "c".
+std::string_view calendars_to_choose() {
+  static const std::string all = [] {
+    std::string out = "\"auto\"";
+    for (const std::string& name : calendar_names()) {
+      out += (name == calendar_names().back() ? " or \"" : ", \"") + name + '"';
+    }
+    return out;
+  }();
+  return all;
 }
 
 std::optional<double> box_edge(const Value& value) {
@@ -210,12 +230,8 @@ const SceneKey keys[] = {
        return store(s.engine.search,
                     one_of(v, {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"}));
      }},
-    {"engine", "queue",
-     R"("auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")",
-     [](Scene& s, V v) {
-       return store(s.engine.queue, one_of(v, {"auto", "lazy-heap", "indexed-heap", "tournament",
-                                               "bucket", "cell-calendar"}));
-     }},
+    {"engine", "queue", calendars_to_choose(),
+     [](Scene& s, V v) { return store(s.engine.queue, calendar(v)); }},
     {"engine", "accuracy", R"("fast", "standard" or "rigorous")",
      [](Scene& s, V v) {
        return store(s.engine.accuracy, one_of(v, {"fast", "standard", "rigorous"}));

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <set>
@@ -12,6 +14,7 @@
 #include "needlework/error.h"
 #include "src/calendar/all.h"
 #include "src/calendar/any_calendar.h"
+#include "src/calendar/names.h"
 #include "tests/support/random.h"
 
 namespace needlework {
@@ -326,9 +329,24 @@ TEST(MakeCalendar, NamesTheKnownOnesForAnUnknownName) {
     make_calendar("guess");
     ADD_FAILURE() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "engine.queue = \"guess\": expected one of auto, lazy-heap, indexed-heap, "
-              "tournament, bucket, cell-calendar");
+    std::string all = "auto";
+    for (const std::string& name : calendar_names()) all += ", " + name;
+    EXPECT_EQ(std::string(error.what()), "engine.queue = \"guess\": expected one of " + all);
+  }
+}
+
+TEST(Calendars, AreAllDescribed) {
+  const auto text_of = [](const char* name) {
+    std::ifstream file(std::string(NEEDLEWORK_SOURCE "/") + name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string scenes = text_of("docs/scenes.md"), readme = text_of("src/calendar/README.md");
+  const std::size_t row = scenes.find("\n| `queue` ");
+  ASSERT_NE(row, scenes.npos);
+  const std::string choices = scenes.substr(row, scenes.find('\n', row + 1) - row);
+  for (const std::string& name : calendar_names()) {
+    EXPECT_NE(choices.find("`\"" + name + "\"`"), choices.npos) << name << " in scenes.md";
+    EXPECT_NE(readme.find("\n| `" + name + "` "), readme.npos) << name << " in README.md";
   }
 }
 

@@ -10,7 +10,7 @@
 
 #include "kernels/isa.h"
 #include "needlework/error.h"
-#include "src/calendar/all.h"
+#include "src/calendar/names.h"
 #include "tests/engine/set_velocities.h"
 #include "tests/support/same_run.h"
 
@@ -72,8 +72,7 @@ const double collisions = 1500 / test::thin;
 void choose_parts(Scene& scene, std::size_t n) {
   const std::vector<std::string> searches{"capsules", "linked-cells", "linked-lists", "all-pairs",
                                           "auto"};
-  const std::vector<std::string> calendars{"tournament", "lazy-heap", "cell-calendar", "bucket",
-                                           "indexed-heap"};
+  const std::vector<std::string>& calendars = calendar_names();
   const auto isas = kernels::available();
   scene.engine.search = searches[n % searches.size()];
   scene.engine.queue = calendars[n % 7 % calendars.size()];

@@ -4,10 +4,12 @@
 
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/calendar/names.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 
@@ -30,10 +32,14 @@ struct Engine {
 };
 
 std::vector<Engine> engines() {
-  return {{"capsules", "tournament", 1},       {"linked-cells", "lazy-heap", 1},
-          {"linked-lists", "bucket", 1},       {"all-pairs", "indexed-heap", 1},
-          {"capsules", "cell-calendar", 1},    {"capsules", "cell-calendar", 2},
-          {"linked-cells", "cell-calendar", 3}};
+  std::vector<Engine> all;
+  const std::string searches[] = {"capsules", "linked-cells", "linked-lists", "all-pairs"};
+  for (const std::string& calendar : calendar_names()) {
+    all.push_back({searches[all.size() % std::size(searches)], calendar, 1});
+  }
+  all.push_back({"capsules", "cell-calendar", 2});
+  all.push_back({"linked-cells", "cell-calendar", 3});
+  return all;
 }
 
 Scene with(Scene scene, const Engine& engine) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/isa.h"
+#include "src/calendar/names.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -28,8 +29,7 @@ std::string hash_of(const Scene& scene) {
 TEST(OneTrajectory, OfEverySearchCalendarAndInstructionSet) {
   Scene scene = cooling_scene();
   for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    for (const char* calendar :
-         {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
+    for (const std::string& calendar : calendar_names()) {
       for (const kernels::Isa isa : kernels::available()) {
         scene.engine.search = search;
         scene.engine.queue = calendar;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "needlework/simulation.h"
-#include "src/calendar/all.h"
+#include "src/calendar/names.h"
 #include "tests/support/random.h"
 #include "tests/support/runs.h"
 #include "tests/support/same_run.h"
@@ -68,15 +68,10 @@ struct Parts {
   }
 };
 
-template <class... Calendars>
-std::vector<std::string> names_of(CalendarList<Calendars...>) {
-  return {Calendars::name...};
-}
-
 /// Every search, with every calendar in turn, and several threads; all-pairs first.
 inline std::vector<Parts> all_parts() {
   std::vector<Parts> out;
-  const std::vector<std::string> calendars = names_of(AllCalendars<CalendarList>());
+  const std::vector<std::string>& calendars = calendar_names();
   std::size_t n = 0;
   for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
     for (int times = 0; times < 2; ++times)

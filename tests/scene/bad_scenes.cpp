@@ -1,4 +1,6 @@
 // Every kind of bad scene, with the one message that it must give.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -6,6 +8,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/calendar/names.h"
 
 namespace needlework {
 namespace {
@@ -35,7 +38,9 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string search =
       R"(expected "auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")";
   const std::string queue =
-      R"(expected "auto", "lazy-heap", "indexed-heap", "tournament", "bucket" or "cell-calendar")";
+      fmt::format("expected \"auto\", \"{}\" or \"{}\"",
+                  fmt::join(calendar_names().begin(), calendar_names().end() - 1, "\", \""),
+                  calendar_names().back());
   const std::string accuracy = R"(expected "fast", "standard" or "rigorous")";
   const std::string isa = R"(expected "auto", "scalar", "sse4", "avx2" or "avx512")";
   const std::string threads = R"(expected "auto" or a whole number in digits, from 1 to 1024)";

@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/calendar/names.h"
 
 namespace needlework {
 namespace {
@@ -147,8 +148,8 @@ TEST(GoodScene, TakesEveryNamedStrategy) {
   };
   for (const std::string name : {"auto", "all-pairs", "linked-lists", "linked-cells", "capsules"})
     EXPECT_EQ(engine("search = '" + name + "'").search, name);
-  for (const std::string name :
-       {"auto", "lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"})
+  EXPECT_EQ(engine("queue = 'auto'").queue, "auto");
+  for (const std::string& name : calendar_names())
     EXPECT_EQ(engine("queue = '" + name + "'").queue, name);
   for (const std::string name : {"fast", "standard", "rigorous"})
     EXPECT_EQ(engine("accuracy = '" + name + "'").accuracy, name);
