@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
+#include <sstream>
+#include <string_view>
 
 #include "needlework/error.h"
+#include "src/calendar/names.h"
 #include "src/runs/engine_choice.h"
 #include "src/search/choice.h"
 
@@ -81,8 +85,7 @@ std::vector<Parts> all_searches() {
 
 std::vector<Parts> all_calendars() {
   std::vector<Parts> out;
-  for (const char* calendar :
-       {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
+  for (const std::string& calendar : calendar_names()) {
     out.push_back({"auto", calendar, widest()});
   }
   return out;
@@ -204,6 +207,39 @@ std::string Case::name() const {
   if (engine.cell_side) name += fmt::format("/side:{:.3g}", *engine.cell_side);
   if (engine.capsule_radius) name += fmt::format("/radius:{:.3g}", *engine.capsule_radius);
   return name;
+}
+
+const std::vector<NameParts::Named> NameParts::all{{"scene", &NameParts::scene},
+                                                   {"search_asked", &NameParts::search},
+                                                   {"queue_asked", &NameParts::queue},
+                                                   {"accuracy", &NameParts::accuracy},
+                                                   {"isa", &NameParts::isa},
+                                                   {"threads", &NameParts::threads},
+                                                   {"storage", &NameParts::storage},
+                                                   {"cell_side", &NameParts::cell_side},
+                                                   {"capsule_radius", &NameParts::capsule_radius}};
+
+NameParts parts_of(const std::string& name) {
+  NameParts out;
+  out.storage = "sorted";
+  std::string* const by_place[] = {&out.scene, &out.search, &out.queue, &out.accuracy, &out.isa};
+  std::istringstream words(name);
+  std::size_t place = 0;
+  for (std::string word; std::getline(words, word, '/'); ++place) {
+    const auto value_of = [&](std::string_view prefix) { return word.substr(prefix.size()); };
+    if (place < std::size(by_place)) {
+      *by_place[place] = word;
+    } else if (word.starts_with("threads:")) {
+      out.threads = value_of("threads:");
+    } else if (word.starts_with("side:")) {
+      out.cell_side = value_of("side:");
+    } else if (word.starts_with("radius:")) {
+      out.capsule_radius = value_of("radius:");
+    } else {
+      out.storage = word;
+    }
+  }
+  return out;
 }
 
 const std::vector<Subset>& subsets() {

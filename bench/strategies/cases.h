@@ -1,10 +1,12 @@
 // The measured cases: scenes and the parts of the engine that run them, in named subsets.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "needlework/scene.h"
+#include "needlework/state.h"
 
 namespace needlework::bench {
 
@@ -14,10 +16,23 @@ struct Case {
   Scene scene;
   double filled = 1;  ///< fraction of each edge of the box in which needles start
   bool is_baseline = false;
+  std::shared_ptr<const State> initial = {};  ///< null: drawn
 
   /// SCENE/SEARCH/CALENDAR/ACCURACY/ISA/threads:N, as asked for, and other settings.
   std::string name() const;
 };
+
+/// The parts of a case's name, empty where it has none.
+struct NameParts {
+  std::string scene, search, queue, accuracy, isa, threads, storage, cell_side, capsule_radius;
+
+  struct Named {
+    const char* name;
+    std::string NameParts::*part;
+  };
+  static const std::vector<Named> all;  ///< in the order of the name
+};
+NameParts parts_of(const std::string& name);
 
 struct Subset {
   std::string name, what;

@@ -75,6 +75,11 @@ std::vector<std::string> unlike(const Results& before, const Results& after) {
     const std::string old = about_text(before.about, key), now = about_text(after.about, key);
     if (old != now) out.push_back(fmt::format("{}: {} before, {} now", key, old, now));
   }
+  if (by_wall_clock(before) != by_wall_clock(after)) {
+    out.push_back(fmt::format("times: {} time before, {} time now",
+                              by_wall_clock(before) ? "wall" : "CPU",
+                              by_wall_clock(after) ? "wall" : "CPU"));
+  }
   return out;
 }
 

@@ -22,7 +22,7 @@ using Text = std::array<char, 256>;
 
 // A sample as it is sent through a pipe, with an error message if there is one.
 struct Message {
-  double setup_s, cpu_s;
+  double setup_s, cpu_s, wall_s;
   std::uint64_t collisions, bytes;
   Counters counters;
   Text search, calendar, effects, warm_up_hash, error;
@@ -43,6 +43,7 @@ Counters difference(Counters now, const Counters& before) {
 }
 
 State initial_state(const Case& what) {
+  if (what.initial) return *what.initial;
   State out = draw_initial_state(what.scene);
   for (auto& r : out.position) {
     for (double& x : r) x *= what.filled;
@@ -55,8 +56,9 @@ Message measure_here(const Case& what, double min_time) {
   const std::uint64_t before = runs::peak_memory();
   runs::Stopwatch setup, loop;
   setup.start();
+  const bool draws = what.filled == 1 && !what.initial;
   Simulation simulation =
-      what.filled == 1 ? Simulation(what.scene) : Simulation(what.scene, initial_state(what));
+      draws ? Simulation(what.scene) : Simulation(what.scene, initial_state(what));
   setup.stop();
 
   Scene::Until until;
@@ -77,6 +79,7 @@ Message measure_here(const Case& what, double min_time) {
 
   out.setup_s = setup.cpu();
   out.cpu_s = loop.cpu();
+  out.wall_s = loop.wall();
   out.collisions = simulation.totals().collisions - collisions;
   out.bytes = runs::peak_memory() - before;
   out.counters = difference(simulation.counters(), counters);
@@ -132,6 +135,7 @@ Sample measure(const Case& what, double min_time) {
   Sample out;
   out.setup_s = message.setup_s;
   out.cpu_s = message.cpu_s;
+  out.wall_s = message.wall_s;
   out.collisions = message.collisions;
   out.counters = message.counters;
   out.bytes = message.bytes;

@@ -25,7 +25,8 @@ inline constexpr Counters::Named counters_shown[] = {{"events", &Counters::event
 /// One repetition of a case.
 struct Sample {
   double setup_s = 0;            ///< CPU time until the first event can be processed [s]
-  double cpu_s = 0;              ///< CPU time of the event loop [s]
+  double cpu_s = 0;              ///< CPU time of the event loop, all threads together [s]
+  double wall_s = 0;             ///< its wall time [s]
   std::uint64_t collisions = 0;  ///< in cpu_s
   Counters counters;             ///< in cpu_s
   std::uint64_t bytes = 0;       ///< largest memory of the simulation, set-up included

@@ -1,8 +1,10 @@
 #include "bench/strategies/results.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 
@@ -31,17 +33,31 @@ std::string three_digits(double x) {
   return fmt::format("{:.{}f}", x, decimals);
 }
 
-double times_baseline(const Results& results, const CaseResult& result) {
-  return 1 / median(relative_costs(results, result));
+// The parts of a case's name, those that are numbers as numbers.
+Json json_of_parts(const std::string& name) {
+  const NameParts parts = parts_of(name);
+  Json out = Json::object();
+  for (const NameParts::Named& each : NameParts::all) {
+    const std::string& text = parts.*each.part;
+    const bool may_be_number =
+        each.part != &NameParts::scene && text.find_first_not_of("0123456789.e+-") == text.npos;
+    const Json number = may_be_number ? Json::parse(text, nullptr, false) : Json();
+    out[each.name] = text.empty() ? Json(nullptr) : number.is_number() ? number : Json(text);
+  }
+  return out;
 }
 
 Json json_of_case(const Results& results, const CaseResult& result) {
-  Json out = {{"name", result.name},
-              {"baseline", result.is_baseline},
+  const TimesBaseline times = times_baseline(results, result);
+  Json out = {{"name", result.name}};
+  out.update(json_of_parts(result.name));
+  out.update({{"baseline", result.is_baseline},
               {"us_per_collision", result.us_per_collision},
               {"best_us_per_collision", result.least()},
               {"median_us_per_collision", result.median()},
-              {"times_baseline", times_baseline(results, result)}};
+              {"times_baseline", times.median},
+              {"times_baseline_low", cli::number(times.low)},
+              {"times_baseline_high", cli::number(times.high)}});
   out.update(result.details);
   return out;
 }
@@ -92,6 +108,25 @@ double CaseResult::least() const { return *std::ranges::min_element(us_per_colli
 double CaseResult::most() const { return *std::ranges::max_element(us_per_collision); }
 double CaseResult::median() const { return bench::median(us_per_collision); }
 
+TimesBaseline times_baseline(const Results& results, const CaseResult& result) {
+  std::vector<double> costs = relative_costs(results, result);
+  TimesBaseline out{1 / median(costs), std::nan(""), std::nan("")};
+  std::sort(costs.begin(), costs.end());
+  // The greatest n such that not more than n values are below the median in 2.5 % of all cases.
+  const std::size_t count = costs.size();
+  const double of_all = std::pow(0.5, static_cast<double>(count));
+  double binomial = 1, share = of_all;
+  for (std::size_t n = 0; share <= 0.025 && 2 * n < count; ++n) {
+    out.high = 1 / costs[n];
+    out.low = 1 / costs[count - 1 - n];
+    binomial *= static_cast<double>(count - n) / static_cast<double>(n + 1);
+    share += of_all * binomial;
+  }
+  return out;
+}
+
+bool by_wall_clock(const Results& results) { return results.about.value("clock", "cpu") == "wall"; }
+
 double median(std::vector<double> values) {
   const std::size_t half = values.size() / 2;
   std::sort(values.begin(), values.end());
@@ -118,17 +153,15 @@ CaseResult empty_result(const Case& one) {
   CaseResult out;
   out.name = one.name();
   out.is_baseline = one.is_baseline;
-  out.details = {{"scene", one.scene_name},
-                 {"needles", needles.count},
+  out.details = {{"needles", needles.count},
                  {"density", static_cast<double>(needles.count) / volume},
-                 {"isa", one.scene.engine.isa},
                  {"setup_s", Json::array()},
                  {"collisions", Json::array()},
                  {"bytes_per_needle", Json::array()}};
   return out;
 }
 
-void add_sample(CaseResult& result, const Sample& sample) {
+void add_sample(CaseResult& result, const Sample& sample, bool by_wall_clock) {
   if (result.us_per_collision.empty()) result.warm_up_hash = sample.warm_up_hash;
   if (sample.warm_up_hash != result.warm_up_hash) {
     throw InvalidStateError(
@@ -137,7 +170,8 @@ void add_sample(CaseResult& result, const Sample& sample) {
                     result.name, sample.warm_up_hash, result.warm_up_hash));
   }
   const double collisions = static_cast<double>(sample.collisions);
-  result.us_per_collision.push_back(five_digits(1e6 * sample.cpu_s / collisions));
+  const double seconds = by_wall_clock ? sample.wall_s : sample.cpu_s;
+  result.us_per_collision.push_back(five_digits(1e6 * seconds / collisions));
   Json& details = result.details;
   details["search"] = sample.search;
   details["queue"] = sample.calendar;
@@ -163,6 +197,40 @@ Json json_of(const Results& results) {
   return out;
 }
 
+std::string csv_of(const Results& results) {
+  // Names of scenes are those of files, and may hold anything.
+  const auto quoted = [](const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == text.npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + '"';
+  };
+  const auto text_of = [&](const Json& object, const char* key) {
+    const auto value = object.find(key);
+    if (value == object.end() || value->is_null()) return std::string();
+    return value->is_string() ? quoted(value->get<std::string>()) : value->dump();
+  };
+  std::vector<const char*> keys;
+  for (const NameParts::Named& each : NameParts::all) keys.push_back(each.name);
+  for (const char* key :
+       {"search", "queue", "needles", "density", "baseline", "median_us_per_collision",
+        "best_us_per_collision", "worst_us_per_collision", "times_baseline", "times_baseline_low",
+        "times_baseline_high", "repetitions", "clock"}) {
+    keys.push_back(key);
+  }
+  std::string out = fmt::format("{}\n", fmt::join(keys, ","));
+  for (const CaseResult& result : results.cases) {
+    Json row = json_of_case(results, result);
+    row["worst_us_per_collision"] = result.most();
+    row["repetitions"] = result.us_per_collision.size();
+    row["clock"] = by_wall_clock(results) ? "wall" : "cpu";
+    std::string line;
+    for (const char* key : keys) line += (line.empty() ? "" : ",") + text_of(row, key);
+    out += line + "\n";
+  }
+  return out;
+}
+
 std::string compact_text(const Results& results) {
   std::string out = fmt::format("{{\n \"format\": {},\n", format_version);
   for (const auto& [key, value] : results.about.items()) {
@@ -171,9 +239,15 @@ std::string compact_text(const Results& results) {
   out += " \"cases\": [";
   std::string_view separator = "\n";
   for (const CaseResult& result : results.cases) {
-    out += fmt::format("{}  {{\"name\": {}, \"baseline\": {}, \"us_per_collision\": {}}}",
-                       separator, Json(result.name).dump(), result.is_baseline,
-                       Json(result.us_per_collision).dump());
+    Json line = {{"name", result.name}};
+    line.update(json_of_parts(result.name));
+    line["baseline"] = result.is_baseline;
+    line["us_per_collision"] = result.us_per_collision;
+    std::vector<std::string> fields;
+    for (const auto& [key, value] : line.items()) {
+      fields.push_back(fmt::format("\"{}\": {}", key, value.dump()));
+    }
+    out += fmt::format("{}  {{{}}}", separator, fmt::join(fields, ", "));
     separator = ",\n";
   }
   return out + "\n ]\n}\n";
@@ -197,20 +271,31 @@ std::string table_of(const Results& results) {
   std::string out = fmt::format("{}, version {}, {}\n{}; {}\n", about_text(about, "subset"),
                                 about_text(about, "version"), about_text(about, "date"),
                                 about_text(about, "machine"), about_text(about, "compiler"));
-  out += repetitions == 1 ? "CPU time of the event loop: one repetition\n"
-                          : fmt::format(
-                                "CPU time of the event loop: median and range of {} "
-                                "interleaved repetitions\n",
-                                repetitions);
+  out +=
+      fmt::format("{} time of the event loop: {}\n", by_wall_clock(results) ? "Wall" : "CPU",
+                  repetitions == 1
+                      ? std::string("one repetition")
+                      : fmt::format("median and range of {} interleaved repetitions", repetitions));
   std::size_t width = 0;
   for (const CaseResult& result : results.cases) width = std::max(width, result.name.size());
-  out += fmt::format("\n{:{}} {:>17} {:>8}\n{:{}} {:>6} {:>10} {:>8}\n", "", width,
-                     "us per collision", "times", "case", width, "median", "range", "baseline");
+  // Where it fits, and there are enough repetitions.
+  constexpr std::size_t columns = 100, of_numbers = 39;
+  const bool with_interval = width + of_numbers <= columns &&
+                             !std::isnan(times_baseline(results, results.cases.front()).low);
+  out += fmt::format("\n{:{}} {:>17} {:>8}\n{:{}} {:>6} {:>10} {:>8}{}\n", "", width,
+                     "us per collision", "times", "case", width, "median", "range", "baseline",
+                     with_interval ? fmt::format(" {:>11}", "95 %") : "");
   for (const CaseResult& result : results.cases) {
-    out +=
-        fmt::format("{:{}} {:>6} {:>10} {:>8}\n", result.name, width, three_digits(result.median()),
-                    fmt::format("{}-{}", three_digits(result.least()), three_digits(result.most())),
-                    three_digits(times_baseline(results, result)));
+    const TimesBaseline times = times_baseline(results, result);
+    const std::string range =
+        fmt::format("{}-{}", three_digits(result.least()), three_digits(result.most()));
+    out += fmt::format("{:{}} {:>6} {:>10} {:>8}", result.name, width,
+                       three_digits(result.median()), range, three_digits(times.median));
+    if (with_interval) {
+      out += fmt::format(" {:>11}",
+                         fmt::format("{}-{}", three_digits(times.low), three_digits(times.high)));
+    }
+    out += '\n';
   }
   return out;
 }

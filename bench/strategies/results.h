@@ -14,7 +14,8 @@ namespace needlework::bench {
 struct CaseResult {
   std::string name;  ///< of the case; begins with the name of its scene and '/'
   bool is_baseline = false;
-  /// CPU time of the event loop [us], one value for each repetition, to five digits.
+  /// Time of the event loop [us], one value for each repetition, to five digits: CPU time, or wall
+  /// time if the clock of the results is the wall's.
   std::vector<double> us_per_collision;
   std::string warm_up_hash;
   /// All other measured values, for --json only; empty in results that were read from a file.
@@ -42,15 +43,29 @@ std::vector<double> relative_costs(const Results& results, const CaseResult& res
 
 double median(std::vector<double> values);
 
+/// How many times less than its baseline a case takes: the median over repetitions, and two values
+/// between which the true median lies in 95 of 100 cases or more, by the sign test. They are NaN
+/// for fewer than six repetitions.
+struct TimesBaseline {
+  double median, low, high;
+};
+TimesBaseline times_baseline(const Results& results, const CaseResult& result);
+
+/// Whether times are wall times, as they are where cases have different numbers of threads.
+bool by_wall_clock(const Results& results);
+
 /// The result of a case before it is measured.
 CaseResult empty_result(const Case& one);
 
-/// Adds a repetition. Throws InvalidStateError if its trajectory differs from that of previous
-/// ones.
-void add_sample(CaseResult& result, const Sample& sample);
+/// Adds a repetition, of which the wall time or the CPU time counts. Throws InvalidStateError if
+/// its trajectory differs from that of previous ones.
+void add_sample(CaseResult& result, const Sample& sample, bool by_wall_clock);
 
 /// All measured values.
 nlohmann::ordered_json json_of(const Results& results);
+
+/// A line for each case, with a field for each part of its name.
+std::string csv_of(const Results& results);
 
 /// The data for read_results and the origin of the results; one line for each case.
 std::string compact_text(const Results& results);

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "bench/strategies/cases.h"
 #include "bench/strategies/compare.h"
@@ -55,7 +58,7 @@ class CaseProgress {
 };
 
 Json about(const BenchArguments& arguments) {
-  return {{"subset", arguments.subset},
+  return {{"subset", arguments.own.file.empty() ? arguments.subset : arguments.own.file},
           {"machine", runs::processor_name()},
           {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
           {"compiler", compiler_name()},
@@ -80,36 +83,52 @@ void require_same_trajectories(const bench::Results& results) {
   }
 }
 
-bench::Results nothing_measured(const BenchArguments& arguments) {
+std::vector<bench::Case> cases_of(const BenchArguments& arguments) {
+  if (arguments.own.file.empty()) return bench::subset_of(arguments.subset).cases();
+  bench::OwnCases own = bench::cases_of(arguments.own);
+  for (const std::string& name : own.left_out) {
+    print_warning(name + ": left out, as its search or calendar is for one thread");
+  }
+  return std::move(own.cases);
+}
+
+bench::Results nothing_measured(const BenchArguments& arguments,
+                                const std::vector<bench::Case>& cases) {
   bench::Results out;
   out.about = about(arguments);
-  for (const bench::Case& one : bench::subset_of(arguments.subset).cases()) {
-    out.cases.push_back(bench::empty_result(one));
-  }
+  const bool several = std::any_of(cases.begin(), cases.end(), [](const bench::Case& one) {
+    return one.scene.engine.threads.value_or(1) > 1;
+  });
+  // What several threads are for; the CPU time of all of them together never gets less.
+  if (several) out.about["clock"] = "wall";
+  for (const bench::Case& one : cases) out.cases.push_back(bench::empty_result(one));
   return out;
 }
 
-void measure(const BenchArguments& arguments, bench::Results& out) {
-  const std::vector<bench::Case> cases = bench::subset_of(arguments.subset).cases();
+void measure(const BenchArguments& arguments, const std::vector<bench::Case>& cases,
+             bench::Results& out) {
   CaseProgress progress(arguments.quiet);
   for (int repetition = 1; repetition <= arguments.repetitions; ++repetition) {
     for (std::size_t n = 0; n < cases.size(); ++n) {
       progress.show(repetition, arguments.repetitions, out.cases[n].name);
-      add_sample(out.cases[n], bench::measure(cases[n], arguments.min_time));
+      add_sample(out.cases[n], bench::measure(cases[n], arguments.min_time),
+                 bench::by_wall_clock(out));
     }
     require_same_trajectories(out);
   }
 }
 
-void require_json_file(const BenchArguments& arguments) {
-  if (arguments.json_file.empty()) return;
-  const std::string place = "--json " + arguments.json_file;
-  if (!arguments.json_file.ends_with(".json")) {
-    throw InputError(place + ": expected a name that ends in .json");
+// The file that an option names, in which results are to be put.
+void require_file(const BenchArguments& arguments, const std::string& option,
+                  const std::string& file, const std::string& ending) {
+  if (file.empty()) return;
+  const std::string place = option + " " + file;
+  if (!file.ends_with(ending)) {
+    throw InputError(place + ": expected a name that ends in " + ending);
   }
-  runs::require_writable(arguments.json_file, arguments.force, place);
-  for (const std::string& read : {arguments.compare, arguments.results}) {
-    if (!read.empty()) runs::require_other_file(arguments.json_file, read, place);
+  runs::require_writable(file, arguments.force, place);
+  for (const std::string& read : {arguments.compare, arguments.results, arguments.own.file}) {
+    if (!read.empty()) runs::require_other_file(file, read, place);
   }
 }
 
@@ -134,9 +153,12 @@ int list_subsets() {
 int run(const BenchArguments& arguments) {
   if (arguments.list) return list_subsets();
   const bool measures = arguments.results.empty();
+  const std::vector<bench::Case> cases =
+      measures ? cases_of(arguments) : std::vector<bench::Case>();
   bench::Results results =
-      measures ? nothing_measured(arguments) : bench::read_results(arguments.results);
-  require_json_file(arguments);
+      measures ? nothing_measured(arguments, cases) : bench::read_results(arguments.results);
+  require_file(arguments, "--json", arguments.json_file, ".json");
+  require_file(arguments, "--csv", arguments.csv_file, ".csv");
   std::optional<bench::Results> before;
   if (!arguments.compare.empty()) {
     before = bench::read_results(arguments.compare);
@@ -144,10 +166,11 @@ int run(const BenchArguments& arguments) {
     bench::require_common_case(*before, results);
     for (const std::string& what : bench::unlike(*before, results)) print_warning(what);
   }
-  if (measures) measure(arguments, results);
+  if (measures) measure(arguments, cases, results);
   std::optional<bench::Comparison> comparison;
   if (before) comparison = bench::compare(*before, results);
   if (!arguments.json_file.empty()) write_file(arguments.json_file, compact_text(results));
+  if (!arguments.csv_file.empty()) write_file(arguments.csv_file, csv_of(results));
   if (arguments.json && arguments.json_file.empty()) {
     Json json = json_of(results);
     if (comparison) json["comparison"] = comparison->json;

@@ -49,15 +49,46 @@ Example:
   });
 }
 
+// A scene in place of a subset, and what is to be compared on it.
+void add_own_scene(CLI::App& command, CLI::Option& subset, bench::OwnScene& own) {
+  CLI::Option* scene =
+      command.add_option("--scene", own.file, "measure this scene instead of a subset")
+          ->option_text("SCENE.toml")
+          ->excludes(&subset);
+  command
+      .add_option("--set", own.overrides,
+                  "replace a key of that scene, such as needles.count=500; may be repeated")
+      ->option_text("SECTION.KEY=VALUE")
+      ->allow_extra_args(false)
+      ->needs(scene);
+  const auto add_list = [&](const char* name, std::vector<std::string>& values, const char* what,
+                            const char* example) {
+    command.add_option(name, values, what)
+        ->option_text(example)
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->needs(scene);
+  };
+  add_list("--searches", own.searches,
+           "searches to compare with what the scene says, which is the baseline; without any list, "
+           "linked-cells and capsules",
+           "NAME,...");
+  add_list("--queues", own.calendars, "calendars to compare", "NAME,...");
+  add_list("--isa", own.isas, "instruction sets to compare", "NAME,...");
+  add_list("--threads", own.threads,
+           "numbers of threads to compare; then times are wall times, not CPU times", "N,...");
+}
+
 void add_bench_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* command = app.add_subcommand(
       "bench", "measure searches, calendars and instruction sets on the same scenes");
-  command
-      ->add_option("SUBSET", arguments->subset,
-                   "what to measure, by default quick; --list describes all")
-      ->option_text(names_of_subsets());
+  CLI::Option* subset = command
+                            ->add_option("SUBSET", arguments->subset,
+                                         "what to measure, by default quick; --list describes all")
+                            ->option_text(names_of_subsets());
   command->add_flag("--list", arguments->list, "list all subsets and their cases, measure nothing");
+  add_own_scene(*command, *subset, arguments->own);
   command
       ->add_option("--repetitions", arguments->repetitions,
                    "how often all cases are measured in turn")
@@ -77,6 +108,11 @@ void add_bench_command(CLI::App& app, int& exit_code) {
           "a file what --compare and --results need")
       ->expected(0, 1)
       ->option_text("[FILE.json]");
+  command
+      ->add_option("--csv", arguments->csv_file,
+                   "write a table to a file: a line for each case, a field for each part of its "
+                   "name")
+      ->option_text("FILE.csv");
   command
       ->add_option("--compare", arguments->compare,
                    "older results, which --json has written to a file, to compare with")

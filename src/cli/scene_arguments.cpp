@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "needlework/parse.h"
 #include "src/cli/file_kind.h"
 #include "src/runs/engine_choice.h"
 
@@ -26,8 +25,9 @@ void apply(const EngineOptions& options, Scene& scene) {
 }
 
 runs::LoadedScene load_scene(const SceneArguments& arguments) {
-  Scene scene = read_file(arguments.path, FileKind::scene,
-                          [&] { return read_scene(arguments.path, arguments.overrides); });
+  Scene scene = read_file(arguments.path, FileKind::scene, [&] {
+    return read_scene(arguments.path, arguments.overrides, arguments.provided);
+  });
   apply(arguments.engine, scene);
   return runs::complete_scene(std::move(scene));
 }

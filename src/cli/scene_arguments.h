@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/parse.h"
 #include "needlework/scene.h"
 #include "src/runs/loaded_scene.h"
 
@@ -21,6 +22,7 @@ struct SceneArguments {
   std::string path;
   std::vector<std::string> overrides;
   EngineOptions engine;
+  Provided provided = {};  ///< what the scene need not say
 };
 
 /// Puts options into the scene; messages about these keys name the options from then on.

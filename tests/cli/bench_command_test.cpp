@@ -99,13 +99,113 @@ TEST_F(BenchCommand, PrintsATableAndKeepsItsResults) {
   EXPECT_TRUE(again.complains("--json kept.json: exists already: expected a new file, or --force"));
 }
 
+constexpr const char* own_scene =
+    "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc_relative = 1e-2 }\n";
+
+TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
+  write("own.toml", own_scene);
+  const Outcome outcome =
+      run("bench --scene own.toml --set needles.count=120 --searches linked-cells,all-pairs "
+          "--queues bucket,lazy-heap,bucket --isa scalar --repetitions 6 --min-time 0 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json object = outcome.json();
+  EXPECT_EQ(object["subset"], "own.toml");
+  ASSERT_EQ(object["cases"].size(), 5u);
+  const json& baseline = object["cases"][0];
+  EXPECT_TRUE(baseline["baseline"]);
+  EXPECT_EQ(baseline["search_asked"], "auto");
+  EXPECT_EQ(baseline["queue"], "tournament");
+  std::vector<std::string> asked;
+  for (const json& one : object["cases"]) {
+    EXPECT_EQ(one["scene"], "own");
+    EXPECT_EQ(one["needles"], 120);
+    EXPECT_EQ(one["threads"], 1);
+    EXPECT_EQ(one["accuracy"], "standard");
+    EXPECT_EQ(one["warm_up_hash"], baseline["warm_up_hash"]);
+    EXPECT_LE(one["times_baseline_low"], one["times_baseline"]);
+    EXPECT_GE(one["times_baseline_high"], one["times_baseline"]);
+    if (one == baseline) continue;
+    EXPECT_EQ(one["isa"], "scalar");
+    asked.push_back(one["search_asked"].get<std::string>() + " " +
+                    one["queue_asked"].get<std::string>());
+  }
+  EXPECT_EQ(asked, (std::vector<std::string>{"linked-cells bucket", "linked-cells lazy-heap",
+                                             "all-pairs bucket", "all-pairs lazy-heap"}));
+  EXPECT_EQ(files(), (std::vector<std::string>{"own.toml", small}));
+}
+
+TEST_F(BenchCommand, ComparesSearchesWhereNothingIsSaid) {
+  write("own.toml", own_scene);
+  const json cases =
+      run("bench --scene own.toml --repetitions 1 --min-time 0 --json").json()["cases"];
+  ASSERT_EQ(cases.size(), 3u);
+  EXPECT_EQ(cases[1]["search"], "linked-cells");
+  EXPECT_EQ(cases[2]["search"], "capsules");
+  EXPECT_TRUE(cases[1]["times_baseline_low"].is_null()) << "one repetition has no interval";
+}
+
+TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
+  write("own.toml", own_scene);
+  const Outcome outcome =
+      run("bench --scene own.toml --threads 1,2 --queues auto,tournament --repetitions 1 "
+          "--min-time 0 --json kept.json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("tournament/standard/"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("threads:2: left out, as its search or calendar is for one thread"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.out.find("Wall time of the event loop"), std::string::npos) << outcome.out;
+  const json kept = json::parse(read("kept.json"));
+  EXPECT_EQ(kept["clock"], "wall");
+  ASSERT_EQ(kept["cases"].size(), 3u);
+  EXPECT_EQ(kept["cases"][1]["threads"], 2);
+  EXPECT_EQ(kept["cases"][2]["queue_asked"], "tournament");
+}
+
+TEST_F(BenchCommand, StartsFromTheStateThatASceneNames) {
+  ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
+  write("own.toml", "initial.file = 'start.h5'\n");
+  const Outcome outcome = run("bench --scene own.toml --repetitions 1 --min-time 0 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json other = run("bench --scene small.toml --repetitions 1 --min-time 0 --json").json();
+  EXPECT_EQ(outcome.json()["cases"][0]["needles"], 50);
+  EXPECT_NE(outcome.json()["cases"][0]["warm_up_hash"], other["cases"][0]["warm_up_hash"]);
+}
+
+TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {
+  write("my, scene.toml", own_scene);
+  ASSERT_EQ(run("bench --scene 'my, scene.toml' --queues bucket --repetitions 6 --min-time 0 "
+                "--json kept.json --csv kept.csv")
+                .exit_code,
+            0);
+  std::istringstream lines(read("kept.csv"));
+  std::string header, baseline, bucket, more;
+  std::getline(lines, header);
+  std::getline(lines, baseline);
+  std::getline(lines, bucket);
+  EXPECT_FALSE(std::getline(lines, more)) << more;
+  EXPECT_TRUE(header.starts_with(
+      "scene,search_asked,queue_asked,accuracy,isa,threads,storage,cell_side,capsule_radius,search,"
+      "queue,needles,density,baseline,median_us_per_collision,"))
+      << header;
+  const std::string isa(kernels::name_of(kernels::available().back()));
+  EXPECT_TRUE(baseline.starts_with("\"my, scene\",auto,auto,standard," + isa + ",1,sorted,")) << baseline;
+  EXPECT_TRUE(bucket.starts_with("\"my, scene\",auto,bucket,standard," + isa + ",1,sorted,")) << bucket;
+  EXPECT_NE(bucket.find(",linked-cells,bucket,100,0.8,false,"), std::string::npos) << bucket;
+  EXPECT_TRUE(bucket.ends_with(",6,cpu")) << bucket;
+  // The same from a file, but for what only measuring tells.
+  ASSERT_EQ(run("bench --results kept.json --csv again.csv").exit_code, 0);
+  EXPECT_NE(read("again.csv").find(",auto,bucket,standard," + isa + ",1"), std::string::npos);
+}
+
 TEST_F(BenchCommand, WritesOneLineForEachCaseAndNoOtherSamples) {
   ASSERT_EQ(run("bench smoke --repetitions 3 --min-time 0 --json kept.json").exit_code, 0);
   const json kept = json::parse(read("kept.json"));
   ASSERT_EQ(kept["cases"].size(), 2u);
   for (const json& one : kept["cases"]) {
-    EXPECT_EQ(one.size(), 3u) << one;
+    EXPECT_EQ(one.size(), 12u) << "name, its nine parts, baseline and times: " << one;
     EXPECT_EQ(one["us_per_collision"].size(), 3u);
+    EXPECT_EQ(one["scene"], "n=1,N=200");
     EXPECT_TRUE(one["baseline"].is_boolean());
   }
   std::istringstream lines(read("kept.json"));
@@ -278,7 +378,19 @@ TEST_F(BenchCommand, RefusesBadInput) {
       {"bench --results none.json", "is empty: expected at least one repetition", 3},
       {"bench smoke --repetitions 0", "--help", 2},
       {"bench smoke --min-time -1", "--help", 2},
-      {"bench smoke quick", "--help", 2}};
+      {"bench smoke quick", "--help", 2},
+      {"bench smoke --scene small.toml", "SUBSET excludes --scene", 2},
+      {"bench --queues bucket", "--queues requires --scene", 2},
+      {"bench --set needles.count=3", "--set requires --scene", 2},
+      {"bench --scene none.toml", "none.toml: ", 5},
+      {"bench --scene small.toml --set needles.counts=3", "did you mean", 3},
+      {"bench --scene small.toml --queues bucket,heap", "--queues heap: expected \"auto\", ", 3},
+      {"bench --scene small.toml --searches 7", "--searches 7: expected \"auto\", ", 3},
+      {"bench --scene small.toml --threads 0", "--threads 0: expected ", 3},
+      {"bench --scene small.toml --isa none", "--isa none: expected ", 3},
+      {"bench --scene small.toml --csv out.txt", "--csv out.txt: expected a name that ends in", 3},
+      {"bench --scene small.toml --set initial.t_tr=0 --set initial.t_rot=0 --min-time 0",
+       "nothing can happen: expected needles that collide", 4}};
   for (const auto& [arguments, message, exit_code] : cases) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
