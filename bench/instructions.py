@@ -24,6 +24,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+import measured
 from readme import put_table
 
 BENCH = Path(__file__).resolve().parent
@@ -328,6 +329,8 @@ def main():
     parser.add_argument("--out", type=Path, default=EFFECTS_TABLE,
                         help="effects: the file to write")
     arguments = parser.parse_args()
+    program = Path(arguments.program)
+    arguments.program = measured.built(program.parent, program.name)
     try:
         if arguments.what == "guard":
             return guard(arguments.program, arguments.update)

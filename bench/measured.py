@@ -16,17 +16,63 @@ from pathlib import Path
 
 BENCH = Path(__file__).resolve().parent
 ROOT = BENCH.parent
+UNKNOWN = "unknown"
 # What a commit may change without another program being measured.
 NOT_CODE = [":(top,exclude)bench/results", ":(top,exclude)docs", ":(top,exclude,glob)**/*.md"]
 
 
+class OutOfTime(Exception):
+    """The time budget is used up."""
+
+
+class Budget:
+    """The time in which a script may measure. What runs at its end is stopped."""
+
+    def __init__(self):
+        self.end = math.inf
+
+    def begin(self, seconds):
+        self.end = time.monotonic() + seconds
+
+    def left(self):
+        """Seconds, as timeouts of processes take them."""
+        return None if self.end == math.inf else max(0.0, self.end - time.monotonic())
+
+    def allows(self, seconds):
+        return time.monotonic() + seconds <= self.end
+
+
+budget = Budget()
+
+
 def output_of(command):
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    try:
+        return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True,
+                              timeout=budget.left()).stdout
+    except subprocess.TimeoutExpired:
+        raise OutOfTime from None
+
+
+def built(build, target):
+    """The executable of a target; ends the script, saying how to build it, if it is not there."""
+    program = Path(build) / target
+    if not program.exists():
+        name = "needlework_program" if target == "needlework" else target
+        sys.exit(f"{program}: not built yet: cmake --preset release -D NEEDLEWORK_BENCH=ON && "
+                 f"cmake --build {build} --target {name}")
+    return str(program)
 
 
 def commit():
-    """The last commit that changed code, and whether files differ from it."""
+    """The last commit that changed code, and whether files differ from it; "unknown" where the
+    sources are not a git checkout."""
     git, code = ["git", "-C", str(ROOT)], ["--", ".", *NOT_CODE]
+    try:
+        top = subprocess.run([*git, "rev-parse", "--show-toplevel"], capture_output=True, text=True)
+    except OSError:  # no git
+        return UNKNOWN
+    if top.returncode or Path(top.stdout.strip()).resolve() != ROOT:
+        return UNKNOWN
     last = output_of([*git, "log", "-1", "--abbrev=12", "--format=%h", *code]).strip()
     changed = output_of([*git, "status", "--porcelain", "--untracked-files=no", *code])
     return last + (" with changes" if changed.strip() else "")
@@ -34,7 +80,7 @@ def commit():
 
 def about(build):
     """What is measured: commit, processor, compiler, flags."""
-    of_program = json.loads(output_of([str(build / "needlework"), "bench", "smoke", "--repetitions",
+    of_program = json.loads(output_of([built(build, "needlework"), "bench", "smoke", "--repetitions",
                                        "1", "--min-time", "0", "--json"]))
     keys = ("machine", "cores", "compiler", "flags", "version")
     return {"commit": commit(), **{key: of_program[key] for key in keys}}
@@ -79,7 +125,20 @@ class Store:
         content = self.load(part)
         return content["rounds"] if content else 0
 
-    def add_round(self, part, command, cases):
+    def seconds(self, part):
+        """How long the last round of a part took; 0 before the first one."""
+        content = self.load(part)
+        return content.get("seconds", 0) if content else 0
+
+    def begun(self, part):
+        """The cases of a round that was not completed."""
+        content = self.load(f"{part}-begun")
+        return content["cases"] if content else []
+
+    def keep_begun(self, part, cases):
+        self.save(f"{part}-begun", {"cases": cases})
+
+    def add_round(self, part, command, cases, seconds=0):
         """Adds one repetition of all cases: lists are continued, other values replaced."""
         content = self.load(part) or {"rounds": 0, "cases": []}
         old = {case["name"]: case for case in content["cases"]}
@@ -92,12 +151,15 @@ class Store:
                 raise ValueError(f"{case['name']}: the trajectory is not that of the rounds before")
             merged.append({key: before.get(key, []) + value if isinstance(value, list) else value
                            for key, value in case.items()})
-        self.save(part, {"command": command, "rounds": content["rounds"] + 1, "cases": merged})
+        self.save(part, {"command": command, "rounds": content["rounds"] + 1, "seconds": seconds,
+                         "cases": merged})
+        (self.folder / f"{part}-begun.json").unlink(missing_ok=True)
 
     def place(self, machine, complete):
         """Where tables go: to bench/results/MACHINE when all is of one commit, else to a folder
         that is not tracked."""
-        tracked = complete and not self.quick and "changes" not in self.about["commit"]
+        of_commit = "changes" not in self.about["commit"] and self.about["commit"] != UNKNOWN
+        tracked = complete and not self.quick and of_commit
         out = BENCH / "results" / machine if tracked else self.folder / "results"
         out.mkdir(parents=True, exist_ok=True)
         return out
@@ -105,19 +167,26 @@ class Store:
 
 def measure_rounds(store, parts, budget_s):
     """Measures the rounds that are missing: the first of all parts, the second of all, and so on,
-    until the budget is used. `parts` is {name: (rounds, function that returns the command and the
-    cases)}. Returns the names of those that are not complete."""
-    begin = time.monotonic()
-    for number in range(max(rounds for rounds, _ in parts.values())):
-        for part, (rounds, measure) in parts.items():
-            if store.rounds(part) > number or number >= rounds:
-                continue
-            if time.monotonic() - begin > budget_s:
-                break
-            start = time.monotonic()
-            store.add_round(part, *measure())
-            print(f"{part}: round {number + 1} of {rounds}, {time.monotonic() - start:.0f} s",
-                  flush=True)
+    until the budget is used: no round begins that would take longer, as the one before did, and one
+    that does nevertheless is stopped. `parts` is {name: (rounds, function that returns the command
+    and the cases)}. Returns the names of those that are not complete."""
+    budget.begin(budget_s)
+    try:
+        for number in range(max(rounds for rounds, _ in parts.values())):
+            for part, (rounds, measure) in parts.items():
+                if store.rounds(part) > number or number >= rounds:
+                    continue
+                if not budget.allows(store.seconds(part)):
+                    continue
+                start = time.monotonic()
+                command, cases = measure()
+                seconds = time.monotonic() - start
+                store.add_round(part, command, cases, seconds)
+                print(f"{part}: round {number + 1} of {rounds}, {seconds:.0f} s", flush=True)
+    except OutOfTime:
+        print("the time budget is used up")
+    finally:
+        budget.begin(math.inf)
     return [part for part, (rounds, _) in parts.items() if store.rounds(part) < rounds]
 
 
@@ -128,6 +197,8 @@ def report_missing(store, missing, place):
               "continues")
     elif not store.quick and "changes" in store.about["commit"]:
         print("not put into bench/results: the working tree differs from the commit")
+    elif not store.quick and store.about["commit"] == UNKNOWN:
+        print("not put into bench/results: these sources are not a git checkout")
     print(f"tables and pictures: {place}")
 
 
@@ -227,14 +298,12 @@ def add_options(parser):
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
     parser.add_argument("--machine", help="name of the folder in bench/results")
     parser.add_argument("--time-budget", type=float, default=math.inf, metavar="MINUTES",
-                        help="start no measurement after this time; the same command continues later")
+                        help="measure no longer than this; the same command continues later")
     parser.add_argument("--quick", action="store_true",
                         help="short runs, to try the script; results stay in the build folder")
 
 
 def store_of(arguments):
-    if not (arguments.build / "needlework").exists():
-        sys.exit(f"{arguments.build}/needlework: expected a build of the program")
     return Store(arguments.build, about(arguments.build), arguments.quick)
 
 

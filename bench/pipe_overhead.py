@@ -13,6 +13,9 @@ import os
 import statistics
 import subprocess
 import sys
+from pathlib import Path
+
+import measured
 
 SCENE = "needles = { count = 10000, box = 24 }"
 COLLISIONS = 100000
@@ -39,7 +42,8 @@ def cpu_time(program, size):
     return used.ru_utime + used.ru_stime
 
 
-def main(program="build/release/needlework"):
+def main(program=measured.ROOT / "build/release/needlework"):
+    program = measured.built(Path(program).parent, Path(program).name)
     more = []
     for _ in range(REPETITIONS):
         whole = cpu_time(program, COLLISIONS)

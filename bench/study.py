@@ -39,7 +39,7 @@ def measure_scenes(build, part, quick):
 def measure_alone(build, part, quick):
     """One repetition of a part by Google Benchmark."""
     flags = [f"--benchmark_min_time={0.001 if quick else 0.1}", "--benchmark_format=json"]
-    out = json.loads(measured.output_of([str(build / PROGRAM_OF[part]), *flags]))
+    out = json.loads(measured.output_of([measured.built(build, PROGRAM_OF[part]), *flags]))
     cases = []
     for one in out["benchmarks"]:
         case = {"name": one["run_name"], "ns_per_item": [1e9 / one["items_per_second"]]}
@@ -184,7 +184,8 @@ def calendar_table(content):
     rows = [[row + (" (baseline)" if "indexed-heap" in row else ""),
              *(spread(found[f"{row}/{size}"]) for size in sizes)]
             for row in dict.fromkeys(name.rsplit("/", 1)[0] for name in found)]
-    return table(["ns per event", *(f"{size:.0e}".replace("e+0", "e") for size in sizes)], rows)
+    text = table(["ns per event", *(f"{size:.0e}".replace("e+0", "e") for size in sizes)], rows)
+    return text + "\n`hold` and `mix` are explained in bench/README.md.\n"
 
 
 SECTIONS = {  # part: title, what makes its table

@@ -1,16 +1,19 @@
 #!/usr/bin/python3
-"""Compares two builds of the program, run side by side on the paper's elastic scenes.
+"""Compares two builds of the program, run side by side on the paper's elastic scenes, or on yours.
 
     bench/versus.py OLD NEW
     bench/versus.py OLD NEW --scene dense --repetitions 40
+    bench/versus.py OLD NEW --scene own.toml --set until.collisions_per_needle=5
     bench/versus.py PROGRAM PROGRAM --second-without-huge-pages
     bench/versus.py PROGRAM PROGRAM --second engine.queue=bucket
 
 Prints, for each scene, the CPU time of the event loop per collision, the least of each, and how much
 the second takes of the first's: the median over repetitions of the quotient of neighbours in time,
-with an interval that holds the true median in 95 of 100 cases or more. A machine that changes its
+with an interval that holds the true median in 95 of 100 cases or more. With several threads, it is the
+wall time. A machine that changes its
 speed does so for both. Runs count from their start on, when no needle is about to leave its bounding
-volume: costs are a little lower than those of `needlework bench`. Fails when the trajectories differ;
+volume: costs are a little lower than those of `needlework bench`. A scene of yours runs to its own end,
+without its output file; --set changes it. Fails when the trajectories differ;
 builds of commits between which they were changed are compared by --other-trajectory.
 """
 
@@ -21,6 +24,7 @@ import math
 import statistics
 import subprocess
 import sys
+from pathlib import Path
 
 SCENES = {  # needles, box, collisions per needle
     "dilute": (10000, 24.0, 10),
@@ -32,11 +36,19 @@ SCENES = {  # needles, box, collisions per needle
 PR_SET_THP_DISABLE = 41  # of linux/prctl.h; kept by programs that are started
 
 
-def run(program, scene, settings, huge_pages):
+def scene_arguments(scene):
+    """The file of a scene, and settings that make it what is to be run."""
+    if scene not in SCENES:
+        return scene, ["output.file=''"]
     needles, box, collisions = SCENES[scene]
-    command = [program, "run", "/dev/null", "--json", "--quiet"]
-    for setting in (f"needles.count={needles}", f"needles.box={box!r}",
-                    f"until.collisions_per_needle={collisions}", *settings):
+    return "/dev/null", [f"needles.count={needles}", f"needles.box={box!r}",
+                         f"until.collisions_per_needle={collisions}"]
+
+
+def run(program, scene, settings, huge_pages):
+    file, of_scene = scene_arguments(scene)
+    command = [program, "run", file, "--json", "--quiet"]
+    for setting in (*of_scene, *settings):
         command += ["--set", setting]
 
     def without_huge_pages():
@@ -53,7 +65,8 @@ def run(program, scene, settings, huge_pages):
     result = json.loads(done.stdout)
     if result["collisions"] == 0:
         sys.exit(f"versus.py: {' '.join(command)}: expected collisions, there were none")
-    return 1e6 * result["cpu_s"] / result["collisions"], result["trajectory_hash"]
+    seconds = result["cpu_s" if result["threads"] == 1 else "wall_s"]
+    return 1e6 * seconds / result["collisions"], result["trajectory_hash"]
 
 
 def interval(values):
@@ -67,13 +80,20 @@ def interval(values):
     return values[low], values[n - 1 - low]
 
 
+def scene_name(text):
+    if text not in SCENES and not Path(text).is_file():
+        raise argparse.ArgumentTypeError(f"{text}: expected {', '.join(SCENES)} or a scene file")
+    return text
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("first")
     parser.add_argument("second")
-    parser.add_argument("--scene", choices=SCENES, action="append",
-                        help="may be given several times; else dilute and dense")
+    parser.add_argument("--scene", type=scene_name, action="append", metavar="SCENE",
+                        help=f"{', '.join(SCENES)} or a scene file; may be given several times; "
+                             "else dilute and dense")
     parser.add_argument("--repetitions", type=int, default=20)
     parser.add_argument("--set", dest="both", action="append", default=[], metavar="KEY=VALUE",
                         help="a setting for both")

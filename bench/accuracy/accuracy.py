@@ -411,9 +411,7 @@ def main():
         parser.error(f"PART {' '.join(sorted(unknown))}: expected some of "
                      f"{', '.join([*PARTS, 'tables'])}")
     store = measured.store_of(arguments)
-    if not (arguments.build / "bench_accuracy").exists():
-        sys.exit(f"{arguments.build}/bench_accuracy: expected a build with NEEDLEWORK_BENCH=ON and "
-                 "tests")
+    measured.built(arguments.build, "bench_accuracy")
     bench = Bench(arguments.build)
     begin, budget = time.monotonic(), 60 * arguments.time_budget
     scale = 0.02 if arguments.quick else 1

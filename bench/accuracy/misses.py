@@ -16,7 +16,9 @@ import pathlib
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import measured  # noqa: E402
+
 THERMAL = ["thermal-k6", "thermal-k2"]
 PORTION = 100_000  # pairs between two writings of the file; a seed each
 
@@ -24,7 +26,7 @@ PORTION = 100_000  # pairs between two writings of the file; a seed each
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default=ROOT / "build/release/bench_accuracy")
+    parser.add_argument("--program", default=measured.ROOT / "build/release/bench_accuracy")
     parser.add_argument("--file", type=pathlib.Path, required=True, help="results, JSON")
     parser.add_argument("--families", nargs="+", help="only these")
     parser.add_argument("--accuracy", default="standard")
@@ -33,9 +35,8 @@ def main():
     options = parser.parse_args()
     if not (options.thermal > 0 and options.hard > 0):
         parser.error("--thermal, --hard: expected a number of pairs above 0")
-    if not pathlib.Path(options.program).is_file():
-        parser.error(f"--program {options.program}: expected bench_accuracy, built with "
-                     "NEEDLEWORK_BENCH=ON and tests")
+    program = pathlib.Path(options.program)
+    measured.built(program.parent, program.name)
     known = subprocess.run([options.program, "--families"], capture_output=True, text=True,
                            check=True).stdout.split()
     families = options.families or known
@@ -45,8 +46,7 @@ def main():
     counts = json.loads(options.file.read_text()) if options.file.exists() else {}
     if counts.setdefault("accuracy", options.accuracy) != options.accuracy:
         parser.error(f"{options.file}: is about {counts['accuracy']}, not {options.accuracy}")
-    commit = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=ROOT,
-                            capture_output=True, text=True).stdout.strip()
+    commit = measured.commit()
     asked = {family: options.thermal if family in THERMAL else options.hard for family in families}
     done = counts.setdefault("families", {})
     keep(options.file, counts)  # writes the table also where nothing is left to count

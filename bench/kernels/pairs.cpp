@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/kernels/neighbourhood.h"
+#include "bench/kernels/pair_clock.h"
 #include "kernels/bounding_spheres.h"
 #include "kernels/closest_approach.h"
 #include "kernels/first_contact.h"
@@ -20,16 +21,12 @@ template <class Apply>
 void for_pairs(benchmark::State& state, const std::vector<NearPair>& pairs, Apply&& apply) {
   if (pairs.size() != pair_count) throw std::logic_error("expected as many pairs as asked for");
   std::size_t n = 0;
+  const PairClock clock;
   for (auto _ : state) {
     benchmark::DoNotOptimize(apply(pairs[n], n));
     n = n + 1 < pairs.size() ? n + 1 : 0;
   }
-  const auto done = static_cast<double>(state.iterations());
-  using benchmark::Counter;
-  state.SetItemsProcessed(state.iterations());
-  state.counters["ns_per_pair"] = Counter(1e-9 * done, Counter::kIsRate | Counter::kInvert);
-  state.counters["pairs_per_cycle"] =
-      Counter(done / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
+  clock.count(state, static_cast<double>(state.iterations()));
 }
 
 void spheres(benchmark::State& state, double density) {

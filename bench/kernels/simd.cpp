@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/kernels/neighbourhood.h"
+#include "bench/kernels/pair_clock.h"
 #include "kernels/free_flight.h"
 #include "src/search/choice.h"
 
@@ -27,14 +28,6 @@ void require(bool same, const std::string& kernel, Isa isa) {
   if (same) return;
   throw std::logic_error(kernel + " by " + std::string(kernels::name_of(isa)) +
                          ": expected the result of the scalar twin");
-}
-
-void count_pairs(benchmark::State& state, double pairs) {
-  using benchmark::Counter;
-  state.SetItemsProcessed(static_cast<std::int64_t>(pairs));
-  state.counters["ns_per_pair"] = Counter(1e-9 * pairs, Counter::kIsRate | Counter::kInvert);
-  state.counters["pairs_per_cycle"] =
-      Counter(pairs / benchmark::CPUInfo::Get().cycles_per_second, Counter::kIsRate);
 }
 
 /// Room for the needles that a filter finds.
@@ -64,6 +57,7 @@ void filter(benchmark::State& state, const std::string& name, Isa isa, const Nei
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
   double pairs = 0;
+  const PairClock clock;
   for (auto _ : state) {
     const Neighbourhood& one = gas.all[n];
     apply(chosen, one, found.view());
@@ -71,7 +65,7 @@ void filter(benchmark::State& state, const std::string& name, Isa isa, const Nei
     pairs += static_cast<double>(one.needles);
     n = n + 1 < gas.all.size() ? n + 1 : 0;
   }
-  count_pairs(state, pairs);
+  clock.count(state, pairs);
 }
 
 void overlapping(benchmark::State& state, Isa isa, double density) {
@@ -110,13 +104,14 @@ void free_flight(benchmark::State& state, Isa isa, double density) {
             "free-flight", isa);
   }
   double done = 0;
+  const PairClock clock;
   for (auto _ : state) {
     // In place: each flight starts from the centres and directors of the one before.
     kernels::fly(isa, columns, count);
     benchmark::ClobberMemory();
     done += count;
   }
-  count_pairs(state, done);
+  clock.count(state, done);
 }
 
 void contact_function(benchmark::State& state, Isa isa, double density) {
@@ -148,6 +143,7 @@ void contact_function(benchmark::State& state, Isa isa, double density) {
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
   double done = 0;
+  const PairClock clock;
   for (auto _ : state) {
     PairBatch& one = batches[n];
     chosen.contact_function(one.seeker, one.columns(), one.size, s, view(0));
@@ -155,7 +151,7 @@ void contact_function(benchmark::State& state, Isa isa, double density) {
     done += static_cast<double>(one.size);
     n = n + 1 < batches.size() ? n + 1 : 0;
   }
-  count_pairs(state, done);
+  clock.count(state, done);
 }
 
 void bracket(benchmark::State& state, Isa isa, double density) {
@@ -176,6 +172,7 @@ void bracket(benchmark::State& state, Isa isa, double density) {
   const NearKernels& chosen = kernels::near_kernels(isa);
   std::size_t n = 0;
   double pairs = 0, evaluations = 0;
+  const PairClock clock;
   for (auto _ : state) {
     PairBatch& one = batches[n];
     one.restart();
@@ -185,7 +182,7 @@ void bracket(benchmark::State& state, Isa isa, double density) {
     pairs += static_cast<double>(one.size);
     n = n + 1 < batches.size() ? n + 1 : 0;
   }
-  count_pairs(state, pairs);
+  clock.count(state, pairs);
   state.counters["evaluations_per_pair"] = evaluations / pairs;
 }
 

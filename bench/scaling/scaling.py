@@ -4,6 +4,8 @@
     bench/scaling/scaling.py                     all scenes on 1 to all cores; continues where it was
                                                  stopped
     bench/scaling/scaling.py dilute weak         some of them
+    bench/scaling/scaling.py own.toml            a scene of yours, to its own end
+    bench/scaling/scaling.py --no-load           not beside busy programs
     bench/scaling/scaling.py --time-budget 20    for 20 minutes; the same command continues later
     bench/scaling/scaling.py tables              no measuring: table and picture of what there is
 
@@ -15,10 +17,12 @@ four threads for each core. "Cache line" is how long one takes from core to core
 run of as many threads as cores or fewer (cores.cpp). Beside other programs that never rest, a speed-up
 is over one thread beside them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
 scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of
-one commit and of the same build; until then to study/results/ in the folder of the build.
+one commit and of the same build; until then to study/results/ in the folder of the build,
+where results of your scenes and those without busy programs stay.
 """
 
 import argparse
+import hashlib
 import json
 import os
 import statistics
@@ -61,16 +65,23 @@ def scene(needles, box, collisions):
             f"[until]\ncollisions_per_needle = {collisions}\n")
 
 
-def start(program, file, threads):
-    return subprocess.Popen([program, "run", file, "--json", "--quiet", "--threads", str(threads)],
-                            stdout=subprocess.PIPE, text=True)
-
-
-def end(process):
-    out, _ = process.communicate()
-    if process.returncode:
-        sys.exit(f"{process.args}: exit {process.returncode}")
-    return json.loads(out)
+def run_at_once(program, file, threads, times):
+    """So many runs side by side, to their ends."""
+    command = [program, "run", str(file), "--json", "--quiet", "--threads", str(threads), "--set",
+               "output.file=''"]
+    processes = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(times)]
+    try:
+        outs = [process.communicate(timeout=measured.budget.left())[0] for process in processes]
+    except subprocess.TimeoutExpired:
+        raise measured.OutOfTime from None
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+    if any(process.returncode for process in processes):
+        sys.exit(f"{' '.join(map(str, command))}: exit code "
+                 f"{max(process.returncode for process in processes)}")
+    return [json.loads(out) for out in outs]
 
 
 def sweep(program, folder, needles, box, collisions, threads):
@@ -88,61 +99,99 @@ def sweep(program, folder, needles, box, collisions, threads):
 
 
 def cache_line(build):
-    """Time [ns] that a cache line takes from one core to another, in a list; empty if not built."""
-    program = build / "bench_scaling"
-    if not program.exists():
-        return []
-    report = json.loads(measured.output_of([program, "--benchmark_format=json"]))
+    """Time [ns] that a cache line takes from one core to another, in a list."""
+    report = json.loads(measured.output_of([measured.built(build, "bench_scaling"),
+                                            "--benchmark_format=json"]))
     return [run["real_time"] for run in report["benchmarks"]]
 
 
-def settings_of(name, most):
-    """(kind, threads) of all runs of a scene."""
+def settings_of(name, most, loads):
+    """(kind, threads) of all runs of a scene, beside none and so many busy programs."""
     counts = sorted({1, most} | {n for n in (2, 3, 4, 6, 8, 12, 16, 24, 32) if n <= most})
     settings = [("alone", 1)] + [("together", n) for n in counts if n > 1]
     if name not in ENSEMBLE:
         settings += [("apart", n) for n in counts if n > 1]
     if name in CROWDED:
         settings += [("crowded", 4 * most)]
-        settings += [(f"beside-{programs}", n) for programs in LOADS for n in (1, most, 4 * most)]
+        settings += [(f"beside-{programs}", n) for programs in loads for n in (1, most, 4 * most)]
     return settings
 
 
-def measure(build, name, most, shorter):
-    """One repetition of all settings of a scene."""
+def scene_file(name, kind, threads, shorter, folder):
+    """The scene of a run."""
+    if name not in SCENES:
+        return Path(name)
     needles, box, collisions = SCENES[name]
     needles, collisions = round(needles / shorter), max(1, collisions / shorter)
-    box = box if name in WEAK else box / shorter ** (1 / 3)
-    program = build / "needlework"
-    cases, hashes = [], set()
+    if name in WEAK:
+        needles *= threads if kind == "together" else 1
+        box *= needles ** (1 / 3)
+    else:
+        box /= shorter ** (1 / 3)
+    file = Path(folder) / "scene.toml"
+    file.write_text(scene(needles, box, collisions))
+    return file
+
+
+def measure_one(build, name, kind, n, file):
+    """One run, or as many at once as there are threads."""
+    case = {"name": f"{short_name(name)}/{kind}/threads:{n}", "threads": n}
+    if kind == "together":
+        case["cache_line_ns"] = cache_line(build)
+    with load(int(kind.removeprefix("beside-")) if "beside" in kind else 0):
+        runs = run_at_once(build / "needlework", file, *((1, n) if kind == "apart" else (n, 1)))
+    run = runs[0]
+    if run["collisions"] == 0:
+        sys.exit(f"{name}: expected collisions, there were none")
+    stats = run["stats"]
+    return case | {"needles": run["needles"],
+                   "hashes": sorted({one["trajectory_hash"] for one in runs}),
+                   "border_tries": [stats["border"] / run["events"]],
+                   "events_per_turn": [run["events"] / max(1, stats["turns"])],
+                   "blocked": [stats["blocked_s"] / (n * run["wall_s"])],
+                   "undone": [stats["redone"]], "phases": [stats["phases"]],
+                   "us_per_collision": [1e6 / sum(one["collisions"] / one["wall_s"]
+                                                  for one in runs)]}
+
+
+def measure_ensemble(build, name, kind, n, shorter, folder):
+    needles, box, collisions = SCENES[name]
+    needles = round(needles / shorter)
+    us = sweep(build / "needlework", Path(folder), needles, box / shorter ** (1 / 3),
+               max(1, collisions / shorter), n)
+    case = {"name": f"{name}/{kind}/threads:{n}", "threads": n, "needles": needles,
+            "us_per_collision": [us]}
+    return case | ({"cache_line_ns": cache_line(build)} if kind == "together" else {})
+
+
+def measure(build, name, most, shorter, loads, store):
+    """One repetition of all settings of a scene. It continues one that was stopped."""
+    part = part_of(name, loads)
+    cases = store.begun(part)
     with tempfile.TemporaryDirectory() as folder:
-        for kind, n in settings_of(name, most):
-            case = {"name": f"{name}/{kind}/threads:{n}", "threads": n, "needles": needles}
-            if kind == "together":
-                case["cache_line_ns"] = cache_line(build)
+        for kind, n in settings_of(name, most, loads)[len(cases):]:
             if name in ENSEMBLE:
-                us = sweep(program, Path(folder), needles, box, collisions, n)
+                cases.append(measure_ensemble(build, name, kind, n, shorter, folder))
             else:
-                if name in WEAK and kind == "together":
-                    case["needles"] = needles * n
-                side = box * case["needles"] ** (1 / 3) if name in WEAK else box
-                file = Path(folder) / "scene.toml"
-                file.write_text(scene(case["needles"], side, collisions))
-                with load(int(kind.removeprefix("beside-")) if "beside" in kind else 0):
-                    processes = [start(program, file, 1 if kind == "apart" else n)
-                                 for _ in range(n if kind == "apart" else 1)]
-                    runs = [end(process) for process in processes]
-                us = 1e6 / sum(run["collisions"] / run["wall_s"] for run in runs)
-                hashes |= {run["trajectory_hash"] for run in runs}
-                stats = runs[0]["stats"]
-                case |= {"border_tries": [stats["border"] / runs[0]["events"]],
-                         "events_per_turn": [runs[0]["events"] / max(1, stats["turns"])],
-                         "blocked": [stats["blocked_s"] / (n * runs[0]["wall_s"])],
-                         "undone": [stats["redone"]], "phases": [stats["phases"]]}
-            cases.append({**case, "us_per_collision": [us]})
+                file = scene_file(name, kind, n, shorter, folder)
+                cases.append(measure_one(build, name, kind, n, file))
+            store.keep_begun(part, cases)
+    hashes = {one for case in cases for one in case.pop("hashes", [])}
     if name not in WEAK and len(hashes) > 1:
         sys.exit(f"{name}: the trajectory depends on the number of threads")
     return "bench/scaling/scaling.py", cases
+
+
+def short_name(name):
+    """Of a scene in tables: a file by its name alone."""
+    return name if name in SCENES else Path(name).stem
+
+
+def part_of(name, loads):
+    """The name under which results are kept: those of a file are of its content, too."""
+    if name in SCENES:
+        return f"scaling-{name}" + ("" if loads or name not in CROWDED else "-no-load")
+    return f"scaling-{short_name(name)}-{hashlib.sha256(Path(name).read_bytes()).hexdigest()[:12]}"
 
 
 def speed_ups(content):
@@ -240,33 +289,38 @@ def write_results(contents, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help=", ".join([*SCENES, "tables"]))
+    parser.add_argument("scenes", nargs="*", metavar="SCENE",
+                        help=f"{', '.join([*SCENES, 'tables'])}, or a scene file")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--repetitions", type=int, default=REPETITIONS)
+    parser.add_argument("--no-load", action="store_true", help="no runs beside busy programs")
     measured.add_options(parser)
     arguments = parser.parse_args()
-    unknown = set(arguments.scenes) - {*SCENES, "tables"}
+    own = [name for name in arguments.scenes if name.endswith(".toml") and Path(name).is_file()]
+    unknown = set(arguments.scenes) - {*SCENES, "tables", *own}
     if unknown:
         parser.error(f"SCENE {' '.join(sorted(unknown))}: expected some of "
-                     f"{', '.join([*SCENES, 'tables'])}")
+                     f"{', '.join([*SCENES, 'tables'])}, or scene files that end in .toml")
     if arguments.threads < 1 or arguments.repetitions < 1:
         parser.error("--threads, --repetitions: expected at least 1")
     store = measured.store_of(arguments)
     rounds = 1 if arguments.quick else arguments.repetitions
     shorter = 10 if arguments.quick else 1
-
-    def part(name):
-        return f"scaling-{name}"
-
-    chosen = [name for name in arguments.scenes or SCENES if name != "tables"]
+    loads = [] if arguments.no_load else LOADS
+    asked = [name for name in arguments.scenes if name != "tables"]
+    chosen = asked or ([] if arguments.scenes else list(SCENES))
+    # What is measured of the scenes here is one set of results; a scene of the user stands alone.
+    shown = asked if own else list(SCENES)
     if chosen:
-        measured.measure_rounds(store, {part(name): (rounds, lambda name=name: measure(
-            arguments.build, name, arguments.threads, shorter))
+        measured.measure_rounds(store, {part_of(name, loads): (rounds, lambda name=name: measure(
+            arguments.build, name, arguments.threads, shorter, loads, store))
             for name in chosen}, 60 * arguments.time_budget)
-    missing = [name for name in SCENES if store.rounds(part(name)) < rounds]
-    contents = {name.removeprefix(part("")): content for name, content in
-                measured.kept_of(store, map(part, SCENES)).items()}
-    place = store.place(arguments.machine or measured.machine_name(arguments.build), not missing)
+    parts = {part_of(name, loads): name for name in shown}
+    missing = [name for part, name in parts.items() if store.rounds(part) < rounds]
+    contents = {short_name(parts[part]): content
+                for part, content in measured.kept_of(store, parts).items()}
+    place = store.place(arguments.machine or measured.machine_name(arguments.build),
+                        not missing and not own and not arguments.no_load)
     write_results(contents, place)
     print(table(contents))
     measured.report_missing(store, missing, place)

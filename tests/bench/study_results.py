@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""bench/measured.py and bench/study.py keep rounds, and what they write is what was measured.
+"""The scripts of bench/ keep rounds, take scenes and a time budget, and write what was measured.
 
     tests/bench/study_results.py PROGRAM
 """
@@ -8,14 +8,17 @@ import json
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "bench" / folder)
+                for folder in ("", "scaling")]
 import measured  # noqa: E402
+import scaling  # noqa: E402
 import study  # noqa: E402
 
 PROGRAM = sys.argv.pop() if len(sys.argv) > 1 else ""
@@ -73,6 +76,45 @@ class Rounds(unittest.TestCase):
         self.assertEqual(measured.measure_rounds(self.store, parts, -1), ["d"])
         self.assertEqual(len(done), 5)
 
+    def test_that_would_pass_the_end_of_the_budget_do_not_begin_or_are_stopped(self):
+        done = []
+
+        def sleeps(seconds):
+            def measure():
+                done.append(seconds)
+                measured.output_of(["sleep", str(seconds)])
+                return "command", [case("s", "auto", 1.0)]
+            return measure
+
+        self.store.add_round("long", "command", [case("s", "auto", 1.0)], seconds=1e6)
+        parts = {"long": (2, sleeps(60)), "short": (1, sleeps(0)), "unknown": (1, sleeps(60))}
+        begin = time.monotonic()
+        self.assertEqual(measured.measure_rounds(self.store, parts, 0.2), ["long", "unknown"])
+        self.assertEqual(done, [0, 60])
+        self.assertLess(time.monotonic() - begin, 30)
+        self.assertEqual(measured.output_of(["echo", "later"]), "later\n")
+
+    def test_that_were_stopped_go_on_where_they_were(self):
+        measured_here = []
+
+        def one(build, name, kind, n, file):
+            measured_here.append((kind, n))
+            if len(measured_here) == 2:
+                raise measured.OutOfTime
+            return {"name": f"{name}/{kind}/threads:{n}", "threads": n, "us_per_collision": [1.0],
+                    "hashes": ["a"]}
+
+        with mock.patch.object(scaling, "measure_one", one):
+            measure = lambda: scaling.measure(None, "dilute", 2, 1, [], self.store)
+            parts = {scaling.part_of("dilute", []): (1, measure)}
+            self.assertEqual(measured.measure_rounds(self.store, parts, 100), list(parts))
+            self.assertEqual(measured.measure_rounds(self.store, parts, 100), [])
+        self.assertEqual(measured_here, [("alone", 1), ("together", 2), ("together", 2),
+                                         ("apart", 2), ("crowded", 8)])
+        part, = parts
+        self.assertEqual(len(self.store.load(part)["cases"]), 4)
+        self.assertEqual(self.store.begun(part), [])
+
     def test_become_tables_of_medians_and_ranges_and_a_picture(self):
         for baseline, other in ((30.0, 10.0), (33.0, 12.0), (60.0, 11.0)):
             self.add(baseline, other)
@@ -109,10 +151,66 @@ class Rounds(unittest.TestCase):
         inside = self.folder / "results/machine"
         changed = measured.Store(self.folder, {**ABOUT, "commit": "c with changes"})
         quick = measured.Store(self.folder, ABOUT, quick=True)
-        for store, complete in ((self.store, False), (changed, True), (quick, True)):
+        unknown = measured.Store(self.folder, {**ABOUT, "commit": measured.UNKNOWN})
+        for store, complete in ((self.store, False), (changed, True), (quick, True),
+                                (unknown, True)):
             self.assertEqual(store.place(inside.name, complete), store.folder / "results")
             self.assertFalse(inside.exists())
         self.assertEqual(self.store.place(inside.name, True), inside)
+
+
+class Scripts(unittest.TestCase):
+    def test_work_outside_of_a_git_checkout(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with mock.patch.object(measured, "ROOT", Path(folder).resolve()):
+                self.assertEqual(measured.commit(), measured.UNKNOWN)
+            with mock.patch.dict("os.environ", {"PATH": folder}):
+                self.assertEqual(measured.commit(), measured.UNKNOWN)  # without git
+
+    def test_name_the_target_that_is_not_built(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(SystemExit) as ended:
+                measured.built(Path(folder), "bench_kernels")
+            self.assertIn(f"cmake --build {folder} --target bench_kernels", str(ended.exception))
+            with self.assertRaises(SystemExit) as ended:
+                measured.built(Path(folder), "needlework")
+            self.assertIn("--target needlework_program", str(ended.exception))
+
+
+class OwnScenes(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        self.scene = self.folder / "own.toml"
+        self.scene.write_text("needles = { count = 60, box = 5 }\noutput.file = 'out.h5'\n"
+                              "until.collisions_per_needle = 2\n")
+
+    def run_script(self, *words):
+        root = Path(measured.__file__).resolve().parent
+        done = subprocess.run([sys.executable, str(root / words[0]), *words[1:]],
+                              capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse((self.folder / "out.h5").exists())
+        return done.stdout
+
+    def test_are_compared_by_two_programs(self):
+        out = self.run_script("versus.py", PROGRAM, PROGRAM, "--scene", str(self.scene),
+                              "--repetitions", "6", "--second", "engine.queue=bucket")
+        self.assertRegex(out, r"own.toml: .* us per collision at best; .* 6 repetitions")
+
+    def test_are_run_on_several_threads(self):
+        build = self.folder / "build"
+        build.mkdir()
+        (build / "needlework").symlink_to(PROGRAM)
+        stand_in = build / "bench_scaling"
+        stand_in.write_text("#!/bin/sh\necho '{\"benchmarks\": [{\"real_time\": 30}]}'\n")
+        stand_in.chmod(0o755)
+        out = self.run_script("scaling/scaling.py", str(self.scene), "--build", str(build),
+                              "--repetitions", "1", "--threads", "2")
+        self.assertRegex(out, r"\| own \| 60 \| 1 \|")
+        self.assertRegex(out, r"\| own \| 60 \| 2 \|")
+        self.assertTrue((build / "study/results/scaling.md").exists())
 
 
 if __name__ == "__main__":
