@@ -189,8 +189,10 @@ TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {
       "queue,needles,density,baseline,median_us_per_collision,"))
       << header;
   const std::string isa(kernels::name_of(kernels::available().back()));
-  EXPECT_TRUE(baseline.starts_with("\"my, scene\",auto,auto,standard," + isa + ",1,sorted,")) << baseline;
-  EXPECT_TRUE(bucket.starts_with("\"my, scene\",auto,bucket,standard," + isa + ",1,sorted,")) << bucket;
+  EXPECT_TRUE(baseline.starts_with("\"my, scene\",auto,auto,standard," + isa + ",1,sorted,"))
+      << baseline;
+  EXPECT_TRUE(bucket.starts_with("\"my, scene\",auto,bucket,standard," + isa + ",1,sorted,"))
+      << bucket;
   EXPECT_NE(bucket.find(",linked-cells,bucket,100,0.8,false,"), std::string::npos) << bucket;
   EXPECT_TRUE(bucket.ends_with(",6,cpu")) << bucket;
   // The same from a file, but for what only measuring tells.
