@@ -7,6 +7,7 @@ tracked. Tables, pictures and compact results are made from it.
 
 import json
 import math
+import os
 import re
 import statistics
 import subprocess
@@ -84,6 +85,10 @@ def about(build):
                                        "1", "--min-time", "0", "--json"]))
     keys = ("machine", "cores", "compiler", "flags", "version")
     return {"commit": commit(), **{key: of_program[key] for key in keys}}
+
+
+def cores():
+    return len(os.sched_getaffinity(0))
 
 
 def machine_name(build):
@@ -190,11 +195,13 @@ def measure_rounds(store, parts, budget_s):
     return [part for part, (rounds, _) in parts.items() if store.rounds(part) < rounds]
 
 
-def report_missing(store, missing, place):
-    """Says what is left to do, and where the tables are."""
+def report_missing(store, missing, place, tracked=False):
+    """Says what is left to do, where the tables are, and why not in bench/results if they should be."""
     if missing:
         print(f"not complete at {store.about['commit']}: {', '.join(missing)}; the same command "
               "continues")
+    elif not tracked:
+        pass
     elif not store.quick and "changes" in store.about["commit"]:
         print("not put into bench/results: the working tree differs from the commit")
     elif not store.quick and store.about["commit"] == UNKNOWN:
@@ -296,11 +303,14 @@ def save_picture(figure, file):
 
 def add_options(parser):
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
-    parser.add_argument("--machine", help="name of the folder in bench/results")
     parser.add_argument("--time-budget", type=float, default=math.inf, metavar="MINUTES",
                         help="measure no longer than this; the same command continues later")
     parser.add_argument("--quick", action="store_true",
                         help="short runs, to try the script; results stay in the build folder")
+
+
+def add_machine(parser):
+    parser.add_argument("--machine", help="name of the folder in bench/results")
 
 
 def store_of(arguments):

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""Measures everything on this machine, one thread, and makes the tables and the picture.
+"""Measures strategies on this machine, one thread, and makes tables and a picture.
 
-    bench/study.py                     all; continues where it was stopped
+    bench/study.py                     all parts; continues where it was stopped
     bench/study.py density size        some parts only
     bench/study.py --time-budget 60    for an hour; the same command continues later
     bench/study.py tables              no measuring: tables and picture of what there is
 
 Build first, with NEEDLEWORK_BENCH=ON. Repetitions are interleaved: all cases of all parts are
 measured once, then all a second time, and so on; tables give the median and the range.
-Writes README.md, density.svg and a compact file for each part to bench/results/MACHINE-ISA/ when all
-parts are complete, of one commit and of the same build; until then to study/results/ in the folder
-of the build. What `needlework bench --compare` needs is in the compact files.
+Writes README.md, density.svg and a compact file for each part, which `needlework bench --compare` and
+`--results` take, to study/results/ in the folder of the build. What is kept in bench/results is measured
+by bench/performance.py.
 """
 
 import argparse
@@ -235,9 +235,9 @@ def draw_density(content, file):
     measured.save_picture(figure, file)
 
 
-def write_results(contents, machine, folder):
+def write_results(contents, machine, folder, made_by="study.py"):
     """The tables, the picture and the compact files of what was measured, by part."""
-    text = (f"# Measured on {machine}\n\nMade by `bench/study.py`. Times are CPU times of the event "
+    text = (f"# Measured on {machine}\n\nMade by `bench/{made_by}`. Times are CPU times of the event "
             f"loop; a figure is the median of the repetitions, with their range in parentheses. "
             f"Quotients are taken within each repetition.\n")
     if "density" in contents:
@@ -283,9 +283,10 @@ def main():
     chosen = [part for part in arguments.parts or all_parts if part != "tables"]
     if chosen:
         measured.measure_rounds(store, jobs(chosen), 60 * arguments.time_budget)
-    missing = [part for part, (rounds, _) in jobs(all_parts).items() if store.rounds(part) < rounds]
-    machine = arguments.machine or measured.machine_name(arguments.build)
-    place = store.place(machine, not missing)
+    missing = [part for part, (rounds, _) in jobs(chosen or all_parts).items()
+               if store.rounds(part) < rounds]
+    machine = measured.machine_name(arguments.build)
+    place = store.place(machine, complete=False)
     write_results(measured.kept_of(store, all_parts), machine, place)
     measured.report_missing(store, missing, place)
 

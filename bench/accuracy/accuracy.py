@@ -405,6 +405,7 @@ def main():
     parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join([*PARTS, "tables"]))
     parser.add_argument("--readme", action="store_true", help="put the short table into docs/accuracy.md")
     measured.add_options(parser)
+    measured.add_machine(parser)
     arguments = parser.parse_args()
     unknown = set(arguments.parts) - {*PARTS, "tables"}
     if unknown:
@@ -433,7 +434,7 @@ def main():
         if not {"cost", "audit", "pairs"} <= data.keys():
             sys.exit("--readme: expected cost, audit and pairs to be measured")
         readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
-    measured.report_missing(store, missing, place)
+    measured.report_missing(store, missing, place, tracked=True)
 
 
 if __name__ == "__main__":

@@ -16,15 +16,13 @@ as there are threads, at once, and their collisions together: what the cores can
 four threads for each core. "Cache line" is how long one takes from core to core, measured before each
 run of as many threads as cores or fewer (cores.cpp). Beside other programs that never rest, a speed-up
 is over one thread beside them. "ensemble" is `needlework sweep` on twelve members. Writes scaling.md,
-scaling.svg and the compact scaling.json to bench/results/MACHINE-ISA/ when all scenes are complete, of
-one commit and of the same build; until then to study/results/ in the folder of the build,
-where results of your scenes and those without busy programs stay.
+scaling.svg and the compact scaling.json to study/results/ in the folder of the build. What is kept in
+bench/results is measured by bench/performance.py.
 """
 
 import argparse
 import hashlib
 import json
-import os
 import statistics
 import subprocess
 import sys
@@ -291,7 +289,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", metavar="SCENE",
                         help=f"{', '.join([*SCENES, 'tables'])}, or a scene file")
-    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--threads", type=int, default=measured.cores())
     parser.add_argument("--repetitions", type=int, default=REPETITIONS)
     parser.add_argument("--no-load", action="store_true", help="no runs beside busy programs")
     measured.add_options(parser)
@@ -319,8 +317,7 @@ def main():
     missing = [name for part, name in parts.items() if store.rounds(part) < rounds]
     contents = {short_name(parts[part]): content
                 for part, content in measured.kept_of(store, parts).items()}
-    place = store.place(arguments.machine or measured.machine_name(arguments.build),
-                        not missing and not own and not arguments.no_load)
+    place = store.place(measured.machine_name(arguments.build), complete=False)
     write_results(contents, place)
     print(table(contents))
     measured.report_missing(store, missing, place)

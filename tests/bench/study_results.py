@@ -18,6 +18,7 @@ sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "bench" / folder)
                 for folder in ("", "scaling")]
 import measured  # noqa: E402
+import performance  # noqa: E402
 import scaling  # noqa: E402
 import study  # noqa: E402
 
@@ -157,6 +158,66 @@ class Rounds(unittest.TestCase):
             self.assertEqual(store.place(inside.name, complete), store.folder / "results")
             self.assertFalse(inside.exists())
         self.assertEqual(self.store.place(inside.name, True), inside)
+
+
+class Performance(unittest.TestCase):
+    """The tables of docs/performance.md."""
+
+    @staticmethod
+    def content(*cases):
+        return {**ABOUT, "date": "2026-01-01T", "command": "c", "rounds": 2, "cases": list(cases)}
+
+    @staticmethod
+    def case_of(scene, words, times, **more):
+        search, queue, isa = words.split()
+        return {"name": f"{scene}/{search}/{queue}/standard/{isa}/threads:1", "scene": scene,
+                "us_per_collision": times, "baseline": False, "needles": 10000, "density": 0.72,
+                "search": "capsules", "queue": "tournament", "bytes_per_needle": [500.0],
+                "setup_s": [0.021], **more}
+
+    def contents(self):
+        one = self.case_of
+        baseline = one("s", "linked-lists indexed-heap scalar", [30.0, 32.0], baseline=True)
+        auto = one("s", "auto auto avx2", [6.0, 8.0])
+        heap = one("s", "auto indexed-heap scalar", [15.0, 16.0])
+        return {"density": self.content(baseline, auto),
+                "size": self.content(baseline, auto),
+                "isa": self.content(baseline, auto),
+                "cloud": self.content(baseline, heap, auto),
+                "steps": self.content(baseline, heap, one("s", "auto indexed-heap avx2", [8.0, 8.0]),
+                                      auto)}
+
+    def threads(self):
+        def run(kind, n, us):
+            return {"name": f"dilute/{kind}/threads:{n}", "threads": n, "needles": 10000,
+                    "us_per_collision": [us]}
+
+        return {"dilute": self.content(
+            run("alone", 1, 6.0), run("together", 2, 4.0), run("apart", 2, 3.0), run("crowded", 8, 5.0),
+            *(run(f"beside-{load}", n, us) for load in (1, 2, 4)
+              for n, us in ((1, 8.0), (2, 10.0), (8, 9.0))))}
+
+    def test_have_a_place_in_the_document(self):
+        document = (Path(performance.__file__).parents[1] / "docs/performance.md").read_text()
+        blocks = performance.blocks(self.contents(), self.threads())
+        self.assertEqual(len(blocks), 7)
+        for name in blocks:
+            for mark in (f"<!-- {name} -->", f"<!-- end of {name} -->"):
+                self.assertEqual(document.count(mark), 1, mark)
+
+    def test_say_what_was_measured_and_where(self):
+        blocks = performance.blocks(self.contents(), self.threads())
+        self.assertIn("| 10000 | 0.72 | 31.0 (30.0–32.0) | 7.00 (6.00–8.00) | 4.50 (4.00–5.00) |",
+                      blocks["classical"])
+        self.assertIn("of 2 interleaved repetitions; commit c", blocks["classical"])
+        self.assertIn("varies by a factor of 1.00", blocks["classical"])
+        self.assertIn("|  | + SIMD (avx2) | 8.00", blocks["steps"])
+        self.assertIn("|  | + calendar `tournament` | 7.00", blocks["steps"])
+        self.assertIn("| avx2 | 7.00 (6.00–8.00) |", blocks["isa"])
+        self.assertIn("| 500 | 0.021 s |", blocks["size"])
+        self.assertIn("4.50 (4.00–5.00) times less", blocks["cloud"])
+        self.assertIn("| dilute | 10000 | 6.00 | 4.00 | 1.50 | 0.75 |", blocks["threads"])
+        self.assertIn("| dilute | 1.25 | 1.25 | 1.25 |", blocks["busy"])
 
 
 class Scripts(unittest.TestCase):
