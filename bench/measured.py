@@ -214,7 +214,8 @@ def kept_of(store, names):
     contents = {name: store.load(name) for name in names}
     contents = {name: content for name, content in contents.items() if content}
     if not contents:
-        sys.exit(f"{store.folder}: nothing is measured yet at {store.about['commit']}")
+        sys.exit(f"{store.folder}: no round is complete yet at {store.about['commit']}; the same "
+                 "command continues")
     return contents
 
 

@@ -18,7 +18,11 @@ import time
 
 from versus import interval
 
-import needlework
+try:
+    import needlework
+except ImportError:
+    sys.exit("needlework: not found: cmake --build --preset release; "
+             "PYTHONPATH=build/release/python /usr/bin/python3 bench/python_overhead.py")
 
 COLLISIONS = 20000  # of a turn
 

@@ -37,9 +37,11 @@ struct Mount {
   bool version_2;
 };
 
-// The mounted hierarchies with this controller, of /proc/self/mountinfo; see proc(5).
+// The mounted hierarchies with this controller, of /proc/self/mountinfo; see proc(5). The usual
+// places count, too: sandboxes may show files of control groups there that are no mounts of them.
 std::vector<Mount> mounts_of(const std::string& controller, const path& root) {
-  std::vector<Mount> out;
+  const path usual = "/sys/fs/cgroup";
+  std::vector<Mount> out{{"/", usual, true}, {"/", usual / controller, false}};
   std::ifstream file(root / "proc/self/mountinfo");
   for (std::string line; std::getline(file, line);) {
     const auto dash = line.find(" - ");

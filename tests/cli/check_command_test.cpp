@@ -47,6 +47,24 @@ TEST_F(CheckCommand, SaysWhatLimitsCores) {
   EXPECT_TRUE(run("check small.toml --json").json()["cores"]["slurm_cpus_per_task"].is_null());
 }
 
+// With files in the place of those that a container has.
+TEST_F(CheckCommand, RespectsTheCpuQuotaOfAContainer) {
+  const std::string in_container =
+      "unshare -m sh -c 'mount --bind \"$0\" /sys/fs/cgroup && exec \"$@\"' " + path("groups");
+  std::filesystem::create_directory(path("groups"));
+  write("groups/cpu.max", "150000 100000\n");
+  if (shell(in_container + " true").exit_code != 0) GTEST_SKIP() << "no right to mount";
+  const std::string large =
+      "small.toml --threads auto --set needles.count=9000 --set needles.box=30 --json ";
+  const auto json = run("check " + large, in_container).json();
+  EXPECT_EQ(json["cores"]["quota"], 1.5);
+  EXPECT_EQ(json["cores"]["quota_file"], "/sys/fs/cgroup/cpu.max");
+  EXPECT_EQ(json["cores"]["usable"], 1);
+  EXPECT_EQ(json["threads"], 1);
+  const auto ran = run("run " + large + "--set until.collisions_per_needle=0.1", in_container);
+  EXPECT_EQ(ran.json()["threads"], 1) << ran.err;
+}
+
 TEST_F(CheckCommand, WarnsOfDoubtfulSettings) {
   const Outcome outcome = run("check small.toml --set collisions.epsilon=0.9");
   EXPECT_EQ(outcome.exit_code, 0);

@@ -137,6 +137,14 @@ TEST_F(ControlGroups, MayBeMountedWhereNamesHaveBlanks) {
   EXPECT_EQ(quota(), 1);
 }
 
+TEST_F(ControlGroups, AreFoundInTheUsualPlacesWithoutMounts) {
+  write({{"sys/fs/cgroup/cpu.max", "300000 100000\n"}});
+  EXPECT_EQ(quota(), 3);
+  write({{"sys/fs/cgroup/cpu/cpu.cfs_quota_us", "200000\n"},
+         {"sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n"}});
+  EXPECT_EQ(quota(), 2);
+}
+
 TEST_F(ControlGroups, LeaveWholeCoresAndAtLeastOne) {
   const auto usable_of = [&](const char* limits) {
     write_version_2("/", {{"sys/fs/cgroup/cpu.max", limits}});
