@@ -261,10 +261,37 @@ NEEDLEWORK_API int needlework_write_state(needlework_simulation* simulation, con
 
 /* Replaces all velocities at the present time, by increasing id; the part of an angular velocity
  * along the director is removed. Needles that touch stay on their sides; hash, counts and the
- * energy at the start are kept. [handle] */
+ * energy at the start are kept. The output file says in /velocities_set when that was and by how
+ * much the energy changed, and kinetic theory is left out of it from then on. A sample or a frame
+ * that is due at this instant is taken when the run goes on, and holds the new velocities;
+ * needlework_sample() before this call adds one with the old ones. [handle] */
 NEEDLEWORK_API int needlework_set_velocities(needlework_simulation* simulation,
                                              const needlework_const_vectors* velocity,
                                              const needlework_const_vectors* angular_velocity);
+
+/* Adds a sample of the present state to the output file, and a frame if `frame` is not 0, unless
+ * the file has just got them. NEEDLEWORK_USAGE without an open output file. [handle] */
+NEEDLEWORK_API int needlework_sample(needlework_simulation* simulation, int frame);
+
+/* ---- Data of your own ------------------------------------------------------------------------ */
+
+enum needlework_data_kind { NEEDLEWORK_DATA_BYTES = 0, NEEDLEWORK_DATA_JSON = 1 };
+
+/* Sets data of your own under a name of 1 to 64 bytes of UTF-8, such as the state of a random
+ * number generator, or notes: `size` bytes, at most 2^24, of a kind of needlework_data_kind; JSON
+ * is checked. NULL removes the name. Checkpoints carry the data, so that a simulation of
+ * needlework_resume() has them; the output file has them in /user_data with the time at which they
+ * were set, and the file of needlework_write_state() too. [handle] */
+NEEDLEWORK_API int needlework_set_data(needlework_simulation* simulation, const char* name,
+                                       int kind, const void* data, size_t size);
+/* Writes `kind` and `size` of such data, and copies them to `data` if they have at most `capacity`
+ * bytes (each NULL: not wanted). NEEDLEWORK_USAGE for a name that has none, and for too small a
+ * capacity, after size and kind have been written. [handle] */
+NEEDLEWORK_API int needlework_get_data(needlework_simulation* simulation, const char* name,
+                                       int* kind, void* data, size_t capacity, size_t* size);
+/* The names in alphabetical order, by index from 0; NULL behind the last. Valid until
+ * needlework_set_data() is called. [handle] */
+NEEDLEWORK_API const char* needlework_data_name(needlework_simulation* simulation, size_t index);
 
 /* ---- Numbers --------------------------------------------------------------------------------- */
 

@@ -11,6 +11,10 @@
 //   /observables          t_tr, t_rot, energy, collisions, tc_collisions, each [F]; momentum [F][3]
 //   /series               the same sums, each [S] or [S][3], and in a group for each observable of
 //                         the scene its fields, each [S][...]
+//   /velocities_set       where a caller has replaced all velocities: step, time, each [C]; t_tr,
+//                         t_rot, energy, each [C][2], and momentum [C][2][3], before and after
+//   /user_data            a user's own data in the order in which they were set: step, time, name,
+//                         json, begin, size, each [D]; bytes [B]
 //   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair, arms, each
 //                         [E][2]; shift, impulse, each [E][3]; see Collision
 //
@@ -37,6 +41,7 @@
 #include "needlework/series.h"
 #include "needlework/state.h"
 #include "needlework/totals.h"
+#include "needlework/user_data.h"
 
 namespace needlework::io {
 
@@ -68,6 +73,8 @@ class Writer {
   /// How much of a run is in a file.
   struct Position {
     std::uint64_t frames = 0, samples = 0, events = 0;  ///< complete rows
+    std::uint64_t velocities_set = 0, data = 0;         ///< the same
+    std::uint64_t data_bytes = 0;                       ///< of the values of user data
     friend bool operator==(const Position&, const Position&) = default;
   };
 
@@ -102,12 +109,20 @@ class Writer {
   /// Appends a collision to /events. Collisions are kept in memory and written in blocks of a few
   /// thousand.
   void write_event(const Collision& collision);
+  /// Appends to /velocities_set that all velocities have been replaced: the totals at that instant,
+  /// before and after.
+  void write_velocities_set(const Totals& before, const Totals& after);
+  /// Appends to /user_data, at this instant, the new value of a name; nullptr: it has none from now
+  /// on. Throws InputError as require_valid_data() does.
+  void write_data(const Totals& now, const std::string& name, const UserData* data);
   /// Writes everything that is still in memory to the file. The operating system may keep that in
   /// its own memory for a while, which a killed program does not lose, but a power failure does.
   void flush();
   /// Flushes, and returns when the file and its name are on the disk. What is written afterwards
   /// to another file may therefore refer to position().
   void sync();
+  /// Throws IoError if nothing more can be written: after a failed write, or in a forked child.
+  void require_writable();
   /// The rows given to this writer, with those that were in a resumed file. They are complete in
   /// the file after a flush().
   Position position() const;

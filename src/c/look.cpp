@@ -60,7 +60,7 @@ int needlework_write_state(needlework_simulation* simulation, const char* path, 
     }
     const bool replaces = flags & NEEDLEWORK_REPLACE;
     runs::require_writable(path, replaces, path, "NEEDLEWORK_REPLACE");
-    runs::write_state(self.run.simulation(), self.run.scene(), path, replaces);
+    runs::write_state(self.run.simulation(), self.run.scene(), self.run.data(), path, replaces);
   });
 }
 

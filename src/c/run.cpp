@@ -140,6 +140,14 @@ int needlework_checkpoint(needlework_simulation* simulation) {
   });
 }
 
+int needlework_sample(needlework_simulation* simulation, int frame) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require_open(self);
+    if (const std::string why = self.run.why_no_output(); !why.empty()) throw c::UsageError(why);
+    self.run.sample(frame != 0);
+  });
+}
+
 int needlework_close(needlework_simulation* simulation) {
   return c::guarded(simulation, [](needlework_simulation& self) {
     if (self.run.scene().output.file.empty()) return;
@@ -173,6 +181,6 @@ int needlework_set_velocities(needlework_simulation* simulation,
     c::require(angular_velocity->data, "angular_velocity->data");
     const std::size_t count = self.run.simulation().needles();
     const auto v = c::rows_of(*velocity, count), w = c::rows_of(*angular_velocity, count);
-    c::changing(self, [&] { self.run.simulation().set_velocities(v, w); });
+    c::changing(self, [&] { self.run.set_velocities(v, w); });
   });
 }

@@ -40,7 +40,7 @@ double Report::collision_rate_error() const {
 }
 
 double Report::collision_rate_exact() const {
-  if (!runs::starts_in_equilibrium(scene)) return undefined;
+  if (!runs::starts_in_equilibrium(scene) || !course.theory_holds) return undefined;
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
   const Scene::Species species = scene.one_species();
@@ -60,7 +60,9 @@ double Report::us_per_collision() const {
 }
 
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
-  if (!scene.initial.file.empty() || !(course.initial.energy > 0)) return std::nullopt;
+  if (!scene.initial.file.empty() || !(course.initial.energy > 0) || !course.theory_holds) {
+    return std::nullopt;
+  }
   const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
   const double tau = theory_time_scale(runs::theory_density_of(scene)) * sample.time;
   return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))

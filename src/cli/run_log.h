@@ -46,8 +46,8 @@ class LoggedRun : public runs::RunMonitor {
   LoggedRun(runs::RunMonitor& shown, RunLog& log, double every)
       : shown_(shown), log_(log), every_(every), next_(every) {}
 
-  void begin(const Totals& initial, std::span<const Totals> samples) override {
-    shown_.begin(initial, samples);
+  void begin(const Totals& initial, std::span<const Totals> samples, bool theory_holds) override {
+    shown_.begin(initial, samples, theory_holds);
   }
   bool is_due(double elapsed) const override { return shown_.is_due(elapsed) || elapsed >= next_; }
   void show(const runs::Progress& progress) override;

@@ -59,8 +59,8 @@ std::vector<std::string> watch_lines(const std::vector<picture::Panel>& panels,
 
 RunWatch::RunWatch(const Scene& scene) : scene_(scene), colours_(environment("NO_COLOR").empty()) {}
 
-void RunWatch::begin(const Totals& initial, std::span<const Totals> samples) {
-  run_.emplace(scene_, initial);
+void RunWatch::begin(const Totals& initial, std::span<const Totals> samples, bool theory_holds) {
+  run_.emplace(scene_, initial, theory_holds);
   for (const Totals& sample : samples) run_->add(sample);
 }
 

@@ -27,7 +27,7 @@ class RunWatch : public runs::RunMonitor {
  public:
   /// The scene must outlive it.
   explicit RunWatch(const Scene& scene);
-  void begin(const Totals& initial, std::span<const Totals> samples) override;
+  void begin(const Totals& initial, std::span<const Totals> samples, bool theory_holds) override;
   bool is_due(double elapsed) const override { return elapsed >= next_record_; }
   void show(const runs::Progress& progress) override;
   void clear() override;

@@ -14,8 +14,9 @@ namespace needlework::cli {
 
 class WatchedRun {
  public:
-  /// There is a theory unless the gas starts from a file or at rest.
-  WatchedRun(const Scene& scene, const Totals& initial);
+  /// There is a theory unless the gas starts from a file or at rest, or a caller has replaced its
+  /// velocities.
+  WatchedRun(const Scene& scene, const Totals& initial, bool theory_holds = true);
 
   /// Times must not fall.
   void add(const Totals& now);

@@ -23,10 +23,10 @@ class Column {
   void append(const Number* values, hsize_t count) {
     append_as(hdf5::type_of<Number>(), values, count);
   }
-
- private:
+  /// The same for values of any type of HDF5.
   void append_as(hid_t type, const void* values, hsize_t count);
 
+ private:
   std::string place_;
   hdf5::Handle dataset_;
   hdf5::Shape shape_;

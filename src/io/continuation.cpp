@@ -28,7 +28,10 @@ bool grows(hid_t dataset, const std::string& place) {
 // Rows up to `position` of a dataset that grows.
 std::uint64_t rows_at(const Writer::Position& position, const std::string& path) {
   if (path.starts_with("/events/")) return position.events;
-  return path.starts_with("/series/") ? position.samples : position.frames;
+  if (path.starts_with("/series/")) return position.samples;
+  if (path.starts_with("/velocities_set/")) return position.velocities_set;
+  if (path == "/user_data/bytes") return position.data_bytes;
+  return path.starts_with("/user_data/") ? position.data : position.frames;
 }
 
 // A row is complete if it is in these datasets.

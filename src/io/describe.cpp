@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -69,6 +70,7 @@ class Overview {
 
   void add_origin();
   void add_particles();
+  bool has_rows(const std::string& group) const;
   void add_rows(const std::string& group, const char* kind);
   void add_datasets();
   void add_group(const std::string& path, int depth);
@@ -92,6 +94,10 @@ std::string Overview::write() {
   if (const std::string text = description("/"); !text.empty()) add("{}", text);
   add_particles();
   add_rows("/series", "sample");
+  for (const auto& [group, kind] :
+       {std::pair("/velocities_set", "change"), {"/user_data", "value"}}) {
+    if (has_rows(group)) add_rows(group, kind);
+  }
   add_rows("/events", "collision");
   add_datasets();
   if (hdf5::is_group(source_.get(), "/parameters", source_.path())) add_parameters();
@@ -134,6 +140,12 @@ void Overview::add_particles() {
         format_count(position.rows(), "frame"), range);
     ranges_shown_.insert(range);
   }
+}
+
+bool Overview::has_rows(const std::string& group) const {
+  const std::string steps = group + "/step";
+  return hdf5::is_dataset(source_.get(), steps, source_.place(steps)) &&
+         Element(source_, steps).rows() > 0;
 }
 
 // For a group whose rows have their times in its dataset `time`, and perhaps steps in `step`.

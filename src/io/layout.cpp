@@ -7,6 +7,7 @@
 
 #include "src/io/column.h"
 #include "src/io/descriptions.h"
+#include "src/io/tables.h"
 
 namespace needlework::io {
 
@@ -20,6 +21,7 @@ namespace {
 
 constexpr hsize_t samples_per_chunk = 256;
 constexpr hsize_t events_per_chunk = 8192;
+constexpr hsize_t data_bytes_per_chunk = 16384;
 
 // Frames of few needles share a chunk of about 16 kB; a large frame has a chunk of its own.
 hsize_t frames_per_chunk(std::uint64_t needles) {
@@ -133,6 +135,23 @@ void make_events(hid_t group, const std::string& place) {
   make("impulse", type_of<double>(), {3});
 }
 
+void make_velocities_set(hid_t group, const std::string& place) {
+  make_step_and_time(group, place);
+  for (const char* name : {"t_tr", "t_rot", "energy"}) {
+    Column::create(group, name, type_of<double>(), {2}, samples_per_chunk, place);
+  }
+  Column::create(group, "momentum", type_of<double>(), {2, 3}, samples_per_chunk, place);
+}
+
+void make_user_data(hid_t group, const std::string& place) {
+  make_step_and_time(group, place);
+  Column::create(group, "name", data_name_type(place).get(), {}, samples_per_chunk, place);
+  Column::create(group, "json", type_of<std::uint8_t>(), {}, samples_per_chunk, place);
+  Column::create(group, "begin", type_of<std::int64_t>(), {}, samples_per_chunk, place);
+  Column::create(group, "size", type_of<std::int64_t>(), {}, samples_per_chunk, place);
+  Column::create(group, "bytes", type_of<std::uint8_t>(), {}, data_bytes_per_chunk, place);
+}
+
 // H5MD 1.1 demands strings of fixed length in these attributes.
 void make_metadata(hid_t file, const std::string& place) {
   const Handle h5md = create_group(file, "h5md", place);
@@ -177,6 +196,8 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   const StepAndTime samples = make_step_and_time(series.get(), place);
   make_totals(series.get(), samples, place);
   make_fields(series.get(), samples, run.series, place);
+  make_velocities_set(create_group(file, "velocities_set", place).get(), place);
+  make_user_data(create_group(file, "user_data", place).get(), place);
   if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
   write_descriptions(file, run_file_descriptions(), place);
   write_descriptions(file, series_descriptions(run.series), place);

@@ -148,6 +148,84 @@ void Frames::write_ids(const State& state) {
         place_);
 }
 
+VelocitiesSetTable::VelocitiesSetTable(hid_t file, const std::string& place)
+    : step_(file, "/velocities_set/step", place),
+      time_(file, "/velocities_set/time", place),
+      t_tr_(file, "/velocities_set/t_tr", place),
+      t_rot_(file, "/velocities_set/t_rot", place),
+      energy_(file, "/velocities_set/energy", place),
+      momentum_(file, "/velocities_set/momentum", place) {}
+
+void VelocitiesSetTable::append(std::span<const VelocitiesSet> changes) {
+  const auto append_both = [&](Column& column, double Totals::*member) {
+    append_each<double>(column, changes, [&](const VelocitiesSet& change, auto put) {
+      put(change.before.*member);
+      put(change.after.*member);
+    });
+  };
+  append_each<double>(time_, changes,
+                      [](const VelocitiesSet& change, auto put) { put(change.after.time); });
+  append_both(t_tr_, &Totals::t_tr);
+  append_both(t_rot_, &Totals::t_rot);
+  append_both(energy_, &Totals::energy);
+  append_each<double>(momentum_, changes, [](const VelocitiesSet& change, auto put) {
+    for (const double component : change.before.momentum) put(component);
+    for (const double component : change.after.momentum) put(component);
+  });
+}
+
+void VelocitiesSetTable::append_steps(std::span<const VelocitiesSet> changes) {
+  append_each<std::int64_t>(
+      step_, changes, [](const VelocitiesSet& change, auto put) { put(change.after.collisions); });
+}
+
+hdf5::Handle data_name_type(const std::string& place) {
+  hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
+  check(H5Tset_size(type.get(), longest_data_name), place);
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
+  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), place);
+  return type;
+}
+
+UserDataTable::UserDataTable(hid_t file, const std::string& place, std::uint64_t bytes)
+    : place_(place),
+      end_(bytes),
+      step_(file, "/user_data/step", place),
+      time_(file, "/user_data/time", place),
+      name_(file, "/user_data/name", place),
+      json_(file, "/user_data/json", place),
+      begin_(file, "/user_data/begin", place),
+      size_(file, "/user_data/size", place),
+      bytes_(file, "/user_data/bytes", place) {}
+
+void UserDataTable::append(std::span<const DataEntry> entries) {
+  std::string names, bytes;
+  std::vector<std::int64_t> begins;
+  for (const DataEntry& entry : entries) {
+    begins.push_back(static_cast<std::int64_t>(end_ + bytes.size()));
+    names += entry.name;
+    names.resize(begins.size() * longest_data_name, '\0');
+    if (entry.data) bytes += entry.data->bytes;
+  }
+  bytes_.append(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  end_ += bytes.size();
+  append_each<double>(time_, entries,
+                      [](const DataEntry& entry, auto put) { put(entry.now.time); });
+  name_.append_as(data_name_type(place_).get(), names.data(), entries.size());
+  append_each<std::uint8_t>(json_, entries, [](const DataEntry& entry, auto put) {
+    put(entry.data && entry.data->kind == UserData::Kind::json);
+  });
+  begin_.append(begins.data(), begins.size());
+  append_each<std::int64_t>(size_, entries, [](const DataEntry& entry, auto put) {
+    put(entry.data ? static_cast<std::int64_t>(entry.data->bytes.size()) : -1);
+  });
+}
+
+void UserDataTable::append_steps(std::span<const DataEntry> entries) {
+  append_each<std::int64_t>(step_, entries,
+                            [](const DataEntry& entry, auto put) { put(entry.now.collisions); });
+}
+
 Events::Events(hid_t file, const std::string& place)
     : time_(file, "/events/time", place),
       epoch_(file, "/events/epoch", place),

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "needlework/series.h"
 #include "needlework/state.h"
 #include "needlework/totals.h"
+#include "needlework/user_data.h"
 #include "src/io/column.h"
 #include "src/io/hdf5.h"
 
@@ -84,6 +86,48 @@ class Frames {
   std::vector<std::uint32_t> ids_;
   bool ids_written_;
   Column edges_, position_, image_, velocity_, orientation_, angular_velocity_;
+};
+
+/// A change of all velocities by a caller.
+struct VelocitiesSet {
+  Totals before, after;
+};
+
+/// /velocities_set: one row for each change.
+class VelocitiesSetTable {
+ public:
+  VelocitiesSetTable(hid_t file, const std::string& place);
+
+  void append(std::span<const VelocitiesSet> changes);        ///< all columns except the steps
+  void append_steps(std::span<const VelocitiesSet> changes);  ///< by which rows are complete
+
+ private:
+  Column step_, time_, t_tr_, t_rot_, energy_, momentum_;
+};
+
+/// What was set under a name at one instant.
+struct DataEntry {
+  Totals now;
+  std::string name;
+  std::optional<UserData> data;  ///< none: the name was removed
+};
+
+/// The type of names in /user_data: strings of a fixed length, as SWMR mode demands.
+hdf5::Handle data_name_type(const std::string& place);
+
+/// /user_data: one row for each entry, and the bytes of all values one after the other.
+class UserDataTable {
+ public:
+  /// `bytes` is the number of those in the file.
+  UserDataTable(hid_t file, const std::string& place, std::uint64_t bytes);
+
+  void append(std::span<const DataEntry> entries);        ///< all columns except the steps
+  void append_steps(std::span<const DataEntry> entries);  ///< by which rows are complete
+
+ private:
+  std::string place_;
+  std::uint64_t end_;
+  Column step_, time_, name_, json_, begin_, size_, bytes_;
 };
 
 /// /events: one row for each collision.

@@ -58,12 +58,16 @@ struct Writer::Implementation {
   std::optional<TotalsTable> series;
   std::optional<FieldsTable> fields;
   std::optional<StepsAndTimes> series_times;
+  std::optional<VelocitiesSetTable> velocities_set;
+  std::optional<UserDataTable> data;
   std::optional<Events> events;
 
   // Rows whose steps are not in the file yet.
   std::vector<Totals> pending_frames;
   std::vector<Totals> pending_samples;
   std::vector<double> pending_numbers;
+  std::vector<VelocitiesSet> pending_velocities_set;
+  std::vector<DataEntry> pending_data;
   std::vector<Collision> pending_events;
 };
 
@@ -97,26 +101,37 @@ void Writer::Implementation::open_datasets(const Scene& scene, const RunInfo& ru
   series.emplace(file->get(), "/series", path);
   fields.emplace(file->get(), run.series, path);
   series_times.emplace(file->get(), "/series", path);
+  velocities_set.emplace(file->get(), path);
+  data.emplace(file->get(), path, position.data_bytes);
   if (scene.output.events) events.emplace(file->get(), path);
 }
 
 void Writer::Implementation::commit() {
-  if (pending_frames.empty() && pending_samples.empty() && pending_events.empty()) return;
+  if (pending_frames.empty() && pending_samples.empty() && pending_velocities_set.empty() &&
+      pending_data.empty() && pending_events.empty()) {
+    return;
+  }
   const Session session;
   observables->append(pending_frames);
   series->append(pending_samples);
   fields->append(pending_numbers);
   frame_times->append_times(pending_frames);
   series_times->append_times(pending_samples);
+  velocities_set->append(pending_velocities_set);
+  data->append(pending_data);
   if (events) events->append(pending_events);
   file->flush();
   frame_times->append_steps(pending_frames);
   series_times->append_steps(pending_samples);
+  velocities_set->append_steps(pending_velocities_set);
+  data->append_steps(pending_data);
   if (events) events->append_times(pending_events);
   file->flush();
   pending_frames.clear();
   pending_samples.clear();
   pending_numbers.clear();
+  pending_velocities_set.clear();
+  pending_data.clear();
   pending_events.clear();
 }
 
@@ -132,6 +147,8 @@ void Writer::Implementation::close() {
   const Session session;
   commit();
   events.reset();
+  data.reset();
+  velocities_set.reset();
   series_times.reset();
   fields.reset();
   series.reset();
@@ -224,12 +241,35 @@ void Writer::write_event(const Collision& collision) {
   });
 }
 
+void Writer::write_velocities_set(const Totals& before, const Totals& after) {
+  use([&](Implementation& out) {
+    out.pending_velocities_set.push_back({before, after});
+    ++out.position.velocities_set;
+    if (out.pending_velocities_set.size() >= block) out.commit();
+  });
+}
+
+void Writer::write_data(const Totals& now, const std::string& name, const UserData* data) {
+  require_valid_data(name, data ? *data : UserData{});
+  use([&](Implementation& out) {
+    out.pending_data.push_back({now, name, data ? std::optional(*data) : std::nullopt});
+    ++out.position.data;
+    if (data) out.position.data_bytes += data->bytes.size();
+    // Values may be large.
+    if (out.pending_data.size() >= block || (data && data->bytes.size() > block)) out.commit();
+  });
+}
+
 void Writer::flush() {
   use([](Implementation& out) { out.commit(); });
 }
 
 void Writer::sync() {
   use([](Implementation& out) { out.sync(); });
+}
+
+void Writer::require_writable() {
+  use([](Implementation&) {});
 }
 
 Writer::Position Writer::position() const {

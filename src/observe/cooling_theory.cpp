@@ -1,9 +1,14 @@
 #include "src/observe/cooling_theory.h"
 
+#include <array>
+#include <limits>
+
 #include "src/observe/forecast.h"
 
 namespace needlework::observe {
 namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 class CoolingTheory : public Observable {
  public:
@@ -19,6 +24,10 @@ class CoolingTheory : public Observable {
   }
 
   void sample(const Snapshot& now, Row& row) override {
+    if (!holds_) {
+      row.put_all(std::array<double, 3>{undefined, undefined, undefined});
+      return;
+    }
     const theory::Temperatures theory = curve_.at(time_scale_ * now.totals.time);
     row.put(theory.t_tr);
     row.put(theory.t_rot);
@@ -26,16 +35,18 @@ class CoolingTheory : public Observable {
   }
 
   bool reads_state() const override { return false; }
+  void velocities_set() override { holds_ = false; }
 
   void transfer(Archive& archive) override {
     theory::CoolingCurve::Place place = curve_.place();
-    archive(place);
+    archive(place, holds_);
     if (archive.reads()) curve_.go_to(place);
   }
 
  private:
   theory::CoolingCurve curve_;
   double time_scale_;
+  bool holds_ = true;  ///< as long as the gas is left to itself
 };
 
 }  // namespace

@@ -102,6 +102,9 @@ class Observable {
   virtual bool reads_collisions() const { return false; }
   virtual void collision(const Collision&) {}
 
+  /// A caller has replaced all velocities, which no theory of a gas left to itself describes.
+  virtual void velocities_set() {}
+
   /// Saves or restores what rows depend on besides the snapshot, so that a run that continues from
   /// a checkpoint goes on with the same rows. Most observables remember nothing.
   virtual void transfer(Archive&) {}

@@ -65,6 +65,10 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
   return row_.values();
 }
 
+void Observation::velocities_set() {
+  for (const Member& member : members_) member.observable->velocities_set();
+}
+
 void Observation::transfer(Archive& archive) {
   for (const Member& member : members_) member.observable->transfer(archive);
 }

@@ -23,6 +23,8 @@ class Observation {
   /// groups() and without constants. Valid until the next call.
   std::span<const double> sample(const State& state, const Totals& totals);
   void collision(const Collision& collision);
+  /// A caller has replaced all velocities.
+  void velocities_set();
   /// Saves or restores what the observables remember.
   void transfer(Archive& archive);
 

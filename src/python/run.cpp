@@ -126,13 +126,13 @@ void Run::on_collisions(const py::object& callback, std::size_t batch, const py:
 
 void Run::set_velocities(std::vector<std::array<double, 3>> velocity,
                          std::vector<std::array<double, 3>> angular_velocity) {
-  work([&] { run_->simulation().set_velocities(velocity, angular_velocity); });
+  work([&] { run_->set_velocities(velocity, angular_velocity); });
 }
 
 void Run::save(const std::string& path, bool force) {
   work([&] {
     runs::require_writable(path, force, path, "force=True");
-    runs::write_state(run_->simulation(), run_->scene(), path, force);
+    runs::write_state(run_->simulation(), run_->scene(), run_->data(), path, force);
   });
 }
 

@@ -135,6 +135,12 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
   Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
   const auto text = contents.texts("/parameters/scene");
   out["scene"] = text && text->size() == 1 ? scene_facts(text->front(), path) : Json(nullptr);
+  // When a caller has replaced the velocities, after which the gas does what no theory says.
+  const bool has_changes =
+      contents.has("/velocities_set/time") && contents.shape("/velocities_set/time").at(0) > 0;
+  out["velocities_set"] =
+      has_changes ? number(contents.numbers("/velocities_set/time").front()) : Json(nullptr);
+  if (has_changes && out["scene"].is_object()) out["scene"]["ratio_of_theory"] = nullptr;
   out["groups"] = groups_of(contents, limits, arrays);
   const auto length = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
                                                          : std::vector<double>{1.0};

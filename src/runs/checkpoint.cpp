@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -30,9 +31,16 @@ namespace needlework {
 
 void transfer(Archive& archive, Checkpoint& checkpoint) { archive(checkpoint.bytes); }
 
+void transfer(Archive& archive, UserData& data) {
+  bool json = data.kind == UserData::Kind::json;
+  archive(json, data.bytes);
+  data.kind = json ? UserData::Kind::json : UserData::Kind::bytes;
+}
+
 namespace io {
 void transfer(Archive& archive, Writer::Position& position) {
-  archive(position.frames, position.samples, position.events);
+  archive(position.frames, position.samples, position.events, position.velocities_set,
+          position.data, position.data_bytes);
 }
 }  // namespace io
 
@@ -49,7 +57,7 @@ namespace {
 
 // The first line. Its number is to be changed whenever what is saved changes, here or in any
 // function `transfer`. The version is there because the trajectory may change without that.
-constexpr std::string_view mark = "needlework checkpoint 3 of " NEEDLEWORK_VERSION "\n";
+constexpr std::string_view mark = "needlework checkpoint 4 of " NEEDLEWORK_VERSION "\n";
 
 constexpr std::string_view checkpoint_ending = ".checkpoint";
 
@@ -61,7 +69,9 @@ struct Header {
 
 void transfer(Archive& archive, RunCheckpoint& run) {
   archive(run.scene, run.drawn, run.initial, run.simulation, run.output, run.observation,
-          run.failure);
+          run.velocities_set, run.data, run.failure);
+  archive.require(!run.velocities_set ||
+                  (std::isfinite(*run.velocities_set) && *run.velocities_set >= 0));
 }
 
 InputError damaged(const std::string& path, std::string_view how) {
@@ -178,6 +188,7 @@ std::optional<RunCheckpoint> read_if_present(const std::string& path) {
     transfer(archive, out);
     archive.require_end();
     validate(out.scene);
+    for (const auto& [name, data] : out.data) require_valid_data(name, data);
   } catch (const InputError& error) {
     throw damaged(path, error.what());
   }

@@ -10,6 +10,7 @@
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
 #include "needlework/totals.h"
+#include "needlework/user_data.h"
 
 namespace needlework::runs {
 
@@ -33,6 +34,8 @@ struct RunCheckpoint {
   Checkpoint simulation = {};        ///< the state of the gas; without bytes: that of the scene
   io::Writer::Position output = {};  ///< the rows that the output file had
   std::string observation = {};      ///< what observables and schedules remember
+  std::optional<double> velocities_set = {};  ///< when a caller first replaced all velocities
+  UserDataByName data = {};                   ///< the user's own
   std::optional<RunFailure> failure = {};  ///< of a bundle: how the run failed after this instant
 
   /// The file that it was read from, and its checksum.

@@ -116,6 +116,8 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
     : scene_(std::move(saved.scene)),
       saves_(saves),
       drawn_(saved.drawn),
+      velocities_set_(saved.velocities_set),
+      data_(std::move(saved.data)),
       simulation_(continue_simulation(saved)),
       initial_(saved.initial) {
   require_consistent(saved);
@@ -178,6 +180,15 @@ Simulation PreparedRun::continue_simulation(const RunCheckpoint& saved) {
 
 CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_); }
 
+std::string PreparedRun::why_no_output() const {
+  if (scene_.output.file.empty()) {
+    return "the simulation has no output file: expected output.file in its scene";
+  }
+  if (!writer_) return "the simulation is closed: expected one that can be run";
+  if (cut_off_) return cut_off_by_an_error;
+  return {};
+}
+
 std::string PreparedRun::why_not_saved() const {
   if (scene_.output.file.empty()) {
     return "the simulation has no output file, beside which checkpoints are written: expected "
@@ -187,9 +198,7 @@ std::string PreparedRun::why_not_saved() const {
     return place_of(scene_, "output.checkpoint_every", "0") +
            ": turns checkpoints off: expected a number > 0";
   }
-  if (!writer_) return "the simulation is closed: expected one that can be run";
-  if (cut_off_) return cut_off_by_an_error;
-  return {};
+  return why_no_output();
 }
 
 void PreparedRun::save_checkpoint() { save_checkpoint(CheckpointFiles::Newest::becomes_older); }
@@ -202,11 +211,14 @@ void PreparedRun::save_checkpoint(CheckpointFiles::Newest present) {
                       .drawn = drawn_,
                       .initial = initial_,
                       .simulation = simulation_.checkpoint(),
-                      .output = writer_->position()};
+                      .output = writer_->position(),
+                      .velocities_set = velocities_set_,
+                      .data = data_};
   Archive archive = Archive::to(saved.observation);
   observation_->transfer(archive);
   driver_->transfer(archive);
   checkpoints().write(saved, present);
+  set_since_saved_ = false;
 }
 
 // What a failed run leaves: the message, the needles that it is about, and the name of the bundle,
@@ -236,6 +248,7 @@ void PreparedRun::write_bundle(const RunFailure& failure) {
   } catch (const InputError&) {
   } catch (const IoError&) {
   }
+  if (set_since_saved_) throw IoError("a caller has set velocities since the last checkpoint");
   auto checkpoint = before_failure();
   if (!checkpoint) throw IoError("its start is in no file");
   checkpoint->scene = scene_;
@@ -334,6 +347,38 @@ Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   }
   if (failure) std::rethrow_exception(failure);
   return stop;
+}
+
+void PreparedRun::set_velocities(std::span<const std::array<double, 3>> velocity,
+                                 std::span<const std::array<double, 3>> angular_velocity) {
+  if (cut_off_) throw InvalidStateError(cut_off_by_an_error);
+  // A file that cannot be written must not lack what has been done.
+  if (writer_) writer_->require_writable();
+  const Totals before = simulation_.totals();
+  simulation_.set_velocities(velocity, angular_velocity);
+  if (!velocities_set_) velocities_set_ = before.time;
+  set_since_saved_ = true;
+  const bool closed = !output_file_.empty() && !writer_;
+  if (!closed) driver_->velocities_set(before, simulation_.totals());
+}
+
+void PreparedRun::sample(bool frame) {
+  if (const std::string why = why_no_output(); !why.empty()) throw InputError(why);
+  writer_->require_writable();
+  driver_->sample_now(frame);
+}
+
+void PreparedRun::set_data(const std::string& name, std::optional<UserData> data) {
+  require_valid_data(name, data.value_or(UserData{}));
+  const auto found = data_.find(name);
+  const bool same = found == data_.end() ? !data : data && found->second == *data;
+  if (same) return;
+  if (writer_) writer_->write_data(simulation_.totals(), name, data ? &*data : nullptr);
+  if (data) {
+    data_[name] = *std::move(data);
+  } else {
+    data_.erase(found);
+  }
 }
 
 void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback callback) {

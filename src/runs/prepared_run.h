@@ -4,15 +4,18 @@
 #include <sys/types.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstddef>
 #include <exception>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "needlework/h5md.h"
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
+#include "needlework/user_data.h"
 #include "src/observe/observation.h"
 #include "src/runs/checkpoint.h"
 #include "src/runs/collision_batches.h"
@@ -66,9 +69,25 @@ class PreparedRun {
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
   /// of each advance those that are left; see CollisionBatches.
   void on_collisions(std::size_t batch, CollisionBatches::Callback callback);
+  /// Replaces all velocities at the present time; see Simulation::set_velocities(). The output file
+  /// says when, and by how much the energy changed; kinetic theory is left out of it from then on.
+  void set_velocities(std::span<const std::array<double, 3>> velocity,
+                      std::span<const std::array<double, 3>> angular_velocity);
+  /// When that was done for the first time; none: never.
+  std::optional<double> velocities_set() const { return velocities_set_; }
+  /// Adds a sample of the present state to the output file, and a frame if it is wanted, unless
+  /// the file has just got them. Throws IoError; to be called with an open file only.
+  void sample(bool frame);
+  /// Sets a value of the user's own, which checkpoints, and the output file, carry; none: removes
+  /// it. Throws InputError for what cannot be carried, JSON that is none included.
+  void set_data(const std::string& name, std::optional<UserData> data);
+  const UserDataByName& data() const { return data_; }
+
   /// Saves the run beside its output file, if it has one and checkpoints are on, so that it can be
   /// continued from here. Throws IoError.
   void save_checkpoint();
+  /// Why there is no output file to write to, and what was expected; empty if there is one.
+  std::string why_no_output() const;
   /// Why save_checkpoint() does nothing, and what was expected; empty if it saves.
   std::string why_not_saved() const;
   /// Saves the run, writes the sample and the frame of the end, and closes the file. Then only
@@ -108,6 +127,9 @@ class PreparedRun {
   std::string output_file_;  ///< absolute, as the process may go to another folder
   bool cut_off_ = false;     ///< whether an event was, by an error in the middle of it
   bool drawn_;               ///< whether the initial state was drawn
+  std::optional<double> velocities_set_;
+  bool set_since_saved_ = false;  ///< whether velocities were, since the last checkpoint
+  UserDataByName data_;
   Stopwatch setup_;
   Simulation simulation_;
   Totals initial_;                                   ///< at the start of the run

@@ -75,8 +75,11 @@ void RunDriver::schedule_if_set_in_motion() {
 Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
   const auto start = SteadyClock::now();
   if (!begun_) begin(&monitor);
-  if (samples()) schedule_if_set_in_motion();
-  monitor.begin(course_.initial, course_.samples);
+  if (samples()) {
+    sample_again();
+    schedule_if_set_in_motion();
+  }
+  monitor.begin(course_.initial, course_.samples, course_.theory_holds);
   // A sum over all needles, which short advances that nobody follows can do without.
   pace_.reset();
   if (monitor.is_due(std::numeric_limits<double>::infinity())) {
@@ -101,13 +104,39 @@ Course RunDriver::finish() {
   take_last_totals();
   if (samples()) {
     // The end belongs to the series and to the frames, unless it has just been sampled.
-    const bool series = last_sample_->time != course_.last.time ||
-                        last_sample_->collisions != course_.last.collisions;
-    sample(series, last_frame_ != course_.last.time);
+    sample(!is_sampled(), !has_frame());
   }
   if (output_.writer) flush();
   if (rate_) course_.system_rate = rate_->estimate(course_.last.time);
   return std::move(course_);
+}
+
+void RunDriver::velocities_set(const Totals& before, const Totals& after) {
+  if (output_.writer) output_.writer->write_velocities_set(before, after);
+  if (output_.observation) output_.observation->velocities_set();
+  course_.theory_holds = false;
+  sample_is_old_ = last_sample_.has_value();
+  frame_is_old_ = last_frame_.has_value();
+}
+
+void RunDriver::sample_now(bool frame) {
+  if (failure_) std::rethrow_exception(failure_);
+  if (!begun_) begin(nullptr);
+  sample(!is_sampled(), frame && !has_frame());
+}
+
+bool RunDriver::is_sampled() const {
+  return last_sample_ && !sample_is_old_ && last_sample_->time == simulation_.time() &&
+         last_sample_->collisions == simulation_.collisions();
+}
+
+bool RunDriver::has_frame() const { return !frame_is_old_ && last_frame_ == simulation_.time(); }
+
+// If the velocities of the present state were replaced after it was sampled.
+void RunDriver::sample_again() {
+  const bool series = std::exchange(sample_is_old_, false) && is_sampled();
+  const bool frame = std::exchange(frame_is_old_, false) && has_frame();
+  sample(series, frame);
 }
 
 Course RunDriver::abandon() {
@@ -140,7 +169,8 @@ void RunDriver::begin(RunMonitor* monitor) {
 void RunDriver::transfer(Archive& archive) {
   if (failure_) std::rethrow_exception(failure_);  // what was lost must not count as saved
   bool has_rate = rate_.has_value();
-  archive(begun_, series_, frames_, last_sample_, last_frame_, course_.samples, has_rate);
+  archive(begun_, series_, frames_, last_sample_, last_frame_, sample_is_old_, frame_is_old_,
+          course_.theory_holds, course_.samples, has_rate);
   if (archive.reads()) {
     require_restored(archive);
     rate_.reset();
@@ -216,13 +246,14 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
   if (failure_) std::rethrow_exception(failure_);  // here and in every later call
   if (stop == Stop::wall_time) return std::nullopt;
   if (stop != Stop::time || !to_sample) return stop;
-  sample(series_.next() <= next, frames_.next() <= next);
+  sample(series_.next() <= next && !is_sampled(), frames_.next() <= next && !has_frame());
   series_.pass(next);
   frames_.pass(next);
   return std::nullopt;
 }
 
 void RunDriver::sample(bool series, bool frame) {
+  if (!series && !frame) return;
   const Totals totals = simulation_.totals();
   io::Writer* const writer = output_.writer;
   observe::Observation* const observation = output_.observation;
@@ -236,10 +267,12 @@ void RunDriver::sample(bool series, bool frame) {
       if (writer) writer->write_series(totals, values);
     }
     last_sample_ = totals;
+    sample_is_old_ = false;
   }
   if (frame && writer) {
     writer->write_frame(totals, state);
     last_frame_ = totals.time;
+    frame_is_old_ = false;
     flush();
   }
 }

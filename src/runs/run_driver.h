@@ -30,6 +30,7 @@ struct Course {
   std::string bundle;                  ///< file that `needlework replay` takes then, or empty
   Stopwatch loop;                      ///< time spent in the event loop by this process
   std::uint64_t collisions = 0;        ///< in that time
+  bool theory_holds = true;            ///< as long as no caller has replaced the velocities
   BatchRate::Estimate system_rate;     ///< collisions per time; only in equilibrium
 };
 
@@ -56,6 +57,14 @@ class RunDriver {
   /// count from the start of the run, wall time from this call. Throws what Simulation::advance()
   /// throws, and IoError if the output cannot be written.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
+
+  /// A caller has replaced all velocities, at the present time: the totals before and after. A
+  /// sample or a frame that is due now and has not been taken holds the new velocities; of one that
+  /// has been taken, a second one follows before the next event, or at the end.
+  void velocities_set(const Totals& before, const Totals& after);
+  /// Takes a sample now, and a frame if it is wanted, unless the same state has been sampled.
+  /// Throws IoError.
+  void sample_now(bool frame);
 
   /// Why the last advance ended.
   Stop stop() const { return course_.stop; }
@@ -86,6 +95,9 @@ class RunDriver {
   void require_restored(const Archive& archive) const;
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
+  bool is_sampled() const;
+  bool has_frame() const;
+  void sample_again();
   void take_last_totals();
   void flush();
   void flush_if_due();
@@ -106,6 +118,8 @@ class RunDriver {
   std::optional<Pace> pace_;  ///< of this advance, if someone follows it
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
+  /// Whether velocities have been replaced since the last sample or the last frame.
+  bool sample_is_old_ = false, frame_is_old_ = false;
   SteadyClock::time_point last_flush_ = SteadyClock::now();
   SteadyClock::time_point last_checkpoint_ = SteadyClock::now();
 };

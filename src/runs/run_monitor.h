@@ -28,10 +28,11 @@ class RunMonitor {
  public:
   virtual ~RunMonitor() = default;
 
-  /// The run is about to go on: the totals at its start, and the samples taken so far, which a run
-  /// that is continued brings along.
-  virtual void begin(const Totals& initial, std::span<const Totals> samples) {
-    static_cast<void>(initial), static_cast<void>(samples);
+  /// The run is about to go on: the totals at its start, the samples taken so far, which a run
+  /// that is continued brings along, and whether kinetic theory has something to say of it: not
+  /// once a caller has replaced its velocities.
+  virtual void begin(const Totals& initial, std::span<const Totals> samples, bool theory_holds) {
+    static_cast<void>(initial), static_cast<void>(samples), static_cast<void>(theory_holds);
   }
   /// Whether to show progress now, `elapsed` seconds of wall time into the run; at infinity,
   /// whether it is ever shown.

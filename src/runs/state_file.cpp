@@ -14,8 +14,8 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
           .accuracy = accuracy_name(scene.engine)};
 }
 
-void write_state(const Simulation& simulation, const Scene& scene, const std::string& path,
-                 bool force) {
+void write_state(const Simulation& simulation, const Scene& scene, const UserDataByName& data,
+                 const std::string& path, bool force) {
   Scene without_events = scene;
   without_events.output.events = false;
   io::AtomicFile file(path, force);
@@ -24,6 +24,7 @@ void write_state(const Simulation& simulation, const Scene& scene, const std::st
     const Totals totals = simulation.totals();
     writer.write_series(totals);
     writer.write_frame(totals, simulation.copy());
+    for (const auto& [name, value] : data) writer.write_data(totals, name, &value);
     writer.close();
   } catch (const IoError& error) {
     std::string message = error.what();

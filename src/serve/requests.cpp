@@ -231,7 +231,8 @@ Json Requests::state(const Json& request, const Connection&) {
   require_only(request, {"simulation", "file", "force"});
   const runs::PreparedRun& run = run_of(request);
   if (const auto file = text_in(request, "file")) {
-    runs::write_state(run.simulation(), run.scene(), *file, flag_in(request, "force"));
+    runs::write_state(run.simulation(), run.scene(), run.data(), *file,
+                      flag_in(request, "force"));
     return {{"file", *file}};
   }
   const State state = run.simulation().copy();
@@ -253,7 +254,7 @@ Json Requests::velocities(const Json& request, const Connection&) {
   if (!velocity || !angular_velocity) {
     throw RequestError("velocity, angular_velocity: expected both");
   }
-  run.simulation().set_velocities(*velocity, *angular_velocity);
+  run.set_velocities(*velocity, *angular_velocity);
   return summary_of(run);
 }
 

@@ -75,12 +75,15 @@ TEST(WatchedRun, KeepsTwoHundredInstantsADecadeHoweverManyAreShown) {
   EXPECT_LT(run.size(), 900);
 }
 
-TEST(WatchedRun, HasNoTheoryForAStateFromAFileOrAtRest) {
+TEST(WatchedRun, HasNoTheoryForAStateFromAFileOrAtRestOrSetByACaller) {
   Scene from_file = cooling_scene();
   from_file.initial.file = "state.h5";
   WatchedRun run(from_file, totals_at(0, 1, 1, 0));
   run.add(totals_at(1, 1, 1, 1000));
   for (const picture::Panel& panel : run.panels()) EXPECT_EQ(panel.curves.size(), 1);
+  WatchedRun set(cooling_scene(), totals_at(0, 1, 1, 0), false);
+  set.add(totals_at(1, 1, 1, 1000));
+  EXPECT_EQ(set.panels()[0].curves.size(), 1);
   WatchedRun at_rest(cooling_scene(), totals_at(0, 0, 0, 0));
   at_rest.add(totals_at(1, 0, 0, 0));
   EXPECT_EQ(at_rest.panels()[0].curves.size(), 1);

@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 3 of "), mark
+    assert mark.startswith(b"needlework checkpoint 4 of "), mark
     return mark
 
 
@@ -55,9 +55,11 @@ class Fields:
         self.one("drawn", "u8")
         self.totals("initial")
         self.simulation()
-        for name in ("frames", "samples", "events"):
+        for name in ("frames", "samples", "events", "velocities_set", "data", "data_bytes"):
             self.one(f"position.{name}", "u64")
         self.observation()
+        self.optional("velocities_set", self.f64)
+        self.sequence("data", self.user_data)
         self.one("has_failure", "u8")
         assert self.at == len(content), "the checkpoint has another layout than this test knows"
 
@@ -180,6 +182,11 @@ class Fields:
         self.one("at_instant", "u64")
         assert self.at == end
 
+    def user_data(self, name):
+        self.text(f"{name}.name")
+        self.one(f"{name}.json", "u8")
+        self.text(f"{name}.bytes")
+
     def vector(self, name):
         self.several(name, "f64", 3)
 
@@ -203,6 +210,7 @@ class Fields:
         """Of a drawn gas with the observables displacement and collision_statistics."""
         end = self.one("observation.size", "u64") + self.at
         self.several("theory", "f64", 5)
+        self.one("theory.holds", "u8")
         self.several("displacement", "u64", 2)
         self.sequence("reference", self.reference)
         for name in ("arms", "angle", "normal_velocity"):
@@ -215,6 +223,8 @@ class Fields:
         self.schedule("frames")
         self.optional("last_sample", self.totals)
         self.optional("last_frame", self.f64)
+        for name in ("sample_is_old", "frame_is_old", "theory_holds"):
+            self.one(name, "u8")
         self.sequence("course.sample", self.totals)
         self.one("has_rate", "u8")
         assert self.at == end

@@ -163,7 +163,7 @@ TEST_F(CheckpointFile, WithAnyByteChangedIsDamaged) {
 TEST_F(CheckpointFile, OfAnotherVersionIsNamed) {
   files.write(sample(1));
   const std::string whole = bytes(), mark = mark_of(whole);
-  for (const std::string other : {"needlework checkpoint 0", "needlework checkpoint 3 of 0.0.1"}) {
+  for (const std::string other : {"needlework checkpoint 0", "needlework checkpoint 4 of 0.0.1"}) {
     put(other + whole.substr(mark.size()));
     EXPECT_EQ(complaint(),
               files.newest() + ": \"" + other + "\": expected \"" + mark +

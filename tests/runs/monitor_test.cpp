@@ -16,7 +16,7 @@ namespace {
 /// Wants to be shown everything, and stops the run at a number of collisions.
 struct Watcher : RunMonitor {
   explicit Watcher(std::uint64_t limit) : stop_at(limit) {}
-  void begin(const Totals& initial, std::span<const Totals> samples) override {
+  void begin(const Totals& initial, std::span<const Totals> samples, bool) override {
     EXPECT_DOUBLE_EQ(initial.energy, 2.5);
     begun_with.push_back(samples.size());
   }
