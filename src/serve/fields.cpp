@@ -72,6 +72,31 @@ bool flag_in(const Json& request, const char* field) {
   return value->get<bool>();
 }
 
+std::optional<std::vector<std::string>> names_in(const Json& request, const char* field,
+                                                 std::span<const std::string_view> known) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  const auto is_known = [&](const Json& name) {
+    return name.is_string() &&
+           std::ranges::find(known, name.get_ref<const std::string&>()) != known.end();
+  };
+  if (!value->is_array() || value->empty() || !std::ranges::all_of(*value, is_known)) {
+    throw wrong(field, *value, fmt::format("a list of some of {}", fmt::join(known, ", ")));
+  }
+  return value->get<std::vector<std::string>>();
+}
+
+std::optional<std::string> bytes_in(const Json& request, const char* field) {
+  const std::optional<std::string> text = text_in(request, field);
+  if (!text) return std::nullopt;
+  try {
+    const std::vector<std::byte> bytes = bytes_of(*text);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  } catch (const std::invalid_argument& error) {
+    throw RequestError(fmt::format("{} = {}: {}", field, shown(*text), error.what()));
+  }
+}
+
 std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
                                                              const char* field) {
   return rows_in<std::array<double, 3>>(request, field, "three numbers of 8 bytes");

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/serve/requests.h"
@@ -17,6 +19,11 @@ std::optional<double> number_in(const Json& request, const char* field);
 std::optional<std::uint64_t> count_in(const Json& request, const char* field);
 std::optional<std::string> text_in(const Json& request, const char* field);
 bool flag_in(const Json& request, const char* field);
+/// A list of names, each of which is one of those `known`.
+std::optional<std::vector<std::string>> names_in(const Json& request, const char* field,
+                                                 std::span<const std::string_view> known);
+/// Bytes in base64.
+std::optional<std::string> bytes_in(const Json& request, const char* field);
 /// Arrays in base64, one row for each needle.
 std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request,
                                                              const char* field);

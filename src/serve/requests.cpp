@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -12,8 +16,11 @@
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
+#include "src/scene/printable.h"
 #include "src/serve/arrays.h"
+#include "src/serve/collisions.h"
 #include "src/serve/fields.h"
+#include "src/serve/shallow_json.h"
 
 namespace needlework::serve {
 namespace {
@@ -127,9 +134,40 @@ class Monitor : public runs::RunMonitor {
   Json id_;
 };
 
+/// Sends the collisions of an advance to a front end that asks for them, up to `batch` in a line.
+class Stream {
+ public:
+  Stream(runs::PreparedRun& run, const Json& request, const Connection& connection) : run_(run) {
+    const auto batch = count_in(request, "batch");
+    auto fields = names_in(request, "fields", collision_fields());
+    if (!batch) {
+      if (fields) throw RequestError("fields: expected batch, too: how many collisions to send");
+      return;
+    }
+    if (*batch == 0 || *batch > most) {
+      throw RequestError(fmt::format("batch = {}: expected 1 to {}", *batch, most));
+    }
+    if (!fields) fields = usual_collision_fields();
+    const Json id = request.contains("id") ? request["id"] : Json();
+    run_.on_collisions(*batch, [fields = *fields, id, &connection](auto collisions) {
+      Json line{{"id", id}, {"batch", collisions.size()}};
+      line.update(collisions_as_arrays(collisions, fields));
+      connection.notify(line);
+    });
+  }
+  ~Stream() { run_.on_collisions(1, {}); }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+
+ private:
+  static constexpr std::uint64_t most = 1000000;
+  runs::PreparedRun& run_;
+};
+
 Json drive(runs::PreparedRun& run, const Scene::Until& until, const Json& request,
            const Connection& connection) {
   Monitor monitor(request, connection);
+  const Stream stream(run, request, connection);
   Json answer{{"stop", name_of(run.advance(until, monitor))}};
   answer.update(summary_of(run));
   return answer;
@@ -138,11 +176,17 @@ Json drive(runs::PreparedRun& run, const Scene::Until& until, const Json& reques
 }  // namespace
 
 const std::map<std::string, Requests::Handler> Requests::handlers = {
-    {"create", &Requests::create},        {"advance", &Requests::advance},
-    {"run_until", &Requests::run_until},  {"totals", &Requests::totals},
-    {"state", &Requests::state},          {"velocities", &Requests::velocities},
-    {"close", &Requests::close},          {"resume", &Requests::resume},
-    {"checkpoint", &Requests::checkpoint}};
+    {"create", &Requests::create},
+    {"advance", &Requests::advance},
+    {"run_until", &Requests::run_until},
+    {"totals", &Requests::totals},
+    {"state", &Requests::state},
+    {"velocities", &Requests::velocities},
+    {"close", &Requests::close},
+    {"resume", &Requests::resume},
+    {"checkpoint", &Requests::checkpoint},
+    {"sample", &Requests::sample},
+    {"data", &Requests::data}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
   const std::optional<std::string> name = text_in(request, "do");
@@ -204,14 +248,14 @@ Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
 
 Json Requests::advance(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
-                         "energy_ratio", "wall_s", "progress_s"});
+                         "energy_ratio", "wall_s", "progress_s", "batch", "fields"});
   runs::PreparedRun& run = run_of(request);
   return drive(run, counted(limits_in(request), run, runs::from_now), request, connection);
 }
 
 Json Requests::run_until(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
-                         "energy_ratio", "wall_s", "progress_s"});
+                         "energy_ratio", "wall_s", "progress_s", "batch", "fields"});
   runs::PreparedRun& run = run_of(request);
   const runs::Limits limits = limits_in(request);
   const Scene::Until& of_scene = run.scene().until;
@@ -228,22 +272,72 @@ Json Requests::totals(const Json& request, const Connection&) {
 }
 
 Json Requests::state(const Json& request, const Connection&) {
-  require_only(request, {"simulation", "file", "force"});
+  require_only(request, {"simulation", "file", "force", "arrays"});
   const runs::PreparedRun& run = run_of(request);
   if (const auto file = text_in(request, "file")) {
-    runs::write_state(run.simulation(), run.scene(), run.data(), *file,
-                      flag_in(request, "force"));
+    runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
+  static constexpr std::array<std::string_view, 6> arrays{
+      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id"};
+  const auto wanted = names_in(request, "arrays", arrays);
   const State state = run.simulation().copy();
-  return {{"time", run.simulation().time()},
-          {"needles", state.size()},
-          {"position", text_of(state.position)},
-          {"velocity", text_of(state.velocity)},
-          {"orientation", text_of(state.orientation)},
-          {"angular_velocity", text_of(state.angular_velocity)},
-          {"image", text_of(state.image)},
-          {"needle_id", text_of(state.id)}};
+  Json answer{{"time", run.simulation().time()}, {"needles", state.size()}};
+  const auto add = [&](std::string_view name, const auto& rows) {
+    if (wanted && std::ranges::find(*wanted, name) == wanted->end()) return;
+    answer[std::string(name)] = text_of(rows);
+  };
+  add("position", state.position);
+  add("velocity", state.velocity);
+  add("orientation", state.orientation);
+  add("angular_velocity", state.angular_velocity);
+  add("image", state.image);
+  add("needle_id", state.id);
+  return answer;
+}
+
+Json Requests::sample(const Json& request, const Connection&) {
+  require_only(request, {"simulation", "frame"});
+  runs::PreparedRun& run = run_of(request);
+  const bool frame = flag_in(request, "frame");
+  if (const std::string why = run.why_no_output(); !why.empty()) throw RequestError(why);
+  run.sample(frame);
+  return Json::object();
+}
+
+Json Requests::data(const Json& request, const Connection&) {
+  require_only(request, {"simulation", "name", "json", "bytes", "remove"});
+  runs::PreparedRun& run = run_of(request);
+  const auto name = text_in(request, "name");
+  const auto bytes = bytes_in(request, "bytes");
+  const bool json = request.contains("json"), remove = flag_in(request, "remove");
+  if (json + bytes.has_value() + remove > 1) {
+    throw RequestError("json, bytes, remove: expected one of them at most");
+  }
+  const auto shown = [](const UserData& data) -> Json {
+    if (data.kind == UserData::Kind::json) return {{"json", parse_shallow<Json>(data.bytes)}};
+    return {{"bytes", base64_of(std::as_bytes(std::span(data.bytes)))}};
+  };
+  if (!name) {
+    if (json || bytes || remove) throw RequestError("name: expected that of the data");
+    Json all = Json::object();
+    for (const auto& [each, data] : run.data()) all[each] = shown(data);
+    return {{"data", all}};
+  }
+  try {
+    if (json) run.set_data(*name, UserData{UserData::Kind::json, request["json"].dump()});
+    if (bytes) run.set_data(*name, UserData{UserData::Kind::bytes, *bytes});
+    if (remove) run.set_data(*name, std::nullopt);
+  } catch (const InputError& error) {
+    throw RequestError(error.what());
+  }
+  if (json || bytes || remove) return Json::object();
+  const auto found = run.data().find(*name);
+  if (found == run.data().end()) {
+    throw RequestError(fmt::format("name = \"{}\": expected one that has been set",
+                                   printable(*name, longest_data_name)));
+  }
+  return shown(found->second);
 }
 
 Json Requests::velocities(const Json& request, const Connection&) {

@@ -46,6 +46,8 @@ class Requests {
   Json totals(const Json& request, const Connection&);
   Json state(const Json& request, const Connection&);
   Json velocities(const Json& request, const Connection&);
+  Json sample(const Json& request, const Connection&);
+  Json data(const Json& request, const Connection&);
   Json close(const Json& request, const Connection&);
 
   runs::PreparedRun& run_of(const Json& request);

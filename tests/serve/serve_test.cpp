@@ -119,6 +119,106 @@ TEST(Serve, ReplacesVelocities) {
   EXPECT_EQ(answers[2]["stop"], "nothing_can_happen");
 }
 
+// Rows of an array in an answer.
+template <class Row>
+std::vector<Row> rows_in(Json& answer, const char* name) {
+  return rows_of<Row>(answer[name].get<std::string>(), "a row");
+}
+
+TEST(Serve, SendsAllCollisionsWhereTheyAreAskedFor) {
+  auto answers = answers_to(
+      {create(),
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 25}, {"batch", 10}, {"id", "a"}},
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 5}},
+       {{"do", "run_until"},
+        {"simulation", 1},
+        {"collisions", 33},
+        {"batch", 10},
+        {"fields", {"pair", "velocity"}}}});
+  ASSERT_EQ(answers.size(), 8u);
+  std::vector<double> times;
+  for (std::size_t n = 1; n < 4; ++n) {
+    EXPECT_EQ(answers[n]["id"], "a");
+    EXPECT_EQ(answers[n]["batch"], n < 3 ? 10 : 5);
+    for (const double time : rows_in<double>(answers[n], "time")) times.push_back(time);
+    EXPECT_EQ((rows_in<std::array<std::int32_t, 3>>(answers[n], "shift").size()),
+              answers[n]["batch"].get<std::size_t>());
+    EXPECT_EQ(rows_in<std::uint8_t>(answers[n], "tc").size(),
+              answers[n]["batch"].get<std::size_t>());
+    EXPECT_FALSE(answers[n].contains("velocity"));
+  }
+  const Scene scene = parse_scene(scene_text, "scene");
+  Simulation simulation(scene);
+  std::vector<Collision> expected;
+  simulation.on_collision([&](const Collision& collision) { expected.push_back(collision); });
+  simulation.advance(scene.until);
+  ASSERT_EQ(times.size(), 25u);
+  for (std::size_t n = 0; n < 25; ++n) EXPECT_EQ(times[n], expected[n].time);
+  EXPECT_EQ(answers[4]["stop"], "collisions");
+  EXPECT_EQ(answers[5]["collisions"], 30);
+  // The last three, with the states after them.
+  EXPECT_EQ(answers[6].size(), 4u) << answers[6];
+  const auto pairs = rows_in<std::array<std::uint32_t, 2>>(answers[6], "pair");
+  const auto velocities = rows_in<std::array<std::array<double, 3>, 2>>(answers[6], "velocity");
+  ASSERT_EQ(pairs.size(), 3u);
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(pairs[n][1], expected[30 + n].second);
+    EXPECT_EQ(velocities[n][1], expected[30 + n].after[1].velocity);
+  }
+}
+
+TEST(Serve, RefusesBatchesAndFieldsThatMeanNothing) {
+  auto answers = answers_to(
+      {create(),
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"batch", 0}},
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"fields", {"time"}}},
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"batch", 1}, {"fields", "time"}},
+       {{"do", "state"}, {"simulation", 1}, {"arrays", {"positions"}}},
+       {{"do", "totals"}, {"simulation", 1}}});
+  ASSERT_EQ(answers.size(), 6u);
+  for (std::size_t n = 1; n < 5; ++n) EXPECT_EQ(answers[n]["code"], 2) << answers[n];
+  EXPECT_EQ(answers[5]["collisions"], 0);
+}
+
+TEST(Serve, SendsTheArraysOfAStateThatAreChosen) {
+  auto answers =
+      answers_to({create(),
+                  {{"do", "state"}, {"simulation", 1}},
+                  {{"do", "state"}, {"simulation", 1}, {"arrays", {"image", "velocity"}}}});
+  EXPECT_EQ(answers[2]["velocity"], answers[1]["velocity"]);
+  EXPECT_EQ(answers[2]["image"], answers[1]["image"]);
+  EXPECT_EQ(answers[2].size(), 5u) << "ok, time and needles: " << answers[2];
+}
+
+TEST(Serve, CarriesDataOfTheFrontEnd) {
+  const test::TemporaryFolder folder;
+  const std::string output = folder.path() / "run.h5";
+  Json run = create();
+  run["scene"] = scene_text + "[output]\nfile = '" + output + "'\n";
+  const Json notes{{"lid", "open"}, {"n", 3}}, none;
+  auto first = answers_to(
+      {run,
+       {{"do", "data"}, {"simulation", 1}, {"name", "notes"}, {"json", notes}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "none"}, {"json", none}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "bytes"}, {"bytes", "AP8="}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "gone"}, {"json", 1}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "gone"}, {"remove", true}},
+       {{"do", "sample"}, {"simulation", 1}, {"frame", true}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "gone"}},
+       {{"do", "data"}, {"simulation", 1}, {"name", "x"}, {"json", 1}, {"bytes", "AP8="}},
+       {{"do", "close"}, {"simulation", 1}}});
+  for (std::size_t n = 1; n < 7; ++n) EXPECT_EQ(first[n]["ok"], true) << first[n];
+  EXPECT_EQ(first[7]["code"], 2) << first[7];
+  EXPECT_EQ(first[8]["code"], 2) << first[8];
+  auto second = answers_to({{{"do", "resume"}, {"file", output}},
+                            {{"do", "data"}, {"simulation", 1}},
+                            {{"do", "data"}, {"simulation", 1}, {"name", "bytes"}}});
+  const Json expected{
+      {"bytes", {{"bytes", "AP8="}}}, {"none", {{"json", none}}}, {"notes", {{"json", notes}}}};
+  EXPECT_EQ(second[1]["data"], expected) << second[1];
+  EXPECT_EQ(second[2]["bytes"], "AP8=");
+}
+
 TEST(Serve, WritesStatesAndOutput) {
   const test::TemporaryFolder folder;
   const std::string state = folder.path() / "state.h5", output = folder.path() / "run.h5";
