@@ -15,15 +15,15 @@ from . import plot, theory
 from ._core import version as __version__
 from .collisions import COLLISION, COLLISION_WITH_STATES
 from .contacts import FirstContacts, predict
+from .data import Data
 from .errors import Error, InputError, InvalidStateError, IoError
 from .gsd_file import to_gsd
-from .reading import Events, Frame, Frames, Recording, Series, read
+from .reading import Events, Frame, Frames, Recording, Series, VelocitiesSet, read
 from .simulation import Counters, SceneWarning, Simulation, Totals
 from .state import State
 from .values import Table, Values
 
-__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Error", "Events", "FirstContacts",
-           "Frame", "Frames", "InputError", "InvalidStateError", "IoError", "Recording",
-           "SceneWarning", "Series", "Simulation", "State", "Table", "Totals", "Values", "plot",
-           "predict", "read", "theory", "to_gsd", "__version__"]
-
+__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "Error", "Events",
+           "FirstContacts", "Frame", "Frames", "InputError", "InvalidStateError", "IoError",
+           "Recording", "SceneWarning", "Series", "Simulation", "State", "Table", "Totals",
+           "Values", "VelocitiesSet", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

@@ -21,6 +21,24 @@ def numbers(name: str, values: ArrayLike) -> np.ndarray:
         raise InputError(f"{name}: expected an array of numbers: {error}") from None
 
 
+def flags(name: str, values: ArrayLike) -> np.ndarray:
+    """The values as True and False; the numbers 1 and 0 stand for them, too."""
+    if np.ma.is_masked(values):
+        raise InputError(f"{name}: expected an array without masked values")
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise InputError(f"{name}: expected an array of True and False: {error}") from None
+    if array.dtype.kind == "b":
+        return array
+    if array.dtype.kind not in "iufO":
+        raise InputError(f"{name}: {array.dtype}: expected an array of True and False")
+    bad = ~np.asarray((array == 0) | (array == 1), dtype=bool)
+    if bad.any():
+        raise InputError(f"{name} = {array[bad].flat[0]!r}: expected True or False, or 1 or 0")
+    return array.astype(bool)
+
+
 def whole_numbers(name: str, values: ArrayLike, shape: tuple[int, ...], least: int,
                   most: int) -> np.ndarray:
     """The values as whole numbers from least to most, of this shape."""

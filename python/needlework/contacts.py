@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from .arrays import vectors
+from .arrays import flags, numbers, vectors
 from .errors import InputError
 
 
@@ -63,8 +63,11 @@ def predict(r1: ArrayLike, u1: ArrayLike, v1: ArrayLike, w1: ArrayLike,
     """
     named = {"r1": r1, "u1": u1, "v1": v1, "w1": w1, "r2": r2, "u2": u2, "v2": v2, "w2": w2}
     needles = {name: vectors(name, values) for name, values in named.items()}
-    horizon = np.asarray(horizon, dtype=float)
-    skip = np.asarray(skip, dtype=bool)
+    horizon = numbers("horizon", horizon)
+    skip = flags("skip", skip)
+    if not isinstance(accuracy, str):
+        raise InputError(f"accuracy = {accuracy!r}: "
+                         "expected \"fast\", \"standard\" or \"rigorous\"")
     try:
         shape = np.broadcast_shapes(*(values.shape[:-1] for values in needles.values()),
                                     horizon.shape, skip.shape)

@@ -35,7 +35,7 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     """
     import gsd.hoomd
 
-    path = os.fspath(path)
+    path = os.fsdecode(path)
     if os.path.exists(path) and not force:
         raise IoError(f"{path}: exists already: expected a new file, or force=True to replace it")
     if isinstance(source, (str, os.PathLike)):

@@ -34,7 +34,8 @@ def cooling(source: Source, gas: Values | None = None,
     series, gas = _series_and_gas(source, gas)
     axes = axes or _new_axes()
     later, start = series.time > 0, series.energy[0]
-    axes.loglog(series.time[later], _theory(series, gas).energy / start, **_THEORY)
+    times, curve = _theory(series, gas)
+    axes.loglog(times, curve.energy / start, **_THEORY)
     axes.loglog(series.time[later], series.energy[later] / start, **_MEASURED,
                 label=f"{gas.count} needles")
     return _finished(axes, "E / E(0)")
@@ -46,8 +47,8 @@ def temperature_ratio(source: Source, gas: Values | None = None,
     series, gas = _series_and_gas(source, gas)
     axes = axes or _new_axes()
     later = (series.time > 0) & (series.t_rot > 0)
-    curve = _theory(series, gas)
-    axes.loglog(series.time[series.time > 0], curve.t_tr / curve.t_rot, **_THEORY)
+    times, curve = _theory(series, gas)
+    axes.loglog(times, curve.t_tr / curve.t_rot, **_THEORY)
     axes.loglog(series.time[later], series.t_tr[later] / series.t_rot[later], **_MEASURED,
                 label=f"{gas.count} needles")
     return _finished(axes, r"$T_{\rm tr} / T_{\rm rot}$")
@@ -88,13 +89,15 @@ def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values]
     return source.series, source.gas
 
 
-def _theory(series: Series, gas: Values) -> theory.CoolingCurve:
-    """At the times of the series but the first."""
+def _theory(series: Series, gas: Values) -> tuple[np.ndarray, theory.CoolingCurve]:
+    """At the times of the series but 0, as long as the gas was left to itself."""
+    last = gas.get("undisturbed_until", np.inf)
+    times = series.time[(series.time > 0) & (series.time <= last)]
     # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
     # density n L^2 / sqrt(m).
     density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)
-    return theory.cooling(gas.epsilon, gas.k, gas.beta, series.t_rot[0],
-                          theory.tau(series.time[series.time > 0], density), series.t_tr[0])
+    return times, theory.cooling(gas.epsilon, gas.k, gas.beta, series.t_rot[0],
+                                 theory.tau(times, density), series.t_tr[0])
 
 
 def _finished(axes: Axes, label: str) -> Axes:

@@ -18,9 +18,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .collisions import RECORDED_COLLISION
+from .data import value_of
 from .errors import InputError, IoError
 from .state import ARRAYS, State
-from .values import Table, Values, html_table, pandas_table
+from .values import NotPickled, Table, Values, html_table, pandas_table
 
 if TYPE_CHECKING:
     import h5py
@@ -65,8 +66,28 @@ class Series(Table):
                     for name in ("time", *TOTALS)})
 
 
-class Frame:
+class VelocitiesSet(Table):
+    """Where a caller has replaced all velocities, arrays [C], and [C, 2] of what was before and
+    after."""
+
+    time: np.ndarray
+    """Since the start of the run [time]."""
+    collisions: np.ndarray
+    """Number of collisions before."""
+    t_tr: np.ndarray
+    """Translational temperature, [C, 2]."""
+    t_rot: np.ndarray
+    """Rotational temperature, [C, 2]."""
+    energy: np.ndarray
+    """Energy per needle, [C, 2]."""
+    momentum: np.ndarray
+    """Total momentum, [C, 2, 3]."""
+
+
+class Frame(NotPickled):
     """All needles at one instant, in order of id. Arrays are read when they are asked for."""
+
+    _instead = "frame.state, its arrays, or the path of the file"
 
     def __init__(self, needles: h5py.Group, index: int) -> None:
         self._needles = needles
@@ -124,8 +145,10 @@ class Frame:
         return f"<Frame {self._index} at time {self.time:g}, {self.collisions} collisions>"
 
 
-class Frames(Sequence):
+class Frames(NotPickled, Sequence):
     """Frames by index: ``frames[-1]``, ``len(frames)``, ``for frame in frames``."""
+
+    _instead = "the path of the file"
 
     def __init__(self, needles: h5py.Group) -> None:
         self._needles = needles
@@ -150,7 +173,7 @@ class Frames(Sequence):
         return f"<{self._count} Frames>"
 
 
-class Events:
+class Events(NotPickled):
     """Collisions in the order of their times.
 
     ``events[i]`` is one of them and ``events[a:b]`` a structured array, for which nothing else is
@@ -158,6 +181,8 @@ class Events:
     from all of them. The fields are those of Simulation.on_collisions
     without sin_angle and energy_change, which files do not hold.
     """
+
+    _instead = "events[:], the collisions as an array, or the path of the file"
 
     def __init__(self, group: h5py.Group) -> None:
         self._group = group
@@ -194,11 +219,13 @@ class Events:
         return f"<{self._count} Events: {', '.join(self.dtype.names)}>"
 
 
-class Recording:
+class Recording(NotPickled):
     """The file of a run; see read(). It is closed by close(), by ``with``, or when forgotten."""
 
+    _instead = "recording.path, for needlework.read() elsewhere"
+
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = os.fspath(path)
+        self.path = os.fsdecode(path)
         self._file, self._held = _open(self.path)
         if "particles/needles/position/step" not in self._file:
             self._file.close()
@@ -222,6 +249,33 @@ class Recording:
         return Values({field: item["value"][:samples] if hasattr(item, "keys") else item[:]
                        for field, item in group.items()})
 
+    @cached_property
+    def velocities_set(self) -> VelocitiesSet:
+        """Where a caller has replaced all velocities; without rows where none has."""
+        changes = len(self._file["velocities_set/step"]) if self._has("velocities_set") else 0
+        names = ("time", "step", "t_tr", "t_rot", "energy", "momentum")
+        shapes = ((), (), (2,), (2,), (2,), (2, 3))
+        return VelocitiesSet({
+            "collisions" if name == "step" else name:
+            self._file["velocities_set"][name][:changes] if changes else np.empty((0, *shape))
+            for name, shape in zip(names, shapes)})
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The user's own data by name, as Simulation.data had them last."""
+        if not self._has("user_data"):
+            return {}
+        group, found = self._file["user_data"], {}
+        entries = len(group["step"])
+        columns = [group[name][:entries] for name in ("name", "json", "begin", "size")]
+        for name, is_json, begin, size in zip(*columns):
+            name = name.rstrip(b"\0").decode()
+            found.pop(name, None)
+            if size >= 0:
+                value = group["bytes"][begin:begin + size].tobytes()
+                found[name] = value_of(bool(is_json), value)
+        return found
+
     @property
     def frames(self) -> Frames:
         """States of all needles, read one by one."""
@@ -240,14 +294,16 @@ class Recording:
 
     @cached_property
     def gas(self) -> Values:
-        """What theory has to know: count, box, k, epsilon, beta, length and mass."""
+        """What theory has to know: count, box, k, epsilon, beta, length and mass, and
+        undisturbed_until, when a caller first replaced the velocities, or inf."""
         needles = self._group("particles/needles", "needles")
         masses = needles["mass"][:1] if "mass" in needles else ()
         given = self.parameters
         return Values({"count": len(needles["id"]), "box": self.frames[0].box, "k": given.k,
                        "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
-                       "mass": float(masses[0]) if len(masses) else 1.0})
+                       "mass": float(masses[0]) if len(masses) else 1.0,
+                       "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
 
     def close(self) -> None:
         """Closes the file. Arrays that were read stay."""
@@ -259,6 +315,10 @@ class Recording:
 
     def __exit__(self, *exception: object) -> None:
         self.close()
+
+    def _has(self, name: str) -> bool:
+        """Files of older versions have less."""
+        return name in self._group("/", "the root")
 
     def _group(self, name: str, expected: str) -> h5py.Group:
         if not self._file:
@@ -314,7 +374,8 @@ def _datasets(file: h5py.File) -> list[h5py.Dataset]:
     one that was closed is opened again, HDF5 reads again only what has left its cache: a new number
     of rows with an old index of chunks gives rows of zeros. The numbers of complete rows come
     first, even before the others are listed: all else has as many rows by then, or more."""
-    held = [file[name] for name in ("particles/needles/position/step", "series/step", "events/time")
+    held = [file[name] for name in ("particles/needles/position/step", "series/step",
+                                     "velocities_set/step", "user_data/step", "events/time")
             if name in file]
     names: list[str] = []
     file.visit(names.append)

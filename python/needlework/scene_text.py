@@ -24,10 +24,13 @@ def scene_text(scene: SceneLike) -> tuple[str | None, str, bool]:
     if isinstance(scene, Mapping):
         return toml_text(scene), "scene", False
     if isinstance(scene, os.PathLike):
-        return None, os.fspath(scene), True
+        return None, os.fsdecode(scene), True
     if isinstance(scene, str):
         is_text = "\n" in scene or ("=" in scene and not scene.endswith(".toml"))
-        return (scene, "scene", True) if is_text else (None, scene, True)
+        if not is_text:
+            return None, scene, True
+        _require_utf8("text", scene)
+        return scene, "scene", True
     raise InputError(f"scene = {scene!r}: expected a dictionary of sections, TOML text or a path")
 
 
@@ -60,25 +63,39 @@ def _is_list_of_tables(content: Any) -> bool:
 def _key(name: Any) -> str:
     if not isinstance(name, str):
         raise InputError(f"scene: key {name!r}: expected a string")
-    return name if _BARE_KEY.fullmatch(name) else _string(name)
+    return name if _BARE_KEY.fullmatch(name) else _string("key", name)
 
 
-def _string(text: str) -> str:
+def _string(place: str, text: str) -> str:
+    _require_utf8(place, text)
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     return '"' + re.sub(r"[\x00-\x1f\x7f]", lambda c: f"\\u{ord(c[0]):04x}", escaped) + '"'
 
 
+def _require_utf8(place: str, text: str) -> None:
+    try:
+        text.encode()
+    except UnicodeEncodeError:  # such as a name of a file, as os.fsdecode() has it
+        raise InputError(f"scene: {place} = {text!r}: expected text that UTF-8 can hold, as scenes "
+                         "are in UTF-8") from None
+
+
 def _value(place: str, value: Any) -> str:
+    if isinstance(value, np.longdouble):
+        value = float(value)  # of which item() gives a longdouble again
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (int, float)):
-        return repr(value)  # nan and inf read the same in TOML
+    # Of classes that are made from these the value counts, not their own repr.
+    if isinstance(value, int):
+        return int.__repr__(value)
+    if isinstance(value, float):
+        return float.__repr__(value)  # nan and inf read the same in TOML
     if isinstance(value, (str, os.PathLike)):
-        return _string(os.fspath(value))
+        return _string(place, os.fsdecode(value))
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(place, entry) for entry in value) + "]"
     if isinstance(value, Mapping):

@@ -15,11 +15,12 @@ from numpy.typing import ArrayLike
 from . import _core
 from .arrays import rows_of_vectors, whole_numbers
 from .collisions import COLLISION, COLLISION_WITH_STATES
+from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
 from .scene_text import SceneLike, scene_text
 from .state import State
-from .values import Values, html_table
+from .values import NotPickled, Values, html_table
 
 Callback = Callable[[np.ndarray], object]
 
@@ -52,7 +53,7 @@ class Counters(Values):
     on them."""
 
 
-class Simulation:
+class Simulation(NotPickled):
     """A gas of hard needles, simulated collision by collision.
 
     Parameters
@@ -91,6 +92,9 @@ class Simulation:
     """
 
     _callback: Optional[Callback] = None
+    _instead = ("sim.save(path) for a file that initial.file of a scene can name, "
+                "Simulation(scene, **sim.state) for another one, or sim.checkpoint() and "
+                "Simulation.resume(path) for the same run in another process")
 
     def __init__(self, scene: SceneLike, *, position: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
@@ -99,10 +103,11 @@ class Simulation:
         text, name, has_lines = scene_text(scene)
         state = _state({"position": position, "velocity": velocity, "orientation": orientation,
                         "angular_velocity": angular_velocity}, image, id)
-        self._run = _core.Run(text, name, has_lines, state, force)
+        self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
         self._facts = Values(self._run.facts())
+        self._note_velocities_set()
         self._forget()
 
     @classmethod
@@ -119,10 +124,11 @@ class Simulation:
         written.
         """
         self = cls.__new__(cls)
-        self._run = _core.Run.resume(os.fspath(path))
+        self._run = _core.Run.resume(os.fsencode(path))
         for message in self._run.warnings():
             warnings.warn(message, RuntimeWarning, stacklevel=2)
         self._facts = Values(self._run.facts())
+        self._note_velocities_set()
         self._forget()
         return self
 
@@ -217,18 +223,39 @@ class Simulation:
 
         The part of an angular velocity along the director is removed. Counts, the hash and the
         energy that energy_ratio refers to are kept. Costs about as much as a new simulation.
+
+        The output file says when that was and by how much the energy changed
+        (``Recording.velocities_set``), and kinetic theory is left out of it from then on. A sample
+        or a frame that is due at this instant is taken when the run goes on, and holds the new
+        velocities; call sample() before this for one with the old ones.
         """
         count = self._facts.count
         self._forget()
         self._run.set_velocities(rows_of_vectors("velocity", velocity, count),
                                  rows_of_vectors("angular_velocity", angular_velocity, count))
+        self._note_velocities_set()
+
+    def _note_velocities_set(self) -> None:
+        time = self._run.velocities_set()
+        self._undisturbed_until: float = np.inf if time is None else time
+
+    def sample(self, frame: bool = False) -> None:
+        """Adds a sample of the present state to output.file, and a frame if it is wanted, unless
+        the file has just got them. Raises Error without an open file, and IoError."""
+        self._run.sample(bool(frame))
+
+    @property
+    def data(self) -> Data:
+        """Data of your own by name, such as notes or the state of a random number generator, which
+        checkpoints, output.file and the files of save() carry: bytes, or what JSON can hold."""
+        return Data(self._run)
 
     def save(self, path: str | os.PathLike[str], force: bool = False) -> None:
         """Writes the present state to a file, from which ``initial.file`` of a scene starts.
 
         ``force`` replaces an existing file. Raises IoError.
         """
-        self._run.save(os.fspath(path), force)
+        self._run.save(os.fsencode(path), force)
 
     def checkpoint(self) -> None:
         """Saves the simulation beside its output.file, so that resume() continues it from here.
@@ -332,9 +359,11 @@ class Simulation:
 
     @property
     def gas(self) -> Values:
-        """What theory has to know: count, box, k, epsilon, beta, length and mass."""
+        """What theory has to know: count, box, k, epsilon, beta, length and mass, and
+        undisturbed_until, the time of the first set_velocities(), or inf."""
         names = ("count", "box", "k", "epsilon", "beta", "length", "mass")
-        return Values({name: self._facts[name] for name in names})
+        return Values({**{name: self._facts[name] for name in names},
+                       "undisturbed_until": self._undisturbed_until})
 
     @property
     def engine(self) -> Values:
@@ -430,7 +459,7 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
 
 def _number(name: str, value: float | None) -> float | None:
     try:
-        if isinstance(value, (str, bytes, bool)):
+        if isinstance(value, (str, bytes, bool, np.bool_)):
             raise TypeError
         return None if value is None else float(value)
     except (TypeError, ValueError, OverflowError):
@@ -439,9 +468,11 @@ def _number(name: str, value: float | None) -> float | None:
 
 def _whole(name: str, value: float | None) -> int | None:
     """A number such as 1000 or 1e3 as an integer."""
-    if isinstance(value, float) and value.is_integer():
+    if isinstance(value, (float, np.floating)) and float(value).is_integer():
         value = int(value)
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = None if value is None else operator.index(value)
     except TypeError:
         number = -1

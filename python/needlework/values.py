@@ -84,8 +84,19 @@ def flat_columns(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
             flat[name] = column
             continue
         endings = "xyz" if column.shape[1] == 3 else range(1, column.shape[1] + 1)
-        flat |= {f"{name}_{end}": column[:, place] for place, end in enumerate(endings)}
+        flat |= flat_columns({f"{name}_{end}": column[:, place]
+                              for place, end in enumerate(endings)})
     return flat
+
+
+class NotPickled:
+    """What holds an open simulation or an open file, which no copy can share."""
+
+    _instead = ""
+
+    def __reduce_ex__(self, protocol: object) -> None:
+        raise TypeError(f"a {type(self).__name__} cannot be pickled or copied: "
+                        f"expected {self._instead}")
 
 
 def pandas_table(columns: Mapping[str, np.ndarray]) -> pandas.DataFrame:

@@ -69,6 +69,10 @@ void add_run(py::module_& module) {
            [](Run& run, const Rows& velocity, const Rows& angular_velocity) {
              run.set_velocities(vectors(velocity), vectors(angular_velocity));
            })
+      .def("sample", &Run::sample)
+      .def("set_data", &Run::set_data)
+      .def("data", &Run::data)
+      .def("velocities_set", &Run::velocities_set)
       .def("save", &Run::save)
       .def("checkpoint", &Run::checkpoint)
       .def("close", &Run::close)

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "needlework/error.h"
+#include "src/python/interpreter.h"
 
 namespace needlework::python {
 namespace {
@@ -12,7 +13,7 @@ namespace py = pybind11;
 
 void raise(const char* name, const std::exception& error) {
   const py::object type = py::module_::import("needlework.errors").attr(name);
-  PyErr_SetString(type.ptr(), error.what());
+  PyErr_SetObject(type.ptr(), text(error.what()).ptr());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "src/python/monitor.h"
 
+#include "src/python/interpreter.h"
 #include "src/runs/progress_text.h"
 
 namespace needlework::python {
@@ -12,9 +13,9 @@ constexpr double interval = 0.5;
 void Monitor::show(const runs::Progress& progress) {
   next_ = progress.elapsed + interval;
   const std::string line = runs::progress_text(progress);
-  const py::gil_scoped_acquire lock;
+  const LockTaken lock;
   try {
-    show_(line);
+    call(show_, text(line));
   } catch (...) {
     failure_ = std::current_exception();
   }
@@ -22,7 +23,7 @@ void Monitor::show(const runs::Progress& progress) {
 
 bool Monitor::stop_requested() const {
   if (failure_) return true;
-  const py::gil_scoped_acquire lock;
+  const LockTaken lock;
   if (PyErr_CheckSignals() == 0) return false;
   failure_ = std::make_exception_ptr(py::error_already_set());
   return true;

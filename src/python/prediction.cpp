@@ -8,6 +8,7 @@
 #include "needlework/error.h"
 #include "needlework/predict.h"
 #include "src/python/arrays.h"
+#include "src/python/interpreter.h"
 #include "src/python/parts.h"
 
 namespace needlework::python {
@@ -64,8 +65,9 @@ py::tuple predict_pairs(Rows r1, Rows u1, Rows v1, Rows w1, Rows r2, Rows u2, Ro
   };
   for (std::size_t begin = 0; begin < count; begin += pairs_at_once) {
     look_at_signals();
-    const py::gil_scoped_release release;
-    for (std::size_t i = begin; i < std::min(begin + pairs_at_once, count); ++i) solve(i);
+    without_lock([&] {
+      for (std::size_t i = begin; i < std::min(begin + pairs_at_once, count); ++i) solve(i);
+    });
   }
   return py::make_tuple(time, s12, s21);
 }

@@ -11,6 +11,7 @@
 #include "src/python/arrays.h"
 #include "src/python/collision_rows.h"
 #include "src/python/errors.h"
+#include "src/python/interpreter.h"
 #include "src/python/monitor.h"
 #include "src/python/scene_source.h"
 #include "src/runs/engine_choice.h"
@@ -27,7 +28,8 @@ namespace {
 /// A Python object that may be forgotten by a thread without the GIL.
 std::shared_ptr<py::object> shared(const py::object& object) {
   return {new py::object(object), [](py::object* pointer) {
-            const py::gil_scoped_acquire lock;
+            if (has_ended_here()) return;  // it is Python's no more
+            const LockTaken lock;
             delete pointer;
           }};
 }
@@ -42,18 +44,21 @@ runs::Limits of_scene(const Scene::Until& until) {
 }  // namespace
 
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
-  const py::gil_scoped_release release;
-  runs::LoadedScene loaded = load_scene(source, std::move(state));
-  runs::require_writable_output(loaded.scene, force, source.text ? "" : source.name, "force=True");
-  warnings_ = runs::all_warnings(loaded);
-  run_.emplace(std::move(loaded), force);
+  without_lock([&] {
+    runs::LoadedScene loaded = load_scene(source, std::move(state));
+    runs::require_writable_output(loaded.scene, force, source.text ? "" : source.name,
+                                  "force=True");
+    warnings_ = runs::all_warnings(loaded);
+    run_.emplace(std::move(loaded), force);
+  });
 }
 
 Run::Run(const std::string& file) {
-  const py::gil_scoped_release release;
-  auto [saved, warning] = runs::load_checkpoint(file);
-  if (!warning.empty()) warnings_ = {warning};
-  run_.emplace(std::move(saved));
+  without_lock([&] {
+    auto [saved, warning] = runs::load_checkpoint(file);
+    if (!warning.empty()) warnings_ = {warning};
+    run_.emplace(std::move(saved));
+  });
 }
 
 // A file that was not closed has all its frames nevertheless; there is no one to hear of errors.
@@ -84,8 +89,7 @@ void Run::work(const std::function<void()>& function) {
     bool& flag_;
   };
   const Busy busy(busy_);
-  const py::gil_scoped_release release;
-  function();
+  without_lock(function);
 }
 
 std::string Run::drive(const Scene::Until& until, const py::object& show) {
@@ -119,14 +123,52 @@ void Run::on_collisions(const py::object& callback, std::size_t batch, const py:
   const auto function = shared(callback);
   const auto row_type = shared(type);
   run_->on_collisions(batch, [function, row_type](std::span<const Collision> collisions) {
-    const py::gil_scoped_acquire lock;
-    (*function)(collision_rows(collisions, py::reinterpret_borrow<py::dtype>(*row_type)));
+    const LockTaken lock;
+    call(*function, collision_rows(collisions, py::reinterpret_borrow<py::dtype>(*row_type)));
   });
 }
 
 void Run::set_velocities(std::vector<std::array<double, 3>> velocity,
                          std::vector<std::array<double, 3>> angular_velocity) {
   work([&] { run_->set_velocities(velocity, angular_velocity); });
+}
+
+void Run::sample(bool frame) {
+  require_idle();
+  require_open();
+  if (const std::string why = run_->why_no_output(); !why.empty()) throw UseError(why);
+  work([&] { run_->sample(frame); });
+}
+
+void Run::set_data(const std::string& name, std::optional<std::string> bytes, bool json) {
+  require_idle();
+  require_open();
+  std::optional<UserData> data;
+  if (bytes) {
+    data = {json ? UserData::Kind::json : UserData::Kind::bytes, *std::move(bytes)};
+  }
+  work([&] { run_->set_data(name, std::move(data)); });
+}
+
+py::dict Run::data() {
+  require_idle();
+  py::dict out;
+  for (const auto& [name, data] : run_->data()) {
+    const py::bytes bytes(data.bytes);
+    out[text(name)] = py::make_tuple(data.kind == UserData::Kind::json, bytes);
+  }
+  return out;
+}
+
+std::optional<double> Run::velocities_set() {
+  require_idle();
+  return run_->velocities_set();
+}
+
+py::list Run::warnings() const {
+  py::list out;
+  for (const std::string& warning : warnings_) out.append(text(warning));
+  return out;
 }
 
 void Run::save(const std::string& path, bool force) {
@@ -185,9 +227,9 @@ py::dict Run::facts() {
   const Simulation& simulation = run_->simulation();
   const Scene::Species species = scene.one_species();
   py::dict out;
-  out["title"] = scene.title;
-  out["text"] = scene.text;
-  out["file"] = scene.output.file;
+  out["title"] = text(scene.title);
+  out["text"] = text(scene.text);
+  out["file"] = text(scene.output.file);
   out["count"] = scene.needles.count;
   out["box"] = Column(3, scene.needles.box.data());
   out["k"] = species.k;

@@ -41,6 +41,14 @@ class Run {
                      const pybind11::dtype& type);
   void set_velocities(std::vector<std::array<double, 3>> velocity,
                       std::vector<std::array<double, 3>> angular_velocity);
+  /// Adds a sample of the present state to the output file, and a frame if it is wanted.
+  void sample(bool frame);
+  /// Sets a value of the user's own, or removes it if there are no bytes.
+  void set_data(const std::string& name, std::optional<std::string> bytes, bool json);
+  /// All of them: pairs of whether it is JSON and its bytes, by name.
+  pybind11::dict data();
+  /// When a caller first replaced all velocities, or None.
+  std::optional<double> velocities_set();
   /// Writes the present state to a file of its own; see write_state().
   void save(const std::string& path, bool force);
   /// Saves the run beside its output file, so that it can be continued from here.
@@ -57,7 +65,7 @@ class Run {
   double time();
   double mean_free_time();
   std::string hash();
-  std::vector<std::string> warnings() const { return warnings_; }
+  pybind11::list warnings() const;
 
  private:
   void require_idle() const;

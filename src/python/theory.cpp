@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/python/arrays.h"
+#include "src/python/interpreter.h"
 #include "src/python/parts.h"
 
 namespace needlework::python {
@@ -34,11 +35,10 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
   const std::span times(taus.data(), static_cast<std::size_t>(taus.size()));
   std::vector<theory::Temperatures> curve;
   std::vector<double> collisions;
-  {
-    const py::gil_scoped_release release;
+  without_lock([&] {
     curve = theory::cooling_curve(gas, initial, times);
     collisions = theory::collisions_per_needle(gas, initial, times);
-  }
+  });
   Column t_tr(taus.size()), t_rot(taus.size());
   for (std::size_t i = 0; i < curve.size(); ++i) {
     t_tr.mutable_data()[i] = curve[i].t_tr;

@@ -79,6 +79,24 @@ class Contacts(unittest.TestCase):
                 predict(*arguments, [1, 2, 3])
         with self.assertRaisesRegex(InputError, 'accuracy = "perfect": expected "fast"'):
             predict(*good, 1, accuracy="perfect")
+        with self.assertRaisesRegex(InputError, "accuracy = 1: expected"):
+            predict(*good, 1, accuracy=1)
+
+    def test_horizons_and_flags_are_what_they_seem(self):
+        pairs = [REST, X, REST, REST, Z, Y, -Z, REST]
+        masked = np.ma.array([1, 1], mask=[False, True])
+        for horizon, message in ((masked, "^horizon: .*masked"), ("ten", "^horizon: expected an array"),
+                                 ([[1], [2, 3]], "^horizon: expected an array of numbers"),
+                                 (1j, "^horizon"), (None, "horizon"), (np.nan, "horizon")):
+            with self.subTest(horizon=horizon), self.assertRaisesRegex(InputError, message):
+                predict(*pairs, horizon)
+        for skip, message in ((masked == 1, "^skip: .*masked"), ("False", "^skip: .*True and False"),
+                              (np.nan, "^skip = .*nan"), (2, "^skip = .*2"), (None, "^skip"),
+                              ([[True], [True, False]], "^skip: "), (b"1", "^skip")):
+            with self.subTest(skip=skip), self.assertRaisesRegex(InputError, message):
+                predict(*pairs, 10, skip=skip)
+        for skip in (False, 0, 0.0, np.float32(0), [False, 0], np.ma.array([0, 1]) == 1):
+            self.assertTrue(np.isfinite(predict(*pairs, 10, skip=skip).time).any())
 
 
 if __name__ == "__main__":

@@ -1,5 +1,8 @@
 """Errors: what is wrong is named as the program names it."""
 
+import copy
+import os
+import pickle
 import tempfile
 import unittest
 import warnings
@@ -102,6 +105,32 @@ class Scenes(unittest.TestCase):
             self.rejects(scene, message, id=id, **whole)
         most = [[2**31 - 1, 1 - 2**31, 0]] * 3
         np.testing.assert_array_equal(Simulation(scene, image=most, **whole).image, most)
+
+    def test_names_that_are_not_utf8_are_names(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for path in (os.path.join(os.fsencode(folder), b"a\xff.toml"),
+                         os.fsdecode(os.path.join(os.fsencode(folder), b"b\xff.toml"))):
+                path = Path(os.fsdecode(path))
+                with self.assertRaisesRegex(IoError, r"\\xff.toml: .*No such file"):
+                    Simulation(path)
+                path.write_text("needles = { count = 5, box = 5 }\nwrong = 1\n")
+                with self.assertRaisesRegex(InputError, r"\\xff.toml: line 2: wrong"):
+                    Simulation(path)
+                path.write_text("needles = { count = 5, box = 5 }\n")
+                state = path.with_suffix(".h5")
+                Simulation(path).save(state)
+                with self.assertRaisesRegex(IoError, r"\udcff.h5: exists"):
+                    Simulation(path).save(os.fsencode(state))
+                with self.assertRaisesRegex(InputError, r"\udcff.h5.checkpoint: missing"):
+                    Simulation.resume(state)
+
+    def test_what_cannot_be_pickled_says_what_to_do(self):
+        sim = Simulation(GAS)
+        for use in (pickle.dumps, copy.copy, copy.deepcopy):
+            with self.assertRaisesRegex(TypeError, r"Simulation cannot be pickled.*sim\.state"):
+                use(sim)
+        for value in (sim.state, sim.totals, sim.gas, sim.counters):
+            self.assertEqual(repr(pickle.loads(pickle.dumps(value))), repr(value))
 
     def test_classes_are_those_of_python_too(self):
         self.assertTrue(issubclass(InputError, (needlework.Error, ValueError)))

@@ -1,12 +1,14 @@
 """Dictionaries become TOML that says the same."""
 
+import enum
+import os
 import tomllib
 import unittest
 from pathlib import Path
 
 import numpy as np
 from needlework import InputError, Simulation
-from needlework.scene_text import toml_text
+from needlework.scene_text import scene_text, toml_text
 
 SCENE = {
     "title": "quotes \" and \\, lines\n, tabs\t, \x01\x7f, µ and 😀",
@@ -30,6 +32,34 @@ class SceneText(unittest.TestCase):
             "needles": {"count": 3, "box": [5, 6, 7]},
             "output": {"events": True, "file": "a/b.h5"},
             "until": {"time": 0.5, "limit": float("inf")}})
+
+    def test_numbers_and_paths_of_all_kinds_are_plain_values(self):
+        class Side(enum.IntEnum):
+            SHORT = 6
+
+        class Named(str, enum.Enum):
+            SEARCH = "all-pairs"
+
+        class Shown(float):
+            def __repr__(self):
+                return "1\n[collisions]"
+
+        class Bytes(os.PathLike):
+            def __fspath__(self):
+                return b"a.h5"
+
+        text = toml_text({"needles": {"count": Side.SHORT, "box": [np.longdouble(6), Shown(7), 8],
+                                      "k": np.float16(0.5)},
+                          "engine": {"search": Named.SEARCH}, "output": {"file": Bytes()}})
+        self.assertEqual(tomllib.loads(text), {
+            "needles": {"count": 6, "box": [6, 7, 8], "k": 0.5},
+            "engine": {"search": "all-pairs"}, "output": {"file": "a.h5"}})
+
+    def test_what_utf8_does_not_have_is_named(self):
+        file = os.fsdecode(b"a\xff.h5")
+        for scene in ({"output": {"file": file}}, f"title = '{file}'\n"):
+            with self.assertRaisesRegex(InputError, r"^scene: .*\\udcff.*expected text that UTF-8"):
+                scene_text(scene)
 
     def test_none_is_left_out(self):
         self.assertEqual(toml_text({"title": None, "until": {"time": None}}), "[until]\n")

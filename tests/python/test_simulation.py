@@ -1,5 +1,6 @@
 """Simulations: limits, states, velocities, and the same trajectory as the program."""
 
+import enum
 import json
 import os
 import subprocess
@@ -91,6 +92,20 @@ class Limits(unittest.TestCase):
         for limit in ("3", True, float("nan")):
             with self.assertRaisesRegex(needlework.InputError, "^time = .*: expected a number >= 0"):
                 Simulation(ELASTIC).run(time=limit)
+
+    def test_limits_are_numbers_of_any_kind(self):
+        class Count(enum.IntEnum):
+            FEW = 30
+
+        sim = Simulation(ELASTIC)
+        for collisions, time in ((Count.FEW, None), (np.float32(60), np.longdouble(1e9)),
+                                 (np.int16(90), np.float32(1e9)), (np.longdouble(120), Count.FEW),
+                                 (1.5e2, 1e9)):
+            sim.run(collisions=collisions, time=time)
+            self.assertEqual(sim.totals.collisions, int(collisions))
+        for wrong in (np.bool_(True), np.float32(0.5), "3", float("inf")):
+            with self.assertRaisesRegex(needlework.InputError, "collisions = .*whole number"):
+                sim.run(collisions=wrong)
 
     def test_limits_of_advance_count_from_now(self):
         sim = Simulation(GAS)
