@@ -1,5 +1,5 @@
-! The C interface of Needlework for Fortran 2008: what most programs need of needlework.h, which
-! says what each function does. A function that is missing here is added in the same way.
+! The C interface of Needlework for Fortran 2018: all functions of needlework.h, which says what each
+! of them does. What is NULL in C is left out here, or c_null_ptr.
 !
 !     gfortran needlework.f90 PROGRAM.f90 $(pkg-config --libs needlework)
 module needlework
@@ -13,6 +13,7 @@ module needlework
                                needlework_stop_energy = 2, needlework_stop_wall_time = 3, &
                                needlework_stop_interrupted = 4, &
                                needlework_stop_nothing_can_happen = 5
+  integer(c_int), parameter :: needlework_data_bytes = 0, needlework_data_json = 1
 
   type, bind(c) :: needlework_error
     integer(c_int) :: code = 0
@@ -49,6 +50,18 @@ module needlework
     real(c_double) :: mean_free_time, epoch_length
   end type
 
+  ! `horizon` is c_loc() of an array, so is `skip` where it is given (of integer(c_int8_t)), and
+  ! `accuracy` that of a text which ends with c_null_char.
+  type, bind(c) :: needlework_pairs
+    integer(c_size_t) :: count = 0
+    type(needlework_vectors) :: r1, u1, v1, w1, r2, u2, v2, w2
+    type(c_ptr) :: horizon = c_null_ptr, skip = c_null_ptr, accuracy = c_null_ptr
+  end type
+
+  type, bind(c) :: needlework_gas
+    real(c_double) :: k = 6, epsilon = 1, beta = -1
+  end type
+
   type, bind(c) :: needlework_state_after
     real(c_double) :: position(3), velocity(3), orientation(3), angular_velocity(3)
   end type
@@ -72,12 +85,31 @@ module needlework
   end interface
 
   interface
+    ! See needlework_text().
+    type(c_ptr) function needlework_version() bind(c)
+      import :: c_ptr
+    end function
+
+    ! `capability` ends with c_null_char.
+    integer(c_int) function needlework_has(capability) bind(c)
+      import :: c_int, c_char
+      character(kind=c_char), intent(in) :: capability(*)
+    end function
+
+    ! `path`, a scene file, ends with c_null_char. The result is a null pointer on failure.
+    type(c_ptr) function needlework_open(path, flags, error) bind(c)
+      import :: c_ptr, c_char, c_int, needlework_error
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out), optional :: error
+    end function
+
     ! `scene` ends with c_null_char. The result is a null pointer on failure.
     type(c_ptr) function needlework_create(scene, flags, error) bind(c)
       import :: c_ptr, c_char, c_int, needlework_error
       character(kind=c_char), intent(in) :: scene(*)
       integer(c_int), value :: flags
-      type(needlework_error), intent(out) :: error
+      type(needlework_error), intent(out), optional :: error
     end function
 
     type(c_ptr) function needlework_create_from(scene, initial, flags, error) bind(c)
@@ -85,7 +117,7 @@ module needlework
       character(kind=c_char), intent(in) :: scene(*)
       type(needlework_initial), intent(in) :: initial
       integer(c_int), value :: flags
-      type(needlework_error), intent(out) :: error
+      type(needlework_error), intent(out), optional :: error
     end function
 
     ! `image` has three numbers for each needle, image(3, N).
@@ -95,14 +127,14 @@ module needlework
       type(needlework_initial), intent(in) :: initial
       integer(c_int32_t), intent(in) :: image(3, *)
       integer(c_int), value :: flags
-      type(needlework_error), intent(out) :: error
+      type(needlework_error), intent(out), optional :: error
     end function
 
     ! `file`, an output file, ends with c_null_char. The result is a null pointer on failure.
     type(c_ptr) function needlework_resume(file, error) bind(c)
       import :: c_ptr, c_char, needlework_error
       character(kind=c_char), intent(in) :: file(*)
-      type(needlework_error), intent(out) :: error
+      type(needlework_error), intent(out), optional :: error
     end function
 
     subroutine needlework_destroy(simulation) bind(c)
@@ -116,18 +148,19 @@ module needlework
       type(c_ptr), value :: simulation
     end function
 
+    ! Without limits, the scene's [until] counts.
     integer(c_int) function needlework_run_until(simulation, limits, stop) bind(c)
       import :: c_ptr, c_int, needlework_limits
       type(c_ptr), value :: simulation
-      type(needlework_limits), intent(in) :: limits
-      integer(c_int), intent(inout) :: stop
+      type(needlework_limits), intent(in), optional :: limits
+      integer(c_int), intent(inout), optional :: stop
     end function
 
     integer(c_int) function needlework_advance(simulation, limits, stop) bind(c)
       import :: c_ptr, c_int, needlework_limits
       type(c_ptr), value :: simulation
       type(needlework_limits), intent(in) :: limits
-      integer(c_int), intent(inout) :: stop
+      integer(c_int), intent(inout), optional :: stop
     end function
 
     subroutine needlework_interrupt(simulation) bind(c)
@@ -159,6 +192,12 @@ module needlework
       type(c_ptr), value :: simulation
     end function
 
+    integer(c_int) function needlework_get_box(simulation, box) bind(c)
+      import :: c_ptr, c_int, c_double
+      type(c_ptr), value :: simulation
+      real(c_double), intent(inout) :: box(3)
+    end function
+
     integer(c_int) function needlework_get_state(simulation, into) bind(c)
       import :: c_ptr, c_int, needlework_state
       type(c_ptr), value :: simulation
@@ -179,6 +218,40 @@ module needlework
       type(needlework_vectors), intent(in) :: velocity, angular_velocity
     end function
 
+    integer(c_int) function needlework_sample(simulation, frame) bind(c)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: simulation
+      integer(c_int), value :: frame
+    end function
+
+    ! `name` ends with c_null_char. `data` is c_loc() of `size` bytes, or c_null_ptr.
+    integer(c_int) function needlework_set_data(simulation, name, kind, data, size) bind(c)
+      import :: c_ptr, c_int, c_char, c_size_t
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int), value :: kind
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: size
+    end function
+
+    integer(c_int) function needlework_get_data(simulation, name, kind, data, capacity, size) &
+        bind(c)
+      import :: c_ptr, c_int, c_char, c_size_t
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int), intent(inout), optional :: kind
+      type(c_ptr), value :: data
+      integer(c_size_t), value :: capacity
+      integer(c_size_t), intent(inout), optional :: size
+    end function
+
+    ! `index` counts from 0; a null pointer behind the last. See needlework_text().
+    type(c_ptr) function needlework_data_name(simulation, index) bind(c)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: index
+    end function
+
     integer(c_int) function needlework_get_totals(simulation, totals) bind(c)
       import :: c_ptr, c_int, needlework_totals
       type(c_ptr), value :: simulation
@@ -191,11 +264,57 @@ module needlework
       character(kind=c_char), intent(inout) :: hash(33)
     end function
 
+    ! `index` counts from 0; a null pointer behind the last. See needlework_text().
+    type(c_ptr) function needlework_counter_name(index) bind(c)
+      import :: c_ptr, c_size_t
+      integer(c_size_t), value :: index
+    end function
+
+    ! `name` ends with c_null_char.
+    integer(c_int) function needlework_get_counter(simulation, name, value) bind(c)
+      import :: c_ptr, c_int, c_char, c_int64_t
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int64_t), intent(inout) :: value
+    end function
+
+    ! `name` ends with c_null_char. See needlework_text().
+    type(c_ptr) function needlework_setting(simulation, name) bind(c)
+      import :: c_ptr, c_char
+      type(c_ptr), value :: simulation
+      character(kind=c_char), intent(in) :: name(*)
+    end function
+
+    integer(c_int) function needlework_predict(pairs, time, s12, s21, error) bind(c)
+      import :: c_int, c_double, needlework_pairs, needlework_error
+      type(needlework_pairs), intent(in) :: pairs
+      real(c_double), intent(inout), optional :: time(*), s12(*), s21(*)
+      type(needlework_error), intent(out), optional :: error
+    end function
+
+    integer(c_int) function needlework_ratio(gas, ratio, error) bind(c)
+      import :: c_int, c_double, needlework_gas, needlework_error
+      type(needlework_gas), intent(in) :: gas
+      real(c_double), intent(inout) :: ratio
+      type(needlework_error), intent(out), optional :: error
+    end function
+
+    integer(c_int) function needlework_cooling(gas, t_tr0, t_rot0, count, tau, t_tr, t_rot, error) &
+        bind(c)
+      import :: c_int, c_double, c_size_t, needlework_gas, needlework_error
+      type(needlework_gas), intent(in) :: gas
+      real(c_double), value :: t_tr0, t_rot0
+      integer(c_size_t), value :: count
+      real(c_double), intent(in) :: tau(*)
+      real(c_double), intent(inout), optional :: t_tr(*), t_rot(*)
+      type(needlework_error), intent(out), optional :: error
+    end function
+
     integer(c_int) function needlework_collision_rate(k, density, t_tr, t_rot, rate, error) bind(c)
       import :: c_int, c_double, needlework_error
       real(c_double), value :: k, density, t_tr, t_rot
       real(c_double), intent(inout) :: rate
-      type(needlework_error), intent(out) :: error
+      type(needlework_error), intent(out), optional :: error
     end function
   end interface
 

@@ -1,5 +1,5 @@
 """Installs the build into a new prefix, compiles programs in C or Fortran there as their users do,
-with pkg-config, and runs them: examples/, the programs that docs/c.md shows, and fortran/images.f90.
+with pkg-config, and runs them: examples/, the programs that docs/c.md shows, and those of tests/consumer/fortran.
 
     pkg_config.py c|fortran BUILD ROOT FLAGS
 
@@ -23,6 +23,21 @@ images of the first needle 8 -8 8
 images of the second needle -2147483647 0 2147483647
 the first needle is now at  1.0000  1.0000  4.0000
 state: needle 1: image = -2147483648: expected a whole number from -2147483647 to 2147483647
+"""
+
+# What fortran/all.f90 prints.
+ALL = """\
+has scalar and nonsense: 10
+box 5.0 6.0 7.0
+stopped by 1
+events counted: T
+counters have names: T
+effects: elastic
+data: 0 3 T
+named bytes
+data: notes = {"a": expected JSON in UTF-8
+first contact 2.0000 0.2500
+theory T  1.0  0.0T
 """
 
 
@@ -95,6 +110,17 @@ def in_fortran(installed, root):
     out = installed.build_and_run(compiler, folder / "needlework.f90",
                                   root / "tests/consumer/fortran/images.f90")
     check("images.f90", out == IMAGES, out + "expected:\n" + IMAGES)
+
+    out = installed.build_and_run(compiler, folder / "needlework.f90",
+                                  root / "tests/consumer/fortran/all.f90")
+    check("all.f90", out == ALL, out + "expected:\n" + ALL)
+
+    # The module has all functions of the header.
+    declared = set(re.findall(r"NEEDLEWORK_API[^;]*?\b(needlework_\w+)\(",
+                              (root / "include/needlework.h").read_text()))
+    missing = declared - set(re.findall(r"(?:function|subroutine) (needlework_\w+)\(",
+                                        (folder / "needlework.f90").read_text()))
+    check("needlework.f90", declared and not missing, f"missing: {sorted(missing)}")
 
 
 def main(language, build, root, flags=""):
