@@ -66,6 +66,13 @@ def main(needlework, readme_program):
         assert "/particles/needles: 1000 particles" in run(needlework, "info", "gas.h5")
         printed = run(readme_program).splitlines()
         assert len(printed) == 5 and printed[-1].startswith("hash "), printed
+        # The library's program says when to end by itself, and what is wrong with a scene.
+        without_end = "\n".join(line for line in gas.splitlines() if "until" not in line)
+        Path(folder, "gas.toml").write_text(without_end)
+        assert run(readme_program).splitlines() == printed
+        Path(folder, "gas.toml").write_text(without_end + "\nwrong = 1\n")
+        refused = subprocess.run([readme_program], cwd=folder, capture_output=True, text=True)
+        assert refused.returncode == 1 and "gas.toml: line" in refused.stderr, refused
 
 
 if __name__ == "__main__":
