@@ -40,6 +40,15 @@ endforeach()
 build_and_run(all_ninja needlework "" -G Ninja -DCMAKE_PREFIX_PATH=${prefix})
 build_and_run(all_default needlework "needlework;core" -DCMAKE_PREFIX_PATH=${prefix})
 
+# A build folder is not an installation, and says what to do.
+foreach(components "" core c)
+  configure(build_folder needlework "${components}" -DCMAKE_PREFIX_PATH=${BUILD})
+  string(REGEX REPLACE "[ \n]+" " " messages "${messages}")
+  if(configured EQUAL 0 OR NOT messages MATCHES "is a build folder.*install first.*--prefix PREFIX")
+    message(FATAL_ERROR "from a build folder: expected an error that says what to do:\n${messages}")
+  endif()
+endforeach()
+
 # The C interface needs the shared library alone, and no compiler of C++.
 function(build_and_run_c name example components)
   set(SOURCE ${SOURCE}/c)
