@@ -25,6 +25,10 @@ struct Checkpoint {
   std::string bytes;
 };
 
+/// Throws InputError where Simulation(scene, initial) would for what the state is: without a search
+/// for events, which takes most of that time.
+void require_simulable(const Scene& scene, const State& initial);
+
 /// A running simulation. It computes in the default floating-point environment, whatever the caller
 /// has chosen for itself; callbacks find that, too. Only one thread at a time may use a simulation,
 /// except for interrupt(); any number of simulations may exist side by side.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "needlework/simulation.h"
 #include "src/cli/check_report.h"
 #include "src/cli/messages.h"
 #include "src/cli/scene_arguments.h"
@@ -18,6 +19,7 @@ int run(const CheckArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   runs::require_writable_output(loaded.scene, true, arguments.scene.path);
   runs::require_reachable_end(loaded.scene);
+  if (loaded.initial) require_simulable(loaded.scene, *loaded.initial);
   const runs::Explanation explanation(loaded);
   for (const std::string& warning : explanation.warnings) print_warning(warning);
   fmt::print("{}", arguments.json ? json_of(explanation) + '\n' : text_of(explanation));

@@ -175,11 +175,18 @@ void EventProcessor<S, M>::collide(const Event& event) {
   report.energy_change = impact.energy_change;
   report.contact_time_rule = elastic;
 
-  const Shift wraps_a = replace_record(
-      a, [&] { return model_.renew(a, now(), contact.u_first, impact.v_first, impact.w_first); });
-  const Shift wraps_b = replace_record(b, [&] {
-    return model_.renew(b, now(), contact.u_second, impact.v_second, impact.w_second);
-  });
+  Shift wraps_a, wraps_b;
+  try {
+    wraps_a = replace_record(
+        a, [&] { return model_.renew(a, now(), contact.u_first, impact.v_first, impact.w_first); });
+    wraps_b = replace_record(b, [&] {
+      return model_.renew(b, now(), contact.u_second, impact.v_second, impact.w_second);
+    });
+  } catch (const InvalidStateError&) {
+    predictor_.put_back();
+    --tally_.at_instant;
+    throw;
+  }
   if constexpr (M::effects.contact_time) run_.last_collision[a] = run_.last_collision[b] = now();
   const Shift shift = event.shift + wraps_b - wraps_a;
   const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};

@@ -40,6 +40,7 @@ std::optional<Stop> Limits::reached_without_events(Run& run) const {
   if (time < run.now) return Stop::time;
   if (!run.nothing_can_happen()) return std::nullopt;
   if (time == Time::never()) return Stop::nothing_can_happen;
+  run.require_images(time);
   run.now = time;
   return Stop::time;
 }

@@ -31,6 +31,14 @@ class PairPredictor {
     ReplacedRecords::Entry& entry = replaced_.add(i, gas_.records[i]);
     return entry.wraps = renew();
   }
+  /// Undoes what replace() has done at this event.
+  [[gnu::cold]] void put_back() {
+    for (const ReplacedRecords::Entry& entry : replaced_) {
+      gas_.records[entry.needle] = entry.record;
+      gas_.images[entry.needle] = gas_.images[entry.needle] - entry.wraps;
+    }
+    replaced_.clear();
+  }
   /// Hands over the old records when a caller has just replaced some. They determine on which side
   /// of each other two needles are that touch.
   void take(ReplacedRecords replaced) { replaced_ = std::move(replaced); }

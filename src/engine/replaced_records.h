@@ -19,6 +19,8 @@ class ReplacedRecords {
     Shift wraps{};  ///< number of boxes by which the new record's centre was wrapped
   };
 
+  auto begin() const { return entries_.begin(); }
+  auto end() const { return entries_.end(); }
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
   /// If more than two are added, needles must be in ascending order.

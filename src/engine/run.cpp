@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -18,6 +17,7 @@
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/derived_numbers.h"
 
 namespace needlework {
 namespace {
@@ -30,16 +30,6 @@ void check_size(std::size_t actual, std::size_t expected, const char* what) {
                    ": expected " + std::to_string(expected));
 }
 
-// Of a gas with more, the kernels could not square and add velocities.
-constexpr double largest_energy = std::numeric_limits<double>::max() * 0x1p-16;
-
-void require_energy(const char* what, double energy) {
-  if (energy <= largest_energy) return;
-  throw InputError(
-      fmt::format("{}: an energy of {:.3g}: expected at most {:.3g}, in the units of the engine",
-                  what, energy, largest_energy));
-}
-
 [[noreturn]] void refuse_vector(const Vec3d& a, const char* what, Id id, const char* expected) {
   throw InputError(fmt::format("state: needle {}: {} = ({}, {}, {}): expected {}", id.value, what,
                                a.x, a.y, a.z, expected));
@@ -49,15 +39,27 @@ void check_vector(const Vec3d& a, const char* what, Id id) {
   if (!is_finite(a)) refuse_vector(a, what, id, "finite numbers");
 }
 
-// The numbers that add_boxes() counts to.
-void check_image(const Shift& image, Id id) {
-  constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
-  for (const std::int32_t boxes : image) {
-    if (boxes >= -most) continue;
-    throw InputError(
-        fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}", id.value,
-                    boxes, -most, most));
+// The numbers that records count to, also once the centre is wrapped into the box.
+void check_image(const Gas& gas, Needle i) {
+  const Vec3d& r = gas.records[i].flight.r;
+  const double place[3] = {r.x, r.y, r.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t image = gas.images[i][axis];
+    if (image < -most_boxes || image > most_boxes) {
+      throw InputError(
+          fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}",
+                      gas.ids[i].value, image, -most_boxes, most_boxes));
+    }
+    const double boxes = wrap(place[axis], gas.box[axis]).boxes;
+    if (std::abs(image + boxes) <= most_boxes) continue;
+    throw InputError(fmt::format(
+        "state: needle {}: position {} in a box of {}, with image {}: expected it within {} boxes",
+        gas.ids[i].value, place[axis], gas.box[axis], image, most_boxes));
   }
+}
+
+bool is_at_rest(const Record& record) {
+  return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
 }
 
 Species species_of(const Scene& scene) {
@@ -96,12 +98,17 @@ Gas make_gas(const Scene& scene, const State& initial) {
   check_size(initial.angular_velocity.size(), count, "angular velocity");
   if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
+  const double length = species_of(scene).length;
   for (const double edge : initial.box) {
-    const double least = least_edge(species_of(scene).length);
-    if (!(edge >= least && edge <= largest_edge)) {
+    if (!(edge >= least_edge(length) && edge <= largest_edge(length))) {
       throw InputError(fmt::format("state: box edge {}: expected from {:.10g} to {:.10g}", edge,
-                                   least, largest_edge));
+                                   least_edge(length), largest_edge(length)));
     }
+  }
+  if (is_too_sparse(initial.box, static_cast<double>(count), length)) {
+    throw InputError(fmt::format("state: box edges {}, {}, {} for {} needles: expected {}",
+                                 initial.box[0], initial.box[1], initial.box[2], count,
+                                 not_too_sparse));
   }
   Gas gas;
   gas.box = initial.box;
@@ -128,11 +135,9 @@ Gas make_gas(const Scene& scene, const State& initial) {
       throw InputError("state: id " + std::to_string(gas.ids[i].value) +
                        " twice: expected distinct ids");
     }
-    if (!initial.image.empty()) {
-      gas.images[i] = initial.image[from];
-      check_image(gas.images[i], gas.ids[i]);
-    }
+    if (!initial.image.empty()) gas.images[i] = initial.image[from];
     check_vector(flight.r, "position", gas.ids[i]);
+    check_image(gas, Needle(i));
     check_vector(flight.v, "velocity", gas.ids[i]);
     check_vector(flight.u, "orientation", gas.ids[i]);
     check_vector(flight.w, "angular velocity", gas.ids[i]);
@@ -154,8 +159,9 @@ Run::Run(const Scene& scene)
 
 Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   gas = std::move(initial);
+  if (const auto reason = out_of_range(numbers()); !reason.empty())
+    throw InputError("state: " + reason);
   open_window();
-  require_energy("state", energy());
   gas.clock = Clock(mean_free_time);
   for (Needle i{0}; i < gas.size(); ++i) {
     const kernels::Flight flight = gas.records[i].flight;
@@ -226,11 +232,40 @@ void Run::report(Collision& collision, Needle a, Needle b, CollisionReports* lat
   }
 }
 
-void Run::require_followable(double v2, double w2) const {
+GasNumbers Run::numbers_with(double v2, double w2, bool moves) const {
+  const Species& species = gas.species.front();
+  return {.count = static_cast<double>(gas.size()),
+          .length = species.length,
+          .mass = species.mass,
+          .k = species.k,
+          .v2 = v2,
+          .w2 = w2,
+          .moves = moves};
+}
+
+GasNumbers Run::numbers() const {
+  const auto [v2, w2] = sums_of_squares();
+  return numbers_with(v2, w2, !std::all_of(gas.records.begin(), gas.records.end(), is_at_rest));
+}
+
+void Run::require_images(Time at) const {
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    const Vec3d centre = centre_after(record.flight, gas.clock.difference(at, record.time));
+    const double place[3] = {centre.x, centre.y, centre.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      add_boxes(gas.images[i][axis], wrap(place[axis], gas.box[axis]).boxes, gas.ids[i]);
+    }
+  }
+}
+
+void Run::require_followable(double v2, double w2, bool moves) const {
   if (gas.size() == 0) return;
+  if (const auto reason = out_of_range(numbers_with(v2, w2, moves)); !reason.empty())
+    throw InputError("set_velocities: " + reason);
+  require_images(now);
   Totals sums;
   set_energies(v2, w2, sums);
-  require_energy("set_velocities", sums.energy * static_cast<double>(gas.size()));
   const double between = mean_free_time_of(gas, sums), least = 0x1p10 * gas.clock.resolution();
   if (between < least) {
     throw InputError(fmt::format(
@@ -270,11 +305,15 @@ Stop Run::end_of_events() const {
       gas.clock.since_start(now), gas.clock.since_start(Time::never()), gas.clock.epoch_length()));
 }
 
-void Run::sum_energies(Totals& out) const {
-  if (gas.size() == 0) return;
-  const auto [v2, w2] = exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
+std::array<double, 2> Run::sums_of_squares() const {
+  return exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
     return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
   });
+}
+
+void Run::sum_energies(Totals& out) const {
+  if (gas.size() == 0) return;
+  const auto [v2, w2] = sums_of_squares();
   set_energies(v2, w2, out);
 }
 
@@ -329,7 +368,7 @@ void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) c
       for (int axis = 0; axis < 3; ++axis) {
         const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
         r[axis] = wrapped.place;
-        image[axis] = add_boxes(image[axis], wrapped.boxes, gas.ids[i]);
+        image[axis] += static_cast<std::int32_t>(wrapped.boxes);  // see most_boxes
       }
       const bool just_now = columns[C::elapsed][n] == 0;
       const std::size_t row = begin + n;

@@ -16,6 +16,7 @@
 #include "src/physics/collision.h"
 #include "src/physics/effects.h"
 #include "src/physics/gas.h"
+#include "src/scene/derived_numbers.h"
 
 namespace needlework {
 
@@ -83,10 +84,13 @@ class Run {
   /// `later`. Kept out of the event loops, whose code it would enlarge.
   void report(Collision& collision, Needle a, Needle b, CollisionReports* later) const;
 
-  /// Throws InputError, "set_velocities: ...", if velocities with these sums of squares, of which
-  /// parts along the directors may be too much, have no energy in double, or if needles would
-  /// collide at times that the clock of this run does not tell apart.
-  void require_followable(double v2, double w2) const;
+  /// Throws InputError, "set_velocities: ...", if searches cannot follow velocities with these sums
+  /// of squares, of which parts along the directors may be too much, or if needles would collide at
+  /// times that the clock of this run does not tell apart; and as require_images(now) does.
+  void require_followable(double v2, double w2, bool moves) const;
+  /// Throws InvalidStateError if needles that fly freely until then have crossed more boxes than
+  /// are counted.
+  void require_images(Time at) const;
   /// Replaces the velocities of all needles at the present time and opens a new window. The event
   /// loop must be made again afterwards. `velocity(i)` and `angular_velocity(i)` are indexed by
   /// place in storage. Returns the previous records.
@@ -120,6 +124,10 @@ class Run {
   explicit Run(const Scene& scene);
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;
+  GasNumbers numbers_with(double v2, double w2, bool moves) const;
+  GasNumbers numbers() const;
+  /// Of all v and w.
+  std::array<double, 2> sums_of_squares() const;
   /// Computes temperatures and energy.
   void sum_energies(Totals& out) const;
   void set_energies(double v2, double w2, Totals& out) const;

@@ -35,9 +35,6 @@ void transfer(Archive& archive, Flight& flight) {
 
 namespace {
 
-// The square enters the energy.
-bool square_is_finite(const Vec3d& a) { return std::isfinite(dot(a, a)); }
-
 void require(bool condition) {
   if (!condition) Archive::throw_damaged();
 }
@@ -56,7 +53,7 @@ bool is_time(const Clock& clock, Time time) {
 }
 
 void require_flight(const kernels::Flight& f) {
-  require(is_finite(f.r) && square_is_finite(f.v) && is_finite(f.u) && square_is_finite(f.w));
+  require(is_finite(f.r) && is_finite(f.v) && is_finite(f.u) && is_finite(f.w));
   require(std::abs(dot(f.u, f.u) - 1) < 1e-6);
   const double largest = std::max({std::abs(f.w.x), std::abs(f.w.y), std::abs(f.w.z)});
   require(std::abs(dot(f.u, f.w)) <= 1e-6 * largest + 1e-300);
@@ -107,6 +104,8 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   const kernels::Flight& f = record.flight;
   require_flight(f);
   require(record.species < gas.species.size());
+  for (const std::int32_t boxes : gas.images[i])
+    require(boxes >= -most_boxes && boxes <= most_boxes);
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
   record.renewal = renewal_time(gas.clock, record, gas.species_of(record).length);
   require(touches.size() <= most_touches);
@@ -139,9 +138,22 @@ void Run::require_consistent() const {
     const auto is_to_come = [&](Time time) { return time >= now; };
     require(std::ranges::all_of(gas.records, is_to_come, &Record::renewal));
   }
+  // Files hold the images of needles in flight.
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    const Vec3d centre = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const double places[3] = {centre.x, centre.y, centre.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double most = std::numeric_limits<std::int32_t>::max();
+      require(std::abs(gas.images[i][axis] + wrap(places[axis], gas.box[axis]).boxes) <= most);
+    }
+  }
+  GasNumbers present = numbers();
+  present.has_cooled = true;
+  require(out_of_range(present).empty());
   Totals sums;
-  sum_energies(sums);
-  const double sum = sums.energy * static_cast<double>(gas.size());
+  set_energies(present.v2, present.w2, sums);
+  const double sum = gas.size() == 0 ? 0 : sums.energy * static_cast<double>(gas.size());
   require(std::abs(sum - energy()) <= 1e-6 * energy_at_window_);
 }
 

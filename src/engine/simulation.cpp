@@ -121,7 +121,12 @@ struct Simulation::Implementation {
                       std::span<const std::array<double, 3>> angular_velocity) {
     const double v2 = checked_sum_of_squares(velocity, run.gas.size(), "velocity");
     const double w2 = checked_sum_of_squares(angular_velocity, run.gas.size(), "angular velocity");
-    run.require_followable(v2, w2);
+    const auto moves = [](const std::array<double, 3>& row) {
+      return row != std::array<double, 3>{};
+    };
+    run.require_followable(
+        v2, w2,
+        std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
     const std::vector<Needle> ranks = ranks_of(by_id());
     loop.reset();  // all of its contents depend on the velocities
     replaced =
@@ -156,6 +161,12 @@ struct Simulation::Implementation {
   std::string search, calendar;
   kernels::Isa isa;
 };
+
+void require_simulable(const Scene& scene, const State& initial) {
+  const kernels::DefaultArithmetic arithmetic;
+  require_simulable(scene);
+  const Run run(scene, make_gas(scene, initial));
+}
 
 Simulation::Simulation(const Scene& scene) {
   if (!scene.initial.file.empty()) {

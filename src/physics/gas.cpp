@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -113,13 +112,13 @@ Wrapped wrap(double x, double box) {
 }
 
 std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
-  constexpr double most = std::numeric_limits<std::int32_t>::max();
   const double sum = image + boxes;
-  if (std::abs(sum) <= most) return static_cast<std::int32_t>(sum);
-  throw UnfinishedEventError("needle " + std::to_string(id.value) +
-                                 " has crossed more than 2^31 - 1 boxes along one axis: expected "
-                                 "an earlier end of the run, or a larger box",
-                             {{id.value, id.value}});
+  if (std::abs(sum) <= most_boxes) return static_cast<std::int32_t>(sum);
+  throw InvalidStateError("needle " + std::to_string(id.value) + " crosses more than " +
+                              std::to_string(most_boxes) +
+                              " boxes along one axis, the most that are counted: expected an "
+                              "earlier end of the run, or a larger box",
+                          {{id.value, id.value}});
 }
 
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {

@@ -61,8 +61,11 @@ struct Wrapped {
   double boxes;
 };
 Wrapped wrap(double x, double box);
+/// Most boxes by which the centre of a record has been wrapped along an axis. Files hold up to
+/// 2^31 - 1, and until its record is renewed a needle crosses no more than 2^11.
+inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
 /// The number of boxes that a needle has crossed along an axis, with those just subtracted. Throws
-/// UnfinishedEventError if it is beyond 2^31 - 1, the most that files hold.
+/// InvalidStateError beyond `most_boxes`.
 std::int32_t add_boxes(std::int32_t image, double boxes, Id id);
 
 /// The start of a new record. Its position follows from the free flight of the old one.
@@ -75,7 +78,8 @@ struct NewFlight {
 
 /// Replaces the record of needle i at `now`: the centre moves to where its free flight has led and
 /// is wrapped into the box, the director is normalised, w is made normal to it, and touches are
-/// forgotten. Returns the number of boxes by which the centre was wrapped.
+/// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
+/// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight);
 
 }  // namespace needlework

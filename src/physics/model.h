@@ -35,7 +35,9 @@ namespace needlework {
 ///     and angular velocity; `renew_in_flight` by the state to which its present flight has led.
 ///     Both add to the needle's entry in Gas::images the number of boxes by which its centre was
 ///     wrapped, return that number, and change nothing else.
-/// Members throw nothing. Several threads may use one model for different needles.
+/// `renew` and `renew_in_flight` throw InvalidStateError, and change nothing, if a needle crosses
+/// more boxes than are counted; other members throw nothing. Several threads may use one model for
+/// different needles.
 template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,
                          Time now, const DoubleDouble& elapsed, double time,

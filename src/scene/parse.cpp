@@ -13,6 +13,7 @@
 
 #include "needlework/error.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/derived_numbers.h"
 #include "src/scene/document.h"
 #include "src/scene/overridden_scene.h"
 #include "src/scene/printable.h"
@@ -149,13 +150,23 @@ void require_what_is_needed(const Scene& scene, const Document& document,
 
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
   const double length = scene.species.empty() ? 1 : scene.species.front().length;
-  const double least = least_edge(length);
-  const auto& edges = scene.needles.box;
-  if (std::all_of(edges.begin(), edges.end(), [&](double edge) { return edge >= least; })) return;
+  if (has_room(scene.needles.box, length)) return;
   throw document.error(
-      box, length == 1
-               ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
-               : fmt::format("expected edges of at least {:.10g} (2.01 needle lengths)", least));
+      box, length == 1 ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
+                       : "expected " + expected_room(scene.needles.box, length));
+}
+
+// For a state that is drawn: what follows from its numbers.
+void require_followable(const Scene& scene, std::string_view name) {
+  const Scene::Species species = scene.one_species();
+  if (is_too_sparse(scene.needles.box, static_cast<double>(species.count), species.length)) {
+    throw InputError(
+        fmt::format("{}: expected {}", scene.places.at("needles.box"), not_too_sparse));
+  }
+  const std::string reason = out_of_range(numbers_of_drawn(scene));
+  if (reason.empty()) return;
+  throw InputError(
+      fmt::format("{}: its needles and temperatures give {}", printable(name), reason));
 }
 
 // As --set gives them.
@@ -214,6 +225,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   if (given.contains("needles.box")) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
   adopt_species(scene);
+  if (!provided.state && scene.initial.file.empty()) require_followable(scene, name);
   scene.text = annotated(text, overrides);
   return scene;
 }

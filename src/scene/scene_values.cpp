@@ -12,6 +12,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/derived_numbers.h"
 #include "src/scene/printable.h"
 #include "src/scene/scene_members.h"
 #include "src/scene/schema.h"
@@ -110,10 +111,10 @@ void require_one_contact_time(const Scene::Collisions& collisions) {
 }
 
 void require_room(const Scene& scene) {
-  const double least = least_edge(scene.one_species().length);
-  if (std::ranges::any_of(scene.needles.box, [&](double edge) { return edge < least; }))
+  const double length = scene.one_species().length;
+  if (!has_room(scene.needles.box, length))
     refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))),
-           fmt::format("edges of at least {:.10g} (2.01 needle lengths)", least));
+           expected_room(scene.needles.box, length));
 }
 
 }  // namespace
@@ -141,6 +142,11 @@ void require_drawable(const Scene& scene) {
     return section == "initial" && key != "file" && scene.species.empty();
   });
   require_room(scene);
+  const Scene::Species species = scene.one_species();
+  if (is_too_sparse(scene.needles.box, static_cast<double>(species.count), species.length))
+    refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))), not_too_sparse);
+  if (const std::string reason = out_of_range(numbers_of_drawn(scene)); !reason.empty())
+    throw InputError("the scene: its needles and temperatures give " + reason);
 }
 
 void require_valid(const Scene& scene) {

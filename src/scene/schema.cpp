@@ -99,7 +99,7 @@ std::string_view calendars_to_choose() {
 }
 
 std::optional<double> box_edge(const Value& value) {
-  return number(value, shortest_edge, largest_edge);
+  return number(value, shortest_edge, largest_edge(1));
 }
 
 std::optional<std::array<double, 3>> box(const Value& value) {

@@ -194,8 +194,8 @@ TEST_F(CArraysRefused, ForAnImageWithoutAnOpposite) {
   const CSimulation simulation(rule, arrays_.initial(5), arrays_.image);
   EXPECT_EQ(simulation.error.code, NEEDLEWORK_INPUT);
   EXPECT_STREQ(simulation.error.message,
-               "state: needle 7: image = -2147483648: expected a whole number from -2147483647 to "
-               "2147483647");
+               "state: needle 7: image = -2147483648: expected a whole number from -2147481599 to "
+               "2147481599");
 }
 
 TEST_F(CArraysRefused, ForNumbersThatAreNone) {

@@ -1,6 +1,8 @@
 // What `needlework check` and `needlework info` print.
 #include <string>
 
+#include "needlework/h5md.h"
+#include "needlework/initial_state.h"
 #include "needlework/theory.h"
 #include "tests/cli/program.h"
 
@@ -89,6 +91,31 @@ TEST_F(CheckCommand, RefusesWhatRunRefuses) {
         "needlework: never.toml: line 2: until.energy_ratio = 0.5: is never met, as collisions "
         "keep the energy: expected another end, or collisions.epsilon < 1\n");
   }
+}
+
+TEST_F(CheckCommand, RefusesAStateThatRunRefuses) {
+  Scene scene;
+  scene.needles.count = 2;
+  scene.needles.box = {5, 5, 5};
+  State state = draw_initial_state(scene);
+  state.id = {0, 1};
+  const auto refused = [&](const char* command) {
+    io::Writer writer(path("state.h5"), true, scene, {.isa = "scalar", .epoch_length = 1});
+    writer.write_frame({}, state);
+    writer.close();
+    write("from.toml", "initial.file = 'state.h5'\nuntil.time = 1\n");
+    const Outcome outcome = run(std::string(command) + " from.toml");
+    EXPECT_EQ(outcome.exit_code, 3) << command;
+    return outcome.err;
+  };
+  state.position[1][0] = 1e15;
+  EXPECT_NE(refused("check").find("needle 1: position 1000000000000000 in a box of 5"),
+            std::string::npos);
+  EXPECT_EQ(refused("check"), refused("run"));
+  state.position[1][0] = 1;
+  state.velocity[1][0] = 1e150;
+  EXPECT_NE(refused("check").find("a square of the largest possible speed"), std::string::npos);
+  EXPECT_EQ(refused("check"), refused("run"));
 }
 
 TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {

@@ -236,5 +236,21 @@ TEST_F(ResumeCommand, GoesOnWhenThereIsRoomAgain) {
   EXPECT_EQ(hash_of("resume a.h5"), whole);
 }
 
+// One needle, which nothing stops, crosses more than 2^31 boxes.
+TEST_F(ResumeCommand, ContinuesToAnEarlierEndWhereTooManyBoxesAreCrossed) {
+  write("far.toml",
+        "needles = { count = 1, box = 3 }\nuntil.time = 1e12\noutput.series_per_decade = 1\n"
+        "engine.search = 'all-pairs'\n");
+  const Outcome too_far = run("run far.toml --quiet");
+  EXPECT_EQ(too_far.exit_code, 4);
+  EXPECT_TRUE(too_far.complains("needle 0 crosses more than 2147481599 boxes along one axis"));
+  const Outcome with_file = run("run far.toml --quiet --out far.h5");
+  EXPECT_EQ(with_file.exit_code, 4);
+  EXPECT_EQ(run("info far.h5").exit_code, 0);
+  const Outcome earlier = run("resume far.h5 --quiet --json --set until.time=1.5e9");
+  EXPECT_EQ(earlier.exit_code, 0) << earlier.err;
+  EXPECT_EQ(earlier.json()["time"], 1.5e9);
+}
+
 }  // namespace
 }  // namespace needlework

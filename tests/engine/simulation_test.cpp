@@ -391,8 +391,8 @@ TEST(Simulation, NamesTheNumberOfAStateThatItRefuses) {
             "state: needle 3: orientation = (0, 0, 0): expected one that is not 0");
 }
 
-// Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2e9.
-TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
+// Nothing of it is limited in silence: 2^31 boxes are crossed at the time 2.1e9.
+TEST(Simulation, EndsBeforeImagesDoNotFitTheFile) {
   const Scene scene = test::scene_of(1, 4);
   State state = draw_initial_state(scene);
   state.velocity = {{4, 0, 0}};
@@ -400,8 +400,53 @@ TEST(Simulation, EndsWhereImagesDoNotFitTheFile) {
   Simulation simulation(scene, state);
   simulation.advance(until_time(2e9));
   EXPECT_NEAR(simulation.copy().image[0][0], 2e9, 1);
-  simulation.advance(until_time(2.2e9));
-  EXPECT_THROW(simulation.copy(), InvalidStateError);
+  EXPECT_THROW(simulation.advance(until_time(2.2e9)), InvalidStateError);
+  EXPECT_EQ(simulation.time(), 2e9);
+  EXPECT_EQ(simulation.advance(until_time(2.1e9)), Stop::time) << "an earlier end";
+}
+
+// At a renewal or at the second needle of a collision: the state stays as it was before, and can be
+// saved and continued.
+TEST(Simulation, StaysSoundWhereAnEventCrossesTooManyBoxes) {
+  constexpr std::int32_t most = 0x7fffffff - (1 << 11);
+  for (const int n : {0, 1, 2, 3, 4, 5, 6, 7}) {
+    const int threads = 1 + n % 2;
+    Scene scene = test::scene_of(60, 5, 1 + n);
+    scene.engine.threads = threads;
+    scene.engine.team = "all";
+    State state = draw_initial_state(scene);
+    state.image.resize(state.size());
+    for (std::size_t i = 1; i < state.size(); i += 2) state.image[i].fill(most);
+    Simulation simulation(scene, state);
+    std::string failure;
+    try {
+      simulation.advance(test::until_collisions(1000));
+      FAIL() << "expected an error";
+    } catch (const UnfinishedEventError& error) {
+      FAIL() << error.what();
+    } catch (const InvalidStateError& error) {
+      failure = error.what();
+    }
+    EXPECT_TRUE(failure.ends_with("expected an earlier end of the run, or a larger box"));
+    const double time = simulation.time();
+    const Checkpoint saved = simulation.checkpoint();
+    Simulation again(scene, saved);
+    EXPECT_EQ(again.time(), time);
+    for (Simulation* each : {&simulation, &again}) {
+      try {
+        each->advance(test::until_collisions(1000));
+        ADD_FAILURE() << "expected an error";
+      } catch (const InvalidStateError& error) {
+        EXPECT_EQ(error.what(), failure);
+      }
+      EXPECT_EQ(each->checkpoint().bytes.size(), saved.bytes.size());
+    }
+    // As a run that ends there by itself.
+    Simulation truth(scene, draw_initial_state(scene));
+    truth.advance(until_time(time));
+    EXPECT_EQ(simulation.trajectory_hash(), truth.trajectory_hash());
+    EXPECT_EQ(simulation.copy().position, truth.copy().position);
+  }
 }
 
 void expect_refusal(std::string_view message, const std::function<void()>& make) {

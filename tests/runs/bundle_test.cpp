@@ -1,12 +1,12 @@
-// Runs that fail in the middle of an event: what is left can be continued and replayed.
+// Runs that fail at an event or in the middle of one: what is left can be continued and replayed.
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <limits>
 #include <stdexcept>
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
+#include "src/physics/gas.h"
 #include "src/runs/checkpoint.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/replay.h"
@@ -32,7 +32,7 @@ class Bundle : public testing::Test {
   LoadedScene far_away() const {
     State state = draw_initial_state(scene);
     state.image.resize(state.size());
-    state.image[7].fill(std::numeric_limits<std::int32_t>::max() - 1);
+    state.image[7].fill(most_boxes);
     return complete_scene(scene, state);
   }
 
@@ -41,10 +41,10 @@ class Bundle : public testing::Test {
   Silent monitor;
 };
 
-TEST_F(Bundle, OfAnUnfinishedEventShowsItAgain) {
+TEST_F(Bundle, OfAnEventThatCannotBeShowsItAgain) {
   const Course course = PreparedRun(far_away(), false, "scene").drive(monitor);
   ASSERT_TRUE(course.failure);
-  EXPECT_TRUE(course.failure->starts_with("needle 7 has crossed")) << *course.failure;
+  EXPECT_TRUE(course.failure->starts_with("needle 7 crosses more than")) << *course.failure;
   const CheckpointFiles files(scene.output.file);
   EXPECT_EQ(course.bundle, files.bundle());
   Replay replay(course.bundle, 5);
@@ -56,17 +56,21 @@ TEST_F(Bundle, OfAnUnfinishedEventShowsItAgain) {
   }
 }
 
-// The state is neither that before the event nor that after it.
-TEST_F(Bundle, AnUnfinishedEventIsNotSaved) {
+// The state before it is saved, and the file is whole.
+TEST_F(Bundle, AStateBeforeAnEventThatCannotBeIsSaved) {
   PreparedRun run(far_away(), false, "scene");
   const Course course = run.drive(monitor);
   EXPECT_GT(course.last.collisions, 0u);
-  EXPECT_NE(run.why_not_saved(), "");
-  const RunCheckpoint saved = CheckpointFiles(scene.output.file).latest().checkpoint;
-  EXPECT_EQ(saved.output.samples, 1u) << "the checkpoint before the first collision";
+  RunCheckpoint saved = CheckpointFiles(scene.output.file).latest().checkpoint;
   const Course again = PreparedRun(saved).drive(monitor);
   EXPECT_EQ(again.failure, course.failure);
+  EXPECT_EQ(again.collisions, 0u) << "it fails at once";
   EXPECT_EQ(again.last.collisions, course.last.collisions);
+  saved = CheckpointFiles(scene.output.file).latest().checkpoint;
+  saved.scene.until.time = course.last.time;
+  const Course shorter = PreparedRun(saved).drive(monitor);
+  EXPECT_FALSE(shorter.failure) << *shorter.failure;
+  EXPECT_EQ(shorter.last.time, course.last.time);
 }
 
 TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
@@ -77,7 +81,7 @@ TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
                   monitor);
     }
     FAIL() << "expected an error";
-  } catch (const UnfinishedEventError& error) {
+  } catch (const InvalidStateError& error) {
     const std::string message = error.what();
     EXPECT_TRUE(
         message.ends_with("; needlework replay " + scene.output.file + ".failure shows it again"))
@@ -85,8 +89,8 @@ TEST_F(Bundle, OfARunInPiecesIsNamedInTheError) {
   }
   EXPECT_TRUE(Replay(scene.output.file + ".failure", 0).drive(monitor).same);
   EXPECT_THROW(run.advance(scene.until, monitor), InvalidStateError) << "it cannot go on";
+  EXPECT_EQ(run.why_not_saved(), "");
   run.close();
-  EXPECT_EQ(CheckpointFiles(scene.output.file).latest().checkpoint.output.samples, 1u);
 }
 
 // A defect outside the engine, which a replay does not meet.
@@ -147,7 +151,7 @@ TEST_F(Bundle, IsNotReplacedByAnErrorOfTheCaller) {
   PreparedRun run(far_away(), false);
   run.on_collisions(1000000,
                     [](std::span<const Collision>) { throw std::runtime_error("of the caller"); });
-  EXPECT_THROW(run.advance(scene.until, monitor), UnfinishedEventError);
+  EXPECT_THROW(run.advance(scene.until, monitor), InvalidStateError);
 }
 
 TEST_F(Bundle, NeedsAStartThatIsKnown) {

@@ -127,7 +127,7 @@ events = true
 // The edges of the ranges are allowed, each as one more line in its section.
 TEST(GoodScene, TakesTheEndsOfRanges) {
   for (const char* line :
-       {"[needles]\ncount = 0\nbox = 2.01", "[needles]\ncount = 4294967294\nbox = 1e9",
+       {"[needles]\ncount = 0\nbox = 2.01", "[needles]\ncount = 4294967294\nbox = [1e9, 1e4, 1e4]",
         "[needles]\ncount = 1\nbox = [2.01, 3, 4]\nk = 1e-9",
         "[needles]\ncount = 1\nbox = 3\nseed = 0"})
     EXPECT_NO_THROW(parse_scene(std::string(line) + "\n[until]\ntime = 0", "s.toml")) << line;
