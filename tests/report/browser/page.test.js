@@ -292,6 +292,22 @@ test("nothing is wider than a telephone or lost on a large screen", async () => 
   }
 });
 
+test("a row of results that is not full ends in nothing", async () => {
+  const { page, close } = await open(browser, "run.html", { viewport: { width: 900, height: 700 } });
+  const { last, right, colours } = await page.evaluate(() => {
+    const grid = document.querySelector(".figures"), cell = grid.lastElementChild;
+    const border = getComputedStyle(grid).borderTopColor;
+    return {
+      last: cell.getBoundingClientRect().right,
+      right: grid.getBoundingClientRect().right,
+      colours: { behind: getComputedStyle(grid).backgroundColor, border },
+    };
+  });
+  assert.ok(last < right - 100, `the last row is full: ${last} of ${right}`);
+  assert.notEqual(colours.behind, colours.border);
+  await close();
+});
+
 test("nothing moves by itself, and slowly for those who asked for that", async () => {
   const { page, close } = await open(browser, "gas.html", { reducedMotion: "reduce" });
   const { frame } = await drawn(page);
