@@ -18,8 +18,8 @@ std::unique_ptr<Loop> with_search(Run& run, S search, LoopChoice& choice) {
 
 void require_one_thread(const LoopChoice& choice) {
   if (choice.threads == 1) return;
-  throw InputError("engine.threads = " + std::to_string(choice.threads) +
-                   ": expected 1 for search " + choice.search + " with queue " + choice.calendar +
+  throw InputError(choice.threads_place + ": expected 1 for search " + choice.search +
+                   " with queue " + choice.calendar +
                    "; several threads need linked-cells or capsules, and cell-calendar");
 }
 
@@ -30,8 +30,7 @@ std::unique_ptr<Loop> make_loop(Run& run, LoopChoice choice) {
   if (const auto kind = NearSearch::kind_of(choice.search)) {
     NearSearch search(run.gas, counters, choice.setup, *kind);
     if (choice.threads > 1 && choice.calendar == CellCalendar::name) {
-      return make_parallel_loop(run, std::move(search), std::move(choice.replaced), choice.threads,
-                                choice.all_threads);
+      return make_parallel_loop(run, std::move(search), choice);
     }
     require_one_thread(choice);
     return with_search(run, std::move(search), choice);

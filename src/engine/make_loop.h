@@ -16,7 +16,8 @@ struct LoopChoice {
   std::string search;    ///< not "auto"
   std::string calendar;  ///< not "auto"
   int threads = 1;
-  bool all_threads = false;  ///< whether they work together even where one alone is faster
+  std::string threads_place = {};  ///< who asked for them, for messages: "engine.threads = 2"
+  bool all_threads = false;        ///< whether they work together even where one alone is faster
   SearchSetup setup = {};
   ReplacedRecords replaced = {};  ///< records that were replaced at the present time
 };

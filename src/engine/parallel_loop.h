@@ -34,6 +34,7 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
@@ -57,6 +58,8 @@ struct ParallelTuning {
   double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
                                           ///< shared
   bool by_cost = true;                    ///< whether one thread works alone where that is faster
+  std::string_view place = "engine.threads";  ///< who asked for threads, for messages of the
+                                              ///< constructor
 };
 
 /// Wall time since it was made [s].
@@ -168,13 +171,13 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
     : Base(run, std::move(search), std::make_unique<CalendarOf<CellCalendar>>(),
            std::move(replaced)),
       cell_calendar_(static_cast<CalendarOf<CellCalendar>&>(*this->calendar_).get()),
-      phase_(run, search_, cell_calendar_, subdomains_for(threads, tuning), tuning.sight),
+      phase_(run, search_, cell_calendar_, subdomains_for(threads, tuning), tuning.sight,
+             tuning.place),
       plan_(run.gas.clock, PhasePlan::usual_share * phase_.threads, tuning.least),
       by_cost_(tuning.by_cost) {
   const int team = has_threads() ? team_of(threads) : threads;
   if (team != threads) {
-    throw InputError("engine.threads = " + std::to_string(threads) + ": expected at most " +
-                     std::to_string(team) +
+    throw InputError(std::string(tuning.place) + ": expected at most " + std::to_string(team) +
                      ", which is all that OpenMP gives here (OMP_THREAD_LIMIT, "
                      "OMP_MAX_ACTIVE_LEVELS, or a parallel region around)");
   }

@@ -29,8 +29,9 @@ struct Phase {
   using Block = CellCalendar::Block;
 
   /// `sight`: distance from its needles within which an event looks for earlier ones, in lengths
-  /// of the longest needles.
-  Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight);
+  /// of the longest needles. `place`: who asked for the threads, for messages.
+  Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight,
+        std::string_view place);
 
   /// Divides the box into subdomains by the present positions of the needles.
   void divide();
@@ -78,7 +79,7 @@ struct Phase {
 
 template <Search S>
 Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads,
-                double sight)
+                double sight, std::string_view place)
     : run(its_run),
       search(its_search),
       calendar(its_calendar),
@@ -100,9 +101,8 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
   for (int axis = 0; axis < 3; ++axis) {
     apart[axis] = 3 * neighbours[axis];
     if (cells[axis] >= RegionLocks::most_cells) {
-      throw InputError("engine.threads = " + std::to_string(threads) +
-                       ": expected 1 for a box of " + std::to_string(cells[axis]) +
-                       " cells along an edge");
+      throw InputError(std::string(place) + ": expected 1 for a box of " +
+                       std::to_string(cells[axis]) + " cells along an edge");
     }
   }
   const auto x = static_cast<Block>(cells[0]), y = static_cast<Block>(cells[1]);

@@ -39,6 +39,7 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
   return {.search = chosen_search(scene.engine.search, density),
           .calendar = chosen_calendar(scene.engine.queue, threads),
           .threads = threads,
+          .threads_place = place_of(scene, "engine.threads", fmt::to_string(threads)),
           .all_threads = scene.engine.team == "all",
           .setup = {.isa = isa_of(scene.engine.isa),
                     .density = density,

@@ -35,10 +35,15 @@ void require_instruction_set(const std::string& isa, const std::string& place) {
   }
 }
 
+std::string wish_for_threads() {
+  const char* text = std::getenv("OMP_NUM_THREADS");
+  return text ? text : "";
+}
+
 // The first number of OMP_NUM_THREADS, which may be a list, or 1.
 int threads_of_environment() {
-  const char* text = std::getenv("OMP_NUM_THREADS");
-  if (!text) return 1;
+  const std::string wish = wish_for_threads();
+  const char* const text = wish.c_str();
   char* end = nullptr;
   const long threads = std::strtol(text, &end, 10);
   if (end == text || (*end != '\0' && *end != ',' && *end != ' ')) return 1;
@@ -97,7 +102,11 @@ void choose_engine(Scene& scene) {
     engine.threads = parallel ? threads_by_size(scene.needles.count) : 1;
   }
   // OMP_NUM_THREADS is an offer, not a demand: what cannot use it runs on one thread.
-  if (!engine.threads) engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
+  if (!engine.threads) {
+    engine.threads = parallel ? std::min(threads_of_environment(), most) : 1;
+    if (*engine.threads > 1)
+      scene.places["engine.threads"] = "OMP_NUM_THREADS=" + wish_for_threads();
+  }
 }
 
 std::string threads_text(const Scene& scene) {

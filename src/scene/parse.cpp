@@ -215,7 +215,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
       throw document.error(entry, "expected a scene with an entry [[species]]");
     if (full_name(entry) == "needles.box") box = entry;
     if (!key->read(scene, entry.value))
-      throw document.error(entry, fmt::format("expected {}", key->expected));
+      throw document.error(entry, key->expected_instead_of(entry.value));
     if (const std::string_view reason = conflict(full_name(entry), given, provided);
         !reason.empty())
       throw document.error(entry, reason);

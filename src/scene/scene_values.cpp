@@ -69,7 +69,7 @@ class Collected {
 
  private:
   // One function for all types: GCC 12 warns, wrongly, where it inlines this for a number.
-  void add(std::string_view section, std::string_view key, Value value) {
+  [[gnu::noinline]] void add(std::string_view section, std::string_view key, Value value) {
     values.push_back({section, key, std::move(value)});
   }
 };
@@ -96,8 +96,8 @@ void require_in_range(const Scene& scene, Predicate&& is_looked_at) {
   for (const auto& [section, name, value] : values_of(scene)) {
     const SceneKey* key = find_scene_key(section, name);
     if (!is_looked_at(section, name) || key->read(again, value)) continue;
-    refuse(fmt::format("{}{}{} = {}", section, section.empty() ? "" : ".", name, quoted(value)),
-           key->expected);
+    throw InputError(fmt::format("the scene: {}{}{} = {}: {}", section, section.empty() ? "" : ".",
+                                 name, quoted(value), key->expected_instead_of(value)));
   }
 }
 

@@ -133,11 +133,25 @@ bool read_frames(Scene& scene, const Value& value) {
   return store(scene.output.frame_times, increasing_times(value));
 }
 
+std::vector<std::string_view> all_observables() {
+  std::vector<std::string_view> names(observable_names.begin(), observable_names.end());
+  names.insert(names.end(), total_names.begin(), total_names.end());
+  return names;
+}
+
 bool is_observable(std::string_view name) {
-  const auto among = [&](const auto& names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  return among(observable_names) || among(total_names);
+  const auto names = all_observables();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::optional<UnknownWord> unknown_observable(const Value& value) {
+  const auto* array = value.as<Value::Array>();
+  for (const Value& element : array ? *array : Value::Array()) {
+    const auto* name = element.as<std::string>();
+    if (name && !is_observable(*name))
+      return UnknownWord{*name, nearest_word(*name, all_observables())};
+  }
+  return std::nullopt;
 }
 
 std::optional<std::vector<std::string>> observables(const Value& value) {
@@ -296,7 +310,7 @@ const SceneKey keys[] = {
      "a number > 0 (frames per decade, at most 1e6) or an array of times >= 0, increasing",
      read_frames},
     {"output", "observables", expected_observables,
-     [](Scene& s, V v) { return store(s.output.observables, observables(v)); }},
+     [](Scene& s, V v) { return store(s.output.observables, observables(v)); }, unknown_observable},
     {"output", "grid",
      "a whole number in digits, from 1 to 10000, or an array of three, at most 1e6 cells",
      [](Scene& s, V v) { return store(s.output.grid, grid(v)); }},
@@ -330,6 +344,13 @@ std::string expected_instead_of_section(std::string_view name) {
 }
 
 }  // namespace
+
+std::string SceneKey::expected_instead_of(const Value& value) const {
+  const auto unknown = unknown_word ? unknown_word(value) : std::nullopt;
+  if (!unknown) return fmt::format("expected {}", expected);
+  return fmt::format("\"{}\": expected {}{}", printable(unknown->word, 60), expected,
+                     did_you_mean(unknown->nearest));
+}
 
 std::span<const SceneKey> scene_keys() { return keys; }
 

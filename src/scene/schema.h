@@ -1,6 +1,7 @@
 // The keys that a scene file may contain, and the requirements on their values.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,12 @@
 
 namespace needlework {
 
+/// A word that is not known, and the known one that is most similar, or empty.
+struct UnknownWord {
+  std::string word;
+  std::string_view nearest;
+};
+
 /// One key of a scene file.
 struct SceneKey {
   std::string_view section;  ///< empty for a key outside all sections
@@ -18,6 +25,12 @@ struct SceneKey {
   /// Stores the value in the scene. Returns false, and leaves the scene unchanged, if the value
   /// does not meet the requirement.
   bool (*read)(Scene& scene, const Value& value);
+  /// What is wrong with a value that was refused, if more can be said than the requirement: the
+  /// word in it that is not known.
+  std::optional<UnknownWord> (*unknown_word)(const Value& value) = nullptr;
+
+  /// For the message about a value that was refused: "expected ...".
+  std::string expected_instead_of(const Value& value) const;
 };
 
 /// All keys, in the order of their documentation.

@@ -192,6 +192,8 @@ TEST_F(RunCommand, TakesTheEnvironmentLast) {
   EXPECT_EQ(result("small.toml --set engine.threads=1", "OMP_NUM_THREADS=3")["threads"], 1);
   EXPECT_EQ(result("small.toml --set engine.queue=bucket", "OMP_NUM_THREADS=3")["threads"], 1);
   EXPECT_EQ(result("small.toml", "OMP_THREAD_LIMIT=2 OMP_NUM_THREADS=3")["threads"], 2);
+  EXPECT_TRUE(run("run small.toml --quiet", "OMP_NUM_THREADS=1000")
+                  .complains("warning: OMP_NUM_THREADS=1000: expected at most "));
   const Outcome limited = run("run small.toml --threads 3", "OMP_THREAD_LIMIT=2");
   EXPECT_EQ(limited.exit_code, 3);
   EXPECT_TRUE(limited.complains("--threads 3: expected at most 2")) << limited.err;

@@ -6,6 +6,7 @@
 
 #include "src/calendar/any_calendar.h"
 #include "src/engine/loop.h"
+#include "src/engine/make_loop.h"
 #include "src/engine/replaced_records.h"
 #include "src/search/all_pairs.h"
 #include "src/search/linked_lists.h"
@@ -20,7 +21,6 @@ std::unique_ptr<Loop> make_event_loop(Run& run, S search, std::unique_ptr<AnyCal
                                       ReplacedRecords replaced);
 
 /// The multi-threaded loop.
-std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
-                                         int threads, bool all_threads);
+std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, LoopChoice& choice);
 
 }  // namespace needlework
