@@ -59,7 +59,7 @@ enum needlework_code {
 typedef struct needlework_error {
   int code;           /* of needlework_code */
   char message[1024]; /* one line, cut off if it is longer; empty if the code is NEEDLEWORK_OK, but
-                         for a warning of needlework_resume() */
+                         for a warning of the functions that make a simulation */
 } needlework_error;
 
 /* ---- Version and capabilities ---------------------------------------------------------------- */
@@ -109,8 +109,9 @@ typedef struct needlework_initial {
 /* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing.
  * The initial state is drawn, or read from initial.file. If the scene names output.file, that file
  * is written as the program `needlework run` writes it. NEEDLEWORK_ISA and OMP_NUM_THREADS count as
- * they do for the program. `flags` is 0 or NEEDLEWORK_REPLACE. Returns NULL on failure. The caller
- * destroys the simulation. [any] */
+ * they do for the program. `flags` is 0 or NEEDLEWORK_REPLACE. On file systems without locks `error`
+ * has a warning with the code NEEDLEWORK_OK: other programs that write to the output file cannot be
+ * noticed. Returns NULL on failure. The caller destroys the simulation. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_create(const char* scene, unsigned flags,
                                                         needlework_error* error);
 /* The same for a scene in a file. [any] */
@@ -133,10 +134,9 @@ NEEDLEWORK_API needlework_simulation* needlework_create_with_images(
  * Time, counts and limits go on from the start of the run. The engine is chosen for this machine as
  * by needlework_create(), with the threads of before; a function for collisions has to be set
  * again. If the newest checkpoint is damaged, the one before is used, and `error` has a warning
- * with the code NEEDLEWORK_OK. Returns NULL on failure: NEEDLEWORK_INPUT if there is no checkpoint
- * to continue from, whether or not there is such a file, or if it is not that of the file;
- * NEEDLEWORK_IO if the file alone is missing, cannot be written, or is written by another
- * simulation. The caller destroys the simulation. [any] */
+ * with the code NEEDLEWORK_OK. Returns NULL on failure: NEEDLEWORK_INPUT if the file has no
+ * checkpoint to continue from, or if it is not that of the file; NEEDLEWORK_IO if the file is
+ * missing, cannot be written, or is written by another simulation. The caller destroys the simulation. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_resume(const char* file, needlework_error* error);
 
 /* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due, and

@@ -1,5 +1,7 @@
 """The compiled part of needlework. Use the package, which documents and checks everything."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any, Optional
 
@@ -19,6 +21,11 @@ def equipartition_k() -> float: ...
 def predict(r1: np.ndarray, u1: np.ndarray, v1: np.ndarray, w1: np.ndarray, r2: np.ndarray,
             u2: np.ndarray, v2: np.ndarray, w2: np.ndarray, horizon: np.ndarray,
             skip: np.ndarray, accuracy: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+
+class StandardDescriptors:
+    """Files that are opened in the block do not take the place of closed standard streams."""
+    def __enter__(self) -> StandardDescriptors: ...
+    def __exit__(self, *exception: object) -> None: ...
 
 class Run:
     def __init__(self, text: Optional[str], name: bytes, has_lines: bool,

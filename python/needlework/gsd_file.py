@@ -7,6 +7,7 @@ from typing import Any, Iterable, Union
 
 import numpy as np
 
+from . import _core
 from .errors import InputError, IoError
 from .reading import Recording, read
 
@@ -44,7 +45,9 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     chosen = _frames_of(source, frames)
     unfinished = path + ".part"  # the file appears under its name when it is complete
     try:
-        with gsd.hoomd.open(unfinished, "wb") as file:
+        with _core.StandardDescriptors():
+            opened = gsd.hoomd.open(unfinished, "wb")
+        with opened as file:
             for frame in chosen:
                 file.append(_snapshot(frame, source.gas))
         os.replace(unfinished, path)

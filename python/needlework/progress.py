@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 import sys
 from typing import Any
@@ -24,7 +25,7 @@ def progress_line(wanted: bool | None) -> NotebookLine | TerminalLine | None:
 
 
 class TerminalLine:
-    """On stderr."""
+    """On stderr. A run goes on where that is closed."""
 
     def __init__(self) -> None:
         self._width = 0
@@ -32,13 +33,23 @@ class TerminalLine:
     def show(self, text: str) -> None:
         text = text[:shutil.get_terminal_size().columns - 1]
         self._width = max(self._width, len(text))
-        sys.stderr.write(f"\r{text:<{self._width}}")
-        sys.stderr.flush()
+        _write_stderr(f"\r{text:<{self._width}}")
 
     def clear(self) -> None:
         if self._width:
-            sys.stderr.write(f"\r{'':<{self._width}}\r")
-            sys.stderr.flush()
+            _write_stderr(f"\r{'':<{self._width}}\r")
+
+
+def _write_stderr(text: str) -> None:
+    # None: its descriptor was closed when Python began.
+    if sys.stderr is None or sys.stderr.closed:
+        return
+    try:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+    except OSError as error:
+        if error.errno != errno.EBADF:  # its descriptor was closed since
+            raise
 
 
 class NotebookLine:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
 from .collisions import RECORDED_COLLISION
 from .data import value_of
 from .errors import InputError, IoError
@@ -347,17 +348,20 @@ def _open(path: str) -> tuple[h5py.File, list[h5py.Dataset]]:
         raise ImportError("needlework.read() needs h5py: expected the package python3-h5py "
                           "to be installed") from error
     try:
-        grows = _is_being_written(path)
-        # Again if this process was kept waiting meanwhile, so that the file is longer than its size
-        # was; and without SWMR mode if this process has opened it without.
-        for _ in range(3 if grows else 0):
-            try:
-                file = h5py.File(path, "r", swmr=True)
-                break
-            except OSError:
-                time.sleep(0.001)
-        else:
-            file = h5py.File(path, "r")
+        with _core.StandardDescriptors():
+            written, can_lock = _locks(path)
+            grows = written or not can_lock
+            lock = {} if can_lock else {"locking": False}
+            # Again if this process was kept waiting meanwhile, so that the file is longer than its
+            # size was; and without SWMR mode if this process has opened it without.
+            for _ in range(3 if grows else 0):
+                try:
+                    file = h5py.File(path, "r", swmr=written, **lock)
+                    break
+                except OSError:
+                    time.sleep(0.001)
+            else:
+                file = h5py.File(path, "r", **lock)
         try:
             return file, _datasets(file) if grows else []
         except BaseException:
@@ -382,16 +386,23 @@ def _datasets(file: h5py.File) -> list[h5py.Dataset]:
     return held + [item for item in map(file.__getitem__, names) if hasattr(item, "shape")]
 
 
-def _is_being_written(path: str) -> bool:
-    """Whether a run has the file open. Then, and only then, it is read in SWMR mode (single writer,
-    multiple readers), in which HDF5 takes endless time to refuse a damaged file."""
+def _locks(path: str) -> tuple[bool, bool]:
+    """Whether a run has the file open, as far as locks show that, and whether there are locks. In
+    the first case, and only then, it is read in SWMR mode (single writer, multiple readers), in
+    which HDF5 takes endless time to refuse a damaged file."""
     lock = struct.Struct("hhqqi4x")  # type, whence, start, length and process of struct flock
     with open(path, "rb") as file:
+        if os.environ.get("HDF5_USE_FILE_LOCKING") in ("FALSE", "0"):
+            return False, False
         try:
             found = fcntl.fcntl(file, fcntl.F_GETLK, lock.pack(fcntl.F_RDLCK, os.SEEK_SET, 0, 0, 0))
+            written = lock.unpack(found)[0] != fcntl.F_UNLCK
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:  # another program writes it
+            return written, True
         except OSError:  # a file system without locks
-            return False
-    return lock.unpack(found)[0] != fcntl.F_UNLCK
+            return False, False
+    return written, True
 
 
 def _places(name: str, count: int, index: Any) -> int | range:

@@ -66,6 +66,7 @@ needlework_simulation* create(unsigned flags, needlework_error* error, Load&& lo
     runs::LoadedScene loaded = load();
     runs::require_writable_output(loaded.scene, replaces, path ? path : "", "NEEDLEWORK_REPLACE");
     made = new needlework_simulation(std::move(loaded), replaces);
+    report_warning(made->run.warning(), error);
   });
   return made;
 }
@@ -116,7 +117,7 @@ needlework_simulation* needlework_resume(const char* file, needlework_error* err
     c::require(file, "file");
     auto [saved, warning] = runs::load_checkpoint(file);
     made = new needlework_simulation(std::move(saved));
-    c::report_warning(warning, error);
+    c::report_warning(runs::joined(warning, made->run.warning()), error);
   });
   return made;
 }

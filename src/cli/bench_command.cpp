@@ -18,6 +18,7 @@
 #include "needlework/error.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/cli/standard_streams.h"
 #include "src/cli/version.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/output_path.h"
@@ -42,13 +43,13 @@ class CaseProgress {
     next_ = runs::seconds_since_launch() + 10;
     clear();
     const std::string line = fmt::format("repetition {} of {}: {}", repetition, repetitions, name);
-    fmt::print(stderr, "{}{}", line, terminal_ ? "" : "\n");
+    write_stderr(line + (terminal_ ? "" : "\n"));
     drawn_ = terminal_ ? line.size() : 0;
   }
 
  private:
   void clear() {
-    if (drawn_) fmt::print(stderr, "\r{:{}}\r", "", drawn_);
+    if (drawn_) write_stderr(fmt::format("\r{:{}}\r", "", drawn_));
     drawn_ = 0;
   }
 

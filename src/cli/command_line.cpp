@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdint>
 #include <iostream>
@@ -15,6 +16,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "needlework/error.h"
 #include "src/cli/bench_command.h"
 #include "src/cli/commands.h"
 #include "src/cli/messages.h"
@@ -143,6 +145,20 @@ void require_one_process(const std::string& command) {
   throw CLI::RuntimeError(bad_usage);
 }
 
+// Whether all would be in vain without standard output. Other commands write files, and their
+// summaries may be lost.
+bool prints_its_result(const CLI::App& command) {
+  constexpr std::array names{"bench", "check", "help", "info", "predict", "serve", "theory"};
+  if (std::find(names.begin(), names.end(), command.get_name()) != names.end()) return true;
+  const CLI::Option* json = command.get_option_no_throw("--json");
+  return json && json->count() > 0;
+}
+
+[[noreturn]] void fail_to_print() {
+  throw IoError(
+      "standard output: is closed: expected it to be open, as the result is printed there");
+}
+
 OptionHelp help_of(const CLI::Option& option) {
   OptionHelp help;
   help.is_positional = option.get_positional();
@@ -233,6 +249,8 @@ Exit codes:
   75  stopped by a signal or a time limit, after saving if there is a file
 
 Environment:
+  HDF5_USE_FILE_LOCKING
+                   FALSE: files are not locked, so that two writers go unnoticed
   NEEDLEWORK_FORK  0: HDF5 files are read without a child process
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
   NO_COLOR         if set and not empty, run --watch draws without colours
@@ -241,7 +259,7 @@ Environment:
 
 }  // namespace
 
-int run_command_line(int argc, char** argv) {
+int run_command_line(int argc, char** argv, bool can_print) {
   CLI::App app("event-driven simulation of gases of hard needles", "needlework");
   int exit_code = ok;
   add_commands(app, exit_code);
@@ -251,14 +269,20 @@ int run_command_line(int argc, char** argv) {
     fmt::print("{}", reference(help_of(app), arguments[1]));
     return ok;
   }
-  app.parse_complete_callback(
-      [&] { require_one_process(app.get_subcommands().front()->get_name()); });
+  app.parse_complete_callback([&] {
+    const CLI::App& command = *app.get_subcommands().front();
+    require_one_process(command.get_name());
+    if (!can_print && prints_its_result(command)) fail_to_print();
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::RuntimeError& error) {
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+    if (error.get_exit_code() == 0) {  // --help and --version
+      if (!can_print) fail_to_print();
+      return app.exit(error);
+    }
     print_error(usage_message(help_of(app), arguments, app.remaining(true), error.what()));
     return bad_usage;
   }

@@ -18,6 +18,7 @@
 #include "needlework/error.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::cli {
 namespace {
@@ -69,7 +70,7 @@ LogFile::LogFile(const std::string& path, std::string place) : place_(std::move(
   if (stat(path.c_str(), &status) == 0 && !can_be_a_log(status)) {
     throw IoError(place_ + ": cannot be written: expected an ordinary file");
   }
-  descriptor_ = open(path.c_str(), O_CREAT | O_RDWR | O_APPEND | O_CLOEXEC, 0666);
+  descriptor_ = open_descriptor(path, O_CREAT | O_RDWR | O_APPEND);
   if (descriptor_ < 0) {
     throw IoError(fmt::format("{}: cannot be written: {}", place_, reason(errno)));
   }

@@ -5,6 +5,7 @@
 
 #include "src/cli/command_line.h"
 #include "src/cli/messages.h"
+#include "src/cli/standard_streams.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/failure.h"
 
@@ -13,9 +14,9 @@ namespace needlework::cli {
 using enum runs::ExitCode;
 namespace {
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, bool can_print) {
   try {
-    return run_command_line(argc, argv);
+    return run_command_line(argc, argv, can_print);
   } catch (const std::exception&) {
     const runs::Failure failure = runs::current_failure();
     print_error(failure.message);
@@ -33,7 +34,8 @@ int main(int argc, char** argv) {
   using namespace needlework::cli;
   // A file that reaches a limit of its size is a failed write, with a message, and not the end.
   std::signal(SIGXFSZ, SIG_IGN);
-  const int exit_code = run_program(argc, argv);
+  const bool can_print = open_standard_streams();
+  const int exit_code = run_program(argc, argv, can_print);
   if (exit_code == input_output_error || output_is_complete()) return exit_code;
   print_error("standard output: cannot be written");
   return input_output_error;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstdio>
 
+#include "src/cli/standard_streams.h"
 #include "src/scene/printable.h"
 
 namespace needlework::cli {
@@ -15,7 +16,7 @@ namespace {
 void print_line(std::string_view kind, std::string_view message) {
   std::string line(message);
   std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "needlework: {}{}\n", kind, printable(line));
+  write_stderr(fmt::format("needlework: {}{}\n", kind, printable(line)));
 }
 
 }  // namespace

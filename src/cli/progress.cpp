@@ -11,6 +11,7 @@
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/signals.h"
+#include "src/cli/standard_streams.h"
 #include "src/cli/terminal.h"
 #include "src/runs/progress_text.h"
 
@@ -32,17 +33,16 @@ bool ProgressLine::is_due(double elapsed) const { return !quiet_ && elapsed >= n
 void ProgressLine::show(double elapsed, std::string line) {
   next_ = elapsed + interval_;
   if (!terminal_) {
-    fmt::print(stderr, "{}\n", line);
+    write_stderr(line + "\n");
     return;
   }
   line.resize(std::min(line.size(), terminal_size().columns - 1));
-  fmt::print(stderr, "\r{:<{}}", line, std::max(line.size(), drawn_));
+  write_stderr(fmt::format("\r{:<{}}", line, std::max(line.size(), drawn_)));
   drawn_ = line.size();
-  std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
-  if (drawn_ > 0) fmt::print(stderr, "\r{:<{}}\r", "", drawn_);
+  if (drawn_ > 0) write_stderr(fmt::format("\r{:<{}}\r", "", drawn_));
   drawn_ = 0;
 }
 

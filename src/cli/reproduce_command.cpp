@@ -9,6 +9,7 @@
 #include "src/cli/messages.h"
 #include "src/cli/progress.h"
 #include "src/cli/signals.h"
+#include "src/cli/standard_streams.h"
 #include "src/reproduce/claims.h"
 #include "src/reproduce/embedded_files.h"
 #include "src/reproduce/reproduction.h"
@@ -68,7 +69,7 @@ int run_sets(const ReproduceArguments& arguments, std::span<const Figure* const>
   int code = ok;
   for (const std::string& set : sets) {
     SweepProgress progress(arguments.quiet);
-    if (!arguments.quiet) fmt::print(stderr, "runs of {}\n", set);
+    if (!arguments.quiet) write_stderr(fmt::format("runs of {}\n", set));
     const auto outcome = runs.run(set, arguments.threads.value_or(runs::threads_on_offer()),
                                   progress, arguments.force);
     code = std::max(code, outcome.exit_code);

@@ -122,6 +122,10 @@ int run(const RunArguments& arguments) {
 int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& printing,
           RunLog& log) {
   signals.interrupt(prepared.simulation());
+  if (const std::string warning = prepared.warning(); !warning.empty()) {
+    print_warning(warning);
+    log.warning(warning);
+  }
   const auto shown = make_monitor(prepared.scene(), printing);
   LoggedRun with_log(*shown, log, printing.progress_every.value_or(log_interval));
   runs::RunMonitor& monitor = log ? static_cast<runs::RunMonitor&>(with_log) : *shown;

@@ -187,6 +187,7 @@ void Sweep::prepare() {
   threads_ = arguments_.threads.value_or(runs::threads_on_offer());
   begin_log();
   for (const std::string& warning : all_warnings(grid_)) warn(warning);
+  if (const std::string warning = folder_->warning(); !warning.empty()) warn(warning);
   if (arguments_.threads && threads_ > runs::cores()) {
     warn(fmt::format("--threads {}: expected at most {}, the number of cores here", threads_,
                      runs::cores()));

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "src/cli/signals.h"
+#include "src/cli/standard_streams.h"
 #include "src/cli/terminal.h"
 #include "src/runs/progress_text.h"
 
@@ -85,8 +86,7 @@ void RunWatch::draw() {
   std::string text = in_place ? fmt::format("\033[{}A", drawn_) : "";
   for (const std::string& line : lines) text += "\r" + line + "\033[K\n";
   if (in_place && lines.size() < drawn_) text += "\033[J";
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
+  write_stderr(text);
   drawn_ = lines.size();
   columns_ = terminal.columns;
 }

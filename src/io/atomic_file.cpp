@@ -13,6 +13,7 @@
 #include "needlework/error.h"
 #include "src/io/system_calls.h"
 #include "src/io/write_lock.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
 namespace {
@@ -45,8 +46,7 @@ std::string create_beside(const std::string& path, const std::filesystem::path& 
   for (int attempt = 0;; ++attempt) {
     const auto name = fmt::format(".needlework-{}-{}.part", getpid(), attempt);
     std::string temporary = (target.parent_path() / name).string();
-    const int descriptor = uninterrupted(
-        [&] { return open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666); });
+    const int descriptor = open_descriptor(temporary, O_CREAT | O_EXCL | O_WRONLY);
     if (descriptor >= 0) {
       close(descriptor);
       return temporary;

@@ -112,6 +112,12 @@ herr_t keep_innermost(unsigned depth, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
+std::string innermost_error() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &text);
+  return text;
+}
+
 // The text that HDF5 reports for a failed system call has several lines. It contains the reason as
 // "error message = 'REASON', buf = ...".
 std::string system_reason(const std::string& text) {
@@ -250,9 +256,10 @@ bool is_possible_size(std::uint64_t bytes, std::uint64_t file_bytes) {
   return bytes <= always || bytes / most_per_byte <= file_bytes;
 }
 
+std::string last_system_error() { return system_reason(innermost_error()); }
+
 std::string last_error() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_innermost, &text);
+  std::string text = innermost_error();
   if (std::string reason = system_reason(text); !reason.empty()) return reason;
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text.empty() ? "unknown HDF5 error" : "HDF5: " + text;

@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "src/machine/descriptors.h"
+
 namespace needlework::io::hdf5 {
 
-/// Exists while this library uses HDF5. Two things follow from it:
+/// Exists while this library uses HDF5. It has these effects:
 ///
 /// - One thread at a time uses HDF5, because not every build of HDF5 allows more. Sessions of
 ///   different threads wait for each other; one thread may open a session within a session.
@@ -22,6 +24,7 @@ namespace needlework::io::hdf5 {
 ///   error handler of the caller, its client data and the errors on the caller's error stack.
 /// - No plugin is loaded: a file that names a filter which HDF5 does not have is refused instead.
 ///   The end of the outermost session restores the caller's choice.
+/// - No file gets the descriptor of standard input, output or error.
 class Session {
  public:
   Session();
@@ -31,6 +34,7 @@ class Session {
 
  private:
   std::unique_lock<std::recursive_mutex> lock_;
+  StandardDescriptors occupied_;
 };
 
 /// Calls `child` in a new process, which ends when that returns or throws, and returns the number
@@ -41,6 +45,8 @@ pid_t fork_process(const std::function<void()>& child);
 /// The reason why the last HDF5 call failed, in one line: the message of the operating system if
 /// there is one, and otherwise the innermost message on the error stack of HDF5.
 std::string last_error();
+/// The message of the operating system, or empty if it was not a system call that failed.
+std::string last_system_error();
 
 /// Throws IoError with the message "PLACE: REASON", where REASON is last_error(). `place` begins
 /// with the name of the file.

@@ -18,6 +18,7 @@
 
 #include "needlework/error.h"
 #include "src/io/system_calls.h"
+#include "src/machine/descriptors.h"
 
 #if H5_VERSION_GE(1, 13, 0)
 #include <H5FDdevelop.h>
@@ -92,8 +93,7 @@ herr_t guarded(Action action) noexcept {
 H5FD_t* driver_open(const char* name, unsigned flags, hid_t access, haddr_t) {
   const auto* settings = static_cast<const DriverSettings*>(H5Pget_driver_info(access));
   const int create = (flags & H5F_ACC_TRUNC) != 0 ? O_CREAT | O_TRUNC : 0;
-  const int descriptor =
-      uninterrupted([&] { return open(name, O_RDWR | O_CLOEXEC | create, 0666); });
+  const int descriptor = open_descriptor(name, O_RDWR | create);
   if (descriptor < 0) {
     *settings->error = errno;
     return nullptr;

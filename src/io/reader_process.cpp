@@ -26,6 +26,7 @@
 #include "src/io/hdf5.h"
 #include "src/io/write_lock.h"
 #include "src/machine/available_memory.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
 namespace {
@@ -79,6 +80,7 @@ std::optional<std::string> receive_message(int socket, std::uint64_t most) {
 
 std::uint64_t virtual_memory_now() {
   std::uint64_t pages = 0;
+  const StandardDescriptors occupied;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
@@ -221,6 +223,7 @@ ReaderProcess::ReaderProcess(std::string path, ReadingLimits limits,
                     "files without)",
                     path_, std::generic_category().message(error)));
   };
+  const StandardDescriptors occupied;
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno);
   child_ = hdf5::fork_process([&] {

@@ -13,6 +13,7 @@
 
 #include "needlework/error.h"
 #include "src/io/write_lock.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
 
@@ -40,8 +41,7 @@ std::uint64_t product(const Shape& shape, std::size_t first) {
 // and the 100 that are its default never end. A reader that was kept waiting while it opened the
 // file can find the file longer than its size was, and tries again. Without the mode if this
 // process has opened it without.
-hid_t open_growing(const std::string& path) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+hid_t open_growing(const std::string& path, const Handle& access) {
   check(H5Pset_metadata_read_attempts(access.get(), 20), path);
   hid_t file = H5I_INVALID_HID;
   for (int attempt = 0; attempt < 3 && file < 0; ++attempt) {
@@ -51,6 +51,28 @@ hid_t open_growing(const std::string& path) {
   return file < 0 ? H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()) : file;
 }
 
+[[noreturn]] void fail_to_open(const std::string& path, const LockState& locks) {
+  const std::string reason = hdf5::last_system_error();
+  if (reason.empty()) {
+    throw IoError(fmt::format("{}: damaged or cut short: {}", path, hdf5::last_error()));
+  }
+  if (locks.hdf5_can_lock) throw IoError(fmt::format("{}: cannot be read: {}", path, reason));
+  throw IoError(
+      fmt::format("{}: cannot be read: {}: expected HDF5_USE_FILE_LOCKING=FALSE, or none, where "
+                  "HDF5 cannot lock files",
+                  path, reason));
+}
+
+// HDF5 is not to lock where it cannot. What HDF5_USE_FILE_LOCKING says counts more for HDF5.
+hid_t open_for_reading(const std::string& path, const LockState& locks) {
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  if (!locks.hdf5_can_lock) check(H5Pset_file_locking(access.get(), false, true), path);
+  const hid_t file = locks.may_grow ? open_growing(path, access)
+                                    : H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+  if (file < 0) fail_to_open(path, locks);  // before another call replaces the error
+  return file;
+}
+
 }  // namespace
 
 Source::Source(const std::string& path) : path_(path) {
@@ -58,10 +80,11 @@ Source::Source(const std::string& path) : path_(path) {
     throw IoError(fmt::format("{}: {}", path_, std::generic_category().message(error)));
   };
   // With O_NONBLOCK, open does not wait for a writer if the file is a pipe.
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const int descriptor = open_descriptor(path, O_RDONLY | O_NONBLOCK);
   if (descriptor < 0) fail(errno);
   struct stat status;
   const int error = fstat(descriptor, &status) == 0 ? 0 : errno;
+  const LockState locks = lock_state(descriptor);
   close(descriptor);
   if (error != 0) fail(error);
   if (S_ISDIR(status.st_mode)) fail(EISDIR);
@@ -69,14 +92,8 @@ Source::Source(const std::string& path) : path_(path) {
   bytes_ = static_cast<std::uint64_t>(status.st_size);
 
   if (H5Fis_hdf5(path.c_str()) <= 0) throw IoError(path + ": not an HDF5 file");
-  const bool grows = is_being_written(path);
-  const hid_t file =
-      grows ? open_growing(path) : H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) {
-    throw IoError(fmt::format("{}: damaged or cut short: {}", path, hdf5::last_error()));
-  }
-  file_ = Handle(file, H5Fclose, path);
-  if (grows) hold_datasets();
+  file_ = Handle(open_for_reading(path, locks), H5Fclose, path);
+  if (locks.may_grow) hold_datasets();
 }
 
 // A dataset keeps its number of rows while it is open. When one that was closed is opened again,

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "src/machine/descriptors.h"
+
 namespace needlework::io {
 
 int write_fully(int descriptor, const void* bytes, std::size_t size, std::uint64_t offset) {
@@ -24,7 +26,7 @@ int sync_file(int descriptor) {
 }
 
 int sync_folder(const std::string& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int descriptor = open_descriptor(folder, O_RDONLY | O_DIRECTORY);
   if (descriptor < 0) return errno;
   const int error = sync_file(descriptor);
   close(descriptor);

@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "needlework/error.h"
 #include "src/io/hdf5.h"
 #include "src/io/system_calls.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
 namespace {
@@ -21,45 +24,66 @@ namespace {
   throw IoError(fmt::format("{}: {}", place, std::generic_category().message(error)));
 }
 
+// What came of asking for a lock.
+struct Answer {
+  bool refused = false;  // someone else has a lock
+  int absent = 0;        // why there are no locks here: an errno
+};
+
+// File systems without locks say so in many ways: ENOLCK, ENOSYS, EOPNOTSUPP, or 524 (ENOTSUPP),
+// which is no errno of programs.
+Answer answer(int result, bool refused) {
+  if (result == 0) return {};
+  return refused ? Answer{.refused = true} : Answer{.absent = errno};
+}
+
 // HDF5 takes a shared lock of this kind for reading and an exclusive one for writing. A shared one
 // is therefore compatible with readers, but also with other locks of this class.
-bool lock_against_hdf5(int descriptor) {
-  return flock(descriptor, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+Answer lock_against_hdf5(int descriptor) {
+  const int result = flock(descriptor, LOCK_SH | LOCK_NB);
+  return answer(result, errno == EWOULDBLOCK);
 }
 
 // HDF5 does not know this kind of lock. It belongs to the open file and not to the process, so that
 // it also excludes other writers of the same process.
-bool lock_against_writers(int descriptor) {
+Answer lock_against_writers(int descriptor) {
 #ifdef F_OFD_SETLK
   struct flock whole_file {};
   whole_file.l_type = F_WRLCK;
   whole_file.l_whence = SEEK_SET;
-  return fcntl(descriptor, F_OFD_SETLK, &whole_file) == 0 || (errno != EAGAIN && errno != EACCES);
+  const int result = fcntl(descriptor, F_OFD_SETLK, &whole_file);
+  return answer(result, errno == EAGAIN || errno == EACCES);
 #else
-  return true;
+  return {.absent = ENOSYS};
 #endif
 }
 
-// Whether lock_against_writers() would fail. A descriptor for reading is enough to ask.
-bool is_locked_by_writer(int descriptor) {
+// What lock_against_writers() would say. A descriptor for reading is enough to ask.
+Answer ask_for_writers(int descriptor) {
 #ifdef F_OFD_GETLK
   struct flock whole_file {};
   whole_file.l_type = F_WRLCK;
   whole_file.l_whence = SEEK_SET;
-  return fcntl(descriptor, F_OFD_GETLK, &whole_file) == 0 && whole_file.l_type != F_UNLCK;
+  if (fcntl(descriptor, F_OFD_GETLK, &whole_file) != 0) return {.absent = errno};
+  return {.refused = whole_file.l_type != F_UNLCK};
 #else
-  return false;
+  return {.absent = ENOSYS};
 #endif
 }
 
-// What `ask` says of a file; false of one that cannot be opened. Locks that it takes end here.
-template <class Ask>
-bool is_true_of(const std::string& name, const Ask& ask) {
-  const int descriptor = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return false;
-  const bool answer = ask(descriptor);
-  close(descriptor);
-  return answer;
+// The variable of HDF5 by which people turn locks off, or demand them. Read by HDF5 once.
+std::string_view locking_wanted() {
+  static const std::string wanted = [] {
+    const char* const text = std::getenv("HDF5_USE_FILE_LOCKING");
+    return std::string(text ? text : "");
+  }();
+  return wanted;
+}
+
+// Where locks are turned off, also answers nothing.
+std::string reason_for(int absent) {
+  if (locks_turned_off()) return fmt::format("HDF5_USE_FILE_LOCKING={}", locking_wanted());
+  return fmt::format("the file system has no locks ({})", std::generic_category().message(absent));
 }
 
 constexpr const char* opened_elsewhere =
@@ -74,23 +98,51 @@ std::set<int>& descriptors() {
 
 }  // namespace
 
-bool is_being_written(const std::string& name) { return is_true_of(name, is_locked_by_writer); }
+bool locks_turned_off() { return locking_wanted() == "FALSE" || locking_wanted() == "0"; }
+
+LockState lock_state(int descriptor) {
+  if (locks_turned_off()) return {.may_grow = true, .reason = reason_for(0)};
+  const Answer writers = ask_for_writers(descriptor);
+  const Answer hdf5 = lock_against_hdf5(descriptor);
+  const int absent = hdf5.absent != 0 ? hdf5.absent : writers.absent;
+  if (hdf5.absent == 0 && !hdf5.refused) flock(descriptor, LOCK_UN);
+  return {.may_grow = writers.refused || absent != 0,
+          .opened_to_write = writers.refused || hdf5.refused,
+          .hdf5_can_lock = hdf5.absent == 0,
+          .reason = absent == 0 ? "" : reason_for(absent)};
+}
+
+LockState lock_state(const std::string& name) {
+  const int descriptor = open_descriptor(name, O_RDONLY | O_NONBLOCK);
+  if (descriptor < 0) return {};
+  LockState state = lock_state(descriptor);
+  close(descriptor);
+  return state;
+}
 
 void require_not_being_written(const std::string& name, const std::string& place) {
-  const bool written = is_true_of(name, [](int descriptor) {
-    return !lock_against_hdf5(descriptor) || is_locked_by_writer(descriptor);
-  });
-  if (written) throw IoError(place + opened_elsewhere);
+  if (lock_state(name).opened_to_write) throw IoError(place + opened_elsewhere);
+}
+
+std::string warning_without_locks(const std::string& name, const std::string& place) {
+  const std::string reason = lock_state(name).reason;
+  if (reason.empty()) return {};
+  return fmt::format(
+      "{}: {}, so that a second program that writes to it cannot be noticed: expected one at a "
+      "time",
+      place, reason);
 }
 
 WriteLock::WriteLock(const std::string& name, const std::string& place)
-    : place_(place),
-      descriptor_(
-          uninterrupted([&] { return open(name.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK); })) {
+    : place_(place), descriptor_(open_descriptor(name, O_RDWR | O_NONBLOCK)) {
   if (descriptor_ < 0) fail_lock(place_, errno);
   struct stat status;
   const bool regular = fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode);
-  if (regular && lock_against_hdf5(descriptor_) && lock_against_writers(descriptor_)) {
+  const auto locked = [&] {
+    return locks_turned_off() ||
+           (!lock_against_hdf5(descriptor_).refused && !lock_against_writers(descriptor_).refused);
+  };
+  if (regular && locked()) {
     const hdf5::Session session;
     descriptors().insert(descriptor_);
     return;

@@ -5,19 +5,37 @@
 
 namespace needlework::io {
 
-/// Whether there is a WriteLock on this file, in this or another process.
-bool is_being_written(const std::string& name);
+/// What locks show of a file.
+struct LockState {
+  bool may_grow = false;         ///< there is a WriteLock, or locks do not show whether there is
+  bool opened_to_write = false;  ///< by a program, in this or another process
+  bool hdf5_can_lock = true;     ///< false: HDF5 must not try to lock the file
+  std::string reason = {};       ///< why locks do not show all; empty if they do
+};
+
+/// Of an open file, which has no lock then.
+LockState lock_state(int descriptor);
+/// Of a file that cannot be opened, nothing is shown.
+LockState lock_state(const std::string& name);
 
 /// Throws IoError, "PLACE: reason", if a program has this file open for writing, as far as locks
 /// show that. Of a file that does not exist or may not be read, they show nothing.
 void require_not_being_written(const std::string& name, const std::string& place);
+
+/// Whether HDF5_USE_FILE_LOCKING says that no file is to be locked.
+bool locks_turned_off();
+
+/// A warning, "PLACE: ...", where locks on this file exclude nobody, because the file system has
+/// none or they are turned off; else empty.
+std::string warning_without_locks(const std::string& name, const std::string& place);
 
 /// A lock of the operating system on an existing file. While it exists,
 ///
 /// - no other WriteLock on the file can be made, in this or another process;
 /// - HDF5 refuses to open the file for writing, and opens it for reading, in all programs.
 ///
-/// It ends with the process, also by kill -9. On file systems without locks it excludes nobody.
+/// It ends with the process, also by kill -9. On file systems without locks, and
+/// where HDF5_USE_FILE_LOCKING is FALSE, it excludes nobody.
 class WriteLock {
  public:
   /// Throws IoError, "PLACE: reason", if the file does not exist, is not a regular file, may not be

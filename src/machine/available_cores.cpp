@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "src/machine/control_groups.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework {
 namespace {
@@ -26,6 +27,7 @@ struct Quota {
 std::optional<Quota> quota_of_version_2(const path& group) {
   const path file = group / "cpu.max";
   double quota = 0, period = 0;
+  const StandardDescriptors occupied;
   if (!(std::ifstream(file) >> quota >> period) || quota <= 0 || period <= 0) return {};
   return Quota{quota / period, file};
 }
@@ -34,6 +36,7 @@ std::optional<Quota> quota_of_version_2(const path& group) {
 std::optional<Quota> quota_of_version_1(const path& group) {
   const path file = group / "cpu.cfs_quota_us";
   double quota = 0, period = 0;
+  const StandardDescriptors occupied;
   if (!(std::ifstream(file) >> quota) || quota <= 0) return {};
   if (!(std::ifstream(group / "cpu.cfs_period_us") >> period) || period <= 0) return {};
   return Quota{quota / period, file};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/machine/control_groups.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework {
 namespace {
@@ -16,10 +17,12 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 // The number in a file that holds one; infinity if it is absent or says "max".
 double number_in(const std::filesystem::path& path) {
   double number = 0;
+  const StandardDescriptors occupied;
   return std::ifstream(path) >> number ? number : unlimited;
 }
 
 double memory_available_in_machine(const std::filesystem::path& root) {
+  const StandardDescriptors occupied;
   std::ifstream file(root / "proc/meminfo");
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);

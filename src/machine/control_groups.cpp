@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "src/machine/descriptors.h"
+
 namespace needlework {
 namespace {
 
@@ -42,6 +44,7 @@ struct Mount {
 std::vector<Mount> mounts_of(const std::string& controller, const path& root) {
   const path usual = "/sys/fs/cgroup";
   std::vector<Mount> out{{"/", usual, true}, {"/", usual / controller, false}};
+  const StandardDescriptors occupied;
   std::ifstream file(root / "proc/self/mountinfo");
   for (std::string line; std::getline(file, line);) {
     const auto dash = line.find(" - ");
@@ -59,6 +62,7 @@ std::vector<Mount> mounts_of(const std::string& controller, const path& root) {
 
 // The group of the process in the hierarchy of a mount; empty if there is none.
 std::string group_of_process(const std::string& controller, bool version_2, const path& root) {
+  const StandardDescriptors occupied;
   std::ifstream file(root / "proc/self/cgroup");
   for (std::string line; std::getline(file, line);) {  // ID:CONTROLLERS:PATH
     const auto first = line.find(':');

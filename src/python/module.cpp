@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module) {
   module.attr("version") = NEEDLEWORK_VERSION;
   needlework::python::translate_errors();
   needlework::python::park_threads_at_exit(module);
+  needlework::python::add_descriptors(module);
   needlework::python::add_theory(module);
   needlework::python::add_prediction(module);
   needlework::python::add_run(module);

@@ -9,6 +9,8 @@ namespace needlework::python {
 void add_theory(pybind11::module_& module);
 /// First contacts of pairs.
 void add_prediction(pybind11::module_& module);
+/// StandardDescriptors.
+void add_descriptors(pybind11::module_& module);
 /// Simulations.
 void add_run(pybind11::module_& module);
 

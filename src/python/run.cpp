@@ -50,15 +50,21 @@ Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
                                   "force=True");
     warnings_ = runs::all_warnings(loaded);
     run_.emplace(std::move(loaded), force);
+    add_warning(run_->warning());
   });
 }
 
 Run::Run(const std::string& file) {
   without_lock([&] {
     auto [saved, warning] = runs::load_checkpoint(file);
-    if (!warning.empty()) warnings_ = {warning};
+    add_warning(warning);
     run_.emplace(std::move(saved));
+    add_warning(run_->warning());
   });
+}
+
+void Run::add_warning(const std::string& warning) {
+  if (!warning.empty()) warnings_.push_back(warning);
 }
 
 // A file that was not closed has all its frames nevertheless; there is no one to hear of errors.

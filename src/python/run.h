@@ -68,6 +68,7 @@ class Run {
   pybind11::list warnings() const;
 
  private:
+  void add_warning(const std::string& warning);
   void require_idle() const;
   void require_open() const;
   /// Calls the function without the GIL. Meanwhile this Run is busy.

@@ -20,6 +20,7 @@
 
 #include "needlework/error.h"
 #include "src/io/system_calls.h"
+#include "src/machine/descriptors.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/scene/printable.h"
@@ -91,8 +92,7 @@ using File = std::unique_ptr<std::FILE, Closes>;
 // Null if there is no such file.
 File open_file(const std::string& path) {
   // Not waiting for a program that would write to a pipe.
-  const int descriptor =
-      io::uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
+  const int descriptor = open_descriptor(path, O_RDONLY | O_NONBLOCK);
   if (descriptor < 0 && errno == ENOENT) return nullptr;
   if (descriptor < 0) throw unreadable(path, errno);
   File file(fdopen(descriptor, "rb"));
@@ -227,15 +227,21 @@ std::string behind_links(const std::string& path) {
   return error ? path : file.string();
 }
 
-// What else may be wrong with the name of a run's file, if its checkpoint is missing.
-std::string hint_for_missing(const std::string& checkpoint) {
+// Of a run's file whose checkpoint is missing.
+[[noreturn]] void fail_without(const std::string& checkpoint) {
   const std::string file = checkpoint.substr(0, checkpoint.size() - checkpoint_ending.size());
-  if (file.ends_with(checkpoint_ending)) {
-    return fmt::format("; expected the file of the run, {}",
-                       file.substr(0, file.size() - checkpoint_ending.size()));
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw unreadable(file, error ? error.value() : ENOENT);
   }
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored) ? "" : fmt::format(", nor is there {}", file);
+  const bool is_checkpoint = file.ends_with(checkpoint_ending);
+  const std::string hint = is_checkpoint
+                               ? fmt::format("; expected the file of the run, {}",
+                                             file.substr(0, file.size() - checkpoint_ending.size()))
+                               : "";
+  throw InputError(
+      fmt::format("{}: missing: expected the checkpoint of a run; there is nothing to continue{}",
+                  checkpoint, hint));
 }
 
 }  // namespace
@@ -294,9 +300,7 @@ CheckpointFiles::Latest CheckpointFiles::latest() const {
   }
   // The program was stopped between two renames.
   if (auto older = read_if_present(older_)) return {*std::move(older), {}};
-  throw InputError(
-      fmt::format("{}: missing: expected the checkpoint of a run; there is nothing to continue{}",
-                  newest_, hint_for_missing(newest_)));
+  fail_without(newest_);
 }
 
 void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {

@@ -11,6 +11,7 @@
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/system_calls.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::runs {
 namespace {
@@ -23,8 +24,7 @@ void require(const std::string& path, int error) {
 }  // namespace
 
 void write_durably(const std::string& path, std::string_view bytes) {
-  const int descriptor = io::uninterrupted(
-      [&] { return open(path.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0666); });
+  const int descriptor = open_descriptor(path, O_CREAT | O_TRUNC | O_WRONLY);
   if (descriptor < 0) require(path, errno);
   int error = io::write_fully(descriptor, bytes.data(), bytes.size(), 0);
   if (error == 0) error = io::sync_file(descriptor);
@@ -35,8 +35,7 @@ void write_durably(const std::string& path, std::string_view bytes) {
 }
 
 void sync_bytes(const std::string& path) {
-  const int descriptor =
-      io::uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC); });
+  const int descriptor = open_descriptor(path, O_RDONLY);
   if (descriptor < 0) require(path, errno);
   const int error = io::sync_file(descriptor);
   close(descriptor);

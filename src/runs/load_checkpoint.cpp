@@ -15,4 +15,8 @@ CheckpointFiles::Latest load_checkpoint(const std::string& output_file,
   return latest;
 }
 
+std::string joined(const std::string& first, const std::string& second) {
+  return first.empty() || second.empty() ? first + second : first + "; " + second;
+}
+
 }  // namespace needlework::runs

@@ -16,4 +16,7 @@ namespace needlework::runs {
 CheckpointFiles::Latest load_checkpoint(const std::string& output_file,
                                         const std::function<void(Scene&)>& change = {});
 
+/// Two warnings as one, of which either may be empty.
+std::string joined(const std::string& first, const std::string& second);
+
 }  // namespace needlework::runs

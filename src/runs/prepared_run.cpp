@@ -9,6 +9,7 @@
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
 #include "src/io/output_file.h"
+#include "src/io/write_lock.h"
 #include "src/observe/cooling_theory.h"
 #include "src/runs/failure.h"
 #include "src/runs/state_file.h"
@@ -176,6 +177,10 @@ Simulation PreparedRun::continue_simulation(const RunCheckpoint& saved) {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", saved.origin.path, error.what()));
   }
+}
+
+std::string PreparedRun::warning() const {
+  return writer_ ? io::warning_without_locks(output_file_, scene_.output.file) : "";
 }
 
 CheckpointFiles PreparedRun::checkpoints() const { return CheckpointFiles(output_file_); }

@@ -99,6 +99,9 @@ class PreparedRun {
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   double setup_s() const { return setup_.wall(); }
+  /// A warning about the output file: that other programs which write to it cannot be noticed.
+  /// Empty if there is none.
+  std::string warning() const;
 
  private:
   PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves);

@@ -5,6 +5,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "src/machine/descriptors.h"
+
 namespace needlework::runs {
 namespace {
 
@@ -25,6 +27,7 @@ std::uint64_t peak_memory() {
 }
 
 std::string processor_name() {
+  const StandardDescriptors occupied;
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
     const auto colon = line.find(": ");

@@ -15,6 +15,8 @@
 
 #include "needlework/error.h"
 #include "src/io/atomic_file.h"
+#include "src/io/write_lock.h"
+#include "src/machine/descriptors.h"
 #include "src/runs/checkpoint.h"
 #include "src/runs/durable_file.h"
 
@@ -47,6 +49,7 @@ void make_folder(const std::string& path, const std::string& place) {
 }
 
 std::optional<std::string> contents(const std::string& path) {
+  const StandardDescriptors occupied;
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   std::ostringstream text;
@@ -56,6 +59,7 @@ std::optional<std::string> contents(const std::string& path) {
 
 void write_record(const std::string& path, const std::string& record) {
   io::AtomicFile atomic(path, true);
+  const StandardDescriptors occupied;
   std::ofstream file(atomic.temporary(), std::ios::binary);
   file << record;
   file.close();
@@ -110,6 +114,10 @@ std::optional<io::RecordedRun> SweepFolder::matching_run(const std::string& file
       "{}: expected a member of this grid, or --force to replace the file: {}", file, difference));
 }
 
+std::string SweepFolder::warning() const {
+  return io::warning_without_locks(path_ + "/grid.toml", path_);
+}
+
 std::string SweepFolder::unfinished_file(const sweep::Member& member) const {
   return path_ + "/" + member.name + ".h5.part";
 }
@@ -143,10 +151,11 @@ std::string SweepFolder::lock_file(const sweep::Member& member) const {
 Claim::Claim(const SweepFolder& folder, const sweep::Member& member)
     : path_(folder.lock_file(member)) {
   for (;;) {
-    descriptor_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    descriptor_ = open_descriptor(path_, O_CREAT | O_RDWR);
     if (descriptor_ < 0) throw IoError(path_ + ": " + reason(errno));
-    // A file system without locks cannot exclude other processes.
-    const bool taken = flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    // A file system without locks cannot exclude other processes: see SweepFolder::warning().
+    const bool taken = !io::locks_turned_off() && flock(descriptor_, LOCK_EX | LOCK_NB) != 0 &&
+                       errno == EWOULDBLOCK;
     struct stat locked, named;
     const bool current = !taken && fstat(descriptor_, &locked) == 0 &&
                          stat(path_.c_str(), &named) == 0 && locked.st_ino == named.st_ino;

@@ -27,6 +27,9 @@ class SweepFolder {
   /// A member that is finished.
   std::optional<io::RecordedRun> finished_run(const sweep::Member& member) const;
 
+  /// That other processes which run the same members cannot be noticed; empty if they can.
+  std::string warning() const;
+
   std::string unfinished_file(const sweep::Member& member) const;
   std::string failed_file(const sweep::Member& member) const;
   std::string lock_file(const sweep::Member& member) const;

@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "src/scene/printable.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework {
 namespace {
@@ -25,7 +26,7 @@ namespace {
 }  // namespace
 
 std::unique_ptr<std::FILE, CloseFile> open_text(const std::string& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  const int descriptor = open_descriptor(path, O_RDONLY | O_NONBLOCK);
   if (descriptor < 0) fail(path, errno);
   std::unique_ptr<std::FILE, CloseFile> file(fdopen(descriptor, "rb"));
   if (!file) {

@@ -229,7 +229,7 @@ Json Requests::resume(const Json& request, const Connection&) {
   if (!file) throw RequestError("file: expected the output file of a run");
   auto [saved, warning] = runs::load_checkpoint(*file);
   Json answer = add(std::make_unique<runs::PreparedRun>(std::move(saved)));
-  if (!warning.empty()) answer["warning"] = warning;
+  if (!warning.empty()) answer["warning"] = runs::joined(warning, answer.value("warning", ""));
   return answer;
 }
 
@@ -242,6 +242,7 @@ Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
               {"search", simulation.search()},
               {"isa", simulation.isa()},
               {"effects", simulation.effects()}};
+  if (const std::string warning = run->warning(); !warning.empty()) answer["warning"] = warning;
   runs_.emplace(next_++, std::move(run));
   return answer;
 }

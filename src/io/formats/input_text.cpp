@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
 namespace {
@@ -33,6 +34,11 @@ std::size_t size_of(const std::string& path) {
   if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
   if (!S_ISREG(status.st_mode)) throw IoError(path + ": cannot be read: not a regular file");
   return static_cast<std::size_t>(status.st_size);
+}
+
+std::FILE* open_to_read(const std::string& path) {
+  const StandardDescriptors occupied;
+  return std::fopen(path.c_str(), "rb");
 }
 
 }  // namespace
@@ -106,7 +112,7 @@ InputText::InputText(const std::string& path, std::size_t most)
     : path_(path),
       most_(most),
       bytes_(size_of(path)),
-      file_(std::fopen(path.c_str(), "rb"), [](std::FILE* f) { return f ? std::fclose(f) : 0; }) {
+      file_(open_to_read(path), [](std::FILE* f) { return f ? std::fclose(f) : 0; }) {
   if (bytes_ > most) {
     throw InputError(fmt::format("{}: {} bytes: expected at most {}", path, bytes_, most));
   }

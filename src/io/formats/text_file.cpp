@@ -7,8 +7,17 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/machine/descriptors.h"
 
 namespace needlework::io {
+namespace {
+
+std::FILE* open_to_write(const std::string& path) {
+  const StandardDescriptors occupied;
+  return std::fopen(path.c_str(), "wb");
+}
+
+}  // namespace
 
 struct TextFile::Compressor {
   explicit Compressor(std::FILE* file) {
@@ -37,7 +46,7 @@ struct TextFile::Compressor {
 TextFile::TextFile(const std::string& path, bool force)
     : path_(path),
       atomic_(path, force),
-      file_(std::fopen(atomic_.temporary().c_str(), "wb"),
+      file_(open_to_write(atomic_.temporary()),
             [](std::FILE* file) { return file ? std::fclose(file) : 0; }) {
   if (!file_) fail(errno);
   if (path.ends_with(".bz2")) compressor_ = std::make_unique<Compressor>(file_.get());

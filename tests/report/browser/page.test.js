@@ -293,7 +293,7 @@ test("nothing is wider than a telephone or lost on a large screen", async () => 
 });
 
 test("a row of results that is not full ends in nothing", async () => {
-  const { page, close } = await open(browser, "run.html", { viewport: { width: 900, height: 700 } });
+  const { page, close } = await open(browser, "gas.html", { viewport: { width: 900, height: 700 } });
   const { last, right, colours } = await page.evaluate(() => {
     const grid = document.querySelector(".figures"), cell = grid.lastElementChild;
     const border = getComputedStyle(grid).borderTopColor;
