@@ -19,21 +19,19 @@ constexpr std::chrono::seconds longest_wait{1};
 
 std::atomic<bool> ending = false;
 std::atomic<std::thread::id> ending_thread;
-std::atomic<int> at_work = 0;     // threads without the lock that are not parked
-thread_local bool works = false;  // whether this is one of them
+std::atomic<int> at_work = 0;  // threads within without_lock() that are not parked
+thread_local int depth = 0;    // of without_lock() in this thread: callbacks may use it again
 
 void begin_work() {
-  works = true;
-  ++at_work;
+  if (depth++ == 0) ++at_work;
 }
 
 void end_work() {
-  if (works) --at_work;
-  works = false;
+  if (--depth == 0) --at_work;
 }
 
 [[noreturn]] void park() {
-  end_work();
+  if (depth > 0) --at_work;
   for (;;) pause();
 }
 
@@ -68,7 +66,7 @@ bool has_ended_here() noexcept {
 void park_threads_at_exit(py::module_& module) {
   module.def("_wait_for_threads", wait_for_threads);
   // Threads that were at work are not there in a forked child.
-  pthread_atfork(nullptr, nullptr, [] { at_work = works ? 1 : 0; });
+  pthread_atfork(nullptr, nullptr, [] { at_work = depth > 0 ? 1 : 0; });
   py::module_::import("atexit").attr("register")(module.attr("_wait_for_threads"));
 }
 
