@@ -17,6 +17,8 @@ struct Content {
 
   friend bool operator==(const Content&, const Content&) = default;
 
+  /// The text of one row, if the dataset is one of texts.
+  std::string text(std::size_t index) const { return texts.empty() ? "" : texts.at(index); }
   /// The numbers of one row.
   std::vector<double> row(std::size_t index) const {
     const std::size_t width = shape[0] == 0 ? 0 : numbers.size() / shape[0];
@@ -39,8 +41,10 @@ inline void read_group(hid_t file, const std::string& group, Contents& contents)
     const hdf5::Handle data = hdf5::open_dataset(file, path, path);
     Content& content = contents[path];
     content.shape = hdf5::shape_of(data.get(), path);
-    content.texts = hdf5::read_strings(data.get(), path);
-    if (!content.texts.empty()) continue;
+    if (hdf5::type_name(data.get(), path) == "string") {
+      content.texts = hdf5::read_strings(data.get(), path);
+      continue;
+    }
     std::size_t size = 1;
     for (const hsize_t extent : content.shape) size *= extent;
     content.numbers.resize(size);

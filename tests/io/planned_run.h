@@ -3,6 +3,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <fstream>
@@ -10,6 +11,8 @@
 #include <iterator>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/io/contents.h"
 #include "tests/io/disk.h"
@@ -97,6 +100,14 @@ inline void write_step(Writer& writer, const Plan& plan, int step) {
     const int frame = step * plan.frames + i;
     writer.write_frame(make_totals(1000 * frame), make_frame(plan.needles, frame));
   }
+  for (int i = 0; i < plan.frames; ++i) {
+    const int change = step * plan.frames + i;
+    writer.write_velocities_set(make_totals(change), make_totals(change + 5000));
+    const UserData data{UserData::Kind::bytes,
+                        std::string(static_cast<std::size_t>(plan.events + change % 3), 'a')};
+    writer.write_data(make_totals(change), "name " + std::to_string(change % 2),
+                      change % 5 == 4 ? nullptr : &data);
+  }
 }
 
 // Writes the steps up to `end`. As runs do, it flushes more often than it notes where it is.
@@ -145,22 +156,44 @@ inline Checkpoint write_stopped(const std::string& path, const Plan& plan, int s
   return checkpoint;
 }
 
+// The dataset whose rows say how many of this one are complete, and how many were noted.
+inline std::pair<std::string, std::uint64_t> markers_of(const std::string& path,
+                                                        const Writer::Position& position) {
+  if (path.starts_with("/events/")) return {"/events/time", position.events};
+  if (path.starts_with("/series/")) return {"/series/step", position.samples};
+  if (path.starts_with("/velocities_set/")) {
+    return {"/velocities_set/step", position.velocities_set};
+  }
+  if (path.starts_with("/user_data/")) return {"/user_data/step", position.data};
+  return {"/particles/needles/position/step", position.frames};
+}
+
+// The values of the entries that are complete, one after the other.
+inline std::vector<double> complete_data(const Contents& contents) {
+  double end = 0;
+  for (std::size_t n = 0; n < contents.at("/user_data/step").shape[0]; ++n) {
+    end += std::max(contents.at("/user_data/size").numbers[n], 0.0);
+  }
+  const std::vector<double>& bytes = contents.at("/user_data/bytes").numbers;
+  return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
 // The complete rows of the file of an unfinished run are those of the full run. The last one may be
 // that of the `stopped` run whose file is continued, if it is so in all datasets.
 inline void expect_complete_rows(const Contents& found, const Contents& full,
                                  const Checkpoint& checkpoint, const Contents* stopped = nullptr) {
   for (const auto& [path, content] : found) {
-    const bool event = path.starts_with("/events/");
-    const bool sample = path.starts_with("/series/");
-    const std::string markers = event    ? "/events/time"
-                                : sample ? "/series/step"
-                                         : "/particles/needles/position/step";
-    if (full.at(path).shape == content.shape && full.at(path).numbers == content.numbers) continue;
+    const auto [markers, noted] = markers_of(path, checkpoint.position);
+    if (full.at(path) == content) continue;
+    if (path == "/user_data/bytes") {
+      const std::vector<double> bytes = complete_data(found), expected = complete_data(full);
+      // The stopped run may have had more.
+      const auto size = static_cast<std::ptrdiff_t>(std::min(bytes.size(), expected.size()));
+      ASSERT_TRUE(std::equal(bytes.begin(), bytes.begin() + size, expected.begin()));
+      continue;
+    }
     if (full.at(path).shape.empty() || path == "/particles/needles/id") continue;
     const std::size_t rows = found.at(markers).shape[0];
-    const std::uint64_t noted = event    ? checkpoint.position.events
-                                : sample ? checkpoint.position.samples
-                                         : checkpoint.position.frames;
     ASSERT_GE(rows, noted) << path;
     ASSERT_GE(content.shape[0], rows) << path;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -168,6 +201,7 @@ inline void expect_complete_rows(const Contents& found, const Contents& full,
                               found.at(markers).row(row) == stopped->at(markers).row(row);
       const Contents& expected = of_stopped ? *stopped : full;
       ASSERT_EQ(content.row(row), expected.at(path).row(row)) << path << " row " << row;
+      ASSERT_EQ(content.text(row), expected.at(path).text(row)) << path << " row " << row;
     }
   }
 }

@@ -32,7 +32,8 @@ LAYERS = [
     Layer("search", ["src/search"], [], ["base", "memory", "kernels", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
     # Which calendars a scene may name is what the list of calendars says.
-    Layer("scene", ["src/scene"], ["scene.h", "parse.h", "state.h", "initial_state.h"],
+    Layer("scene", ["src/scene"],
+          ["scene.h", "parse.h", "state.h", "initial_state.h", "user_data.h"],
           ["base", "machine", "archive", "calendar"], ["kernels"]),
     Layer("engine", ["src/engine"], ["simulation.h"],
           ["base", "memory", "machine", "archive", "kernels", "trajectory", "scene", "physics",
@@ -72,7 +73,7 @@ LIBRARIES = [
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["program", "bindings", "report", "reproduce"]),
+    (r"nlohmann/.*", ["scene", "program", "bindings", "report", "reproduce"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["io", "program"]),
