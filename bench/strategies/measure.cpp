@@ -59,10 +59,11 @@ Message measure_here(const Case& what, double min_time) {
   const bool draws = what.filled == 1 && !what.initial;
   Simulation simulation =
       draws ? Simulation(what.scene) : Simulation(what.scene, initial_state(what));
-  setup.stop();
-
   Scene::Until until;
   until.collisions_per_needle = warm_up;
+  simulation.prepare(until);
+  setup.stop();
+
   simulation.advance(until);
   out.warm_up_hash = text_of(simulation.trajectory_hash());
   const Counters counters = simulation.counters();

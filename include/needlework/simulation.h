@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -56,6 +57,12 @@ class Simulation {
   /// UnfinishedEventError. Throws InputError if no condition is given, if one is not a number, or
   /// if OpenMP provides fewer threads than at the start; the call may then be repeated.
   Stop advance(const Scene::Until& until);
+
+  /// Lets all needles search their first events, which advance() does otherwise and which may take
+  /// longer than anything else before the first collision. Returns nothing when it is done, and
+  /// else what advance() would return without any event: also where a limit on wall time or
+  /// interrupt() has stopped it. The next call, or advance(), then continues.
+  std::optional<Stop> prepare(const Scene::Until& until);
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time
   /// and the new states from the Collision: time() and copy() are not yet, or with several threads

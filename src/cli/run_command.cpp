@@ -133,7 +133,8 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
   const std::uint64_t collisions = prepared.simulation().collisions();
   const runs::Course course = prepared.drive(monitor);
 
-  const Report report{prepared.scene(), prepared.simulation(), course, prepared.setup_s()};
+  const Report report{prepared.scene(), prepared.simulation(), course,
+                      prepared.setup_s() + course.setup.wall()};
   if (printing.json) {
     fmt::print("{}\n", json_of(report));
   } else if (!printing.quiet) {

@@ -24,11 +24,14 @@ class EventLoop : public Loop {
   /// replaced at the present time.
   EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar, ReplacedRecords replaced);
 
+  std::optional<Stop> prepare(const Limits* limits) final;
   std::optional<Stop> advance(const Limits& limits) override;
   const char* search_name() const override { return search_.name(); }
   const char* calendar_name() const override { return calendar_->name(); }
 
  protected:
+  /// All needles have searched.
+  virtual void prepared() {}
   /// If the window ends before `next`, the time of the next event, opens the next window and
   /// returns true.
   bool pass_window(Time next, const Limits& limits);
@@ -43,6 +46,12 @@ class EventLoop : public Loop {
   std::unique_ptr<AnyCalendar> calendar_;
   EventProcessor<S, M> processor_;
   std::uint64_t sorted_at_;  ///< value of the counter `crossings` when the needles were last sorted
+
+ private:
+  void first_search(Needle i);
+
+  Needle to_prepare_{0};            ///< needles from here on have not searched yet
+  std::vector<Time> placed_until_;  ///< of all needles, until all have searched
 };
 
 template <Search S, Model M>
@@ -62,13 +71,42 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
   calendar_->reset(count, run.gas.clock, search_.cells());
   processor_.set_now(run.now);
   processor_.take(std::move(replaced));
-  std::vector<Time> placed_until(count);
-  for (Needle i{0}; i < count; ++i) placed_until[i] = processor_.place(i);
-  for (Needle i{0}; i < count; ++i) processor_.schedule(i, placed_until[i]);
+  placed_until_.resize(count);
+  for (Needle i{0}; i < count; ++i) placed_until_[i] = processor_.place(i);
+}
+
+template <Search S, Model M>
+std::optional<Stop> EventLoop<S, M>::prepare(const Limits* limits) {
+  const std::size_t count = run_.gas.size();
+  if (to_prepare_ == Needle(count)) return std::nullopt;
+  for (; to_prepare_ < count; ++to_prepare_) {
+    if (limits && to_prepare_.index % 16 == 0) {
+      if (const auto stop = limits->called_off(run_)) return stop;
+    }
+    first_search(to_prepare_);
+  }
+  placed_until_ = {};
+  prepared();
+  return std::nullopt;
+}
+
+// Where nothing can happen, time passes without events, and a record may be older than it should
+// become. From there, a search would look for contacts in the past, so that the record is renewed
+// first.
+template <Search S, Model M>
+void EventLoop<S, M>::first_search(Needle i) {
+  if (run_.gas.records[i].renewal >= run_.now) return processor_.schedule(i, placed_until_[i]);
+  Event event;
+  event.owner = i;
+  event.lower_id = event.higher_id = run_.gas.ids[i];
+  event.time = run_.now;
+  search_.set_next_event(i, run_.now);
+  processor_.enter(event);
 }
 
 template <Search S, Model M>
 std::optional<Stop> EventLoop<S, M>::advance(const Limits& limits) {
+  if (const auto stop = prepare(&limits)) return stop;
   return run_alone(limits, Time::never());
 }
 

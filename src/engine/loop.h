@@ -39,6 +39,10 @@ class Loop {
  public:
   virtual ~Loop() = default;
 
+  /// Lets all needles search their first events, and returns nothing when they have. Where the
+  /// limits call the run off, returns why; the next call, or advance(), then continues. Without
+  /// limits nothing stops it.
+  virtual std::optional<Stop> prepare(const Limits* limits) = 0;
   /// Processes events until a limit is met, or until the pause, when it returns nothing. Throws
   /// InvalidStateError when the run cannot continue correctly; the state then stays as it was
   /// before the event that failed, unless the error is an UnfinishedEventError.

@@ -121,6 +121,7 @@ class ParallelLoop final : public EventLoop<S, M> {
   std::optional<Stop> advance(const Limits& limits) override;
 
  private:
+  void prepared() override { divide(); }
   void divide();
   void sort_storage() override {
     Base::sort_storage();
@@ -189,7 +190,6 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
     squares = std::max(squares, dot(record.flight.v, record.flight.v));
   }
   fastest_to_thermal_ = squares > 0 ? std::sqrt(squares) / thermal_speed() : 0;
-  divide();
 }
 
 template <Search S, Model M>
@@ -201,6 +201,7 @@ void ParallelLoop<S, M>::divide() {
 
 template <Search S, Model M>
 std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
+  if (const auto stop = this->prepare(&limits)) return stop;
   const Time last =
       limits.time == Time::never()
           ? limits.time

@@ -98,6 +98,8 @@ struct Simulation::Implementation {
         choice_of(scene, run, sizing ? sizing->density() : reduced_density(run.gas));
     choice.replaced = replaced;  // kept until there is a loop, as making one may throw
     loop = make_loop(run, std::move(choice));
+    // They are needed until all needles have searched, and no checkpoint holds them.
+    if (!replaced.empty()) loop->prepare(nullptr);
     replaced = {};
     search = loop->search_name();
     calendar = loop->calendar_name();
@@ -129,11 +131,19 @@ struct Simulation::Implementation {
         v2, w2,
         std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
     const std::vector<Needle> ranks = ranks_of(by_id());
+    // On which sides needles are that touch now is known once all have searched.
+    if (loop) loop->prepare(nullptr);
     loop.reset();  // all of its contents depend on the velocities
     replaced =
         run.replace_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
                                [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
     begin_loop();
+  }
+
+  std::optional<Stop> prepare(const Scene::Until& until) {
+    const auto stop = prepare(Limits(run, until));
+    if (!stop) return std::nullopt;
+    return run.interrupted.exchange(false) ? Stop::interrupted : stop;
   }
 
   Stop advance(const Scene::Until& until) {
@@ -142,15 +152,28 @@ struct Simulation::Implementation {
     return run.interrupted.exchange(false) ? Stop::interrupted : stop;
   }
 
-  Stop advance(Limits limits) {
-    if (const auto stop = limits.reached_without_events(run)) return *stop;
-    for (;;) {
+  // Whether it ends without an event, and why.
+  std::optional<Stop> prepare(const Limits& limits) {
+    // On which sides needles are that touch is to be known before time passes without events.
+    if (limits.time != Time::never() && run.nothing_can_happen()) {
       if (!loop) begin_loop();
+      if (const auto stop = loop->prepare(&limits)) return stop;
+    }
+    if (const auto stop = limits.reached_without_events(run)) return stop;
+    if (const auto stop = limits.reached(run)) return stop;
+    if (!loop) begin_loop();
+    return loop->prepare(&limits);
+  }
+
+  Stop advance(Limits limits) {
+    if (const auto stop = prepare(limits)) return *stop;
+    for (;;) {
       if (sizing) limits.pause = sizing->next();
       if (const auto stop = loop->advance(limits)) return *stop;
       if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
       loop.reset();  // frees its memory before the next loop allocates
       ++run.tally.counters.resized;
+      begin_loop();
     }
   }
 
@@ -197,6 +220,11 @@ Simulation::Simulation(const Scene& scene, const Checkpoint& checkpoint) {
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
+
+std::optional<Stop> Simulation::prepare(const Scene::Until& until) {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->prepare(until);
+}
 
 Stop Simulation::advance(const Scene::Until& until) {
   const kernels::DefaultArithmetic arithmetic;

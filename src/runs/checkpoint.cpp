@@ -61,6 +61,7 @@ namespace {
 constexpr std::string_view mark = "needlework checkpoint 4 of " NEEDLEWORK_VERSION "\n";
 
 constexpr std::string_view checkpoint_ending = ".checkpoint";
+constexpr std::string_view older_ending = ".old";
 
 // Follows the first line.
 struct Header {
@@ -213,6 +214,17 @@ std::string bytes_of(const RunCheckpoint& checkpoint) {
 
 std::string unfinished(const std::string& path) { return path + ".part"; }
 
+// Whether this is the older of two, and the newest is whole. It was damaged or missing when the
+// older one was chosen.
+bool has_newer_one(const std::string& path) {
+  if (!path.ends_with(older_ending)) return false;
+  try {
+    return read_if_present(path.substr(0, path.size() - older_ending.size())).has_value();
+  } catch (const std::runtime_error&) {  // InputError or IoError
+    return false;
+  }
+}
+
 void move_if_present(const std::string& from, const std::string& to) {
   if (std::rename(from.c_str(), to.c_str()) == 0 || errno == ENOENT) return;
   throw IoError(fmt::format("{}: {}", to, std::generic_category().message(errno)));
@@ -253,7 +265,7 @@ RunCheckpoint CheckpointFiles::read(const std::string& path) {
 
 CheckpointFiles::CheckpointFiles(const std::string& output_file)
     : newest_(behind_links(output_file) + std::string(checkpoint_ending)),
-      older_(newest_ + ".old"),
+      older_(newest_ + std::string(older_ending)),
       bundle_(behind_links(output_file) + ".failure") {}
 
 bool CheckpointFiles::exist() const {
@@ -306,7 +318,8 @@ CheckpointFiles::Latest CheckpointFiles::latest() const {
 void CheckpointFiles::require_unchanged(const RunCheckpoint::Origin& origin) {
   try {
     const auto now = open_checkpoint(origin.path);
-    if (now && now->header.checksum == origin.checksum) return;
+    const bool unchanged = now && now->header.checksum == origin.checksum;
+    if (unchanged && !has_newer_one(origin.path)) return;
   } catch (const InputError&) {
     // It is another one, or gone.
   }

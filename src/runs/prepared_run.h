@@ -98,6 +98,7 @@ class PreparedRun {
   const Scene& scene() const { return scene_; }
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
+  /// Time spent on making the simulation, without the first search of its needles [s].
   double setup_s() const { return setup_.wall(); }
   /// A warning about the output file: that other programs which write to it cannot be noticed.
   /// Empty if there is none.

@@ -240,6 +240,11 @@ std::optional<Stop> RunDriver::step(const Scene::Until& until, SteadyClock::time
   }
 
   const Stop stop = [&] {
+    if (!prepared_) {
+      const Timed timed(course_.setup);
+      if (const auto early = simulation_.prepare(limits)) return *early;
+      prepared_ = true;
+    }
     const Timed timed(course_.loop);
     return simulation_.advance(limits);
   }();

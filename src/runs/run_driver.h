@@ -28,6 +28,7 @@ struct Course {
   Stop stop = Stop::time;
   std::optional<std::string> failure;  ///< the reason if the state became invalid
   std::string bundle;                  ///< file that `needlework replay` takes then, or empty
+  Stopwatch setup;                     ///< time spent on the first search of all needles
   Stopwatch loop;                      ///< time spent in the event loop by this process
   std::uint64_t collisions = 0;        ///< in that time
   bool theory_holds = true;            ///< as long as no caller has replaced the velocities
@@ -110,6 +111,7 @@ class RunDriver {
   const bool keeps_course_;
   const std::uint64_t collisions_before_;  ///< by other processes
   bool begun_ = false;
+  bool prepared_ = false;  ///< whether all needles have searched
   Schedule series_, frames_;
   std::optional<BatchRate> rate_;
   std::function<void(const Collision&)> callback_;

@@ -45,6 +45,7 @@ TEST(Cloud, IsFollowedAsItSpreads) {
     scene.engine.team = "all";
     Simulation simulation(scene, state);
     EXPECT_EQ(simulation.search(), "capsules");
+    EXPECT_EQ(simulation.prepare(until), std::nullopt);
     EXPECT_LT(simulation.counters().candidates, 600u * simulation.counters().searches);
     EXPECT_EQ(simulation.advance(until), Stop::collisions);
     EXPECT_EQ(simulation.trajectory_hash(), truth.trajectory_hash());
