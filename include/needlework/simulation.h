@@ -64,6 +64,12 @@ class Simulation {
   /// interrupt() has stopped it. The next call, or advance(), then continues.
   std::optional<Stop> prepare(const Scene::Until& until);
 
+  /// Why needles never collide, in words, or empty if they may: there are fewer than two, they move
+  /// alike, they are parallel and do not rotate, or they lie and move in planes normal to an axis;
+  /// or none have for 2^20 windows of the run and 2^25 / N, where kinetic theory expects 2^23
+  /// collisions and more. Without a limit on time, advance() returns Stop::nothing_can_happen then.
+  std::string why_no_collision() const;
+
   /// Sets a function that is called once for each collision, in order of time. It takes the time
   /// and the new states from the Collision: time() and copy() are not yet, or with several threads
   /// no longer, at that moment. If it throws, the simulation cannot go on. It must not set another

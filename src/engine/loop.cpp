@@ -38,8 +38,11 @@ Limits::Limits(const Run& run, const Scene::Until& until)
 
 std::optional<Stop> Limits::reached_without_events(Run& run) const {
   if (time < run.now) return Stop::time;
+  if (time == Time::never()) {
+    if (run.why_no_collision().empty()) return std::nullopt;
+    return Stop::nothing_can_happen;
+  }
   if (!run.nothing_can_happen()) return std::nullopt;
-  if (time == Time::never()) return Stop::nothing_can_happen;
   run.require_images(time);
   run.now = time;
   return Stop::time;
@@ -48,6 +51,7 @@ std::optional<Stop> Limits::reached_without_events(Run& run) const {
 std::optional<Stop> Limits::called_off(const Run& run) const {
   if (run.interrupted) return Stop::interrupted;
   if (wall != wall.max() && std::chrono::steady_clock::now() >= wall) return Stop::wall_time;
+  if (time == Time::never() && run.is_quiet()) return Stop::nothing_can_happen;
   return std::nullopt;
 }
 

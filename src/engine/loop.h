@@ -24,7 +24,8 @@ struct Limits {
     if (run.energy() <= energy) return Stop::energy;
     return std::nullopt;
   }
-  /// Whether the caller has interrupted the run, or the limit on wall time has passed.
+  /// Whether the caller has interrupted the run, the limit on wall time has passed, or no limit on
+  /// time will end a gas without collisions.
   std::optional<Stop> called_off(const Run& run) const;
 
   Time time;  ///< Time::never(): no limit

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "kernels/free_flight.h"
 #include "kernels/power_of_two.h"
 #include "needlework/error.h"
 #include "src/engine/exact_sums.h"
 #include "src/engine/space_order.h"
+#include "src/physics/collisionless.h"
 #include "src/physics/director.h"
 #include "src/physics/mean_free_time.h"
 #include "src/physics/vectors.h"
@@ -199,6 +201,8 @@ void Run::pass_window() {
   const double by_account = energy();
   open_window();
   drift_of_windows_ += drift_to(energy_at_window_, by_account);
+  const bool quiet = tally.collisions == std::exchange(collisions_before_, tally.collisions);
+  quiet_windows_ = quiet ? quiet_windows_ + 1 : 0;
 }
 
 double Run::drift_to(double energy_of_all, double by_account) {
@@ -295,6 +299,16 @@ bool Run::nothing_can_happen() const {
   return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {
     return record.flight.omega == 0 && record.flight.v == v;
   });
+}
+
+std::string Run::why_no_collision() const {
+  if (gas.size() < 2) return gas.size() == 0 ? "there are no needles" : "there is one needle";
+  if (nothing_can_happen()) return "all needles move alike and do not rotate";
+  const auto reason = collisionless(gas.size(), [&](std::size_t i) {
+    const kernels::Flight& flight = gas.records[i].flight;
+    return Motion{flight.v, flight.u, flight.w};
+  });
+  return reason ? std::string("all needles ") + words_for(*reason) : "";
 }
 
 Stop Run::end_of_events() const {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kernels/isa.h"
@@ -73,7 +74,17 @@ class Run {
   void open_window();
   /// The same at the end of a window, of which the drift of the energy is noted.
   void pass_window();
+  /// Whether needles do not move relative to each other, so that time may pass without events.
   bool nothing_can_happen() const;
+  /// Why no two needles can ever collide, as the state shows, or empty: "all needles are ...".
+  std::string why_no_collision() const;
+  /// Whether no needles have collided for so long that none are expected to: for 2^20 windows, and
+  /// for 2^25 / N. Kinetic theory expects a collision of every second to fourth needle in a window.
+  bool is_quiet() const {
+    const auto count = static_cast<std::uint64_t>(gas.size());
+    return quiet_windows_ >= long_quiet && quiet_windows_ * count >= 32 * long_quiet;
+  }
+  std::uint64_t long_quiet = std::uint64_t{1} << 20;  ///< [windows]
   /// How a run ends that has no further event: since nothing can happen any more. If needles still
   /// move, their next events are beyond the range of the clock: throws InvalidStateError.
   Stop end_of_events() const;
@@ -142,7 +153,8 @@ class Run {
   double window_span_ = 0;
   double energy_at_window_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::uint64_t quanta_at_window_ = 0;
-  double drift_of_windows_ = 0;  ///< of those that have ended
+  double drift_of_windows_ = 0;                              ///< of those that have ended
+  std::uint64_t quiet_windows_ = 0, collisions_before_ = 0;  ///< since the last collision
   int threads_ = 1;
   pid_t process_ = 0;  ///< in which these are
 };

@@ -231,6 +231,13 @@ Stop Simulation::advance(const Scene::Until& until) {
   return implementation_->advance(until);
 }
 
+std::string Simulation::why_no_collision() const {
+  const Run& run = implementation_->run;
+  if (const std::string why = run.why_no_collision(); !why.empty()) return why;
+  if (!run.is_quiet()) return {};
+  return "none has come for so long that none is expected";
+}
+
 void Simulation::on_collision(std::function<void(const Collision&)> callback) {
   implementation_->run.callback = std::move(callback);
 }

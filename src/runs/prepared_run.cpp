@@ -18,15 +18,13 @@
 
 namespace needlework::runs {
 
-void require_events(Simulation& simulation, const Scene& scene, const std::string& path) {
+void require_events(const Simulation& simulation, const Scene& scene, const std::string& path) {
   require_reachable_end(scene);
   if (scene.until.time) return;
-  Scene::Until at_once;
-  at_once.collisions_per_needle = 0;
-  if (simulation.advance(at_once) == Stop::nothing_can_happen) {
-    throw InputError(path +
-                     ": nothing can ever happen: expected two needles or more, one of which "
-                     "moves, or until.time");
+  if (const std::string why = simulation.why_no_collision(); !why.empty()) {
+    throw InputError(fmt::format(
+        "{}: nothing can ever happen, as {}: expected needles that can collide, or until.time",
+        path, why));
   }
 }
 

@@ -27,7 +27,7 @@ namespace needlework::runs {
 
 /// Throws InputError, which names the scene by `path`, if the run would never end: nothing can ever
 /// happen and no end in time is set, or collisions keep the energy and no other end is set.
-void require_events(Simulation& simulation, const Scene& scene, const std::string& path);
+void require_events(const Simulation& simulation, const Scene& scene, const std::string& path);
 
 /// Throws InputError if collisions keep the energy and no end but one in energy is set.
 void require_reachable_end(const Scene& scene);

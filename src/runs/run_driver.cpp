@@ -90,6 +90,11 @@ Stop RunDriver::advance(const Scene::Until& until, RunMonitor& monitor) {
     if (until.wall_s && seconds_since(start) >= *until.wall_s) {
       return course_.stop = Stop::wall_time;
     }
+    // Steps end at samples, so that the simulation cannot tell.
+    const bool may_never_end = !until.time || !std::isfinite(*until.time);
+    if (may_never_end && !simulation_.why_no_collision().empty()) {
+      return course_.stop = Stop::nothing_can_happen;
+    }
     if (const auto stop = step(until, start)) return course_.stop = *stop;
     flush_if_due();
     save_checkpoint_if_due(monitor);
