@@ -30,6 +30,13 @@ struct Checkpoint {
 /// for events, which takes most of that time.
 void require_simulable(const Scene& scene, const State& initial);
 
+/// Why no two needles of this initial state can ever collide, in words ("all needles are parallel
+/// and do not rotate"), or empty if they may: there are fewer than two, they move alike, they are
+/// parallel and do not rotate, or they lie and move in planes normal to an axis.
+std::string why_no_collision(const State& initial);
+/// The same for the state that the scene draws.
+std::string why_no_collision(const Scene& drawn);
+
 /// A running simulation. It computes in the default floating-point environment, whatever the caller
 /// has chosen for itself; callbacks find that, too. Only one thread at a time may use a simulation,
 /// except for interrupt(); any number of simulations may exist side by side.
@@ -64,10 +71,9 @@ class Simulation {
   /// interrupt() has stopped it. The next call, or advance(), then continues.
   std::optional<Stop> prepare(const Scene::Until& until);
 
-  /// Why needles never collide, in words, or empty if they may: there are fewer than two, they move
-  /// alike, they are parallel and do not rotate, or they lie and move in planes normal to an axis;
-  /// or none have for 2^20 windows of the run and 2^25 / N, where kinetic theory expects 2^23
-  /// collisions and more. Without a limit on time, advance() returns Stop::nothing_can_happen then.
+  /// The same for the present state; or, that no needles have collided for 2^20 windows of the run
+  /// and 2^25 / N, in which kinetic theory expects 2^23 collisions and more. Without a limit on
+  /// time, advance() returns Stop::nothing_can_happen then.
   std::string why_no_collision() const;
 
   /// Sets a function that is called once for each collision, in order of time. It takes the time

@@ -191,8 +191,8 @@ int run(const AuditArguments& arguments) {
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
+  runs::require_events(loaded, arguments.scene.path);
   Simulation simulation = loaded.initial ? Simulation(scene, *loaded.initial) : Simulation(scene);
-  runs::require_events(simulation, scene, arguments.scene.path);
   audit::Audit audit(simulation.copy(), setup_of(scene, arguments, simulation.epoch_length()));
   const AuditIdentity identity =
       fmt::format("share {:.17g}, seed {}\n{}", arguments.share, arguments.seed, scene.text);

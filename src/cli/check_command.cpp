@@ -18,7 +18,7 @@ using enum runs::ExitCode;
 int run(const CheckArguments& arguments) {
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   runs::require_writable_output(loaded.scene, true, arguments.scene.path);
-  runs::require_reachable_end(loaded.scene);
+  runs::require_events(loaded, arguments.scene.path);
   if (loaded.initial) require_simulable(loaded.scene, *loaded.initial);
   const runs::Explanation explanation(loaded);
   for (const std::string& warning : explanation.warnings) print_warning(warning);

@@ -12,6 +12,7 @@
 #include "src/cli/progress.h"
 #include "src/cli/report.h"
 #include "src/cli/scene_arguments.h"
+#include "src/cli/set_up.h"
 #include "src/cli/signals.h"
 #include "src/cli/watch.h"
 #include "src/io/write_lock.h"
@@ -95,8 +96,9 @@ RunLog open_log(const Printing& printing, const std::string& output_file) {
 }
 
 int run(const RunArguments& arguments) {
-  SignalGuard signals;  // a signal during the set-up ends the run in order, too
-  runs::LoadedScene loaded = load_scene(arguments.scene);
+  SignalGuard signals;
+  std::optional<SetUp> set_up("nothing is saved");
+  runs::LoadedScene loaded = load_scene(arguments.scene, &*set_up);
   Scene& scene = loaded.scene;
   if (arguments.out) {
     scene.output.file = *arguments.out;
@@ -113,6 +115,7 @@ int run(const RunArguments& arguments) {
   RunLog log = open_log(arguments.printing, file);
   return logged(log, [&] {
     runs::PreparedRun prepared(std::move(loaded), arguments.force, arguments.scene.path);
+    set_up.reset();
     log.start(arguments.scene.path, prepared);
     for (const std::string& warning : warnings) log.warning(warning);
     return drive(prepared, signals, arguments.printing, log);
@@ -131,7 +134,7 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
   runs::RunMonitor& monitor = log ? static_cast<runs::RunMonitor&>(with_log) : *shown;
   const double time = prepared.simulation().time();
   const std::uint64_t collisions = prepared.simulation().collisions();
-  const runs::Course course = prepared.drive(monitor);
+  const runs::Course course = prepared.drive(monitor, runs::seconds_since_launch());
 
   const Report report{prepared.scene(), prepared.simulation(), course,
                       prepared.setup_s() + course.setup.wall()};
@@ -142,7 +145,12 @@ int drive(runs::PreparedRun& prepared, SignalGuard& signals, const Printing& pri
   }
   const Ending ending = ending_of(course, prepared.scene());
   if (!ending.message.empty()) print_error(ending.message);
-  if (ending.exit_code == ok && time > 0 && is_at(prepared.simulation(), time, collisions)) {
+  if (course.stop == Stop::nothing_can_happen) {
+    const std::string why = fmt::format("the run has ended early, as nothing collides: {}",
+                                        prepared.simulation().why_no_collision());
+    print_warning(why);
+    log.warning(why);
+  } else if (ending.exit_code == ok && time > 0 && is_at(prepared.simulation(), time, collisions)) {
     print_warning(nothing_to_do);
     log.warning(nothing_to_do);
   }

@@ -24,11 +24,12 @@ void apply(const EngineOptions& options, Scene& scene) {
   }
 }
 
-runs::LoadedScene load_scene(const SceneArguments& arguments) {
+runs::LoadedScene load_scene(const SceneArguments& arguments, SetUp* set_up) {
   Scene scene = read_file(arguments.path, FileKind::scene, [&] {
     return read_scene(arguments.path, arguments.overrides, arguments.provided);
   });
   apply(arguments.engine, scene);
+  if (set_up) set_up->limit(scene.until);
   return runs::complete_scene(std::move(scene));
 }
 

@@ -7,6 +7,7 @@
 
 #include "needlework/parse.h"
 #include "needlework/scene.h"
+#include "src/cli/set_up.h"
 #include "src/runs/loaded_scene.h"
 
 namespace needlework::cli {
@@ -29,7 +30,8 @@ struct SceneArguments {
 void apply(const EngineOptions& options, Scene& scene);
 
 /// Reads the scene, applies overrides and options, and reads the initial state if it is in a file.
-/// Throws as read_scene() and runs::complete_scene() do.
-runs::LoadedScene load_scene(const SceneArguments& arguments);
+/// Throws as read_scene() and runs::complete_scene() do. `set_up`, if there is one, is told the
+/// limit of wall time before the state is read.
+runs::LoadedScene load_scene(const SceneArguments& arguments, SetUp* set_up = nullptr);
 
 }  // namespace needlework::cli

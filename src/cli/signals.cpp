@@ -13,11 +13,16 @@ namespace {
 // A signal handler can reach nothing but globals.
 std::atomic<Simulation*> interrupted_by_signals = nullptr;
 std::atomic<int> signal_received = 0;
-std::atomic<std::int64_t> received_at = 0;  // [ns]
+std::atomic<std::int64_t> received_at = 0;  // of the first that is no warning [ns]
 static_assert(std::atomic<Simulation*>::is_always_lock_free);
 static_assert(std::atomic<std::int64_t>::is_always_lock_free);
 
-constexpr std::array handled{SIGINT, SIGTERM, SIGHUP};
+// Batch systems send the last three some time before they end a job: SIGXCPU once a second, and the
+// others may be followed by SIGTERM.
+constexpr std::array handled{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
+
+bool is_warning(int signal) { return signal == SIGUSR1 || signal == SIGUSR2 || signal == SIGXCPU; }
+
 std::array<struct sigaction, handled.size()> before;  // of the guard
 
 std::int64_t nanoseconds() {
@@ -36,12 +41,14 @@ void set_handler(int signal, void (*handler)(int)) {
 
 // All of it may be done in a signal handler.
 void handle(int signal) {
-  if (signal_received == 0) {
-    received_at = nanoseconds();
-    signal_received = signal;
-  } else if (nanoseconds() - received_at > 200000000) {
-    set_handler(signal, SIG_DFL);
-    raise(signal);
+  if (signal_received == 0) signal_received = signal;
+  if (!is_warning(signal)) {
+    if (received_at == 0) {
+      received_at = nanoseconds();
+    } else if (nanoseconds() - received_at > 200000000) {
+      set_handler(signal, SIG_DFL);
+      raise(signal);
+    }
   }
   if (Simulation* simulation = interrupted_by_signals) simulation->interrupt();
 }
@@ -55,11 +62,14 @@ void SignalGuard::interrupt(Simulation& simulation) {
 
 SignalGuard::SignalGuard() {
   signal_received = 0;
+  received_at = 0;
   for (std::size_t n = 0; n < handled.size(); ++n) {
     sigaction(handled[n], nullptr, &before[n]);
-    // `nohup` has a program go on when its terminal is closed. (Shells have background jobs ignore
-    // SIGINT in the same way, but who sends it to such a job by `kill` means it.)
-    const bool unwanted = handled[n] == SIGHUP && before[n].sa_handler == SIG_IGN;
+    // `nohup` has a program go on when its terminal is closed, and what starts a job may want no
+    // warnings. (Shells have background jobs ignore SIGINT in the same way, but who sends it to
+    // such a job by `kill` means it.)
+    const bool may_be_unwanted = handled[n] == SIGHUP || is_warning(handled[n]);
+    const bool unwanted = may_be_unwanted && before[n].sa_handler == SIG_IGN;
     if (!unwanted) set_handler(handled[n], handle);
   }
 }

@@ -50,8 +50,10 @@ class EventLoop : public Loop {
  private:
   void first_search(Needle i);
 
-  Needle to_prepare_{0};            ///< needles from here on have not searched yet
-  std::vector<Time> placed_until_;  ///< of all needles, until all have searched
+  bool is_prepared_ = false;
+  std::size_t searched_ = 0;  ///< so many needles have searched, if not all have
+  std::vector<Time>
+      placed_until_;  ///< of the needles that have been placed, until all have searched
 };
 
 template <Search S, Model M>
@@ -71,22 +73,27 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
   calendar_->reset(count, run.gas.clock, search_.cells());
   processor_.set_now(run.now);
   processor_.take(std::move(replaced));
-  placed_until_.resize(count);
-  for (Needle i{0}; i < count; ++i) placed_until_[i] = processor_.place(i);
+  placed_until_.reserve(count);
 }
 
 template <Search S, Model M>
 std::optional<Stop> EventLoop<S, M>::prepare(const Limits* limits) {
+  if (is_prepared_) return std::nullopt;
   const std::size_t count = run_.gas.size();
-  if (to_prepare_ == Needle(count)) return std::nullopt;
-  for (; to_prepare_ < count; ++to_prepare_) {
-    if (limits && to_prepare_.index % 16 == 0) {
-      if (const auto stop = limits->called_off(run_)) return stop;
-    }
-    first_search(to_prepare_);
+  const auto called_off = [&](std::size_t turn) -> std::optional<Stop> {
+    return limits && turn % 16 == 0 ? limits->called_off(run_) : std::nullopt;
+  };
+  for (std::size_t i = placed_until_.size(); i < count; ++i) {
+    if (const auto stop = called_off(i)) return stop;
+    placed_until_.push_back(processor_.place(Needle(i)));
+  }
+  for (; searched_ < count; ++searched_) {
+    if (const auto stop = called_off(searched_)) return stop;
+    first_search(Needle(searched_));
   }
   placed_until_ = {};
   prepared();
+  is_prepared_ = true;
   return std::nullopt;
 }
 

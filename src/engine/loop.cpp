@@ -39,8 +39,8 @@ Limits::Limits(const Run& run, const Scene::Until& until)
 std::optional<Stop> Limits::reached_without_events(Run& run) const {
   if (time < run.now) return Stop::time;
   if (time == Time::never()) {
-    if (run.why_no_collision().empty()) return std::nullopt;
-    return Stop::nothing_can_happen;
+    if (run.collisionless()) return Stop::nothing_can_happen;
+    return std::nullopt;
   }
   if (!run.nothing_can_happen()) return std::nullopt;
   run.require_images(time);

@@ -13,7 +13,7 @@
 #include "needlework/error.h"
 #include "src/engine/exact_sums.h"
 #include "src/engine/space_order.h"
-#include "src/physics/collisionless.h"
+#include "src/machine/stop_request.h"
 #include "src/physics/director.h"
 #include "src/physics/mean_free_time.h"
 #include "src/physics/vectors.h"
@@ -126,6 +126,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   gas.ids.resize(count);
   gas.images.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
+    StopRequest::check_in_turn(i);
     const std::size_t from = order[i];
     kernels::Flight& flight = gas.records[i].flight;
     flight.r = vector_of(initial.position[from]);
@@ -166,6 +167,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   open_window();
   gas.clock = Clock(mean_free_time);
   for (Needle i{0}; i < gas.size(); ++i) {
+    StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now, {flight.u, flight.v, flight.w, gas.longest});
   }
@@ -301,14 +303,12 @@ bool Run::nothing_can_happen() const {
   });
 }
 
-std::string Run::why_no_collision() const {
-  if (gas.size() < 2) return gas.size() == 0 ? "there are no needles" : "there is one needle";
-  if (nothing_can_happen()) return "all needles move alike and do not rotate";
-  const auto reason = collisionless(gas.size(), [&](std::size_t i) {
+std::optional<Collisionless> Run::collisionless() const {
+  if (nothing_can_happen() && gas.size() > 1) return Collisionless::alike;
+  return needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return Motion{flight.v, flight.u, flight.w};
   });
-  return reason ? std::string("all needles ") + words_for(*reason) : "";
 }
 
 Stop Run::end_of_events() const {

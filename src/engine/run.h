@@ -7,7 +7,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "kernels/isa.h"
@@ -15,6 +14,7 @@
 #include "src/engine/replaced_records.h"
 #include "src/engine/tally.h"
 #include "src/physics/collision.h"
+#include "src/physics/collisionless.h"
 #include "src/physics/effects.h"
 #include "src/physics/gas.h"
 #include "src/scene/derived_numbers.h"
@@ -76,8 +76,8 @@ class Run {
   void pass_window();
   /// Whether needles do not move relative to each other, so that time may pass without events.
   bool nothing_can_happen() const;
-  /// Why no two needles can ever collide, as the state shows, or empty: "all needles are ...".
-  std::string why_no_collision() const;
+  /// Why no two needles can ever collide, as the state shows; nothing if they may.
+  std::optional<Collisionless> collisionless() const;
   /// Whether no needles have collided for so long that none are expected to: for 2^20 windows, and
   /// for 2^25 / N. Kinetic theory expects a collision of every second to fourth needle in a window.
   bool is_quiet() const {

@@ -12,6 +12,7 @@
 #include "src/archive/archive.h"
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
+#include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 
 namespace needlework {
@@ -172,6 +173,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   const bool has_last_collisions = effects.contact_time;
   if (has_last_collisions) last_collision.resize(gas.size(), long_ago);
   for (const Needle i : by_id) {
+    if (archive.reads()) StopRequest::check_in_turn(i);
     transfer_needle(archive, gas, i);
     if (has_last_collisions) archive(last_collision[i]);
   }

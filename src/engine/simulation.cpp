@@ -192,6 +192,26 @@ void require_simulable(const Scene& scene, const State& initial) {
   const Run run(scene, make_gas(scene, initial));
 }
 
+std::string why_no_collision(const State& initial) {
+  const std::size_t count = initial.size();
+  if (initial.velocity.size() != count || initial.orientation.size() != count ||
+      initial.angular_velocity.size() != count) {
+    return "";  // it cannot be simulated
+  }
+  const auto reason = collisionless(count, [&](std::size_t i) {
+    return Motion{vector_of(initial.velocity[i]), vector_of(initial.orientation[i]),
+                  vector_of(initial.angular_velocity[i])};
+  });
+  return reason ? words_for(*reason) : "";
+}
+
+std::string why_no_collision(const Scene& drawn) {
+  const Scene::Species species = drawn.one_species();
+  if (species.count == 0) return words_for(Collisionless::no_needles);
+  if (species.count == 1) return words_for(Collisionless::one_needle);
+  return species.t_tr == 0 && species.t_rot == 0 ? words_for(Collisionless::alike) : "";
+}
+
 Simulation::Simulation(const Scene& scene) {
   if (!scene.initial.file.empty()) {
     throw InputError(place_of(scene, "initial.file", scene.initial.file) +
@@ -233,7 +253,7 @@ Stop Simulation::advance(const Scene::Until& until) {
 
 std::string Simulation::why_no_collision() const {
   const Run& run = implementation_->run;
-  if (const std::string why = run.why_no_collision(); !why.empty()) return why;
+  if (const auto reason = run.collisionless()) return words_for(*reason);
   if (!run.is_quiet()) return {};
   return "none has come for so long that none is expected";
 }

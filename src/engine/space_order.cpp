@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "src/machine/stop_request.h"
 
 namespace needlework {
 namespace {
@@ -17,6 +18,25 @@ std::uint64_t spread(std::uint64_t a) {
   return (a | a << 2) & 0x1249249249249249;
 }
 
+// A stable sort in pieces, between which it can be stopped.
+void sort_by(const std::vector<std::uint64_t>& keys, std::vector<Needle>& order) {
+  const auto before = [&](Needle a, Needle b) { return keys[a] < keys[b]; };
+  const auto at = [&](std::size_t place) {
+    return order.begin() + static_cast<std::ptrdiff_t>(std::min(place, order.size()));
+  };
+  constexpr std::size_t piece = std::size_t{1} << 19;
+  for (std::size_t begin = 0; begin < order.size(); begin += piece) {
+    StopRequest::check();
+    std::stable_sort(at(begin), at(begin + piece), before);
+  }
+  for (std::size_t size = piece; size < order.size(); size *= 2) {
+    for (std::size_t begin = 0; begin + size < order.size(); begin += 2 * size) {
+      StopRequest::check();
+      std::inplace_merge(at(begin), at(begin + size), at(begin + 2 * size), before);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Needle> order_in_space(const Gas& gas, Time now) {
@@ -26,6 +46,7 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   std::vector<std::uint64_t> keys;
   keys.reserve(gas.size());
   for (const Record& record : gas.records) {
+    StopRequest::check_in_turn(keys.size());
     const Vec3d r = centre_after(record.flight, gas.clock.difference(now, record.time));
     const double position[3] = {r.x, r.y, r.z};
     std::uint64_t key = 0;
@@ -39,13 +60,13 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   }
   std::vector<Needle> order(gas.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = Needle(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Needle a, Needle b) { return keys[a] < keys[b]; });
+  sort_by(keys, order);
   return order;
 }
 
 void reorder(Gas& gas, const std::vector<Needle>& order) {
   permute(gas.records, order);
+  StopRequest::check();
   permute(gas.ids, order);
   permute(gas.images, order);
 }

@@ -14,6 +14,7 @@
 #include "src/io/frame_rows.h"
 #include "src/io/needle_check.h"
 #include "src/io/source.h"
+#include "src/machine/stop_request.h"
 
 namespace needlework {
 
@@ -210,6 +211,7 @@ Vector FrameReader::diagonal(const Slice& edges) const {
 }
 
 std::vector<Vector> FrameReader::read_vectors(const std::string& name) {
+  StopRequest::check();
   const Element& source = element(name);
   const Shape& shape = source.shape();
   const bool timed = source.is_group() || shape.size() == 3;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -27,6 +28,7 @@
 #include "src/io/write_lock.h"
 #include "src/machine/available_memory.h"
 #include "src/machine/descriptors.h"
+#include "src/machine/stop_request.h"
 
 namespace needlework::io {
 namespace {
@@ -51,9 +53,15 @@ bool send_all(int socket, const void* bytes, std::size_t size) {
   return true;
 }
 
+// Throws StoppedEarly where that is asked for meanwhile.
 bool receive_all(int socket, void* bytes, std::size_t size) {
   char* at = static_cast<char*>(bytes);
   while (size > 0) {
+    StopRequest::check();
+    pollfd waiting{.fd = socket, .events = POLLIN, .revents = 0};
+    constexpr int milliseconds = 50;
+    const int ready = poll(&waiting, 1, milliseconds);
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
     const ssize_t received = recv(socket, at, size, 0);
     if (received < 0 && errno == EINTR) continue;
     if (received <= 0) return false;
@@ -134,6 +142,7 @@ class Child {
   void run(const std::function<ReaderProcess::Service()>& start) {
     use_own_signals();
     be_silent();
+    StopRequest::forget();
     WriteLock::leave_to_parent();
     set_limit(RLIMIT_CORE, 0);
     set_limit(RLIMIT_AS, virtual_memory_now() + limits_.memory);
@@ -262,7 +271,13 @@ std::string ReaderProcess::ask(std::string_view request) {
 }
 
 std::string ReaderProcess::receive_answer() {
-  auto answer = receive_message(socket_, limits_.memory);
+  std::optional<std::string> answer;
+  try {
+    answer = receive_message(socket_, limits_.memory);
+  } catch (const StoppedEarly&) {
+    kill(child_, SIGKILL);  // it would go on until it has something to say
+    throw;
+  }
   if (!answer || answer->empty()) report_end();
   const auto outcome = static_cast<Outcome>(answer->front());
   answer->erase(0, 1);

@@ -4,16 +4,22 @@ namespace needlework {
 
 const char* words_for(Collisionless reason) {
   switch (reason) {
+    case Collisionless::no_needles:
+      return "there are no needles";
+    case Collisionless::one_needle:
+      return "there is one needle";
+    case Collisionless::alike:
+      return "all needles move alike and do not rotate";
     case Collisionless::parallel:
-      return "are parallel and do not rotate";
+      return "all needles are parallel and do not rotate";
     case Collisionless::normal_to_x:
-      return "lie and move in planes normal to the x axis";
+      return "all needles lie and move in planes normal to the x axis";
     case Collisionless::normal_to_y:
-      return "lie and move in planes normal to the y axis";
+      return "all needles lie and move in planes normal to the y axis";
     case Collisionless::normal_to_z:
       break;
   }
-  return "lie and move in planes normal to the z axis";
+  return "all needles lie and move in planes normal to the z axis";
 }
 
 }  // namespace needlework

@@ -5,7 +5,6 @@
 // touch at all. Only planes normal to an axis count, which rounding keeps to the last bit.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 
@@ -19,9 +18,17 @@ struct Motion {
 };
 
 /// Why there are no collisions.
-enum class Collisionless { parallel, normal_to_x, normal_to_y, normal_to_z };
+enum class Collisionless {
+  no_needles,
+  one_needle,
+  alike,  ///< no motion relative to each other
+  parallel,
+  normal_to_x,  ///< in planes
+  normal_to_y,
+  normal_to_z
+};
 
-/// What all needles do then: "are parallel and do not rotate".
+/// The reason in words: "all needles are parallel and do not rotate".
 const char* words_for(Collisionless reason);
 
 /// Whether the motion stays in a plane normal to this axis.
@@ -37,20 +44,21 @@ inline bool stays_normal_to(int axis, const Motion& motion) {
 template <class MotionOf>
 std::optional<Collisionless> collisionless(std::size_t count, MotionOf&& motion) {
   using enum Collisionless;
+  if (count < 2) return count == 0 ? no_needles : one_needle;
   const auto all = [&](const auto& holds) {
     for (std::size_t i = 0; i < count; ++i) {
       if (!holds(motion(i))) return false;
     }
-    return count > 0;
+    return true;
   };
-  const auto is_parallel = [u = count > 0 ? motion(0).u : Vec3d{}](const Motion& a) {
-    return a.w == Vec3d{} && (a.u == u || a.u == -u);
-  };
-  if (all(is_parallel)) return parallel;
-  constexpr std::array planes{normal_to_x, normal_to_y, normal_to_z};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (all([&](const Motion& a) { return stays_normal_to(axis, a); })) return planes[axis];
+  const Motion first = motion(0);
+  if (all([&](const Motion& a) { return a.w == Vec3d{} && a.v == first.v; })) return alike;
+  if (all([&](const Motion& a) { return a.w == Vec3d{} && (a.u == first.u || a.u == -first.u); })) {
+    return parallel;
   }
+  if (all([](const Motion& a) { return stays_normal_to(0, a); })) return normal_to_x;
+  if (all([](const Motion& a) { return stays_normal_to(1, a); })) return normal_to_y;
+  if (all([](const Motion& a) { return stays_normal_to(2, a); })) return normal_to_z;
   return std::nullopt;
 }
 

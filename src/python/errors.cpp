@@ -1,10 +1,12 @@
 #include "src/python/errors.h"
 
 #include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "needlework/error.h"
 #include "src/python/interpreter.h"
+#include "src/runs/failure.h"
 
 namespace needlework::python {
 namespace {
@@ -32,6 +34,10 @@ void translate_errors() {
       raise("IoError", error);
     } catch (const UseError& error) {
       raise("Error", error);
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(PyExc_MemoryError, runs::current_failure().message.c_str());
+    } catch (const std::length_error&) {
+      PyErr_SetString(PyExc_MemoryError, runs::current_failure().message.c_str());
     }
   });
 }

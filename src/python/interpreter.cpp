@@ -13,8 +13,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// For how long Python's end waits for threads. They look for it ten times a second, but for those
-/// that make a simulation.
+/// For how long Python's end waits for threads. They look for it ten times a second or more.
 constexpr std::chrono::seconds longest_wait{1};
 
 std::atomic<bool> ending = false;

@@ -10,6 +10,12 @@ namespace py = pybind11;
 /// Time between two lines of progress [s].
 constexpr double interval = 0.5;
 
+std::exception_ptr handle_signals() {
+  const LockTaken lock;
+  if (PyErr_CheckSignals() == 0) return nullptr;
+  return std::make_exception_ptr(py::error_already_set());
+}
+
 void Monitor::show(const runs::Progress& progress) {
   next_ = progress.elapsed + interval;
   const std::string line = runs::progress_text(progress);
@@ -23,10 +29,8 @@ void Monitor::show(const runs::Progress& progress) {
 
 bool Monitor::stop_requested() const {
   if (failure_) return true;
-  const LockTaken lock;
-  if (PyErr_CheckSignals() == 0) return false;
-  failure_ = std::make_exception_ptr(py::error_already_set());
-  return true;
+  failure_ = handle_signals();
+  return failure_ != nullptr;
 }
 
 }  // namespace needlework::python

@@ -10,6 +10,10 @@
 
 namespace needlework::python {
 
+/// Lets Python run the handlers of signals that have come, which it does in its main thread only.
+/// Returns what one has thrown, such as KeyboardInterrupt, or null. Takes the GIL.
+std::exception_ptr handle_signals();
+
 /// Lets Python handle its signals, and shows progress. The thread that runs does not hold the GIL;
 /// all members take it where they need it.
 class Monitor : public runs::RunMonitor {
@@ -19,7 +23,6 @@ class Monitor : public runs::RunMonitor {
 
   bool is_due(double elapsed) const override { return !quiet_ && elapsed >= next_; }
   void show(const runs::Progress& progress) override;
-  /// Asks Python, which runs the handlers of signals in its main thread only.
   bool stop_requested() const override;
 
   /// Throws what a handler of a signal has thrown, such as KeyboardInterrupt, or `show`.

@@ -2,12 +2,14 @@
 
 #include <pybind11/stl.h>
 
+#include <exception>
 #include <memory>
 #include <span>
 #include <utility>
 
 #include "needlework/counters.h"
 #include "needlework/error.h"
+#include "src/machine/stop_request.h"
 #include "src/python/arrays.h"
 #include "src/python/collision_rows.h"
 #include "src/python/errors.h"
@@ -34,6 +36,23 @@ std::shared_ptr<py::object> shared(const py::object& object) {
           }};
 }
 
+/// Calls the function without the GIL, and lets Python handle its signals meanwhile. Throws what a
+/// handler has thrown.
+void set_up(const std::function<void()>& function) {
+  std::exception_ptr of_handler;
+  try {
+    without_lock([&] {
+      const StopRequest request([&] {
+        of_handler = handle_signals();
+        return std::string(of_handler ? "interrupted" : "");
+      });
+      function();
+    });
+  } catch (const StoppedEarly&) {
+    std::rethrow_exception(of_handler);
+  }
+}
+
 runs::Limits of_scene(const Scene::Until& until) {
   return {.time = until.time,
           .collisions_per_needle = until.collisions_per_needle,
@@ -44,7 +63,7 @@ runs::Limits of_scene(const Scene::Until& until) {
 }  // namespace
 
 Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
-  without_lock([&] {
+  set_up([&] {
     runs::LoadedScene loaded = load_scene(source, std::move(state));
     runs::require_writable_output(loaded.scene, force, source.text ? "" : source.name,
                                   "force=True");
@@ -55,7 +74,7 @@ Run::Run(const SceneSource& source, std::optional<State> state, bool force) {
 }
 
 Run::Run(const std::string& file) {
-  without_lock([&] {
+  set_up([&] {
     auto [saved, warning] = runs::load_checkpoint(file);
     add_warning(warning);
     run_.emplace(std::move(saved));

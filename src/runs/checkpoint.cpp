@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "needlework/error.h"
 #include "src/io/system_calls.h"
 #include "src/machine/descriptors.h"
+#include "src/machine/stop_request.h"
 #include "src/runs/checksum.h"
 #include "src/runs/durable_file.h"
 #include "src/scene/printable.h"
@@ -107,8 +109,17 @@ File open_file(const std::string& path) {
 
 // Reads the next `size` bytes.
 std::string read_bytes(std::FILE* file, std::size_t size, const std::string& path) {
+  constexpr std::size_t at_once = std::size_t{1} << 26;
   std::string bytes(size, '\0');
-  bytes.resize(std::fread(bytes.data(), 1, size, file));
+  std::size_t done = 0;
+  while (done < size) {
+    StopRequest::check();
+    const std::size_t wanted = std::min(size - done, at_once);
+    const std::size_t got = std::fread(bytes.data() + done, 1, wanted, file);
+    done += got;
+    if (got < wanted) break;
+  }
+  bytes.resize(done);
   if (std::ferror(file)) throw unreadable(path, errno);
   return bytes;
 }

@@ -10,6 +10,7 @@
 
 #include "kernels/isa.h"
 #include "needlework/error.h"
+#include "needlework/simulation.h"
 #include "src/machine/available_cores.h"
 #include "src/scene/check.h"
 
@@ -132,6 +133,13 @@ std::vector<std::string> all_warnings(const LoadedScene& loaded) {
                                 place_of(scene, "collisions.tc", fmt::to_string(*c.tc)),
                                 *c.tc * rate, effect_of_long_contact));
     }
+  }
+  const std::string why = loaded.initial ? why_no_collision(*loaded.initial) : "";
+  // A gas at rest may be meant, to be set in motion.
+  if (!why.empty() && totals_of(*loaded.initial, scene).energy > 0) {
+    const std::string& file = scene.initial.file;
+    all.push_back(fmt::format("{}: {}: nothing collides",
+                              file.empty() ? "state" : place_of(scene, "initial.file", file), why));
   }
   const int threads = scene.engine.threads.value_or(1);
   if (threads > cores()) {

@@ -38,8 +38,9 @@ double estimated_memory(const Scene& scene) {
 }
 
 double estimated_seconds_per_collision(const Scene& scene, double density) {
-  // Fits to n L^3 = 0.01 to 50 at N = 1e4. The number of candidates grows with the density, or with
-  // the number of needles, unless a SIMD filter rules them out. On the long way to the next
+  // Fits to n L^3 = 0.01 to 50 at N = 1e4, and to 10000 in a box of 2.01. The number of candidates
+  // grows with the density, or with the number of needles; a SIMD filter rules most out, which
+  // matters from n L^3 = 100 on. On the long way to the next
   // collision of a dilute gas a needle leaves cells, whose side is about L or takes in some
   // needles.
   const std::string search = chosen_search(scene.engine.search, density);
@@ -49,7 +50,18 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
   if (search == "linked-lists") return 40e-6 + 7e-6 * density + 0.9e-6 / density;
   const double out_of_cache = 3e-6 * std::log10(std::max(1.0, count / 1e4));
   const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
-  return (8e-6 + 0.5e-6 / std::cbrt(density * density) + out_of_cache) * slowness;
+  return (8e-6 + 0.5e-6 / std::cbrt(density * density) + 0.026e-6 * density + out_of_cache) *
+         slowness;
+}
+
+double estimated_setup_seconds(const Scene& scene, double density) {
+  // Fits to the same scenes, and to 1e6 needles in a box of 2.01.
+  const std::string search = chosen_search(scene.engine.search, density);
+  const double count = static_cast<double>(scene.needles.count);
+  if (search == "all-pairs") return count * (20e-6 + 0.035e-6 * count);
+  if (search == "linked-lists") return count * (1.5e-6 + 2.3e-6 * density);
+  const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
+  return count * (3e-6 + 0.015e-6 * density * slowness);
 }
 
 void require_memory(const Scene& scene) {

@@ -32,7 +32,8 @@ Explanation::Explanation(const LoadedScene& loaded)
                         theory_density_of(scene), scene.until)),
       collisions(collisions_of(expected, scene)),
       seconds(expected && std::isfinite(expected->time)
-                  ? collisions * estimated_seconds_per_collision(scene, density)
+                  ? estimated_setup_seconds(scene, density) +
+                        collisions * estimated_seconds_per_collision(scene, density)
                   : undefined),
       memory(estimated_memory(scene)),
       search(chosen_search(scene.engine.search, density)),

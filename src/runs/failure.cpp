@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/machine/stop_request.h"
 
 namespace needlework::runs {
 namespace {
@@ -26,6 +27,8 @@ Failure current_failure() {
     return {invalid_state, error.what()};
   } catch (const IoError& error) {
     return {input_output_error, error.what()};
+  } catch (const StoppedEarly& stop) {
+    return {stopped, stop.what()};
   } catch (const std::bad_alloc&) {
     return {bad_input, not_enough_memory};
   } catch (const std::length_error&) {  // more than any memory

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -18,10 +19,13 @@
 
 namespace needlework::runs {
 
-void require_events(const Simulation& simulation, const Scene& scene, const std::string& path) {
+void require_events(const LoadedScene& loaded, const std::string& path) {
+  const Scene& scene = loaded.scene;
   require_reachable_end(scene);
   if (scene.until.time) return;
-  if (const std::string why = simulation.why_no_collision(); !why.empty()) {
+  const std::string why =
+      loaded.initial ? why_no_collision(*loaded.initial) : why_no_collision(scene);
+  if (!why.empty()) {
     throw InputError(fmt::format(
         "{}: nothing can ever happen, as {}: expected needles that can collide, or until.time",
         path, why));
@@ -47,6 +51,11 @@ constexpr const char* cut_off_by_an_error =
   throw InputError(origin.path +
                    ": damaged: its parts do not belong together: expected a checkpoint that this "
                    "version of the program has written");
+}
+
+LoadedScene with_events(LoadedScene loaded, const std::string& path) {
+  require_events(loaded, path);
+  return loaded;
 }
 
 // Where kinetic theory has something to say: of a drawn gas that moves.
@@ -91,24 +100,23 @@ Output PreparedRun::output() {
 }
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string& path, Saves saves)
-    : PreparedRun(std::move(loaded), force, &path, saves) {}
+    : PreparedRun(with_events(std::move(loaded), path), force, true, saves) {}
 
 PreparedRun::PreparedRun(LoadedScene loaded, bool force)
-    : PreparedRun(std::move(loaded), force, nullptr, Saves::start_and_end) {}
+    : PreparedRun(std::move(loaded), force, false, Saves::start_and_end) {}
 
-PreparedRun::PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves)
+PreparedRun::PreparedRun(LoadedScene loaded, bool force, bool keeps_course, Saves saves)
     : scene_(std::move(loaded.scene)),
       saves_(saves),
       drawn_(!loaded.initial),
       simulation_(make_simulation(loaded)),
       initial_(simulation_.totals()) {
   loaded.initial.reset();
-  if (path) require_events(simulation_, scene_, *path);
   open_output(
       [&](const io::RunInfo& info) { return io::Writer(scene_.output.file, force, scene_, info); });
   // Those of an older run, whose file has just been replaced.
   if (writer_) checkpoints().remove();
-  driver_.emplace(simulation_, scene_, initial_, output(), path != nullptr);
+  driver_.emplace(simulation_, scene_, initial_, output(), keeps_course);
 }
 
 PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
@@ -311,10 +319,12 @@ std::exception_ptr PreparedRun::error_for_caller() {
   }
 }
 
-Course PreparedRun::drive(RunMonitor& monitor) {
+Course PreparedRun::drive(RunMonitor& monitor, double spent) {
   std::optional<Kept> kept;
   try {
-    driver_->advance(scene_.until, monitor);
+    Scene::Until until = scene_.until;
+    if (until.wall_s) until.wall_s = std::max(0.0, *until.wall_s - spent);
+    driver_->advance(until, monitor);
   } catch (const std::exception&) {
     kept = keep_current_failure();
   }
@@ -322,7 +332,7 @@ Course PreparedRun::drive(RunMonitor& monitor) {
   // Before the sample and the frame of this end, which the continued run does not have.
   const bool stopped = driver_->stop() == Stop::interrupted || driver_->stop() == Stop::wall_time;
   const bool saves = why_not_saved().empty() && (stopped || saves_ == Saves::start_and_end);
-  if (saves) driver_->save_checkpoint(&monitor);
+  if (saves && !driver_->is_saved()) driver_->save_checkpoint(&monitor);
   Course course = cut_off_ ? driver_->abandon() : driver_->finish();
   if (kept) {
     course.failure = std::move(kept->message);

@@ -27,7 +27,7 @@ namespace needlework::runs {
 
 /// Throws InputError, which names the scene by `path`, if the run would never end: nothing can ever
 /// happen and no end in time is set, or collisions keep the energy and no other end is set.
-void require_events(const Simulation& simulation, const Scene& scene, const std::string& path);
+void require_events(const LoadedScene& loaded, const std::string& path);
 
 /// Throws InputError if collisions keep the energy and no end but one in energy is set.
 void require_reachable_end(const Scene& scene);
@@ -57,8 +57,9 @@ class PreparedRun {
 
   /// Runs to the end, to be called once; see RunDriver. Closes the file. Catches what makes a run
   /// invalid, InvalidStateError and defects of the program: the message is in the Course, and a
-  /// bundle is beside the output file, if there is one.
-  Course drive(RunMonitor& monitor);
+  /// bundle is beside the output file, if there is one. `spent`: wall time that has passed of
+  /// until.wall_s [s].
+  Course drive(RunMonitor& monitor, double spent = 0);
 
   /// Advances until the first of the conditions is met, which count from the start of the run. The
   /// function of on_collisions() has seen all collisions when this returns or throws. Throws what
@@ -105,7 +106,7 @@ class PreparedRun {
   std::string warning() const;
 
  private:
-  PreparedRun(LoadedScene loaded, bool force, const std::string* path, Saves saves);
+  PreparedRun(LoadedScene loaded, bool force, bool keeps_course, Saves saves);
   Simulation make_simulation(const LoadedScene& loaded);
   Simulation continue_simulation(const RunCheckpoint& saved);
   /// Throws InputError unless the parts of the checkpoint belong together.

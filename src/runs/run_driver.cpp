@@ -300,9 +300,14 @@ void RunDriver::save_checkpoint(RunMonitor* monitor) {
   if (!output_.save_checkpoint) return;
   const auto start = SteadyClock::now();
   output_.save_checkpoint();
+  saved_ = {simulation_.time(), simulation_.collisions()};
   last_checkpoint_ = last_flush_ = SteadyClock::now();
   if (!monitor) return;
   monitor->saved(simulation_.time(), simulation_.collisions(), seconds_since(start));
+}
+
+bool RunDriver::is_saved() const {
+  return saved_ == std::pair(simulation_.time(), simulation_.collisions());
 }
 
 void RunDriver::save_checkpoint_if_due(RunMonitor& monitor) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "needlework/h5md.h"
@@ -80,6 +81,8 @@ class RunDriver {
 
   /// Saves the run, if the output does that, and says so to the monitor, if there is one.
   void save_checkpoint(RunMonitor* monitor);
+  /// Whether nothing has happened since the last one of this process.
+  bool is_saved() const;
 
   /// Sets a function that is called for each collision, beside what the output needs; see
   /// Simulation::on_collision().
@@ -118,6 +121,8 @@ class RunDriver {
   std::exception_ptr failure_;  ///< of writing or observing a collision
   Course course_;
   std::optional<Pace> pace_;  ///< of this advance, if someone follows it
+  /// Time and collisions at the last checkpoint of this process.
+  std::optional<std::pair<double, std::uint64_t>> saved_;
   std::optional<Totals> last_sample_;
   std::optional<double> last_frame_;  ///< time of the last frame written
   /// Whether velocities have been replaced since the last sample or the last frame.

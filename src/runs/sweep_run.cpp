@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "needlework/error.h"
+#include "src/machine/stop_request.h"
 #include "src/runs/estimates.h"
 #include "src/runs/explanation.h"
 #include "src/runs/prepared_run.h"
@@ -106,6 +107,12 @@ std::unique_ptr<PreparedRun> begin_or_continue(LoadedScene loaded, const std::st
   return std::make_unique<PreparedRun>(std::move(loaded), true, grid, Saves::when_stopped);
 }
 
+std::unique_ptr<PreparedRun> set_up(Scene scene, const std::string& grid,
+                                    const RunMonitor& monitor) {
+  const StopRequest request([&] { return monitor.stop_requested() ? "stopped" : ""; });
+  return begin_or_continue(complete_scene(std::move(scene)), grid);
+}
+
 ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberMonitor& monitor) {
   const SweepFolder& folder = runs.folder;
   const Claim claim(folder, member);
@@ -117,7 +124,7 @@ ExitCode run_member(const MemberRuns& runs, const sweep::Member& member, MemberM
   scene.output.file = folder.unfinished_file(member);
   const Course course = [&] {
     try {
-      return begin_or_continue(complete_scene(std::move(scene)), runs.grid.name)->drive(monitor);
+      return set_up(std::move(scene), runs.grid.name, monitor)->drive(monitor);
     } catch (...) {
       // What can be continued later, as when there is room again, is kept.
       if (!CheckpointFiles(folder.unfinished_file(member)).exist()) {
@@ -186,6 +193,8 @@ void run_members(const MemberRuns& runs, SweepMonitor& monitor, std::span<int> e
     try {
       MemberMonitor its_monitor(all, runs.costs[index]);
       return run_member(runs, member, its_monitor);
+    } catch (const StoppedEarly&) {
+      return stopped;
     } catch (const std::exception&) {
       const Failure failure = current_failure();
       all.report_failure(member, failure);

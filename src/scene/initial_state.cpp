@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/machine/stop_request.h"
 #include "src/scene/random.h"
 #include "src/scene/scene_values.h"
 
@@ -79,6 +80,7 @@ State draw_initial_state(const Scene& scene) {
   state.orientation.resize(n);
   state.angular_velocity.resize(n);
   for (std::size_t id = 0; id < n; ++id) {
+    StopRequest::check_in_turn(id);
     NeedleRandom random(needles.seed, id);
     // A product with a number below 1 never rounds up to the edge itself.
     for (std::size_t i = 0; i < 3; ++i) state.position[id][i] = random.uniform() * needles.box[i];
@@ -86,6 +88,7 @@ State draw_initial_state(const Scene& scene) {
     state.velocity[id] = random.normal();
     state.angular_velocity[id] = normal_part(random.normal(), state.orientation[id]);
   }
+  StopRequest::check();
   if (n >= 2) remove_mean(state.velocity);
   set_mean_square(state.velocity, 3 * species.t_tr / species.mass);
   // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).

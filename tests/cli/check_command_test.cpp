@@ -119,10 +119,15 @@ TEST_F(CheckCommand, RefusesAStateThatRunRefuses) {
 }
 
 TEST_F(CheckCommand, SaysWhenAnEndIsOutOfReach) {
+  const std::string at_rest = "check small.toml --json --set initial.t_tr=0 --set initial.t_rot=0";
+  const Outcome never = run(at_rest);
+  EXPECT_EQ(never.exit_code, 3);
+  EXPECT_TRUE(never.complains("nothing can ever happen, as all needles move alike")) << never.err;
+  EXPECT_TRUE(run(at_rest + " --set until.time=1").json()["mean_free_time"].is_null());
   const auto json =
-      run("check small.toml --json --set initial.t_tr=0 --set initial.t_rot=0").json();
+      run("check small.toml --json --set until.collisions_per_needle=none --set until.wall_s=1")
+          .json();
   EXPECT_TRUE(json["expected"].is_null());
-  EXPECT_TRUE(json["mean_free_time"].is_null());
 }
 
 TEST_F(CheckCommand, ExplainsAnEmptyBox) {

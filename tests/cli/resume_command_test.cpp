@@ -250,5 +250,15 @@ TEST_F(ResumeCommand, ContinuesToAnEarlierEndWhereTooManyBoxesAreCrossed) {
   EXPECT_EQ(earlier.json()["time"], 1.5e9);
 }
 
+// Its flight has been one since the start: searching it again took memory without limit.
+TEST_F(ResumeCommand, OfOneNeedleTakesNoMoreMemoryThanItsRun) {
+  write("one.toml", "needles = {count = 1, box = 3}\nuntil.time = 1e6\n");
+  ASSERT_EQ(run("run one.toml --quiet --out one.h5").exit_code, 0);
+  const Outcome resumed = shell(std::string("ulimit -v 4000000; '") + NEEDLEWORK_PROGRAM +
+                                "' resume one.h5 --json --quiet --set until.time=2e6 --threads 1");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(resumed.json()["time"], 2e6);
+}
+
 }  // namespace
 }  // namespace needlework

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "src/io/apart.h"
+#include "src/machine/stop_request.h"
 #include "tests/io/support.h"
 
 namespace needlework::io {
@@ -50,6 +51,24 @@ TEST_F(ReadingApart, ACrashIsAnError) {
             "f.h5: damaged: HDF5 crashed while it read the file (signal 6, Aborted)");
   EXPECT_EQ(end_of<IoError>([]() -> int { _exit(1); }),
             "f.h5: the process that read it ended before it was done");
+}
+
+// A child that would never answer, and nobody waits for.
+TEST_F(ReadingApart, IsStoppedWithItsChild) {
+  pid_t child = 0;
+  {
+    ReaderProcess process("f.h5", {1u << 30, 600}, [] {
+      return [asked = false](std::string_view) mutable {
+        if (asked) pause();
+        asked = true;
+        return std::to_string(getpid());
+      };
+    });
+    child = std::stoi(process.ask("who"));
+    const StopRequest request([] { return "enough"; });
+    EXPECT_THROW(process.ask("anything"), StoppedEarly);
+  }
+  EXPECT_NE(kill(child, 0), 0);
 }
 
 TEST_F(ReadingApart, AfterACrashEveryRequestFails) {

@@ -2,9 +2,11 @@
 
 import os
 import signal
+import tempfile
 import threading
 import time
 import unittest
+from pathlib import Path
 
 from needlework import Simulation, predict
 
@@ -54,6 +56,26 @@ class Interrupt(unittest.TestCase):
         sim.advance(collisions=1)
         # The one batch whose callback was interrupted may not have counted itself.
         self.assertLessEqual(sim.totals.collisions - sum(counted), 10)
+
+    def test_stops_drawing_a_state(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "large.h5"
+            self.press_after(0.05)
+            with self.assertRaises(KeyboardInterrupt):
+                Simulation("needles = { count = 5_000_000, box = 200 }\n"
+                           f"output.file = '{file}'")
+            # It would be there if the simulation had been made.
+            self.assertFalse(file.exists())
+
+    def test_stops_the_first_search(self):
+        sim = Simulation("needles = { count = 150_000, box = 2.01 }")
+        self.assertEqual(sim.counters.searches, 0)
+        self.press_after(0.1)
+        with self.assertRaises(KeyboardInterrupt):
+            sim.run(collisions=1)
+        self.assertEqual(sim.totals.collisions, 0)
+        self.assertLess(sim.counters.searches, 150_000)
+        self.assertEqual(sim.run(collisions=1, wall_s=0.01), "wall_time")
 
     def test_stops_predictions(self):
         state = Simulation(GAS)

@@ -1,9 +1,12 @@
 // Runs that continue from checkpoints: what is accepted, and what is left when something fails.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "needlework/error.h"
+#include "src/machine/stop_request.h"
 #include "src/runs/prepared_run.h"
 #include "src/trajectory/saved_totals.h"
 #include "tests/support/runs.h"
@@ -86,6 +89,16 @@ TEST_F(ContinuedRun, KeepsItsCourseOnlyIfItIsSavedAgain) {
   EXPECT_TRUE(without.samples.empty());
   EXPECT_EQ(without.system_rate.batches, 0);
   EXPECT_EQ(without.last.collisions, with_file.last.collisions);
+}
+
+TEST_F(ContinuedRun, IsStoppedWhileItIsRead) {
+  const RunCheckpoint saved = ended();
+  const CheckpointFiles files(scene.output.file);
+  const StopRequest request([] { return "enough"; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_THROW(files.latest(), StoppedEarly);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_THROW(PreparedRun run(saved), StoppedEarly);
 }
 
 // The damaged one must not take the place of the one before.

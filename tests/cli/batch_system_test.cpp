@@ -1,0 +1,79 @@
+// Jobs of batch systems: their signals and limits on wall time end a run in order, in every phase.
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "src/cli/signals.h"
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+class BatchSystem : public ProgramTest {};
+
+TEST_F(BatchSystem, WarningsSaveAndEndARun) {
+  write("endless.toml", "needles = {count = 100, box = 6}\nuntil.time = 1e12\n");
+  for (const std::string signal : {"USR1", "USR2", "XCPU", "TERM"}) {
+    const std::string file = signal + ".h5";
+    const Outcome stopped = run_and_signal("run endless.toml --quiet --out " + file,
+                                           "ls " + file + ".checkpoint", signal);
+    EXPECT_EQ(stopped.exit_code, 75) << signal;
+    EXPECT_TRUE(stopped.complains("stopped by a signal at time ")) << stopped.err;
+    EXPECT_EQ(run("resume " + file + " --quiet --set until.wall_s=0").exit_code, 75) << signal;
+  }
+}
+
+// Ends by the first search alone: it takes most of a minute if it is not stopped.
+TEST_F(BatchSystem, TheFirstSearchIsStopped) {
+  write("dense.toml",
+        "needles = {count = 150000, box = 2.01}\nuntil.collisions_per_needle = 1000\n");
+  const Outcome stopped =
+      run_and_signal("run dense.toml --quiet --out dense.h5", "ls dense.h5.checkpoint", "USR1");
+  EXPECT_EQ(stopped.exit_code, 75);
+  EXPECT_NE(stopped.err.find("stopped by a signal at time 0 after 0 collisions (saved in "),
+            std::string::npos)
+      << stopped.err;
+  const Outcome again = run("resume dense.h5 --quiet --set until.wall_s=0.3");
+  EXPECT_EQ(again.exit_code, 75);
+  EXPECT_NE(again.err.find("stopped by until.wall_s"), std::string::npos) << again.err;
+  EXPECT_EQ(run("info dense.h5").exit_code, 0);
+}
+
+TEST_F(BatchSystem, DrawingAStateIsStopped) {
+  write("large.toml", "needles = {count = 5_000_000, box = 200}\nuntil.time = 1\n");
+  const Outcome stopped = run("run large.toml --out large.h5 --set until.wall_s=0.01 --log log");
+  EXPECT_EQ(stopped.exit_code, 75);
+  EXPECT_TRUE(stopped.complains("stopped by until.wall_s before the run began (nothing is saved)"))
+      << stopped.err;
+  EXPECT_FALSE(exists("large.h5"));
+  EXPECT_NE(read("log").find("\"exit_code\":75"), std::string::npos) << read("log");
+}
+
+// Slurm sends SIGUSR1 and then SIGTERM, a limit on CPU time SIGXCPU every second.
+TEST(SignalGuard, IsNotHurriedByWarnings) {
+  const cli::SignalGuard guard;
+  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(250)); };
+  for (const int signal : {SIGXCPU, SIGUSR1, SIGXCPU, SIGUSR2, SIGTERM, SIGXCPU}) {
+    raise(signal);
+    EXPECT_EQ(cli::SignalGuard::received(), SIGXCPU);
+    wait();
+  }
+  EXPECT_EXIT(raise(SIGTERM), testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(SignalGuard, LeavesIgnoredWarningsIgnored) {
+  struct sigaction before {};
+  struct sigaction ignored {};
+  ignored.sa_handler = SIG_IGN;
+  sigaction(SIGUSR1, &ignored, &before);
+  {
+    const cli::SignalGuard guard;
+    raise(SIGUSR1);
+    EXPECT_EQ(cli::SignalGuard::received(), 0);
+  }
+  sigaction(SIGUSR1, &before, nullptr);
+}
+
+}  // namespace
+}  // namespace needlework
