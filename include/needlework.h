@@ -109,9 +109,9 @@ typedef struct needlework_initial {
 /* Makes a simulation of a scene in TOML, as docs/scenes.md describes it; [until] may be missing.
  * The initial state is drawn, or read from initial.file. If the scene names output.file, that file
  * is written as the program `needlework run` writes it. NEEDLEWORK_ISA and OMP_NUM_THREADS count as
- * they do for the program. `flags` is 0 or NEEDLEWORK_REPLACE. On file systems without locks `error`
- * has a warning with the code NEEDLEWORK_OK: other programs that write to the output file cannot be
- * noticed. Returns NULL on failure. The caller destroys the simulation. [any] */
+ * they do for the program. `flags` is 0 or NEEDLEWORK_REPLACE. On file systems without locks
+ * `error` has a warning with the code NEEDLEWORK_OK: other programs that write to the output file
+ * cannot be noticed. Returns NULL on failure. The caller destroys the simulation. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_create(const char* scene, unsigned flags,
                                                         needlework_error* error);
 /* The same for a scene in a file. [any] */
@@ -136,7 +136,8 @@ NEEDLEWORK_API needlework_simulation* needlework_create_with_images(
  * again. If the newest checkpoint is damaged, the one before is used, and `error` has a warning
  * with the code NEEDLEWORK_OK. Returns NULL on failure: NEEDLEWORK_INPUT if the file has no
  * checkpoint to continue from, or if it is not that of the file; NEEDLEWORK_IO if the file is
- * missing, cannot be written, or is written by another simulation. The caller destroys the simulation. [any] */
+ * missing, cannot be written, or is written by another simulation. The caller destroys the
+ * simulation. [any] */
 NEEDLEWORK_API needlework_simulation* needlework_resume(const char* file, needlework_error* error);
 
 /* Frees a simulation; NULL is allowed. The output file ends with the last sample that was due, and

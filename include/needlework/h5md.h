@@ -54,6 +54,7 @@ struct RunInfo {
   std::vector<SeriesGroup> series = {};  ///< what /series holds besides the totals
   std::vector<std::uint32_t> ids = {};   ///< of needles in each frame, for Writer::resume(), which
                                          ///< compares them if there are any
+  std::vector<std::uint8_t> species = {};  ///< of needles in each frame; empty: all of the first
 };
 
 /// Writes one run to one file.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "needlework/composition.h"
+
 namespace needlework {
 
 /// What to simulate, in the engine's units: needle length L = 1 and mass m = 1, unless a
@@ -21,17 +23,9 @@ struct Scene {
     double k = 6.0;               ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
     std::uint64_t seed = 1;       ///< of the counter-based generator that draws the initial state
   };
-  /// One species of needles. If there is one, it replaces needles.count, needles.k and the
+  /// One species of needles. If there are any, they replace needles.count, needles.k and the
   /// temperatures of Initial.
-  struct Species {
-    std::string name;         ///< any text; names must differ
-    std::uint64_t count = 0;  ///< number of needles
-    double length = 1.0;      ///< [L]
-    double mass = 1.0;        ///< [m]
-    double k = 6.0;           ///< m L^2 / (2 I) > 0
-    double t_tr = 1.0;        ///< translational temperature of a drawn state
-    double t_rot = 1.0;       ///< rotational temperature of a drawn state
-  };
+  using Species = needlework::Species;
   struct Initial {
     double t_tr = 1.0;   ///< translational temperature of a drawn state, (2/3) <m v^2 / 2>
     double t_rot = 1.0;  ///< rotational temperature of a drawn state, <I w^2 / 2>
@@ -42,6 +36,12 @@ struct Scene {
     double beta = -1.0;                 ///< tangential restitution, [-1, 1]; -1 is smooth
     std::optional<double> tc;           ///< contact time of the t_c rule [time]
     std::optional<double> tc_relative;  ///< the same, in present mean free times
+  };
+  /// What is different from Collisions where two species collide.
+  struct Pair {
+    std::array<std::string, 2> between;  ///< names of the species, which may be one
+    std::optional<double> epsilon;       ///< normal restitution, [0, 1]
+    std::optional<double> beta;          ///< tangential restitution, [-1, 1]
   };
   struct Engine {
     std::string search = "auto";
@@ -85,23 +85,15 @@ struct Scene {
   Needles needles;
   std::vector<Species> species;  ///< empty: one species of length 1 and mass 1, given by Needles
                                  ///< and Initial
+  std::vector<Pair> pairs;
   Initial initial;
   Collisions collisions;
   Engine engine;
   Until until;
   Output output;
 
-  /// The species that all needles are of: the one entry of `species`, or, without an entry, one of
-  /// length 1 and mass 1 with count, k and temperatures of `needles` and `initial`.
-  Species one_species() const {
-    if (!species.empty()) return species.front();
-    Species out;
-    out.count = needles.count;
-    out.k = needles.k;
-    out.t_tr = initial.t_tr;
-    out.t_rot = initial.t_rot;
-    return out;
-  }
+  /// What the gas is made of, with everything that the short form leaves unsaid.
+  Composition composition() const;
 
   std::string text;  ///< the scene file as read, with overrides appended; stored in the output
   /// Where each key "section.key" was given, and its value, as messages quote it: "FILE: line N:

@@ -9,9 +9,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "needlework/collision.h"
+#include "needlework/composition.h"
 #include "needlework/counters.h"
+#include "needlework/happening.h"
 #include "needlework/predict.h"
 #include "needlework/scene.h"
 #include "needlework/state.h"
@@ -81,6 +84,8 @@ class Simulation {
   /// no longer, at that moment. If it throws, the simulation cannot go on. It must not set another
   /// function, but may call interrupt().
   void on_collision(std::function<void(const Collision&)> callback);
+  /// The same for everything that changes the motion of needles. Both functions may be set.
+  void on_happening(std::function<void(const Happening&)> callback);
   /// Sets a function that is called with the times of collisions [time], each once, in any order,
   /// and before advance() returns. It costs less than on_collision(), above all with several
   /// threads, which need not keep and sort whole collisions. If it throws, the simulation cannot go
@@ -92,7 +97,20 @@ class Simulation {
   /// another thread.
   void interrupt() noexcept;
 
+  /// The names of the sources of events that the scene calls for.
+  std::vector<std::string> sources() const;
+  /// The number of events of each of them since the start of the run.
+  std::vector<std::uint64_t> events_by_source() const;
+
   Totals totals() const;
+  /// Of each species, in the order of the scene.
+  std::vector<SpeciesTotals> species_totals() const;
+  /// The species of each needle, in order of id; empty if there is one species.
+  std::vector<std::uint8_t> species() const;
+  /// What the gas is made of, with the counts of the state.
+  const Composition& composition() const;
+  /// Collisions since the start of the run of each pair of species, by Composition::pair_index.
+  std::vector<std::uint64_t> collisions_by_pair() const;
   const Counters& counters() const;
 
   std::size_t needles() const;       ///< number of needles

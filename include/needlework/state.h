@@ -19,6 +19,9 @@ struct State {
   std::vector<std::array<std::int32_t, 3>> image;       ///< number of box crossings along each
                                                         ///< axis; empty: all 0
   std::vector<std::uint32_t> id;                        ///< distinct; empty: 0 to N - 1
+  std::vector<std::uint8_t> species;                    ///< indices into the species of the scene;
+                                                        ///< empty: as many as the scene counts of
+                                                        ///< each, in order of id
 
   std::size_t size() const { return position.size(); }
   /// Resizes all arrays to n needles, images and ids included.

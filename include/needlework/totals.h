@@ -17,4 +17,11 @@ struct Totals {
   std::uint64_t tc_collisions = 0;
 };
 
+/// What Totals has of the needles of one species.
+struct SpeciesTotals {
+  std::uint64_t count = 0;  ///< number of needles
+  double t_tr = 0;          ///< (2/3) <m v^2 / 2>
+  double t_rot = 0;         ///< <I w^2 / 2>
+};
+
 }  // namespace needlework

@@ -53,7 +53,7 @@ bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i)
 
 void Audit::check_start(const Scene& scene, const State* given) {
   if (resumed_) return;
-  const Scene::Species species = scene.one_species();
+  const Species species = scene.composition()[0];
   bool right = needles_.size() == species.count &&
                std::ranges::all_of(needles_, [&](const Needle& n) { return is_proper(n); });
   for (int axis = 0; axis < 3; ++axis) right &= space_.box[axis] == scene.needles.box[axis];

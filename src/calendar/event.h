@@ -7,12 +7,12 @@
 
 namespace needlework {
 
-/// The kinds of events. Events at the same time are processed in the order of this list. Kinds
-/// that a scene does not use do not occur. A new kind needs an entry here, its data in Event
-/// below, and a case in EventProcessor::process (src/engine/event_processor.h).
+/// The kinds of events. Events at the same time are processed in the order of this list, those of
+/// sources in the order of the sources. Kinds that a scene does not use do not occur.
 enum class EventKind : std::uint8_t {
   horizon,  ///< the last search of the owner ended here and has to be continued
   contact,  ///< a collision of the owner with its partner
+  source,   ///< an event of the owner by a source (src/effects/event_source.h)
 };
 
 /// The next event of needle `owner`.
@@ -27,8 +27,10 @@ struct Event {
   Id higher_id;
   Shift shift{};         ///< boxes added to the centre of the needle with the higher id, as in
                          ///< make_pair
-  std::int8_t side = 0;  ///< sign of the contact function before the contact
+  std::int8_t side = 0;  ///< sign of the contact function before the contact; of an event of a
+                         ///< source: SourceEvent::detail
   EventKind kind = EventKind::horizon;
+  std::uint8_t source = 0;     ///< index of the source, if it is an event of one
   bool resolvable = true;      ///< false: a collapse, which the resolution of time or velocities
                                ///< cannot resolve
   bool owner_is_lower = true;  ///< the owner has the lower id
@@ -39,12 +41,12 @@ struct Event {
   Needle lower() const { return owner_is_lower ? owner : partner; }
   Needle higher() const { return owner_is_lower ? partner : owner; }
 
-  /// The order of events: by time, then kind, lower id, higher id and shift. The two copies of one
-  /// contact, one for each needle, are equal in this order.
+  /// The order of events: by time, then kind, source, lower id, higher id and shift. The two copies
+  /// of one contact, one for each needle, are equal in this order.
   friend bool operator<(const Event& a, const Event& b) {
     if (a.time != b.time) return a.time < b.time;
     const auto key = [](const Event& e) {
-      return std::tuple(e.kind, e.lower_id, e.higher_id, e.shift);
+      return std::tuple(e.kind, e.source, e.lower_id, e.higher_id, e.shift);
     };
     return key(a) < key(b);
   }

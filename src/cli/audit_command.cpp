@@ -152,7 +152,10 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
 
 // The audit has physics of its own, for needles of length and mass 1.
 void require_unit_needles(const Scene& scene) {
-  const Scene::Species species = scene.one_species();
+  const Composition composition = scene.composition();
+  const Species& species = composition[0];
+  if (composition.is_mixture())
+    throw InputError("the audit checks needles of one species only, for now");
   const auto require = [&](const char* key, double value) {
     if (value == 1) return;
     throw InputError(place_of(scene, std::string("species.") + key, fmt::format("{}", value)) +

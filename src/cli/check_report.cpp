@@ -175,14 +175,21 @@ std::string text_of(const runs::Explanation& e) {
   const Scene& scene = e.scene;
   const auto& box = scene.needles.box;
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
-  std::string needles = fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k));
-  if (!scene.species.empty()) {
-    const Scene::Species& species = scene.species.front();
-    needles += fmt::format(", species \"{}\" of length {:g} and mass {:g}", species.name,
-                           species.length, species.mass);
+  const Composition composition = scene.composition();
+  if (scene.species.empty()) {
+    text +=
+        line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
   }
-  text += line("needles", needles);
-  const char* volume = scene.one_species().length == 1 ? "unit of volume" : "cube of their length";
+  const char* title = "needles";
+  for (const Species& species : scene.species) {
+    text += line(title,
+                 fmt::format("{}, {}, species \"{}\" of length {:g} and mass {:g}", species.count,
+                             shape_text(species.k), species.name, species.length, species.mass));
+    title = "";
+  }
+  const char* volume = composition.longest() == 1 ? "unit of volume"
+                       : composition.is_mixture() ? "cube of the longest length"
+                                                  : "cube of their length";
   text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
                                   box[2], e.density, volume));
   text += line("start", start_text(e));

@@ -31,6 +31,25 @@ Json stats_of(const Counters& counters) {
   return stats;
 }
 
+// By species and by pairs of species, in the order of the scene.
+void add_species(Json& json, const Simulation& simulation) {
+  const Composition& composition = simulation.composition();
+  const auto totals = simulation.species_totals();
+  const auto collisions = simulation.collisions_by_pair();
+  json["species"] = Json::array();
+  Json& by_pair = json["collisions_by_pair"] = Json::object();
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    json["species"].push_back({{"name", composition[a].name},
+                               {"count", totals[a].count},
+                               {"t_tr", number(totals[a].t_tr)},
+                               {"t_rot", number(totals[a].t_rot)}});
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      by_pair[composition[a].name + "-" + composition[b].name] =
+          collisions[composition.pair_index(a, b)];
+    }
+  }
+}
+
 }  // namespace
 
 double Report::collision_rate() const { return ratio(collisions_per_needle(), course.last.time); }
@@ -43,7 +62,9 @@ double Report::collision_rate_exact() const {
   if (!runs::starts_in_equilibrium(scene) || !course.theory_holds) return undefined;
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
-  const Scene::Species species = scene.one_species();
+  const Composition composition = scene.composition();
+  if (composition.is_mixture()) return undefined;
+  const Species& species = composition[0];
   const double cube = species.length * species.length * species.length;
   return theory::equilibrium_rate(count, box[0] * box[1] * box[2] / cube,
                                   count * course.initial.energy, species.k) /
@@ -60,7 +81,8 @@ double Report::us_per_collision() const {
 }
 
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
-  if (!scene.initial.file.empty() || !(course.initial.energy > 0) || !course.theory_holds) {
+  if (scene.composition().is_mixture() || !scene.initial.file.empty() ||
+      !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }
   const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
@@ -93,14 +115,7 @@ std::string json_of(const Report& report) {
   json["t_tr"] = number(last.t_tr);
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
-  if (!scene.species.empty()) {
-    const std::string& name = scene.species.front().name;
-    json["species"] = Json::array({{{"name", name},
-                                    {"count", scene.needles.count},
-                                    {"t_tr", number(last.t_tr)},
-                                    {"t_rot", number(last.t_rot)}}});
-    json["collisions_by_pair"] = {{name + "-" + name, last.collisions}};
-  }
+  if (!scene.species.empty()) add_species(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

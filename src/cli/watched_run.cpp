@@ -41,7 +41,9 @@ picture::Panel panel(const char* title, const picture::Curve& measured,
 
 WatchedRun::WatchedRun(const Scene& scene, const Totals& initial, bool theory_holds)
     : initial_(initial), last_rate_(initial), needles_(static_cast<double>(scene.needles.count)) {
-  if (!theory_holds || !scene.initial.file.empty() || !(initial.energy > 0)) return;
+  if (!theory_holds || scene.species.size() > 1 || !scene.initial.file.empty() ||
+      !(initial.energy > 0))
+    return;
   const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
   const double density = runs::theory_density_of(scene);
   theory_.emplace(Theory{theory::CoolingCurve(gas, {initial.t_tr, initial.t_rot}),

@@ -60,15 +60,11 @@ template <Search S, Model M>
 EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar,
                            ReplacedRecords replaced)
     : run_(run),
-      model_(run.gas, run.restitution, run.accuracy),
+      model_(run.gas, run.effects, run.accuracy),
       search_(std::move(search)),
       calendar_(std::move(calendar)),
       processor_(run, model_, search_, *calendar_, run.tally),
       sorted_at_(run.tally.counters.crossings) {
-  if constexpr (M::effects.contact_time) {
-    // A previous loop may have filled it in already.
-    run.last_collision.resize(run.gas.size(), Time{-(std::int64_t{1} << 62), 0});
-  }
   const std::size_t count = run.gas.size();
   calendar_->reset(count, run.gas.clock, search_.cells());
   processor_.set_now(run.now);
@@ -172,7 +168,6 @@ void EventLoop<S, M>::sort_storage() {
   const std::vector<Needle> order = order_in_space(gas, run_.now), ranks = ranks_of(order);
   reorder(gas, order);
   search_.renumber(ranks);
-  if constexpr (M::effects.contact_time) permute(run_.last_collision, order);
   processor_.forget();
   std::vector<Event> events;
   events.reserve(gas.size());

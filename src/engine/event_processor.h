@@ -58,7 +58,7 @@ class EventProcessor {
     needlework::prefetch(&gas_.records[i]);
     needlework::prefetch(&gas_.ids[i]);
     needlework::prefetch(&gas_.images[i]);
-    if constexpr (M::effects.contact_time) needlework::prefetch(&run_.last_collision[i]);
+    if constexpr (M::has_effects) gas_.columns.prefetch(i);
     search_.prefetch(i);
   }
   /// Discards cached predictions. To be called after needles have moved in storage, or after
@@ -69,7 +69,7 @@ class EventProcessor {
   void take(ReplacedRecords replaced) { predictor_.take(std::move(replaced)); }
 
   RollbackLog* rollback_log = nullptr;  ///< if not null, receives what the processor replaces
-  CollisionReports* reports = nullptr;  ///< if not null, receives collisions in place of the
+  Reports* reports = nullptr;           ///< if not null, receives what happens in place of the
                                         ///< callbacks
 #ifndef NDEBUG
   /// Whether a prediction has read a record that another thread has made at a later time than now,
@@ -86,8 +86,15 @@ class EventProcessor {
   void horizon(Needle i);
   // A separate function, so that a test can inspect the machine code that an effect adds.
   [[gnu::noinline]] void collide(const Event& event);
+  [[gnu::noinline]] void happen(const Event& event);
+  void consider_sources(Needle i, Event& best) const;
   bool by_contact_time(Needle a, Needle b) const;
   void count_at_instant(Needle a, Needle b);
+  void set_time(Collision& report) const {
+    report.epoch = now().epoch;
+    report.offset = now().offset;
+    report.time = gas_.clock.since_start(now());
+  }
   [[noreturn, gnu::noinline]] void report_collapse(const Event& event) const;
 
   Run& run_;
@@ -97,6 +104,7 @@ class EventProcessor {
   EventSink& calendar_;
   Tally& tally_;
   PairPredictor<M> predictor_;
+  std::vector<std::byte> columns_before_;  ///< values of a needle before an event of a source
 };
 
 template <Search S, Model M>
@@ -113,6 +121,9 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
         return schedule(event.owner, place(event.owner));
       }
       return collide(event);
+    case EventKind::source:
+      if constexpr (M::has_effects) happen(event);
+      return;
   }
 }
 
@@ -133,19 +144,16 @@ template <Search S, Model M>
 template <class Renew>
 Shift EventProcessor<S, M>::replace_record(Needle i, Renew&& renew) {
   if (rollback_log) {
-    rollback_log->replaced(i, gas_.records[i], gas_.images[i],
-                           M::effects.contact_time ? &run_.last_collision[i] : nullptr);
+    rollback_log->replaced(i, gas_);
   }
   return predictor_.replace(i, renew);
 }
 
 template <Search S, Model M>
 bool EventProcessor<S, M>::by_contact_time(Needle a, Needle b) const {
-  if constexpr (!M::effects.contact_time) return false;
-  const auto is_recent = [&](Needle i) {
-    return gas_.clock.difference(now(), run_.last_collision[i]) < run_.contact_time;
-  };
-  return is_recent(a) || is_recent(b);
+  if (!M::has_effects || !run_.contact_time_rule) return false;
+  const ContactTimeRule& rule = *run_.contact_time_rule;
+  return rule.is_recent(a, now(), run_.contact_time) || rule.is_recent(b, now(), run_.contact_time);
 }
 
 template <Search S, Model M>
@@ -160,10 +168,9 @@ void EventProcessor<S, M>::collide(const Event& event) {
   const bool elastic = by_contact_time(a, b);
   const Impact impact = model_.collide(first, second, contact, event.side, elastic);
 
-  Collision report;
-  report.epoch = now().epoch;
-  report.offset = now().offset;
-  report.time = gas_.clock.since_start(now());
+  Happening happening;
+  Collision& report = happening.event;
+  set_time(report);
   report.first = gas_.ids[a].value;
   report.second = gas_.ids[b].value;
   report.shift = event.shift;
@@ -187,7 +194,10 @@ void EventProcessor<S, M>::collide(const Event& event) {
     --tally_.at_instant;
     throw;
   }
-  if constexpr (M::effects.contact_time) run_.last_collision[a] = run_.last_collision[b] = now();
+  if (M::has_effects && run_.contact_time_rule) {
+    run_.contact_time_rule->collided(a, now());
+    run_.contact_time_rule->collided(b, now());
+  }
   const Shift shift = event.shift + wraps_b - wraps_a;
   const kernels::Touch touch{.touching = true, .collided = true, .side = event.side, .gap = 0};
   gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], gas_.records[b].serial, shift, touch));
@@ -196,12 +206,81 @@ void EventProcessor<S, M>::collide(const Event& event) {
   tally_.energy += run_.in_quanta(impact.energy_change);
   ++tally_.collisions;
   tally_.tc_collisions += elastic;
+  if (M::has_effects && gas_.composition.is_mixture()) {
+    tally_.count(tally_.by_pair, gas_.composition.pair_index(first.species, second.species),
+                 gas_.composition.pairs());
+  }
   tally_.hash.add(report);
   const Time placed_a = place(a), placed_b = place(b);
   const double apart = model_.time_apart(model_.pair(a, first, b, second, shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
-  if (run_.has_callback()) run_.report(report, a, b, reports);
+  if (run_.has_callback()) run_.report(happening, a, b, reports);
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::happen(const Event& event) {
+  const Needle i = event.owner;
+  count_at_instant(i, i);
+  const Record& record = gas_.records[i];
+  const double elapsed = gas_.clock.difference(now(), record.time);
+  const NeedleAt at{.needle = i,
+                    .record = record,
+                    .species = gas_.species_of(record),
+                    .now = now(),
+                    .centre = centre_after(record.flight, elapsed),
+                    .director = director_after(record.flight, elapsed),
+                    .velocity = record.flight.v,
+                    .angular_velocity = record.flight.w};
+  if (rollback_log) rollback_log->replaced(i, gas_);
+  columns_before_.clear();
+  gas_.columns.append(i, columns_before_);
+  gas_.columns.count_change(i);
+  const SourceOutcome outcome = run_.sources[event.source]->happen(gas_, at, event.side);
+  Happening happening;
+  happening.kind = static_cast<std::uint8_t>(event.source + 1);
+  Collision& report = happening.event;
+  set_time(report);
+  report.first = gas_.ids[i].value;
+  report.second = outcome.object;
+  report.arm_first = outcome.arm;
+  report.normal_velocity = outcome.normal_velocity;
+  report.impulse = {outcome.impulse.x, outcome.impulse.y, outcome.impulse.z};
+  report.energy_change = outcome.energy_change;
+  if (outcome.changes_motion) {
+    try {
+      replace_record(i, [&] {
+        return model_.renew(i, now(), at.director, outcome.velocity, outcome.angular_velocity);
+      });
+    } catch (const InvalidStateError&) {
+      predictor_.put_back();
+      gas_.columns.put_back(i, columns_before_.data());
+      --tally_.at_instant;
+      throw;
+    }
+    tally_.energy += run_.in_quanta(outcome.energy_change);
+    tally_.hash.add(happening);
+  }
+  tally_.count(tally_.by_source, event.source, run_.sources.size());
+  schedule(i, place(i));
+  if (run_.has_callback()) run_.report(happening, i, no_needle, reports);
+}
+
+// The earliest event of the sources, if it is before `best`.
+template <Search S, Model M>
+void EventProcessor<S, M>::consider_sources(Needle i, Event& best) const {
+  for (std::size_t n = 0; n < run_.sources.size(); ++n) {
+    const SourceEvent next = run_.sources[n]->next(gas_, i, now(), best.time);
+    if (next.time == Time::never()) continue;
+    Event event;
+    event.kind = EventKind::source;
+    event.owner = i;
+    event.lower_id = event.higher_id = gas_.ids[i];
+    event.time = next.time;
+    event.side = next.detail;
+    event.source = static_cast<std::uint8_t>(n);
+    if (event < best) best = event;
+  }
 }
 
 template <Search S, Model M>
@@ -217,6 +296,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
   best.lower_id = best.higher_id = gas_.ids[i];
   best.time =
       std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.search_span)});
+  if constexpr (M::has_effects) consider_sources(i, best);
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,
                [&](Needle j, const Shift& shift, double from) {
                  consider(i, j, shift, from, best);
@@ -293,8 +373,8 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
                        .gap = model_.gap(pair, elapsed) / model_.geometry(pair, elapsed).sin_angle,
                        .after = gas_.clock.difference(event.time, start),
                        .root_tolerance = model_.accuracy().root_tolerance,
-                       .epsilon = model_.restitution().epsilon,
-                       .contact_time = M::effects.contact_time}),
+                       .epsilon = model_.restitution(first, second).epsilon,
+                       .contact_time = model_.effects().contact_time}),
       {{event.lower_id.value, event.higher_id.value}});
 }
 

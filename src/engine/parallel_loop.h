@@ -329,21 +329,21 @@ void ParallelLoop<S, M>::roll_back() {
   ordered_ = true;
 }
 
-// Reports the collisions of the phase, whole ones in order of time.
+// Reports what has happened in the phase, whole happenings in order of time.
 template <Search S, Model M>
 void ParallelLoop<S, M>::report() {
   if (run_.times_callback) {
     for (const auto& thread : threads_) run_.times_callback(thread.times());
   }
-  if (!run_.callback) return;
-  std::vector<const Collision*> all, before;
+  if (!run_.callback && !run_.happening_callback) return;
+  std::vector<const Happening*> all, before;
   for (const auto& thread : threads_) {
     before.swap(all);
     all.clear();
     std::merge(before.begin(), before.end(), thread.reports().begin(), thread.reports().end(),
                std::back_inserter(all), comes_before);
   }
-  for (const Collision* collision : all) run_.callback(*collision);
+  for (const Happening* happening : all) run_.pass_on(*happening);
 }
 
 }  // namespace needlework

@@ -26,16 +26,20 @@ class RollbackLog {
     start_ = time;
     records_.clear();
     places_.clear();
-    last_collisions_.clear();
+    columns_.clear();
+    changes_.clear();
     scheduled_.clear();
   }
-  /// To be called before the record of needle i is replaced. `last_collision` is null in scenes
-  /// that do not use it.
-  void replaced(Needle i, const Record& record, const Shift& image, const Time* last_collision) {
+  /// To be called before the record of needle i is replaced, or its values in columns.
+  void replaced(Needle i, const Gas& gas) {
+    const Record& record = gas.records[i];
     if (is_of_phase(record)) return;
     scheduled_.push_back(i);
-    places_.push_back({i, image});
-    if (last_collision) last_collisions_.push_back(*last_collision);
+    places_.push_back({i, gas.images[i]});
+    if (!gas.columns.empty()) {
+      gas.columns.append(i, columns_);
+      changes_.push_back(gas.columns.changes(i));
+    }
     records_.push_back(record);  // last, as it counts the entries, and memory may run out
   }
   /// To be called before the event of needle i, which has this record, is replaced.
@@ -48,24 +52,30 @@ class RollbackLog {
   const std::vector<Needle>& scheduled() const { return scheduled_; }
 
   /// Restores the records that are older than the present ones. After this has been done for the
-  /// logs of all threads, the oldest records are in place. `last_collision` may be empty.
-  void put_back(Gas& gas, std::vector<Time>& last_collision) {
+  /// logs of all threads, the oldest records are in place.
+  void put_back(Gas& gas) {
     for (std::size_t n = 0; n < records_.size(); ++n) {
       const Needle i = places_[n].needle;
       Record& record = gas.records[i];
-      if (!is_older(records_[n], record)) continue;
+      const bool older = gas.columns.empty() ? is_older(records_[n].serial, record.serial)
+                                             : is_older(records_[n].serial + changes_[n],
+                                                        record.serial + gas.columns.changes(i));
+      if (!older) continue;
       record = records_[n];
       gas.images[i] = places_[n].image;
-      if (!last_collisions_.empty()) last_collision[i] = last_collisions_[n];
+      if (!gas.columns.empty()) {
+        gas.columns.put_back(i, &columns_[n * gas.columns.bytes_per_needle()]);
+      }
     }
   }
 
  private:
   // If so, the needle is in the log of the thread that made the record.
   bool is_of_phase(const Record& record) const { return record.time > start_; }
-  // Serial numbers are modulo 2^32; both belong to one phase, in which they differ by far less.
-  static bool is_older(const Record& a, const Record& b) {
-    return static_cast<std::int32_t>(b.serial - a.serial) > 0;
+  // Serial numbers, and sums of them and changes, grow modulo 2^32; both belong to one phase, in
+  // which they differ by far less.
+  static bool is_older(std::uint32_t a, std::uint32_t b) {
+    return static_cast<std::int32_t>(b - a) > 0;
   }
 
   struct Place {
@@ -76,7 +86,8 @@ class RollbackLog {
   // Apart, as they would be padded to whole cache lines together with a record.
   LargeArray<Record> records_;
   LargeArray<Place> places_;
-  std::vector<Time> last_collisions_;
+  std::vector<std::byte> columns_;  ///< rows of Columns::bytes_per_needle()
+  std::vector<std::uint32_t> changes_;
   std::vector<Needle> scheduled_;
 };
 

@@ -64,33 +64,65 @@ bool is_at_rest(const Record& record) {
   return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
 }
 
-Species species_of(const Scene& scene) {
-  if (scene.species.size() > 1) {
-    throw InputError(fmt::format(
-        "species: {} entries: expected one: gases of several species are not simulated yet",
-        scene.species.size()));
+// The species of the scene with the counts of the state.
+Composition composition_of(const Scene& scene, const State& initial) {
+  Composition composition = scene.composition();
+  if (!composition.is_mixture()) composition.set_count(0, initial.size());
+  if (composition.count() != initial.size()) {
+    throw InputError(
+        fmt::format("state: {} needles: expected {}, as the species of the scene count",
+                    initial.size(), composition.count()));
   }
-  const Scene::Species species = scene.one_species();
-  return {.length = species.length, .mass = species.mass, .k = species.k};
+  return composition;
 }
 
-// For one species the collision rate is that of needles of length and mass 1, times L^2 / sqrt(m).
-double mean_free_time_of(const Gas& gas, const Totals& sums) {
-  const Species& species = gas.species.front();
-  return mean_free_time({.density = gas.density(),
-                         .t_tr = sums.t_tr,
-                         .t_rot = sums.t_rot,
-                         .length = species.length,
-                         .mass = species.mass,
-                         .k = species.k});
+// Gives each needle its species; needles are in order of id, and came from these rows of the state.
+void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>& rows) {
+  const Composition& composition = gas.composition;
+  if (!composition.is_mixture()) {
+    const auto other =
+        std::find_if(initial.species.begin(), initial.species.end(),
+                     [&](SpeciesIndex index) { return index != initial.species.front(); });
+    if (other == initial.species.end()) return;
+    throw InputError(
+        fmt::format("state: needles of species {} and {}: expected a scene with as many "
+                    "[[species]]",
+                    initial.species.front(), *other));
+  }
+  if (initial.species.empty()) {
+    std::size_t i = 0;
+    for (std::size_t index = 0; index < composition.size(); ++index) {
+      for (std::uint64_t n = 0; n < composition[index].count; ++n) {
+        gas.records[i++].species = static_cast<SpeciesIndex>(index);
+      }
+    }
+    return;
+  }
+  check_size(initial.species.size(), initial.size(), "species");
+  std::vector<std::uint64_t> counts(composition.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SpeciesIndex index = initial.species[rows[i]];
+    if (index >= composition.size()) {
+      throw InputError(fmt::format("state: needle {}: species = {}: expected an index below {}",
+                                   gas.ids[i].value, index, composition.size()));
+    }
+    ++counts[index];
+    gas.records[i].species = index;
+  }
+  for (std::size_t index = 0; index < composition.size(); ++index) {
+    if (counts[index] == composition[index].count) continue;
+    throw InputError(fmt::format("state: {} needles of species {}: expected {}, as in the scene",
+                                 counts[index], composition[index].name, composition[index].count));
+  }
 }
 
 }  // namespace
 
 Effects effects_of(const Scene& scene) {
-  return {.rough = scene.collisions.beta != -1,
+  const Composition composition = scene.composition();
+  return {.rough = composition.is_rough(),
           .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
-          .table = !species_of(scene).is_unit()};
+          .table = composition.is_mixture() || !is_unit(composition[0])};
 }
 
 Gas make_gas(const Scene& scene, const State& initial) {
@@ -100,7 +132,10 @@ Gas make_gas(const Scene& scene, const State& initial) {
   check_size(initial.angular_velocity.size(), count, "angular velocity");
   if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
-  const double length = species_of(scene).length;
+  Gas gas;
+  gas.box = initial.box;
+  gas.set_composition(composition_of(scene, initial));
+  const double length = gas.longest;
   for (const double edge : initial.box) {
     if (!(edge >= least_edge(length) && edge <= largest_edge(length))) {
       throw InputError(fmt::format("state: box edge {}: expected from {:.10g} to {:.10g}", edge,
@@ -112,19 +147,13 @@ Gas make_gas(const Scene& scene, const State& initial) {
                                  initial.box[0], initial.box[1], initial.box[2], count,
                                  not_too_sparse));
   }
-  Gas gas;
-  gas.box = initial.box;
-  gas.set_species({species_of(scene)});
-
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (!initial.id.empty()) {
     std::sort(order.begin(), order.end(),
               [&](std::size_t a, std::size_t b) { return initial.id[a] < initial.id[b]; });
   }
-  gas.records.resize(count);
-  gas.ids.resize(count);
-  gas.images.resize(count);
+  gas.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     StopRequest::check_in_turn(i);
     const std::size_t from = order[i];
@@ -147,21 +176,27 @@ Gas make_gas(const Scene& scene, const State& initial) {
     if (flight.u == Vec3d{})
       refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
+  set_species(gas, initial, order);
   return gas;
 }
 
 Run::Run(const Scene& scene)
-    : restitution{scene.collisions.epsilon, scene.collisions.beta},
-      accuracy(accuracy_of(scene.engine)),
+    : accuracy(accuracy_of(scene.engine)),
       effects(effects_of(scene)),
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
-  gas.set_species({species_of(scene)});
+  gas.set_composition(scene.composition());
+}
+
+void Run::add_columns() {
+  if (effects.contact_time) contact_time_rule.emplace(gas);
 }
 
 Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   gas = std::move(initial);
+  gas.columns.resize(gas.size());
+  add_columns();
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InputError("state: " + reason);
   open_window();
@@ -169,7 +204,8 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
-    renew_record(gas, i, now, {flight.u, flight.v, flight.w, gas.longest});
+    renew_record(gas, i, now,
+                 {flight.u, flight.v, flight.w, gas.species_of(gas.records[i]).length});
   }
   open_window();
   initial_energy = energy();
@@ -178,12 +214,12 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
 }
 
 void Run::open_window() {
-  Totals sums;
-  sum_energies(sums);
-  const double count = static_cast<double>(gas.size());
-  energy_at_window_ = sums.energy * count;
+  const std::vector<SumsOfSquares> sums = sums_of_squares();
+  Totals all;
+  set_energies(sums, all);
+  energy_at_window_ = all.energy * static_cast<double>(gas.size());
   quanta_at_window_ = tally.energy;
-  mean_free_time = mean_free_time_of(gas, sums);
+  mean_free_time = mean_free_time_of(sums);
   set_scales();
   window_end = gas.clock.add(now, window_span_);
 }
@@ -213,45 +249,61 @@ double Run::drift_to(double energy_of_all, double by_account) {
 
 double Run::energy_drift() const {
   Totals sums;
-  sum_energies(sums);
+  set_energies(sums_of_squares(), sums);
   return drift_of_windows_ + drift_to(sums.energy * static_cast<double>(gas.size()), energy());
 }
 
-void Run::report(Collision& collision, Needle a, Needle b, CollisionReports* later) const {
-  if (times_callback) {
+void Run::report(Happening& happening, Needle a, Needle b, Reports* later) const {
+  if (times_callback && happening.is_collision()) {
     if (later) {
-      later->times.push_back(collision.time);
+      later->times.push_back(happening.event.time);
     } else {
-      times_callback({&collision.time, 1});
+      times_callback({&happening.event.time, 1});
     }
   }
-  if (!callback) return;
+  if (!happening_callback && !(callback && happening.is_collision())) return;
   const auto state_of = [&](Needle i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return StateAfterCollision{array(flight.r), array(flight.v), array(flight.u), array(flight.w)};
   };
-  collision.after = {state_of(a), state_of(b)};
+  happening.event.after[0] = state_of(a);
+  if (b != no_needle) happening.event.after[1] = state_of(b);
   if (later) {
-    later->collisions.push_back(collision);
+    later->happenings.push_back(happening);
   } else {
-    callback(collision);
+    pass_on(happening);
   }
 }
 
-GasNumbers Run::numbers_with(double v2, double w2, bool moves) const {
-  const Species& species = gas.species.front();
-  return {.count = static_cast<double>(gas.size()),
-          .length = species.length,
-          .mass = species.mass,
-          .k = species.k,
-          .v2 = v2,
-          .w2 = w2,
-          .moves = moves};
+void Run::pass_on(const Happening& happening) const {
+  if (callback && happening.is_collision()) callback(happening.event);
+  if (happening_callback) happening_callback(happening);
+}
+
+void Run::add_source(std::unique_ptr<EventSource> source) {
+  constexpr std::size_t most = std::numeric_limits<decltype(Happening::kind)>::max();
+  if (sources.size() == most) throw InputError(fmt::format("more than {} sources of events", most));
+  sources.push_back(std::move(source));
+  gas.columns.keep_changes();
+  effects.sources = true;
+}
+
+GasNumbers Run::numbers_with(const std::vector<SumsOfSquares>& sums, bool moves) const {
+  GasNumbers out{.count = static_cast<double>(gas.size()), .species = {}, .moves = moves};
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const Species& species = gas.composition[index];
+    out.species.push_back({.length = species.length,
+                           .mass = species.mass,
+                           .k = species.k,
+                           .v2 = sums[index].v2,
+                           .w2 = sums[index].w2});
+  }
+  return out;
 }
 
 GasNumbers Run::numbers() const {
-  const auto [v2, w2] = sums_of_squares();
-  return numbers_with(v2, w2, !std::all_of(gas.records.begin(), gas.records.end(), is_at_rest));
+  return numbers_with(sums_of_squares(),
+                      !std::all_of(gas.records.begin(), gas.records.end(), is_at_rest));
 }
 
 void Run::require_images(Time at) const {
@@ -265,14 +317,12 @@ void Run::require_images(Time at) const {
   }
 }
 
-void Run::require_followable(double v2, double w2, bool moves) const {
+void Run::require_followable(const std::vector<SumsOfSquares>& sums, bool moves) const {
   if (gas.size() == 0) return;
-  if (const auto reason = out_of_range(numbers_with(v2, w2, moves)); !reason.empty())
+  if (const auto reason = out_of_range(numbers_with(sums, moves)); !reason.empty())
     throw InputError("set_velocities: " + reason);
   require_images(now);
-  Totals sums;
-  set_energies(v2, w2, sums);
-  const double between = mean_free_time_of(gas, sums), least = 0x1p10 * gas.clock.resolution();
+  const double between = mean_free_time_of(sums), least = 0x1p10 * gas.clock.resolution();
   if (between < least) {
     throw InputError(fmt::format(
         "set_velocities: a mean free time of {:.3g}: expected at least {:.3g}, as times of this "
@@ -296,6 +346,7 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
 }
 
 bool Run::nothing_can_happen() const {
+  if (!sources.empty() && gas.size() > 0) return false;
   if (gas.size() < 2) return true;
   const Vec3d& v = gas.records[0].flight.v;
   return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {
@@ -304,6 +355,7 @@ bool Run::nothing_can_happen() const {
 }
 
 std::optional<Collisionless> Run::collisionless() const {
+  if (!sources.empty()) return std::nullopt;  // events may change directions of flight
   if (nothing_can_happen() && gas.size() > 1) return Collisionless::alike;
   return needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
@@ -319,25 +371,68 @@ Stop Run::end_of_events() const {
       gas.clock.since_start(now), gas.clock.since_start(Time::never()), gas.clock.epoch_length()));
 }
 
-std::array<double, 2> Run::sums_of_squares() const {
-  return exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
-    return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
-  });
+std::vector<SumsOfSquares> Run::sums_of_squares() const {
+  std::vector<SumsOfSquares> out(gas.composition.size());
+  if (gas.size() == 0) return out;
+  for (std::size_t species = 0; species < out.size(); ++species) {
+    const auto [v2, w2] = exact_sums(gas.records, threads_at_hand(), [&](const Record& a) {
+      if (a.species != species) return std::array{0.0, 0.0};
+      return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
+    });
+    out[species] = {v2, w2};
+  }
+  return out;
 }
 
-void Run::sum_energies(Totals& out) const {
+SpeciesTotals Run::totals_of(SpeciesIndex index, const SumsOfSquares& sums) const {
+  const Species& species = gas.composition[index];
+  SpeciesTotals out;
+  out.count = species.count;
+  if (out.count == 0) return out;
+  const double count = static_cast<double>(species.count);
+  out.t_tr = species.mass * sums.v2 / (3 * count);
+  out.t_rot = species.mass * (species.length * species.length) * sums.w2 / (4 * species.k * count);
+  return out;
+}
+
+std::vector<SpeciesTotals> Run::species_totals() const {
+  const std::vector<SumsOfSquares> sums = sums_of_squares();
+  std::vector<SpeciesTotals> out;
+  for (const SumsOfSquares& each : sums) {
+    out.push_back(totals_of(static_cast<SpeciesIndex>(out.size()), each));
+  }
+  return out;
+}
+
+void Run::set_energies(const std::vector<SumsOfSquares>& sums, Totals& out) const {
   if (gas.size() == 0) return;
-  const auto [v2, w2] = sums_of_squares();
-  set_energies(v2, w2, out);
+  out.t_tr = out.t_rot = 0;
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const SpeciesTotals of = totals_of(static_cast<SpeciesIndex>(index), sums[index]);
+    const double share = static_cast<double>(of.count) / static_cast<double>(gas.size());
+    out.t_tr += share * of.t_tr;
+    out.t_rot += share * of.t_rot;
+  }
+  out.energy = 1.5 * out.t_tr + out.t_rot;
 }
 
-// From the sums of v^2 and w^2, which is enough where all needles are of one species.
-void Run::set_energies(double v2, double w2, Totals& out) const {
-  const double count = static_cast<double>(gas.size());
-  const Species& species = gas.species.front();
-  out.t_tr = species.mass * v2 / (3 * count);
-  out.t_rot = species.mass * (species.length * species.length) * w2 / (4 * species.k * count);
-  out.energy = 1.5 * out.t_tr + out.t_rot;
+double Run::mean_free_time_of(const std::vector<SumsOfSquares>& sums) const {
+  std::vector<SpeciesTemperatures> temperatures;
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const SpeciesTotals of = totals_of(static_cast<SpeciesIndex>(index), sums[index]);
+    temperatures.push_back({of.t_tr, of.t_rot});
+  }
+  if (gas.composition.is_mixture()) {
+    return needlework::mean_free_time(gas.composition, gas.box[0] * gas.box[1] * gas.box[2],
+                                      temperatures);
+  }
+  const Species& species = gas.composition[0];
+  return needlework::mean_free_time({.density = gas.density(),
+                                     .t_tr = temperatures[0].t_tr,
+                                     .t_rot = temperatures[0].t_rot,
+                                     .length = species.length,
+                                     .mass = species.mass,
+                                     .k = species.k});
 }
 
 Totals Run::totals() const {
@@ -346,14 +441,21 @@ Totals Run::totals() const {
   out.collisions = tally.collisions;
   out.tc_collisions = tally.tc_collisions;
   if (gas.size() == 0) return out;
-  // All at once: reading the records takes most of the time.
-  const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads_at_hand(), [](const Record& a) {
-    const Vec3d& v = a.flight.v;
-    return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
-  });
-  set_energies(v2, w2, out);
-  out.momentum = {x, y, z};
-  for (double& component : out.momentum) component *= gas.species.front().mass;
+  std::vector<SumsOfSquares> sums;
+  for (std::size_t species = 0; species < gas.composition.size(); ++species) {
+    // All at once: reading the records takes most of the time.
+    const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads_at_hand(), [&](const Record& a) {
+      if (a.species != species) return std::array<double, 5>{};
+      const Vec3d& v = a.flight.v;
+      return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
+    });
+    sums.push_back({v2, w2});
+    const double mass = gas.composition[species].mass;
+    for (const auto& [axis, sum] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)}) {
+      out.momentum[axis] += mass * sum;
+    }
+  }
+  set_energies(sums, out);
   return out;
 }
 
@@ -361,6 +463,7 @@ void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) c
   using C = kernels::FlightColumns;
   out.box = gas.box;
   out.resize(gas.size());
+  out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
   // Few enough for the columns to stay in the first-level cache.
   constexpr std::size_t at_once = 64;
   static_assert(at_once % kernels::flights_at_once == 0);
@@ -387,6 +490,7 @@ void Run::copy(kernels::Isa isa, const std::vector<Needle>& by_id, State& out) c
       const bool just_now = columns[C::elapsed][n] == 0;
       const std::size_t row = begin + n;
       out.id[row] = gas.ids[i].value;
+      if (!out.species.empty()) out.species[row] = gas.records[i].species;
       out.position[row] = r;
       out.image[row] = image;
       out.velocity[row] = array(flight.v);

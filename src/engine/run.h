@@ -5,16 +5,19 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "kernels/isa.h"
+#include "needlework/happening.h"
 #include "needlework/simulation.h"
+#include "src/effects/event_source.h"
 #include "src/engine/replaced_records.h"
 #include "src/engine/tally.h"
-#include "src/physics/collision.h"
 #include "src/physics/collisionless.h"
+#include "src/physics/contact_time.h"
 #include "src/physics/effects.h"
 #include "src/physics/gas.h"
 #include "src/scene/derived_numbers.h"
@@ -23,10 +26,15 @@ namespace needlework {
 
 class Archive;
 
-/// What callbacks will need of collisions that have been processed.
-struct CollisionReports {
-  std::vector<Collision> collisions;
-  std::vector<double> times;
+/// What callbacks will need of what has happened.
+struct Reports {
+  std::vector<Happening> happenings;
+  std::vector<double> times;  ///< of collisions
+};
+
+/// Sums over all needles of a species, on which its energy depends.
+struct SumsOfSquares {
+  double v2 = 0, w2 = 0;  ///< [L^2 / time^2], [1 / time^2]
 };
 
 /// State, physics, windows and counters of a run.
@@ -47,6 +55,7 @@ class Run {
   Checkpoint save(const Scene& scene, const std::vector<Needle>& by_id);
 
   Totals totals() const;
+  std::vector<SpeciesTotals> species_totals() const;
   /// Copies all needles at the present time, in this order. The instruction set is used for free
   /// flight and affects no bit of the result.
   void copy(kernels::Isa isa, const std::vector<Needle>& order, State& out) const;
@@ -89,16 +98,22 @@ class Run {
   /// move, their next events are beyond the range of the clock: throws InvalidStateError.
   Stop end_of_events() const;
 
-  /// Whether anybody wants to know of collisions.
-  bool has_callback() const { return callback || times_callback; }
-  /// Passes a collision of these two needles to the callbacks, or appends what they need to
-  /// `later`. Kept out of the event loops, whose code it would enlarge.
-  void report(Collision& collision, Needle a, Needle b, CollisionReports* later) const;
+  /// Whether anybody wants to know of collisions, or of what else happens.
+  bool has_callback() const { return callback || times_callback || happening_callback; }
+  /// Passes what has happened to these two needles, or to the one if b is none, to the callbacks,
+  /// or appends what they need to `later`. Kept out of the event loops, whose code it would
+  /// enlarge.
+  void report(Happening& happening, Needle a, Needle b, Reports* later) const;
+  /// Passes it to the callbacks that want whole happenings.
+  void pass_on(const Happening& happening) const;
+
+  /// Adds a source of events. To be called before there is an event loop.
+  void add_source(std::unique_ptr<EventSource> source);
 
   /// Throws InputError, "set_velocities: ...", if searches cannot follow velocities with these sums
   /// of squares, of which parts along the directors may be too much, or if needles would collide at
   /// times that the clock of this run does not tell apart; and as require_images(now) does.
-  void require_followable(double v2, double w2, bool moves) const;
+  void require_followable(const std::vector<SumsOfSquares>& sums, bool moves) const;
   /// Throws InvalidStateError if needles that fly freely until then have crossed more boxes than
   /// are counted.
   void require_images(Time at) const;
@@ -110,18 +125,19 @@ class Run {
 
   Gas gas;
   Time now;
-  Restitution restitution;
   Accuracy accuracy;
   Effects effects;  ///< effects that the scene requires
   bool sorted;      ///< whether needles are stored in spatial order
   double mean_free_time = 0;
-  double contact_time = 0;           ///< contact time of the t_c rule in this window
-  double search_span = 0;            ///< length of time ahead in which contacts are searched
-  std::vector<Time> last_collision;  ///< for the t_c rule; renewals of records do not count
+  double contact_time = 0;  ///< contact time of the t_c rule in this window
+  double search_span = 0;   ///< length of time ahead in which contacts are searched
+  std::optional<ContactTimeRule> contact_time_rule;
+  std::vector<std::unique_ptr<EventSource>> sources;
   double initial_energy = 0;
   Tally tally;
   std::function<void(const Collision&)> callback;
   std::function<void(std::span<const double>)> times_callback;
+  std::function<void(const Happening&)> happening_callback;
   std::atomic<bool> interrupted = false;
   Time window_end;
   /// To be set to the number of threads that have just worked together, which can share work on all
@@ -133,15 +149,18 @@ class Run {
  private:
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);
+  /// Adds the columns of the effects to the gas.
+  void add_columns();
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;
-  GasNumbers numbers_with(double v2, double w2, bool moves) const;
+  GasNumbers numbers_with(const std::vector<SumsOfSquares>& sums, bool moves) const;
   GasNumbers numbers() const;
-  /// Of all v and w.
-  std::array<double, 2> sums_of_squares() const;
+  /// Of all needles of each species.
+  std::vector<SumsOfSquares> sums_of_squares() const;
+  SpeciesTotals totals_of(SpeciesIndex species, const SumsOfSquares& sums) const;
   /// Computes temperatures and energy.
-  void sum_energies(Totals& out) const;
-  void set_energies(double v2, double w2, Totals& out) const;
+  void set_energies(const std::vector<SumsOfSquares>& sums, Totals& out) const;
+  double mean_free_time_of(const std::vector<SumsOfSquares>& sums) const;
   /// The relative difference between this energy of all needles and that by account.
   static double drift_to(double energy_of_all, double by_account);
 

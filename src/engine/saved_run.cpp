@@ -13,26 +13,14 @@
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
 #include "src/machine/stop_request.h"
+#include "src/physics/transfer.h"
 #include "src/physics/vectors.h"
 
 namespace needlework {
 
-void transfer(Archive& archive, Vec3d& a) { archive(a.x, a.y, a.z); }
-void transfer(Archive& archive, Time& time) { archive(time.epoch, time.offset); }
-void transfer(Archive& archive, RecordedTouch& touch) {
-  archive(touch.partner.value, touch.partner_serial, touch.shift, touch.side, touch.collided,
-          touch.gap);
-}
 void transfer(Archive& archive, Counters& counters) {
   for (const Counters::Named& counter : Counters::all) archive(counters.*counter.value);
 }
-
-namespace kernels {
-void transfer(Archive& archive, Flight& flight) {
-  archive(flight.r, flight.v, flight.u, flight.w);
-  if (archive.reads()) set_rotation(flight);
-}
-}  // namespace kernels
 
 namespace {
 
@@ -45,8 +33,7 @@ constexpr std::size_t least_bytes_of_a_needle = 141;
 // What that memory and one touch add; few needles have more touches.
 constexpr std::size_t usual_further_bytes = 40;
 constexpr std::size_t most_touches = std::numeric_limits<decltype(Record::touch_count)>::max();
-// Of needles that have not collided yet, in the memory of the t_c rule.
-constexpr Time long_ago{-(std::int64_t{1} << 62), 0};
+constexpr Time long_ago = ContactTimeRule::long_ago;
 
 bool is_time(const Clock& clock, Time time) {
   return time.offset >= 0 && time.offset < clock.epoch_length() && time >= long_ago &&
@@ -64,23 +51,33 @@ void require_flight(const kernels::Flight& f) {
 // The parameters on which the trajectory depends.
 std::vector<double> physics_of(const Run& run, const Scene& scene) {
   constexpr double absent = -1;
-  const Species& species = run.gas.species.front();
+  const Composition& composition = run.gas.composition;
+  const Species& species = composition[0];
+  const Restitution& restitution = composition.restitution(0, 0);
   const Accuracy accuracy = run.accuracy;
-  return {run.gas.box[0],
-          run.gas.box[1],
-          run.gas.box[2],
-          species.length,
-          species.mass,
-          species.k,
-          run.restitution.epsilon,
-          run.restitution.beta,
-          scene.collisions.tc.value_or(absent),
-          scene.collisions.tc_relative.value_or(absent),
-          static_cast<double>(accuracy.isolation),
-          static_cast<double>(accuracy.escalation),
-          static_cast<double>(accuracy.float_filter),
-          accuracy.root_tolerance,
-          accuracy.sampling_step};
+  std::vector<double> out = {run.gas.box[0],
+                             run.gas.box[1],
+                             run.gas.box[2],
+                             species.length,
+                             species.mass,
+                             species.k,
+                             restitution.epsilon,
+                             restitution.beta,
+                             scene.collisions.tc.value_or(absent),
+                             scene.collisions.tc_relative.value_or(absent),
+                             static_cast<double>(accuracy.isolation),
+                             static_cast<double>(accuracy.escalation),
+                             static_cast<double>(accuracy.float_filter),
+                             accuracy.root_tolerance,
+                             accuracy.sampling_step};
+  if (!composition.is_mixture()) return out;
+  for (const Species& each : composition.species()) {
+    out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});
+  }
+  for (const Restitution& rule : composition.rules()) {
+    out.insert(out.end(), {rule.epsilon, rule.beta});
+  }
+  return out;
 }
 
 std::vector<RecordedTouch> touches_of(const Gas& gas, Needle i) {
@@ -104,7 +101,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
   require_flight(f);
-  require(record.species < gas.species.size());
+  require(record.species < gas.composition.size());
   for (const std::int32_t boxes : gas.images[i])
     require(boxes >= -most_boxes && boxes <= most_boxes);
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
@@ -132,7 +129,9 @@ void Run::require_consistent() const {
           tally.collisions < std::uint64_t{1} << 63);
   const auto is_past = [&](Time time) { return is_time(gas.clock, time) && time <= now; };
   require(std::ranges::all_of(gas.records, is_past, &Record::time));
-  require(std::ranges::all_of(last_collision, is_past));
+  if (contact_time_rule) {
+    require(std::ranges::all_of(contact_time_rule->last_collisions(), is_past));
+  }
   // Where nothing can happen, time passes without windows.
   if (!nothing_can_happen()) {
     require(now <= window_end && window_end <= gas.clock.add(now, window_span_));
@@ -153,7 +152,7 @@ void Run::require_consistent() const {
   present.has_cooled = true;
   require(out_of_range(present).empty());
   Totals sums;
-  set_energies(present.v2, present.w2, sums);
+  set_energies(sums_of_squares(), sums);
   const double sum = gas.size() == 0 ? 0 : sums.energy * static_cast<double>(gas.size());
   require(std::abs(sum - energy()) <= 1e-6 * energy_at_window_);
 }
@@ -170,12 +169,10 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
       require(std::isfinite(edge) && edge >= 2.01 * gas.longest);
     }
   }
-  const bool has_last_collisions = effects.contact_time;
-  if (has_last_collisions) last_collision.resize(gas.size(), long_ago);
   for (const Needle i : by_id) {
     if (archive.reads()) StopRequest::check_in_turn(i);
     transfer_needle(archive, gas, i);
-    if (has_last_collisions) archive(last_collision[i]);
+    gas.columns.transfer(archive, i);
   }
   const auto increases = [](Id a, Id b) { return a < b; };
   require(!archive.reads() || std::ranges::is_sorted(gas.ids, increases));
@@ -189,6 +186,8 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   }
   archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
           tally.instant, tally.at_instant);
+  if (gas.composition.is_mixture()) archive(tally.by_pair);
+  if (!sources.empty()) archive(tally.by_source);
   if (archive.reads()) require_consistent();
 }
 
@@ -215,15 +214,16 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
         "the saved state is of another box, or of other needles, collisions or accuracy than those "
         "of the scene: expected the same");
   }
-  const std::uint64_t of_scene = scene.one_species().count;
+  const std::uint64_t of_scene = scene.composition().count();
   if (of_scene != 0 && of_scene != count) {
     throw InputError(fmt::format("the saved state has {} needles, the scene {}: expected the same",
                                  count, of_scene));
   }
   require(count <= saved.bytes.size() / least_bytes_of_a_needle);
-  gas.records.resize(count);
-  gas.ids.resize(count);
-  gas.images.resize(count);
+  // A scene need not say how many needles there are of its only species.
+  if (!gas.composition.is_mixture()) gas.composition.set_count(0, count);
+  gas.resize(count);
+  add_columns();
   std::vector<Needle> by_id(count);
   for (Needle i{0}; i < count; ++i) by_id[i] = i;
   transfer(archive, by_id);
@@ -231,7 +231,6 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   if (!sorted) return;
   const std::vector<Needle> order = order_in_space(gas, now);
   reorder(gas, order);
-  if (effects.contact_time) permute(last_collision, order);
 }
 
 }  // namespace needlework

@@ -53,14 +53,14 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
 
 double square(const std::array<double, 3>& a) { return a[0] * a[0] + a[1] * a[1] + a[2] * a[2]; }
 
-// The sum of their squares, which enters the energy.
-double checked_sum_of_squares(std::span<const std::array<double, 3>> values, std::size_t count,
-                              const char* what) {
+// Passes the square of each row, which enters the energy, to add(row, square).
+template <class Add>
+void check_squares(std::span<const std::array<double, 3>> values, std::size_t count,
+                   const char* what, const Add& add) {
   if (values.size() != count) {
     throw InputError(
         fmt::format("set_velocities: {} rows of {}: expected {}", values.size(), what, count));
   }
-  double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::array<double, 3>& a = values[i];
     if (!std::isfinite(square(a))) {
@@ -68,15 +68,18 @@ double checked_sum_of_squares(std::span<const std::array<double, 3>> values, std
           "set_velocities: row {} of {} = ({}, {}, {}): expected finite numbers, their squares too",
           i, what, a[0], a[1], a[2]));
     }
-    sum += square(a);
+    add(i, square(a));
   }
-  return sum;
 }
 
-std::string name_effects(const Scene::Collisions& collisions) {
-  std::string out = collisions.epsilon < 1 ? "inelastic" : "elastic";
-  if (collisions.beta != -1) out += " rough";
-  if (collisions.tc || collisions.tc_relative) out += " tc";
+std::string name_effects(const Run& run) {
+  const auto& rules = run.gas.composition.rules();
+  const bool inelastic = std::any_of(rules.begin(), rules.end(),
+                                     [](const Restitution& rule) { return rule.epsilon < 1; });
+  std::string out = inelastic ? "inelastic" : "elastic";
+  if (run.effects.rough) out += " rough";
+  if (run.effects.contact_time) out += " tc";
+  if (run.gas.composition.is_mixture()) out += " mixture";
   return out;
 }
 
@@ -122,15 +125,21 @@ struct Simulation::Implementation {
 
   void set_velocities(std::span<const std::array<double, 3>> velocity,
                       std::span<const std::array<double, 3>> angular_velocity) {
-    const double v2 = checked_sum_of_squares(velocity, run.gas.size(), "velocity");
-    const double w2 = checked_sum_of_squares(angular_velocity, run.gas.size(), "angular velocity");
+    const std::vector<Needle> rows = by_id();
+    std::vector<SumsOfSquares> sums(run.gas.composition.size());
+    const auto sums_of = [&](std::size_t row) -> SumsOfSquares& {
+      return sums[run.gas.records[rows[row]].species];
+    };
+    check_squares(velocity, rows.size(), "velocity",
+                  [&](std::size_t row, double v2) { sums_of(row).v2 += v2; });
+    check_squares(angular_velocity, rows.size(), "angular velocity",
+                  [&](std::size_t row, double w2) { sums_of(row).w2 += w2; });
     const auto moves = [](const std::array<double, 3>& row) {
       return row != std::array<double, 3>{};
     };
     run.require_followable(
-        v2, w2,
-        std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
-    const std::vector<Needle> ranks = ranks_of(by_id());
+        sums, std::ranges::any_of(velocity, moves) || std::ranges::any_of(angular_velocity, moves));
+    const std::vector<Needle> ranks = ranks_of(rows);
     // On which sides needles are that touch now is known once all have searched.
     if (loop) loop->prepare(nullptr);
     loop.reset();  // all of its contents depend on the velocities
@@ -206,10 +215,13 @@ std::string why_no_collision(const State& initial) {
 }
 
 std::string why_no_collision(const Scene& drawn) {
-  const Scene::Species species = drawn.one_species();
-  if (species.count == 0) return words_for(Collisionless::no_needles);
-  if (species.count == 1) return words_for(Collisionless::one_needle);
-  return species.t_tr == 0 && species.t_rot == 0 ? words_for(Collisionless::alike) : "";
+  const Composition composition = drawn.composition();
+  if (composition.count() == 0) return words_for(Collisionless::no_needles);
+  if (composition.count() == 1) return words_for(Collisionless::one_needle);
+  const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
+    return species.t_tr == 0 && species.t_rot == 0;
+  });
+  return at_rest ? words_for(Collisionless::alike) : "";
 }
 
 Simulation::Simulation(const Scene& scene) {
@@ -266,10 +278,45 @@ void Simulation::on_collision_times(std::function<void(std::span<const double>)>
   implementation_->run.times_callback = std::move(callback);
 }
 
+void Simulation::on_happening(std::function<void(const Happening&)> callback) {
+  implementation_->run.happening_callback = std::move(callback);
+}
+
+std::vector<std::string> Simulation::sources() const {
+  std::vector<std::string> out;
+  for (const auto& source : implementation_->run.sources) out.push_back(source->name());
+  return out;
+}
+
+std::vector<std::uint64_t> Simulation::events_by_source() const {
+  std::vector<std::uint64_t> out = implementation_->run.tally.by_source;
+  out.resize(implementation_->run.sources.size());
+  return out;
+}
+
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
 Totals Simulation::totals() const {
   const kernels::DefaultArithmetic arithmetic;
   return implementation_->run.totals();
+}
+std::vector<SpeciesTotals> Simulation::species_totals() const {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->run.species_totals();
+}
+std::vector<std::uint8_t> Simulation::species() const {
+  const Gas& gas = implementation_->run.gas;
+  std::vector<std::uint8_t> out;
+  if (!gas.composition.is_mixture()) return out;
+  for (const Needle i : implementation_->by_id()) out.push_back(gas.records[i].species);
+  return out;
+}
+const Composition& Simulation::composition() const { return implementation_->run.gas.composition; }
+std::vector<std::uint64_t> Simulation::collisions_by_pair() const {
+  const Run& run = implementation_->run;
+  if (!run.gas.composition.is_mixture()) return {run.tally.collisions};
+  std::vector<std::uint64_t> out = run.tally.by_pair;
+  out.resize(run.gas.composition.pairs());
+  return out;
 }
 const Counters& Simulation::counters() const { return implementation_->run.tally.counters; }
 double Simulation::time() const {
@@ -313,6 +360,6 @@ Checkpoint Simulation::checkpoint() const {
 std::string Simulation::search() const { return implementation_->search; }
 std::string Simulation::queue() const { return implementation_->calendar; }
 std::string Simulation::isa() const { return std::string(kernels::name_of(implementation_->isa)); }
-std::string Simulation::effects() const { return name_effects(implementation_->scene.collisions); }
+std::string Simulation::effects() const { return name_effects(implementation_->run); }
 
 }  // namespace needlework

@@ -69,6 +69,7 @@ void reorder(Gas& gas, const std::vector<Needle>& order) {
   StopRequest::check();
   permute(gas.ids, order);
   permute(gas.images, order);
+  gas.columns.permute(order);
 }
 
 }  // namespace needlework

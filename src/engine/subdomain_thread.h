@@ -39,10 +39,11 @@ struct SubdomainChanges final : EventSink {
   std::vector<BlockIndex> blocks;  ///< whose keys may have changed
 };
 
-/// The order in which collisions are reported.
-inline bool comes_before(const Collision* a, const Collision* b) {
-  const auto key = [](const Collision& c) {
-    return std::tie(c.epoch, c.offset, c.first, c.second, c.shift);
+/// The order in which happenings are reported.
+inline bool comes_before(const Happening* a, const Happening* b) {
+  const auto key = [](const Happening& h) {
+    const Collision& c = h.event;
+    return std::tie(c.epoch, c.offset, h.kind, c.first, c.second, c.shift);
   };
   return key(*a) < key(*b);
 }
@@ -78,8 +79,9 @@ class alignas(128) SubdomainThread {
   /// The time of the latest event processed, which need not be the last one processed.
   Time latest() const { return latest_; }
   Tally& tally() { return tally_; }
-  /// The collisions in order of time, if they are to be reported, and their times in any order.
-  const std::vector<const Collision*>& reports() const { return sorted_reports_; }
+  /// What has happened, in order of time, if it is to be reported, and times of collisions in any
+  /// order.
+  const std::vector<const Happening*>& reports() const { return sorted_reports_; }
   const std::vector<double>& times() const { return reports_.times; }
 
  private:
@@ -149,14 +151,14 @@ class alignas(128) SubdomainThread {
   std::vector<Deferred> deferred_;
   TimeKey next_of_others_ = 0;  ///< earliest event of other subdomains, as last seen
   TimeKey hindmost_ = 0;        ///< earliest event of all subdomains, as last seen
-  CollisionReports reports_;
-  std::vector<const Collision*> sorted_reports_;
+  Reports reports_;
+  std::vector<const Happening*> sorted_reports_;
   Time latest_;
 };
 
 template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
-  reports_.collisions.clear();
+  reports_.happenings.clear();
   reports_.times.clear();
   deferred_.clear();
   latest_ = phase_.run.now;
@@ -166,7 +168,7 @@ void SubdomainThread<S, M>::begin() {
 
 template <Search S, Model M>
 void SubdomainThread<S, M>::roll_back(std::vector<Needle>& needles) {
-  rollback_log_.put_back(phase_.run.gas, phase_.run.last_collision);
+  rollback_log_.put_back(phase_.run.gas);
   needles.insert(needles.end(), rollback_log_.scheduled().begin(), rollback_log_.scheduled().end());
   processor_.forget();
 }
@@ -218,7 +220,7 @@ template <Search S, Model M>
 void SubdomainThread<S, M>::sort_reports() {
   sorted_reports_.clear();
   if (phase_.must_roll_back) return;
-  for (const Collision& collision : reports_.collisions) sorted_reports_.push_back(&collision);
+  for (const Happening& happening : reports_.happenings) sorted_reports_.push_back(&happening);
   std::sort(sorted_reports_.begin(), sorted_reports_.end(), comes_before);
 }
 

@@ -2,7 +2,10 @@
 // several threads can be added in any order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "needlework/counters.h"
 #include "src/physics/clock.h"
@@ -15,8 +18,18 @@ struct Tally {
   std::uint64_t energy = 0;  ///< change of the total energy, in quanta of the windows, modulo 2^64
   TrajectoryHash hash;
   Counters counters;
-  Time instant;                  ///< time of the last collision
-  std::uint64_t at_instant = 0;  ///< number of collisions at that time
+  Time instant;                        ///< time of the last collision
+  std::uint64_t at_instant = 0;        ///< number of collisions at that time
+  std::vector<std::uint64_t> by_pair;  ///< collisions by Composition::pair_index; empty as long as
+                                       ///< no mixture has had one
+
+  std::vector<std::uint64_t> by_source;  ///< events of each source; the same
+
+  /// Counts one more of kind `index` out of so many.
+  static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
+    if (counts.empty()) counts.resize(kinds);
+    ++counts[index];
+  }
 
   /// Moves the sums of `other` into this object. Not its last instant, because later events have
   /// later times.
@@ -26,7 +39,15 @@ struct Tally {
     energy += other.energy;
     hash.add(other.hash);
     counters += other.counters;
+    add(by_pair, other.by_pair);
+    add(by_source, other.by_source);
     other = {};
+  }
+
+ private:
+  static void add(std::vector<std::uint64_t>& to, std::vector<std::uint64_t>& from) {
+    if (to.empty()) return to.swap(from);
+    for (std::size_t n = 0; n < from.size(); ++n) to[n] += from[n];
   }
 };
 

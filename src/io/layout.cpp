@@ -94,7 +94,8 @@ Handle make_box(hid_t needles, const std::string& place) {
   return box;
 }
 
-StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& place) {
+StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8_t> species,
+                         const std::string& place) {
   const std::uint64_t count = scene.needles.count;
   const hsize_t rows = frames_per_chunk(count);
   const Shape row{count, 3};
@@ -113,10 +114,13 @@ StepAndTime make_needles(hid_t group, const Scene& scene, const std::string& pla
   std::vector<std::uint32_t> ids(count);
   std::iota(ids.begin(), ids.end(), 0u);
   hdf5::write_array<std::uint32_t>(group, "id", {count}, ids, place);
-  hdf5::write_array<double>(group, "mass", {count},
-                            std::vector<double>(count, scene.one_species().mass), place);
-  hdf5::write_array<std::uint8_t>(group, "species", {count}, std::vector<std::uint8_t>(count, 0),
-                                  place);
+  species.resize(count);
+  const Composition composition = scene.composition();
+  std::vector<double> masses;
+  masses.reserve(count);
+  for (const std::uint8_t index : species) masses.push_back(composition[index].mass);
+  hdf5::write_array<double>(group, "mass", {count}, masses, place);
+  hdf5::write_array<std::uint8_t>(group, "species", {count}, species, place);
   return shared;
 }
 
@@ -177,8 +181,15 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("accuracy", run.accuracy);
   write("threads", static_cast<std::int32_t>(run.threads));
   write("epoch_length", run.epoch_length);
-  write("k", scene.needles.k);
-  write("length", scene.one_species().length);
+  const Composition composition = scene.composition();
+  const auto write_species = [&](const char* name, double Species::*member) {
+    if (!composition.is_mixture()) return write(name, composition[0].*member);
+    std::vector<double> values;
+    for (const Species& each : composition.species()) values.push_back(each.*member);
+    hdf5::write_array<double>(parameters.get(), name, {values.size()}, values, place);
+  };
+  write_species("k", &Species::k);
+  write_species("length", &Species::length);
   write("epsilon", scene.collisions.epsilon);
   write("beta", scene.collisions.beta);
 }
@@ -189,8 +200,8 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_metadata(file, place);
   make_parameters(file, scene, run, place);
   const Handle particles = create_group(file, "particles", place);
-  const StepAndTime frames =
-      make_needles(create_group(particles.get(), "needles", place).get(), scene, place);
+  const StepAndTime frames = make_needles(create_group(particles.get(), "needles", place).get(),
+                                          scene, run.species, place);
   make_totals(create_group(file, "observables", place).get(), frames, place);
   const Handle series = create_group(file, "series", place);
   const StepAndTime samples = make_step_and_time(series.get(), place);

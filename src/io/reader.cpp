@@ -20,7 +20,7 @@ namespace needlework {
 
 static void transfer(Archive& archive, State& state) {
   archive(state.box, state.position, state.velocity, state.orientation, state.angular_velocity,
-          state.image, state.id);
+          state.image, state.id, state.species);
 }
 
 }  // namespace needlework
@@ -77,7 +77,9 @@ class FrameReader {
   Vector diagonal(const Slice& edges) const;
   std::vector<Vector> read_vectors(const std::string& name);
   std::vector<std::array<std::int32_t, 3>> read_images();
+  std::vector<double> read_numbers(const std::string& name, double largest, const char* expected);
   std::vector<std::uint32_t> read_ids();
+  std::vector<std::uint8_t> read_species();
   void require_needles(const State& state);
 
   Source source_;
@@ -92,7 +94,7 @@ class FrameReader {
 FrameReader::FrameReader(const std::string& path) : source_(path), group_(find_particles(source_)) {
   for (const char* name : {"position", "velocity", "orientation", "angular_velocity"})
     element(name);
-  for (const char* name : {"image", "id", "box/edges"}) {
+  for (const char* name : {"image", "id", "species", "box/edges"}) {
     if (has(name)) element(name);
   }
   if (!has("box/edges")) reject(source_.place(group_ + "/box/edges"), ": missing: expected edges");
@@ -134,6 +136,7 @@ State FrameReader::read(std::size_t frame) {
   state.angular_velocity = read_vectors("angular_velocity");
   if (has("image")) state.image = read_images();
   if (has("id")) state.id = read_ids();
+  if (has("species")) state.species = read_species();
   require_needles(state);
   return state;
 }
@@ -253,8 +256,10 @@ std::vector<std::array<std::int32_t, 3>> FrameReader::read_images() {
   return images;
 }
 
-std::vector<std::uint32_t> FrameReader::read_ids() {
-  const Element& source = element("id");
+// One whole number for each needle.
+std::vector<double> FrameReader::read_numbers(const std::string& name, double largest,
+                                              const char* expected) {
+  const Element& source = element(name);
   const Shape& shape = source.shape();
   if ((shape.size() != 1 && shape.size() != 2) || shape.back() != needles_) {
     reject(place(source), fmt::format(": shape {}: expected [{}] or [frames][{}]",
@@ -262,15 +267,24 @@ std::vector<std::uint32_t> FrameReader::read_ids() {
   }
   const Slice part = slice(source, 1);
   const auto values = source.read<double>(part.frame);
-  std::vector<std::uint32_t> ids(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!(values[i] >= 0 && values[i] <= std::numeric_limits<std::uint32_t>::max()) ||
-        values[i] != std::trunc(values[i])) {
-      reject(place(source), fmt::format("{} = {}: expected a whole number from 0 to 2^32 - 1",
-                                        part.index(i), values[i]));
-    }
-    ids[i] = static_cast<std::uint32_t>(values[i]);
+    if (values[i] >= 0 && values[i] <= largest && values[i] == std::trunc(values[i])) continue;
+    reject(place(source), fmt::format("{} = {}: expected {}", part.index(i), values[i], expected));
   }
+  return values;
+}
+
+std::vector<std::uint8_t> FrameReader::read_species() {
+  const auto values = read_numbers("species", most_species - 1, "a whole number from 0 to 254");
+  return {values.begin(), values.end()};
+}
+
+std::vector<std::uint32_t> FrameReader::read_ids() {
+  const Element& source = element("id");
+  const auto values = read_numbers("id", std::numeric_limits<std::uint32_t>::max(),
+                                   "a whole number from 0 to 2^32 - 1");
+  const Slice part = slice(source, 1);
+  const std::vector<std::uint32_t> ids(values.begin(), values.end());
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -4,12 +4,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "needlework/error.h"
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
 
 GasSetting setting_of(const Scene& scene) {
-  const Scene::Species species = scene.one_species();
+  const Composition composition = scene.composition();
+  const Species& species = composition[0];
   GasSetting gas;
   gas.count = scene.needles.count;
   gas.box = scene.needles.box;
@@ -22,6 +24,11 @@ GasSetting setting_of(const Scene& scene) {
 
 Observation::Observation(const Scene& scene, ObservablePointer cooling) : gas_(setting_of(scene)) {
   const auto& names = scene.output.observables;
+  if (scene.species.size() > 1 && !names.empty()) {
+    throw InputError(
+        "output.observables: expected none for several species: observables are of one "
+        "species, for now");
+  }
   if (cooling) {
     members_.push_back({"theory",
                         "Kinetic theory of a gas that stays homogeneous, from the same "

@@ -6,12 +6,6 @@
 
 namespace needlework {
 
-/// Parameters of the collision rule.
-struct Restitution {
-  double epsilon = 1;  ///< normal, [0, 1]
-  double beta = -1;    ///< tangential, [-1, 1]; -1 is smooth
-};
-
 /// The outcome of one collision.
 struct Impact {
   Vec3d impulse;               ///< on the first needle; the second gets the opposite [m L / time]

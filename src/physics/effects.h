@@ -1,16 +1,20 @@
-// The effects on pair rule and free flight that a scene uses. They are chosen at compile time.
+// The effects on flight and pair rule that a scene calls for.
 #pragma once
 
 namespace needlework {
 
-/// Each combination of effects is a model of its own, so that an unused effect adds no code to the
-/// event loop. Effects that are events of their own are kinds of events instead
-/// (src/calendar/event.h).
+/// Two models are compiled: one without any of these, to which they cost nothing, and one that asks
+/// for each of them when it runs (src/physics/needle_model.h). Effects that are events of their own
+/// are sources of events instead (src/engine/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
   bool contact_time = false;  ///< the t_c rule
-  bool table = false;         ///< lengths, masses and inertias depend on the species; otherwise
-                              ///< length and mass are 1
+  bool table = false;         ///< lengths, masses, inertias and restitution depend on the species;
+                              ///< otherwise length and mass are 1
+
+  bool sources = false;  ///< there are sources of events
+
+  bool any() const { return rough || contact_time || table || sources; }
 };
 
 }  // namespace needlework

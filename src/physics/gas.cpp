@@ -64,14 +64,11 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
   return pair;
 }
 
-void Gas::set_species(std::vector<Species> all) {
-  species = std::move(all);
+void Gas::set_composition(Composition its_composition) {
+  composition = std::move(its_composition);
+  longest = composition.longest();
   bodies.clear();
-  longest = 0;
-  for (const Species& each : species) {
-    bodies.push_back(each.body());
-    longest = std::max(longest, each.length);
-  }
+  for (const Species& each : composition.species()) bodies.push_back(body_of(each));
 }
 
 void Gas::add_touch(Needle i, const RecordedTouch& touch) {

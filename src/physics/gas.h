@@ -9,6 +9,7 @@
 #include "kernels/contact_function.h"
 #include "src/memory/large_array.h"
 #include "src/physics/clock.h"
+#include "src/physics/columns.h"
 #include "src/physics/ids.h"
 #include "src/physics/record.h"
 #include "src/physics/species.h"
@@ -24,17 +25,24 @@ struct Gas {
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
   std::array<double, 3> box{};
-  std::vector<Species> species = {Species{}};     ///< indexed by Record::species
-  std::vector<Body> bodies = {Species{}.body()};  ///< of the same species
-  double longest = 1;                             ///< length of the longest species [L]
+  Columns columns;                                  ///< what effects keep for each needle
+  Composition composition;                          ///< indexed by Record::species
+  std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
+  double longest = 1;                               ///< length of the longest species [L]
 
   std::size_t size() const { return records.size(); }
   /// Number density [L^-3].
   double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
 
-  /// Needs at least one species.
-  void set_species(std::vector<Species> all);
-  const Species& species_of(const Record& record) const { return species[record.species]; }
+  void set_composition(Composition its_composition);
+  const Species& species_of(const Record& record) const { return composition[record.species]; }
+  /// Makes room for so many needles, in columns too.
+  void resize(std::size_t needles) {
+    records.resize(needles);
+    ids.resize(needles);
+    images.resize(needles);
+    columns.resize(needles);
+  }
 
   /// Largest |f| that can result from rounding two records, including what accumulates in a
   /// sequence of bounces. [L]

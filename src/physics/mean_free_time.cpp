@@ -5,11 +5,12 @@
 #include <limits>
 
 namespace needlework {
+namespace {
 
-double mean_free_time(const ThermalGas& gas) {
-  constexpr double half_root_pi = 0.886226925452758;
+// The mean of f(x, y) over the square [0, 1/2]^2, by a product quadrature.
+template <class Function>
+double mean_on_square(const Function& f) {
   using Rule = boost::math::quadrature::gauss<double, 10>;
-  // A product quadrature on a quarter of the square, [0, 1/2]^2.
   double nodes[10], weights[10];
   for (std::size_t i = 0; i < 5; ++i) {
     nodes[2 * i] = 0.25 * (1 - Rule::abscissa()[i]);
@@ -18,13 +19,50 @@ double mean_free_time(const ThermalGas& gas) {
   }
   double sum = 0;
   for (int i = 0; i < 10; ++i) {
-    for (int j = 0; j < 10; ++j) {
-      const double r2 = nodes[i] * nodes[i] + nodes[j] * nodes[j];
-      sum += weights[i] * weights[j] * std::sqrt((gas.t_tr + gas.t_rot * gas.k * r2) / gas.mass);
+    for (int j = 0; j < 10; ++j) sum += weights[i] * weights[j] * f(nodes[i], nodes[j]);
+  }
+  return sum;
+}
+
+double inverse_rate(double rate) {
+  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double mean_free_time(const ThermalGas& gas) {
+  constexpr double half_root_pi = 0.886226925452758;
+  const double sum = mean_on_square([&](double x, double y) {
+    const double r2 = x * x + y * y;
+    return std::sqrt((gas.t_tr + gas.t_rot * gas.k * r2) / gas.mass);
+  });
+  return inverse_rate(gas.density * (gas.length * gas.length) * half_root_pi * sum);
+}
+
+double mean_free_time(const Composition& composition, double volume,
+                      std::span<const SpeciesTemperatures> temperatures) {
+  constexpr double root_pi_eighths = 0.6266570686577501;
+  double sum = 0, count = 0;
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    const Species& first = composition[a];
+    const double count_a = static_cast<double>(first.count);
+    count += count_a;
+    for (std::size_t b = 0; b < composition.size(); ++b) {
+      const Species& second = composition[b];
+      const double count_b = static_cast<double>(second.count) - (a == b ? 1 : 0);
+      if (!(count_a > 0 && count_b > 0)) continue;
+      const SpeciesTemperatures &t_a = temperatures[a], &t_b = temperatures[b];
+      const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;
+      // Of the tips, whose distance from the centre is half a length.
+      const double turn_a = t_a.t_rot / first.inertia() * (first.length * first.length);
+      const double turn_b = t_b.t_rot / second.inertia() * (second.length * second.length);
+      const double sigma = mean_on_square([&](double x, double y) {
+        return std::sqrt(flight + (turn_a * (x * x) + turn_b * (y * y)));
+      });
+      sum += count_a * count_b * (first.length * second.length) * sigma;
     }
   }
-  const double rate = gas.density * (gas.length * gas.length) * half_root_pi * sum;
-  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+  return inverse_rate(sum * root_pi_eighths / (volume * count));
 }
 
 }  // namespace needlework

@@ -1,7 +1,16 @@
 // The mean free time, by which windows and the relative contact time are measured.
 #pragma once
 
+#include <span>
+
+#include "needlework/composition.h"
+
 namespace needlework {
+
+/// The temperatures of one species.
+struct SpeciesTemperatures {
+  double t_tr = 0, t_rot = 0;
+};
 
 /// A gas of one species with Gaussian velocities.
 struct ThermalGas {
@@ -17,5 +26,13 @@ struct ThermalGas {
 /// moves. Trajectories depend on it through the t_c rule, so it uses only + * / and square roots,
 /// whose results are the same on all machines. theory::collision_rate is more accurate.
 double mean_free_time(const ThermalGas& gas);
+
+/// The same for a mixture in this volume [L^3]: the mean time between two collisions of a needle,
+/// averaged over all needles. A species has Gaussian velocities with temperatures of its own.
+/// Species a and b collide n_a n_b sqrt(pi / 8) L_a L_b <sigma> times per volume and time, with
+/// sigma^2 = T_tr,a / m_a + T_tr,b / m_b + T_rot,a s^2 / I_a + T_rot,b s'^2 / I_b averaged over s
+/// and s' along the needles; see docs/physics.md.
+double mean_free_time(const Composition& composition, double volume,
+                      std::span<const SpeciesTemperatures> temperatures);
 
 }  // namespace needlework

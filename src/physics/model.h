@@ -16,6 +16,7 @@ namespace needlework {
 /// order of events and time.
 ///
 /// A model promises the following.
+///   `has_effects` is false for a model without any effect, and `effects()` tells which there are.
 ///   `pair`, `first_contact`, `geometry`, `gap`, `side_after` and `time_apart` are pure functions
 ///     of the two records and the shift. They do not depend on when they are called, on the search
 ///     or on the thread. Exchanging the needles and negating the shift changes no bit.
@@ -43,9 +44,10 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
                          Time now, const DoubleDouble& elapsed, double time,
                          const kernels::Pair& pair, kernels::EvaluationCounters& spent,
                          const kernels::ContactGeometry& geometry, const Vec3d& vector) {
-  { M::effects } -> std::convertible_to<Effects>;
+  { M::has_effects } -> std::convertible_to<bool>;
+  { model.effects() } -> std::convertible_to<Effects>;
   { model.gas() } -> std::same_as<Gas&>;
-  { model.restitution() } -> std::convertible_to<const Restitution&>;
+  { model.restitution(record, record) } -> std::convertible_to<const Restitution&>;
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.centre(record, time) } -> std::same_as<Vec3d>;
   { model.half_length(i) } -> std::same_as<double>;

@@ -6,19 +6,27 @@
 
 namespace needlework {
 
-/// Infinitely thin rods with normal and tangential restitution. Without `its_effects.table`
-/// lengths and masses are constants, and nothing is looked up by species.
-template <Effects its_effects>
+/// Infinitely thin rods with normal and tangential restitution. Without effects they are smooth,
+/// lengths and masses are 1, and nothing is looked up by species. With effects, each is asked for
+/// when the model runs.
+template <bool with_effects>
 class NeedleModel {
  public:
-  static constexpr Effects effects = its_effects;
+  static constexpr bool has_effects = with_effects;
 
-  /// `gas` must outlive the model.
-  NeedleModel(Gas& gas, const Restitution& restitution, const Accuracy& accuracy)
-      : gas_(gas), restitution_(restitution), accuracy_(accuracy) {}
+  /// `gas` must outlive the model. Without effects, `effects` must have none.
+  NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
+      : gas_(gas), effects_(effects), accuracy_(accuracy) {}
 
+  Effects effects() const {
+    if constexpr (has_effects) return effects_;
+    return {};
+  }
   Gas& gas() const { return gas_; }
-  const Restitution& restitution() const { return restitution_; }
+  const Restitution& restitution(const Record& a, const Record& b) const {
+    if constexpr (has_effects) return gas_.composition.restitution(a.species, b.species);
+    return gas_.composition.rules().front();
+  }
   const Accuracy& accuracy() const { return accuracy_; }
 
   Vec3d centre(const Record& record, double elapsed) const {
@@ -26,7 +34,7 @@ class NeedleModel {
   }
   /// Half the length of needle i. [L]
   double half_length(Needle i) const {
-    if constexpr (effects.table) return gas_.bodies[gas_.records[i].species].half_length;
+    if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
     return 0.5;
   }
   /// Centres farther apart than this cannot be in contact. [L]
@@ -36,7 +44,7 @@ class NeedleModel {
   kernels::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
                      const Shift& shift) const {
     kernels::Pair out = make_pair(gas_, a, record_a, b, record_b, shift);
-    if constexpr (effects.table) {
+    if constexpr (has_effects) {
       out.half_first = body(record_a).half_length;
       out.half_second = body(record_b).half_length;
     }
@@ -57,8 +65,11 @@ class NeedleModel {
   Impact collide(const Record& a, const Record& b, const kernels::ContactGeometry& contact,
                  int side, bool elastic) const {
     const Meeting both{a.flight, b.flight, body(a), body(b), contact, side};
-    if (effects.contact_time && elastic) return needlework::collide<true>(both, Restitution{});
-    return needlework::collide<!effects.rough>(both, restitution_);
+    if constexpr (has_effects) {
+      if (elastic) return needlework::collide<true>(both, Restitution{});
+      if (restitution(a, b).is_rough()) return needlework::collide<false>(both, restitution(a, b));
+    }
+    return needlework::collide<true>(both, restitution(a, b));
   }
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
@@ -73,16 +84,15 @@ class NeedleModel {
 
  private:
   Body body(const Record& record) const {
-    if constexpr (effects.table) return gas_.bodies[record.species];
-    return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.species[0].k};
+    if constexpr (has_effects) return gas_.bodies[record.species];
+    return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.composition[0].k};
   }
 
   Gas& gas_;
-  Restitution restitution_;
+  Effects effects_;
   Accuracy accuracy_;
 };
 
-static_assert(Model<NeedleModel<Effects{}>> &&
-              Model<NeedleModel<Effects{.rough = true, .contact_time = true, .table = true}>>);
+static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>>);
 
 }  // namespace needlework

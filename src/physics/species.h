@@ -1,12 +1,11 @@
-// Properties that all needles of one species share.
+// What flight and collisions need of a species.
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include "needlework/composition.h"
 
 namespace needlework {
 
-/// Half length, inverse mass and inverse moment of inertia, as used for flight and collisions.
+/// Half length, inverse mass and inverse moment of inertia.
 struct Body {
   double half_length = 0.5;     ///< [L]
   double inverse_mass = 1;      ///< [1 / m]
@@ -15,20 +14,13 @@ struct Body {
   double length() const { return 2 * half_length; }
 };
 
-/// One species, in the units of the scene, in which the default species has length 1 and mass 1.
-struct Species {
-  double length = 1;  ///< [L]
-  double mass = 1;    ///< [m]
-  double k = 6;       ///< m L^2 / (2 I) [1]
+/// For length 1 and mass 1 the inverse inertia is exactly 2 k.
+inline Body body_of(const Species& species) {
+  return {0.5 * species.length, 1 / species.mass,
+          2 * species.k / (species.mass * (species.length * species.length))};
+}
 
-  /// The model needs no table for length 1 and mass 1, because all factors of the species are 1.
-  bool is_unit() const { return length == 1 && mass == 1; }
-  double inertia() const { return mass * (length * length) / (2 * k); }
-  /// For length 1 and mass 1 the inverse inertia is exactly 2 k.
-  Body body() const { return {0.5 * length, 1 / mass, 2 * k / (mass * (length * length))}; }
-};
-
-/// Index of a needle's species in Gas::species.
-using SpeciesIndex = std::uint8_t;
+/// Whether the model needs no table for this species, because all its factors are 1.
+inline bool is_unit(const Species& species) { return species.length == 1 && species.mass == 1; }
 
 }  // namespace needlework

@@ -250,7 +250,7 @@ py::dict Run::facts() {
   require_idle();
   const Scene& scene = run_->scene();
   const Simulation& simulation = run_->simulation();
-  const Scene::Species species = scene.one_species();
+  const Species species = scene.composition()[0];
   py::dict out;
   out["title"] = text(scene.title);
   out["text"] = text(scene.text);

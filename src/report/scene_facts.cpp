@@ -46,13 +46,13 @@ Json end_of(const Scene::Until& until) {
 
 // The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool.
 Json ratio_of_theory(const Scene& scene) {
-  const theory::Gas gas{scene.one_species().k, scene.collisions.epsilon, scene.collisions.beta};
+  const theory::Gas gas{scene.composition()[0].k, scene.collisions.epsilon, scene.collisions.beta};
   const double ratio = theory::asymptotic_ratio(gas);
   return std::isfinite(ratio) ? Json(ratio) : Json(nullptr);
 }
 
 Json facts_of(const Scene& scene) {
-  const Scene::Species needle = scene.one_species();
+  const Species needle = scene.composition()[0];
   return {{"k", needle.k},
           {"length", needle.length},
           {"mass", needle.mass},

@@ -15,8 +15,11 @@ double momentum_drift(const Totals& initial, const Totals& now, const Scene& sce
     const double change = now.momentum[axis] - initial.momentum[axis];
     square += change * change;
   }
-  const double count = static_cast<double>(scene.needles.count);
-  const double scale = std::sqrt(count * scene.one_species().mass * now.t_tr);
+  double mass = 0;
+  for (const Species& each : scene.composition().species()) {
+    mass += static_cast<double>(each.count) * each.mass;
+  }
+  const double scale = std::sqrt(mass * now.t_tr);
   return scale > 0 ? std::sqrt(square) / scale : 0;
 }
 

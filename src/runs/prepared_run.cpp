@@ -58,9 +58,9 @@ LoadedScene with_events(LoadedScene loaded, const std::string& path) {
   return loaded;
 }
 
-// Where kinetic theory has something to say: of a drawn gas that moves.
+// Where kinetic theory has something to say: of a drawn gas of one species that moves.
 observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
-  if (!drawn || !(initial.energy > 0)) return nullptr;
+  if (!drawn || !(initial.energy > 0) || scene.species.size() > 1) return nullptr;
   return observe::make_cooling_theory(
       {scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},
       {initial.t_tr, initial.t_rot}, theory_density_of(scene));

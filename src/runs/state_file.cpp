@@ -11,7 +11,8 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
   return {.isa = simulation.isa(),
           .threads = scene.engine.threads.value_or(1),
           .epoch_length = simulation.epoch_length(),
-          .accuracy = accuracy_name(scene.engine)};
+          .accuracy = accuracy_name(scene.engine),
+          .species = simulation.species()};
 }
 
 void write_state(const Simulation& simulation, const Scene& scene, const UserDataByName& data,

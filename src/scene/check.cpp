@@ -147,6 +147,33 @@ void require_count(const Scene& scene, std::size_t count) {
                                source_of_state(scene)));
 }
 
+namespace {
+
+void adopt_counts_of_species(Scene& scene, const State& state) {
+  if (scene.species.size() == 1) scene.species.front().count = state.size();
+  if (scene.species.size() < 2 || state.species.empty()) return;
+  std::vector<std::uint64_t> counts(scene.species.size());
+  for (const SpeciesIndex index : state.species) {
+    if (index >= counts.size()) {
+      throw InputError(
+          fmt::format("{}: a needle of species {}: expected an index below {}, as there "
+                      "are so many [[species]]",
+                      source_of_state(scene), index, counts.size()));
+    }
+    ++counts[index];
+  }
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    Species& species = scene.species[n];
+    if (species.count != 0 && species.count != counts[n]) {
+      throw InputError(fmt::format("species.count = {} of {}: expected {}, as in {}", species.count,
+                                   species.name, counts[n], source_of_state(scene)));
+    }
+    species.count = counts[n];
+  }
+}
+
+}  // namespace
+
 void adopt_count_and_box(Scene& scene, const State& state) {
   require_count(scene, state.size());
   Scene::Needles& needles = scene.needles;
@@ -164,7 +191,7 @@ void adopt_count_and_box(Scene& scene, const State& state) {
                                  source));
   }
   needles.count = state.size();
-  if (!scene.species.empty()) scene.species.front().count = needles.count;
+  adopt_counts_of_species(scene, state);
   needles.box = state.box;
   scene.places.emplace("needles.count", fmt::format("{}: {} needles", source, needles.count));
 }

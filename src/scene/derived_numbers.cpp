@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace needlework {
 namespace {
 
@@ -15,29 +17,39 @@ constexpr double cooled = 1e-40;
 }  // namespace
 
 GasNumbers numbers_of_drawn(const Scene& scene) {
-  const Scene::Species species = scene.one_species();
-  const auto count = static_cast<double>(species.count);
-  const double per_mass = count / species.mass;
-  return {.count = count,
-          .length = species.length,
-          .mass = species.mass,
-          .k = species.k,
-          .v2 = 3 * species.t_tr * per_mass,
-          .w2 = 4 * species.k * species.t_rot / (species.length * species.length) * per_mass,
-          .moves = count > 0 && (species.t_tr > 0 || species.t_rot > 0)};
+  const Composition composition = scene.composition();
+  GasNumbers out{.count = static_cast<double>(composition.count()), .species = {}, .moves = false};
+  for (const Species& species : composition.species()) {
+    const auto count = static_cast<double>(species.count);
+    const double per_mass = count / species.mass;
+    out.species.push_back(
+        {.length = species.length,
+         .mass = species.mass,
+         .k = species.k,
+         .v2 = 3 * species.t_tr * per_mass,
+         .w2 = 4 * species.k * species.t_rot / (species.length * species.length) * per_mass});
+    out.moves = out.moves || (count > 0 && (species.t_tr > 0 || species.t_rot > 0));
+  }
+  return out;
 }
 
 std::string out_of_range(const GasNumbers& gas) {
   if (!gas.moves) return {};
-  const double squared_length = gas.length * gas.length;
-  const double inertia_per_mass = squared_length / (2 * gas.k);
-  // Twice the energy per mass.
-  const double squares = gas.v2 + inertia_per_mass * gas.w2;
-  const double energy = 0.5 * gas.mass * squares;
+  double energy = 0, mean_rate = 0;
+  for (const SpeciesNumbers& each : gas.species) {
+    const double squared_length = each.length * each.length;
+    energy += 0.5 * each.mass * (each.v2 + squared_length / (2 * each.k) * each.w2);
+    mean_rate += (each.v2 / squared_length + each.w2) / gas.count;
+  }
   // Collisions may give all of the energy to the flight or to the rotation of one needle.
-  const double speed = squares, rate = squares / squared_length,
-               rotation = squares / inertia_per_mass;
-  const double mean_rate = (gas.v2 / squared_length + gas.w2) / gas.count;
+  double speed = 0, rate = 0, rotation = 0;
+  for (const SpeciesNumbers& each : gas.species) {
+    const double squared_length = each.length * each.length;
+    const double squares = energy / (0.5 * each.mass);
+    speed = std::max(speed, squares);
+    rate = std::max(rate, squares / squared_length);
+    rotation = std::max(rotation, squares / (squared_length / (2 * each.k)));
+  }
   const double least = least_square * (gas.has_cooled ? cooled : 1);
   struct Number {
     const char* what;

@@ -4,18 +4,24 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "needlework/scene.h"
 
 namespace needlework {
 
-/// A gas of one species, as far as speeds and energies go.
+/// A species, as far as speeds and energies go.
+struct SpeciesNumbers {
+  double length = 1;      ///< [L]
+  double mass = 1;        ///< [m]
+  double k = 6;           ///< m L^2 / (2 I)
+  double v2 = 0, w2 = 0;  ///< sums over all its needles of v^2 and w^2
+};
+
+/// A gas, as far as speeds and energies go.
 struct GasNumbers {
-  double count = 0;
-  double length = 1;        ///< [L]
-  double mass = 1;          ///< [m]
-  double k = 6;             ///< m L^2 / (2 I)
-  double v2 = 0, w2 = 0;    ///< sums over all needles of v^2 and w^2
+  double count = 0;  ///< number of needles
+  std::vector<SpeciesNumbers> species;
   bool moves = true;        ///< whether any needle does
   bool has_cooled = false;  ///< the run has begun with more energy, so that there may be less now
 };

@@ -61,13 +61,15 @@ Entry head_of(std::string_view section, const toml::node& node) {
 }
 
 // Appends one [[section]] with its keys.
-void append_repeated(std::string_view section, const toml::node& element,
+void append_repeated(std::string_view section, const toml::node& element, std::size_t number,
                      std::vector<Entry>& entries) {
   entries.push_back(head_of(section, element));
   for (const auto& [key, value] : *element.as_table())
     entries.push_back(entry_of(section, key.str(), value));
-  for (std::size_t n = entries.size() - element.as_table()->size() - 1; n < entries.size(); ++n)
+  for (std::size_t n = entries.size() - element.as_table()->size() - 1; n < entries.size(); ++n) {
     entries[n].is_repeated = true;
+    entries[n].number = number;
+  }
 }
 
 std::vector<Entry> flattened(const toml::table& root) {
@@ -75,7 +77,8 @@ std::vector<Entry> flattened(const toml::table& root) {
   for (const auto& [name, node] : root) {
     const toml::array* array = node.as_array();
     if (array && !array->empty() && array->is_homogeneous(toml::node_type::table)) {
-      for (const toml::node& element : *array) append_repeated(name.str(), element, entries);
+      for (std::size_t n = 0; n < array->size(); ++n)
+        append_repeated(name.str(), (*array)[n], n, entries);
       continue;
     }
     const toml::table* table = node.as_table();
@@ -114,6 +117,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(space) - begin + 1);
 }
 
+std::string_view unquoted(std::string_view text) {
+  const bool is_quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 bool is_bare_key(std::string_view text) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -149,7 +157,9 @@ Entry parse_override(std::string_view text) {
   Entry entry;
   entry.is_override = true;
   if (has_section) entry.section = trimmed(path.substr(0, dot));
-  entry.key = has_section ? trimmed(path.substr(dot + 1)) : path;
+  const std::size_t last_dot = path.rfind('.');
+  if (last_dot != dot) entry.item = unquoted(trimmed(path.substr(dot + 1, last_dot - dot - 1)));
+  entry.key = has_section ? trimmed(path.substr(last_dot + 1)) : path;
   const bool complete = equals != std::string_view::npos && is_bare_key(entry.key) &&
                         (!has_section || is_bare_key(entry.section));
   if (!complete)
@@ -184,6 +194,7 @@ Document::Document(std::string_view text, std::string_view name,
 std::string Document::place(const Entry& entry) const {
   if (!entry.named.empty()) return entry.named;
   std::string key = printable(entry.section, key_limit);
+  if (!entry.item.empty()) key += "." + printable(entry.item, key_limit);
   if (!entry.is_head) key += (key.empty() ? "" : ".") + printable(entry.key, key_limit);
   if (entry.is_override)
     return fmt::format("--set {}={}", key, printable(entry.override_text, value_limit));

@@ -38,12 +38,14 @@ struct Region {
 /// One key with its value, or the header of a table. A key outside all tables has no section.
 struct Entry {
   std::string section;
+  std::string item;  ///< of an override "section.item.key": which [[section]] it is for
   std::string key;
   Value value;
   Region region;              ///< of the value or the header; empty for a table without braces
   bool is_head = false;       ///< whether it is the header [section], without key and value
   bool is_repeated = false;   ///< whether the section is written [[section]], which may occur
                               ///< several times
+  std::size_t number = 0;     ///< of that occurrence, from 0
   bool is_override = false;   ///< given by --set
   std::string override_text;  ///< the value as given in the override
   std::string named;          ///< Override::place
@@ -51,7 +53,8 @@ struct Entry {
 
 /// A key that is given outside the scene file.
 struct Override {
-  std::string assignment;  ///< "section.key=value" or "key=value", the value in TOML
+  std::string assignment;  ///< "section.key=value", "section.item.key=value" or "key=value", the
+                           ///< value in TOML
   std::string place;       ///< how messages name it; if empty, "--set ASSIGNMENT"
 };
 

@@ -1,10 +1,12 @@
 #include "needlework/parse.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <set>
 #include <system_error>
@@ -27,12 +29,67 @@ std::string full_name(const Entry& entry) {
   return entry.section.empty() ? entry.key : entry.section + "." + entry.key;
 }
 
+// Sections that occur several times, each time with a name by which overrides mean it: that of a
+// species, "a-b" for a pair.
+bool may_occur_again(std::string_view section) {
+  return section == "species" || section == "pairs";
+}
+
+// The same for keys of different occurrences only if they are of the first.
+std::string own_name(const Entry& entry) {
+  const std::string name = full_name(entry);
+  return entry.number == 0 ? name : fmt::format("{}#{}", name, entry.number);
+}
+
+std::string item_of(const Entry& entry) {
+  if (const auto* name = entry.value.as<std::string>()) return *name;
+  std::vector<std::string> names;
+  if (const auto* array = entry.value.as<Value::Array>()) {
+    for (const Value& element : *array) {
+      if (const auto* name = element.as<std::string>()) names.push_back(*name);
+    }
+  }
+  return fmt::format("{}", fmt::join(names, "-"));
+}
+
+// Finds out which occurrence of a section each override is for.
+std::vector<Entry> with_items_found(const Document& document) {
+  std::map<std::string, std::vector<std::string>> items;
+  std::vector<Entry> out = document.entries();
+  for (Entry& entry : out) {
+    if (!entry.is_override) {
+      if (!may_occur_again(entry.section)) continue;
+      auto& names = items[entry.section];
+      if (entry.is_head) names.emplace_back();
+      const bool names_it = entry.key == (entry.section == "species" ? "name" : "between");
+      if (names_it && !names.empty()) names.back() = item_of(entry);
+      continue;
+    }
+    if (!may_occur_again(entry.section)) {
+      if (!entry.item.empty()) throw document.error(entry, "expected section.key=value");
+      continue;
+    }
+    const std::vector<std::string>& names = items[entry.section];
+    if (names.empty())
+      throw document.error(entry,
+                           fmt::format("expected a scene with an entry [[{}]]", entry.section));
+    if (entry.item.empty() && names.size() == 1) continue;
+    const auto found = std::find(names.begin(), names.end(), entry.item);
+    if (found == names.end()) {
+      throw document.error(entry, fmt::format("expected {0}.NAME.{1} with one of the names {2}",
+                                              entry.section, entry.key, fmt::join(names, ", ")));
+    }
+    entry.number = static_cast<std::size_t>(found - names.begin());
+  }
+  return out;
+}
+
 // Whether an override replaces an earlier entry: one of the same key, or the alternative in the
 // file (see parse_scene).
-bool replaces(const std::string& override_name, const Entry& entry) {
+bool replaces(const Entry& override_entry, const Entry& entry) {
   if (entry.is_head) return false;
-  const std::string name = full_name(entry);
-  if (name == override_name) return true;
+  const std::string name = full_name(entry), override_name = full_name(override_entry);
+  if (name == override_name) return entry.number == override_entry.number;
   if (entry.is_override) return false;
   if (override_name == "collisions.tc") return name == "collisions.tc_relative";
   if (override_name == "collisions.tc_relative") return name == "collisions.tc";
@@ -59,31 +116,61 @@ std::vector<Entry> with_overrides_applied(const std::vector<Entry>& entries) {
   std::vector<Entry> result;
   for (const Entry& entry : entries) {
     if (entry.is_override)
-      std::erase_if(result,
-                    [name = full_name(entry)](const Entry& e) { return replaces(name, e); });
+      std::erase_if(result, [&](const Entry& e) { return replaces(entry, e); });
     if (!removes_end(entry)) result.push_back(entry);
   }
   return result;
 }
 
-constexpr const char* one_species =
-    "expected one [[species]] entry: gases of several species are not simulated yet";
-
-// Begins an entry [[species]].
-void begin_species(Scene& scene, const Document& document, const Entry& head) {
-  if (!head.is_repeated) throw document.error(head, "expected [[species]], in double brackets");
-  if (!scene.species.empty()) throw document.error(head, one_species);
-  scene.species.emplace_back();
+// Begins an entry [[species]] or [[pairs]].
+void begin_again(Scene& scene, const Document& document, const Entry& head) {
+  if (!head.is_repeated)
+    throw document.error(head, fmt::format("expected [[{}]], in double brackets", head.section));
+  if (head.section == "pairs") {
+    scene.pairs.emplace_back();
+  } else if (scene.species.size() < most_species) {
+    scene.species.emplace_back();
+  } else {
+    throw document.error(head, fmt::format("expected at most {} entries", most_species));
+  }
 }
 
-// Sets the keys of [needles] and [initial] that the species replaces.
+// Reads the value of a key. Keys of [[species]] and [[pairs]] are read into the last of them.
+bool read_value(Scene& scene, const SceneKey& key, const Entry& entry) {
+  const auto into = [&](auto& all) {
+    std::swap(all[entry.number], all.back());
+    const bool read = key.read(scene, entry.value);
+    std::swap(all[entry.number], all.back());
+    return read;
+  };
+  if (entry.section == "species") return into(scene.species);
+  if (entry.section == "pairs") return into(scene.pairs);
+  return key.read(scene, entry.value);
+}
+
+// Sets the keys of [needles] and [initial] that the species replace: the temperatures to those of
+// all needles.
 void adopt_species(Scene& scene) {
   if (scene.species.empty()) return;
-  const Scene::Species& species = scene.species.front();
-  scene.needles.count = species.count;
-  scene.needles.k = species.k;
-  scene.initial.t_tr = species.t_tr;
-  scene.initial.t_rot = species.t_rot;
+  const Composition composition = scene.composition();
+  // A file may tell counts that are left out.
+  const bool all_given =
+      scene.initial.file.empty() || !composition.is_mixture() ||
+      std::ranges::all_of(scene.species, [](const Species& s) { return s.count > 0; });
+  scene.needles.count = all_given ? composition.count() : 0;
+  scene.needles.k = composition[0].k;
+  if (composition.is_mixture()) {
+    const double count = static_cast<double>(std::max<std::uint64_t>(1, composition.count()));
+    scene.initial.t_tr = scene.initial.t_rot = 0;
+    for (const Species& each : composition.species()) {
+      const double share = static_cast<double>(each.count) / count;
+      scene.initial.t_tr += share * each.t_tr;
+      scene.initial.t_rot += share * each.t_rot;
+    }
+  } else {
+    scene.initial.t_tr = composition[0].t_tr;
+    scene.initial.t_rot = composition[0].t_rot;
+  }
   for (const auto& [from, to] :
        {std::pair("species.count", "needles.count"), std::pair("species.k", "needles.k")}) {
     const auto place = scene.places.find(from);
@@ -130,16 +217,23 @@ std::string_view conflict(const std::string& name, const std::set<std::string>& 
 void require_what_is_needed(const Scene& scene, const Document& document,
                             const std::set<std::string>& given, Provided provided) {
   const bool has_state = provided.state || !scene.initial.file.empty();
-  const char* section = scene.species.empty() ? "needles" : "species";
-  for (const auto& [where, key] : {std::pair(section, "count"), std::pair("needles", "box")}) {
-    const std::string name = fmt::format("{}.{}", where, key);
-    if (!given.contains(name) && !has_state)
-      throw document.missing(name,
-                             fmt::format("expected {}", find_scene_key(where, key)->expected));
+  const auto require = [&](const char* section, const char* key, std::size_t number) {
+    Entry entry;
+    entry.section = section;
+    entry.key = key;
+    entry.number = number;
+    if (given.contains(own_name(entry))) return;
+    const std::string which = number == 0 ? "" : fmt::format(" of the entry {}", number + 1);
+    throw document.missing(full_name(entry) + which,
+                           fmt::format("expected {}", find_scene_key(section, key)->expected));
+  };
+  if (!has_state) {
+    if (scene.species.empty()) require("needles", "count", 0);
+    for (std::size_t n = 0; n < scene.species.size(); ++n) require("species", "count", n);
+    require("needles", "box", 0);
   }
-  if (!scene.species.empty() && !given.contains("species.name"))
-    throw document.missing("species.name",
-                           fmt::format("expected {}", find_scene_key("species", "name")->expected));
+  for (std::size_t n = 0; n < scene.species.size(); ++n) require("species", "name", n);
+  for (std::size_t n = 0; n < scene.pairs.size(); ++n) require("pairs", "between", n);
   const Scene::Until& until = scene.until;
   if (provided.end) return;
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s)
@@ -148,18 +242,58 @@ void require_what_is_needed(const Scene& scene, const Document& document,
                            "wall_s");
 }
 
+// Species have different names, and pairs the names of species, each pair once.
+void require_names(const Scene& scene, const Document& document, std::span<const Entry> entries) {
+  const auto is_name = [&](const std::string& name) {
+    return std::any_of(scene.species.begin(), scene.species.end(),
+                       [&](const Species& each) { return each.name == name; });
+  };
+  const auto same_pair = [](const Scene::Pair& a, const Scene::Pair& b) {
+    return a.between == b.between || (a.between[0] == b.between[1] && a.between[1] == b.between[0]);
+  };
+  for (std::size_t n = 0; n < entries.size(); ++n) {
+    if (entries[n].section != "species") continue;
+    for (const Entry& before : entries.first(n)) {
+      if (before.section != "species") continue;
+      if (scene.species[before.number].name == scene.species[entries[n].number].name)
+        throw document.error(entries[n], "expected a name that no other species has");
+    }
+  }
+  for (const Entry& entry : entries) {
+    if (full_name(entry) != "pairs.between") continue;
+    const Scene::Pair& pair = scene.pairs[entry.number];
+    for (const std::string& name : pair.between) {
+      if (is_name(name)) continue;
+      std::vector<std::string> names;
+      for (const Species& each : scene.species) names.push_back(each.name);
+      throw document.error(
+          entry,
+          fmt::format("expected names of two [[species]]{}{}", names.empty() ? "" : ", among ",
+                      printable(fmt::format("{}", fmt::join(names, ", ")), 200)));
+    }
+    for (std::size_t n = 0; n < entry.number; ++n) {
+      if (same_pair(scene.pairs[n], pair))
+        throw document.error(entry, "expected each two species once");
+    }
+  }
+}
+
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
-  const double length = scene.species.empty() ? 1 : scene.species.front().length;
+  const Composition composition = scene.composition();
+  const double length = composition.longest();
   if (has_room(scene.needles.box, length)) return;
+  const std::string_view of = composition.is_mixture() ? ", of the longest species" : "";
   throw document.error(
-      box, length == 1 ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
-                       : "expected " + expected_room(scene.needles.box, length));
+      box, length == 1
+               ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
+               : fmt::format("expected {}{}", expected_room(scene.needles.box, length), of));
 }
 
 // For a state that is drawn: what follows from its numbers.
 void require_followable(const Scene& scene, std::string_view name) {
-  const Scene::Species species = scene.one_species();
-  if (is_too_sparse(scene.needles.box, static_cast<double>(species.count), species.length)) {
+  const Composition composition = scene.composition();
+  if (is_too_sparse(scene.needles.box, static_cast<double>(composition.count()),
+                    composition.longest())) {
     throw InputError(
         fmt::format("{}: expected {}", scene.places.at("needles.box"), not_too_sparse));
   }
@@ -200,28 +334,33 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   Scene scene;
   std::set<std::string> given;
   Entry box;
-  for (const Entry& entry : with_overrides_applied(document.entries())) {
+  std::vector<Entry> names;
+  for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
     if (entry.is_head) {
       if (!is_scene_section(entry.section)) throw document.error(entry, expected_instead(entry));
-      if (entry.section == "species")
-        begin_species(scene, document, entry);
+      if (may_occur_again(entry.section))
+        begin_again(scene, document, entry);
       else if (entry.is_repeated)
         throw document.error(entry, fmt::format("expected [{}], once", entry.section));
       continue;
     }
     const SceneKey* key = find_scene_key(entry.section, entry.key);
     if (!key) throw document.error(entry, expected_instead(entry));
-    if (entry.section == "species" && scene.species.empty())
-      throw document.error(entry, "expected a scene with an entry [[species]]");
+    if (may_occur_again(entry.section) && !entry.is_repeated && !entry.is_override)
+      throw document.error(entry,
+                           fmt::format("expected a scene with an entry [[{}]]", entry.section));
     if (full_name(entry) == "needles.box") box = entry;
-    if (!key->read(scene, entry.value))
+    if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
+    if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
     if (const std::string_view reason = conflict(full_name(entry), given, provided);
         !reason.empty())
       throw document.error(entry, reason);
     given.insert(full_name(entry));
-    scene.places[full_name(entry)] = document.place(entry);
+    given.insert(own_name(entry));
+    scene.places[own_name(entry)] = document.place(entry);
   }
+  require_names(scene, document, names);
   if (given.contains("needles.box")) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
   adopt_species(scene);
@@ -251,7 +390,7 @@ void override_until(Scene& scene, std::span<const std::string> overrides) {
   for (const Entry& entry : document.entries()) {
     const SceneKey* key = find_scene_key(entry.section, entry.key);
     if (!key) throw document.error(entry, expected_instead(entry));
-    if (entry.section != "until")
+    if (entry.section != "until" || !entry.item.empty())
       throw document.error(entry, "expected a key of [until], as the rest of the scene is given");
     if (removes_end(entry)) {
       remove_end(scene.until, entry.key);

@@ -11,6 +11,10 @@ void transfer(Archive& archive, Scene::Species& species) {
                 [&](std::string_view, std::string_view, auto& member) { archive(member); });
 }
 
+void transfer(Archive& archive, Scene::Pair& pair) {
+  visit_pair(pair, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
 void transfer(Archive& archive, Scene& scene) {
   visit_members(scene, [&](std::string_view, std::string_view, auto& member) { archive(member); });
   archive(scene.text, scene.places);

@@ -23,13 +23,25 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "t_rot", t_rot);
 }
 
-/// The same for each member of a Scene, or of its parts. That of all species has the key "". Left
-/// out are text and places, which say where a scene comes from, and whether `threads` was chosen.
+/// The same for each member of Scene::Pair.
+template <class Pair, class Visit>
+void visit_pair(Pair& pair, Visit&& visit) {
+  auto& [between, epsilon, beta] = pair;
+  visit("pairs", "between", between);
+  visit("pairs", "epsilon", epsilon);
+  visit("pairs", "beta", beta);
+}
+
+/// The same for each member of a Scene, or of its parts. Those of all species and pairs have the
+/// key "". Left out are text and places, which say where a scene comes from, and whether `threads`
+/// was chosen.
 template <class AnyScene, class Visit>
 void visit_members(AnyScene& scene, Visit&& visit) {
-  auto& [title, needles, species, initial, collisions, engine, until, output, text, places] = scene;
+  auto& [title, needles, species, pairs, initial, collisions, engine, until, output, text, places] =
+      scene;
   visit("", "title", title);
   visit("species", "", species);
+  visit("pairs", "", pairs);
   {
     auto& [count, box, k, seed] = needles;
     visit("needles", "count", count);

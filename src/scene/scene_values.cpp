@@ -31,8 +31,9 @@ Value toml_of(double x) { return {x}; }
 Value toml_of(bool b) { return {b}; }
 Value toml_of(const std::string& text) { return {text}; }
 
+// Not inlined, as GCC 12 warns of uninitialized memory, wrongly, where it is.
 template <class Sequence>
-Value array_of(const Sequence& values) {
+[[gnu::noinline]] Value array_of(const Sequence& values) {
   Value::Array out;
   for (const auto& value : values) out.push_back(toml_of(value));
   return {std::move(out)};
@@ -64,6 +65,9 @@ class Collected {
   void operator()(std::string_view, std::string_view, const std::vector<Scene::Species>& all) {
     for (const Scene::Species& species : all) visit_species(species, *this);
   }
+  void operator()(std::string_view, std::string_view, const std::vector<Scene::Pair>& all) {
+    for (const Scene::Pair& pair : all) visit_pair(pair, *this);
+  }
 
   std::vector<KeyValue> values;
 
@@ -93,6 +97,8 @@ void refuse(std::string_view what, std::string_view expected) {
 template <class Predicate>
 void require_in_range(const Scene& scene, Predicate&& is_looked_at) {
   Scene again = scene;
+  if (again.species.empty()) again.species.emplace_back();
+  if (again.pairs.empty()) again.pairs.emplace_back();
   for (const auto& [section, name, value] : values_of(scene)) {
     const SceneKey* key = find_scene_key(section, name);
     if (!is_looked_at(section, name) || key->read(again, value)) continue;
@@ -110,8 +116,29 @@ void require_one_contact_time(const Scene::Collisions& collisions) {
     refuse("collisions", "either tc or tc_relative, not both");
 }
 
+// That species can be told apart, and that pairs are of them.
+void require_names(const Scene& scene) {
+  if (scene.species.size() > most_species)
+    refuse("species", fmt::format("at most {}", most_species));
+  const auto with_name = [&](const std::string& name) {
+    return std::ranges::count(scene.species, name, &Species::name);
+  };
+  for (const Species& each : scene.species) {
+    if (scene.species.size() > 1 && with_name(each.name) != 1)
+      refuse(fmt::format("species.name = {}", quoted(toml_of(each.name))),
+             "a name that no other species has");
+  }
+  for (const Scene::Pair& pair : scene.pairs) {
+    for (const std::string& name : pair.between) {
+      if (with_name(name) == 0)
+        refuse(fmt::format("pairs.between = {}", quoted(toml_of(pair.between))),
+               "names of two species");
+    }
+  }
+}
+
 void require_room(const Scene& scene) {
-  const double length = scene.one_species().length;
+  const double length = scene.composition().longest();
   if (!has_room(scene.needles.box, length))
     refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))),
            expected_room(scene.needles.box, length));
@@ -129,9 +156,10 @@ void require_simulable(const Scene& scene) {
   require_in_range(scene, [&](std::string_view section, std::string_view key) {
     if (section == "species") return is_among(key, {"length", "mass", "k"});
     if (section == "needles") return key == "k" && scene.species.empty();
-    return section == "collisions" || section == "engine";
+    return section == "collisions" || section == "pairs" || section == "engine";
   });
   require_one_contact_time(scene.collisions);
+  require_names(scene);
 }
 
 void require_drawable(const Scene& scene) {
@@ -142,8 +170,9 @@ void require_drawable(const Scene& scene) {
     return section == "initial" && key != "file" && scene.species.empty();
   });
   require_room(scene);
-  const Scene::Species species = scene.one_species();
-  if (is_too_sparse(scene.needles.box, static_cast<double>(species.count), species.length))
+  const Composition composition = scene.composition();
+  if (is_too_sparse(scene.needles.box, static_cast<double>(composition.count()),
+                    composition.longest()))
     refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))), not_too_sparse);
   if (const std::string reason = out_of_range(numbers_of_drawn(scene)); !reason.empty())
     throw InputError("the scene: its needles and temperatures give " + reason);
@@ -153,9 +182,9 @@ void require_valid(const Scene& scene) {
   require_in_range(scene, [](std::string_view, std::string_view) { return true; });
   require_one_contact_time(scene.collisions);
   require_room(scene);
-  if (scene.species.size() > 1) refuse("species", "one");
-  const Scene::Species species = scene.one_species();
-  if (species.count != scene.needles.count || species.k != scene.needles.k) {
+  require_names(scene);
+  const Composition composition = scene.composition();
+  if (composition.count() != scene.needles.count || composition[0].k != scene.needles.k) {
     refuse("species", "the count and k of [needles]");
   }
   if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");

@@ -112,6 +112,15 @@ std::optional<std::array<double, 3>> box(const Value& value) {
   return result;
 }
 
+std::optional<std::array<std::string, 2>> two_names(const Value& value) {
+  const auto* names = value.as<Value::Array>();
+  if (!names || names->size() != 2) return std::nullopt;
+  std::array<std::string, 2> out;
+  for (std::size_t n = 0; n < 2; ++n)
+    if (!store(out[n], text((*names)[n]))) return std::nullopt;
+  return out;
+}
+
 std::optional<std::vector<double>> increasing_times(const Value& value) {
   const auto* array = value.as<Value::Array>();
   if (!array) return std::nullopt;
@@ -239,6 +248,13 @@ const SceneKey keys[] = {
     {"collisions", "tc_relative", "a number >= 0 of mean free times",
      [](Scene& s, V v) { return store(s.collisions.tc_relative, number(v, 0)); }},
 
+    {"pairs", "between", "an array of the names of two species",
+     [](Scene& s, V v) { return store(s.pairs.back().between, two_names(v)); }},
+    {"pairs", "epsilon", "a number from 0 to 1",
+     [](Scene& s, V v) { return store(s.pairs.back().epsilon, number(v, 0, 1)); }},
+    {"pairs", "beta", "a number from -1 (smooth) to 1 (perfectly rough)",
+     [](Scene& s, V v) { return store(s.pairs.back().beta, number(v, -1, 1)); }},
+
     {"engine", "search", R"("auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")",
      [](Scene& s, V v) {
        return store(s.engine.search,
@@ -324,7 +340,7 @@ const SceneKey keys[] = {
 };
 
 constexpr std::string_view sections[] = {"needles", "species", "initial", "collisions",
-                                         "engine",  "until",   "output"};
+                                         "pairs",   "engine",  "until",   "output"};
 
 std::vector<std::string_view> keys_of(std::string_view section) {
   std::vector<std::string_view> names;

@@ -8,14 +8,16 @@
 #include <initializer_list>
 #include <string>
 
-#include "needlework/collision.h"
+#include "needlework/happening.h"
 
 namespace needlework {
 
 class TrajectoryHash {
  public:
+  /// Adds what has happened; the kind of a collision of two needles does not enter.
+  void add(const Happening& happening) { add(happening.event, happening.kind); }
   // Not inlined, because it would enlarge the event loops.
-  [[gnu::noinline]] void add(const Collision& c) {
+  [[gnu::noinline]] void add(const Collision& c, std::uint8_t kind = 0) {
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     const auto word = [](std::int32_t x) { return static_cast<std::uint64_t>(x); };
     Mixer low{0x243f6a8885a308d3}, high{0x13198a2e03707344};
@@ -25,6 +27,10 @@ class TrajectoryHash {
           word(c.shift[2]), bits(c.impulse[0]), bits(c.impulse[1]), bits(c.impulse[2])}) {
       low.take(value);
       high.take(value);
+    }
+    if (kind != 0) {
+      low.take(kind);
+      high.take(kind);
     }
     low_ += low.state;
     high_ += high.state + (low_ < low.state);

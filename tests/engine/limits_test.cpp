@@ -186,7 +186,7 @@ TEST(LongRuns, EndWithAnErrorWhenANeedleHasCrossedTooManyBoxes) {
       for (int axis = 0; axis < 3; ++axis) {
         const auto& v = needle.flight.v;
         const double along = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-        needle.image[axis] = along > 0 ? 2147483647 : -2147483647;
+        needle.image[axis] = along > 0 ? most_boxes : -most_boxes;
       }
     }
     Simulation simulation(with(cooling(), engine), old.checkpoint());

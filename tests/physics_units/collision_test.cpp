@@ -38,7 +38,7 @@ struct Encounter {
 
   template <bool smooth>
   Impact collide() const {
-    const Body body = Species{.length = 1, .mass = 1, .k = k}.body();
+    const Body body = body_of(Species{.length = 1, .mass = 1, .k = k});
     return needlework::collide<smooth>({first, second, body, body, contact, side}, restitution);
   }
 };

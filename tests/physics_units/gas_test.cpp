@@ -275,28 +275,29 @@ TEST(MakePair, FindsEachOfManyTouches) {
 TEST(Species, OfUnitLengthAndMassHasTheBodyOfNeedlesWithoutATable) {
   for (const double k : {6.0, 2.0, 0.3, 1e-9, 1e9}) {
     const Species species{.length = 1, .mass = 1, .k = k};
-    EXPECT_TRUE(species.is_unit());
-    const Body body = species.body();
+    EXPECT_TRUE(is_unit(species));
+    const Body body = body_of(species);
     EXPECT_EQ(body.half_length, 0.5);
     EXPECT_EQ(body.inverse_mass, 1);
     EXPECT_EQ(body.inverse_inertia, 2 * k);
     EXPECT_EQ(body.length(), 1);
   }
-  EXPECT_FALSE((Species{.length = 1, .mass = 2}).is_unit());
-  EXPECT_FALSE((Species{.length = std::nextafter(1, 0), .mass = 1}).is_unit());
+  EXPECT_FALSE(is_unit(Species{.length = 1, .mass = 2}));
+  EXPECT_FALSE(is_unit(Species{.length = std::nextafter(1, 0), .mass = 1}));
 }
 
 TEST(Gas, KnowsTheBodiesOfItsSpecies) {
   Gas gas = gas_of(2, {9, 9, 9});
   EXPECT_EQ(gas.longest, 1);
-  gas.set_species({{.length = 0.5, .mass = 4, .k = 2}, {.length = 3, .mass = 0.25, .k = 6}});
+  gas.set_composition(
+      Composition({{.length = 0.5, .mass = 4, .k = 2}, {.length = 3, .mass = 0.25, .k = 6}}, {}));
   EXPECT_EQ(gas.longest, 3);
   ASSERT_EQ(gas.bodies.size(), 2u);
   EXPECT_EQ(gas.bodies[0].half_length, 0.25);
   EXPECT_EQ(gas.bodies[0].inverse_mass, 0.25);
   // I = m L^2 / (2 k)
   EXPECT_EQ(gas.bodies[0].inverse_inertia, 4);
-  EXPECT_EQ(gas.species[0].inertia(), 0.25);
+  EXPECT_EQ(gas.composition[0].inertia(), 0.25);
   EXPECT_EQ(gas.bodies[1].length(), 3);
   EXPECT_EQ(gas.bodies[1].inverse_mass, 4);
   EXPECT_EQ(gas.bodies[1].inverse_inertia, 12 / (0.25 * 9));

@@ -107,7 +107,7 @@ TEST(Override, IsNamedInItsError) {
   EXPECT_EQ(
       message({"neddles.count=5"}),
       "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "
-      "engine, until, output, did you mean needles?");
+      "pairs, engine, until, output, did you mean needles?");
 }
 
 TEST(Override, ErrorsOfTheFileComeFirst) {

@@ -59,6 +59,10 @@ mass = 3
 k = 2
 t_tr = 2
 t_rot = 0
+[[pairs]]
+between = ["a", "a"]
+epsilon = 0.5
+beta = 0
 )";
 
 TEST(RestoredScene, HasAllKeys) {
@@ -123,7 +127,9 @@ TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
   expect("species.length = ", species, [](Scene& s) { s.species[0].length = 0; });
   expect("needles.box = [9, 9, 9]: expected edges of at least 10.05", species,
          [](Scene& s) { s.species[0].length = 5; });
-  expect("species: expected one", species, [](Scene& s) { s.species.push_back(s.species[0]); });
+  expect("species.name = ", species, [](Scene& s) { s.species.push_back(s.species[0]); });
+  expect("pairs.between = ", species, [](Scene& s) { s.pairs[0].between[1] = "b"; });
+  expect("pairs.epsilon = ", species, [](Scene& s) { s.pairs[0].epsilon = 2; });
   expect("text: expected", rich, [](Scene& s) { s.text.resize(max_scene_bytes + 1); });
 }
 

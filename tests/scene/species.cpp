@@ -100,8 +100,6 @@ TEST(BadSpecies, IsNamedWithItsLine) {
   const std::string k = "expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)";
   const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
   const std::string name = "expected a name without control characters, not empty";
-  const std::string several =
-      "expected one [[species]] entry: gases of several species are not simulated yet";
   const std::string keys = "expected one of name, count, length, mass, k, t_tr, t_rot";
   const std::string either = "expected either file or temperatures to draw, not both";
   // The keys of [needles] in one section.
@@ -111,18 +109,33 @@ TEST(BadSpecies, IsNamedWithItsLine) {
   };
   const std::string head = "needles.box = 12\nuntil.time = 5\n[[species]]\n";
   const std::vector<std::pair<std::string, std::string>> table = {
-      {least + "[[species]]\nname = 'dumbbells'\ncount = 5",
-       "s.toml: line 7: [[species]]: " + several},
-      {"species = [{name = 'a', count = 1}, {name = 'b', count = 2}]\nneedles.box = 9\n"
-       "until.time = 1",
-       "s.toml: line 1: [[species]]: " + several},
+      {least + "[[species]]\nname = 'rods'\ncount = 5",
+       "s.toml: line 8: species.name = 'rods': expected a name that no other species has"},
+      {least + "[[species]]\nname = 'long'",
+       "s.toml: species.count of the entry 2 is missing: " + count},
+      {least + "[[species]]\nname = 'long'\ncount = 5\nlength = 7",
+       "s.toml: line 1: needles.box = 12: expected edges of at least 14.07 (2.01 needle "
+       "lengths), of the longest species"},
+      {least + "[[pairs]]\nbetween = ['rods', 'rod']",
+       "s.toml: line 8: pairs.between = ['rods', 'rod']: expected names of two [[species]], among "
+       "rods"},
+      {least + "[[pairs]]\nbetween = ['rods', 'rods']\n[[pairs]]\nbetween = ['rods', 'rods']",
+       "s.toml: line 10: pairs.between = ['rods', 'rods']: expected each two species once"},
+      {least + "[[pairs]]\nepsilon = 1",
+       "s.toml: pairs.between is missing: expected an array of the names of two species"},
+      {least + "[[pairs]]\nbetween = ['rods']",
+       "s.toml: line 8: pairs.between = ['rods']: expected an array of the names of two species"},
+      {least + "[[pairs]]\nbetween = ['rods', 'rods']\nepsilon = 2",
+       "s.toml: line 9: pairs.epsilon = 2: expected a number from 0 to 1"},
+      {least + "[pairs]\nepsilon = 1",
+       "s.toml: line 7: [pairs]: expected [[pairs]], in double brackets"},
       {"needles.box = 12\nuntil.time = 5\n[species]\nname = 'rods'\ncount = 5",
        "s.toml: line 3: [species]: expected [[species]], in double brackets"},
       {"species.count = 5", "s.toml: line 1: [species]: expected [[species]], in double brackets"},
       {"[[needles]]\ncount = 5", "s.toml: line 1: [[needles]]: expected [needles], once"},
       {"[[specis]]\ncount = 5",
        "s.toml: line 1: [[specis]]: expected one of the sections needles, species, initial, "
-       "collisions, engine, until, output, did you mean species?"},
+       "collisions, pairs, engine, until, output, did you mean species?"},
       {least_of("needles.count = 5"), "s.toml: line 7: needles.count = 5: " + not_both},
       {least_of("needles.k = 6"), "s.toml: line 7: needles.k = 6: " + not_both},
       {least + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
@@ -179,6 +192,52 @@ TEST(BadSpecies, NeedsABoxOfTwiceItsLength) {
             line + "12: expected edges of at least 201 (2.01 needle lengths)");
   EXPECT_EQ(message(least + "length = 5", {"needles.box=10"}),
             "--set needles.box=10: expected edges of at least 10.05 (2.01 needle lengths)");
+}
+
+const std::string mixture = least +
+                            "[[species]]\nname = 'long rods'\ncount = 4\nlength = 3\nmass = 5\n"
+                            "t_tr = 0.5\n[[pairs]]\nbetween = ['long rods', 'rods']\nbeta = 0.5\n"
+                            "[[pairs]]\nbetween = ['rods', 'rods']\nepsilon = 0.7\n";
+
+TEST(Mixture, IsReadInTheOrderOfTheScene) {
+  const Scene scene = parse_scene(mixture + "[collisions]\nepsilon = 0.9\n", "s.toml");
+  EXPECT_EQ(scene.needles.count, 14u);
+  const Composition composition = scene.composition();
+  ASSERT_EQ(composition.size(), 2u);
+  EXPECT_EQ(composition[0].name, "rods");
+  EXPECT_EQ(composition[1].length, 3);
+  EXPECT_EQ(composition.longest(), 3);
+  EXPECT_EQ(composition.restitution(0, 0), (Restitution{0.7, -1}));
+  EXPECT_EQ(composition.restitution(1, 0), (Restitution{0.9, 0.5}));
+  EXPECT_EQ(composition.restitution(0, 1), (Restitution{0.9, 0.5}));
+  EXPECT_EQ(composition.restitution(1, 1), (Restitution{0.9, -1}));
+  // Of all needles.
+  EXPECT_DOUBLE_EQ(scene.initial.t_tr, (10 * 1 + 4 * 0.5) / 14);
+}
+
+TEST(Mixture, IsOverriddenByName) {
+  const Scene scene = parse_scene(
+      mixture, "s.toml",
+      Overrides{"species.rods.count=20", "species.long rods.mass=7", "species.\"long rods\".k=2",
+                "pairs.rods-rods.epsilon=0.5", "pairs.long rods-rods.epsilon=0.6"});
+  EXPECT_EQ(scene.species[0].count, 20u);
+  EXPECT_EQ(scene.species[0].k, 6);
+  EXPECT_EQ(scene.species[1].mass, 7);
+  EXPECT_EQ(scene.species[1].k, 2);
+  EXPECT_EQ(scene.pairs[1].epsilon, 0.5);
+  EXPECT_EQ(scene.pairs[0].epsilon, 0.6);
+  EXPECT_EQ(scene.pairs[0].beta, 0.5);
+  const std::string names = " with one of the names rods, long rods";
+  EXPECT_EQ(message(mixture, {"species.count=3"}),
+            "--set species.count=3: expected species.NAME.count" + names);
+  EXPECT_EQ(message(mixture, {"species.x.count=3"}),
+            "--set species.x.count=3: expected species.NAME.count" + names);
+  EXPECT_EQ(message(mixture, {"species.rods.count=-3"}),
+            "--set species.rods.count=-3: expected a whole number in digits, from 0 to 4294967294");
+  EXPECT_EQ(message(mixture, {"species.rods.name=long rods"}),
+            "--set species.rods.name=long rods: expected a name that no other species has");
+  EXPECT_EQ(message(mixture, {"needles.rods.box=3"}),
+            "--set needles.rods.box=3: expected section.key=value");
 }
 
 TEST(BadSpecies, CannotBeMadeByOverrides) {

@@ -91,7 +91,7 @@ Gas gas_of(std::size_t count, std::array<double, 3> box, const std::vector<doubl
   }
   std::vector<Species> species;
   for (const double length : lengths) species.push_back({.length = length});
-  gas.set_species(species);
+  gas.set_composition(Composition(species, {}));
   gas.images.resize(count);
   gas.box = box;
   return gas;

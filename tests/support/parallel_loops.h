@@ -10,13 +10,14 @@
 
 namespace needlework::test {
 
-/// "linked-cells" or "capsules" on so many threads; `run` must outlive the loop.
-template <Effects effects>
+/// "linked-cells" or "capsules" on so many threads, with the effects of the run if it is to have
+/// any; `run` must outlive the loop.
+template <bool with_effects>
 std::unique_ptr<Loop> make_parallel_loop(Run& run, const char* search, int threads,
                                          const ParallelTuning& tuning,
                                          const SearchSetup& setup = {}) {
   NearSearch near(run.gas, run.tally.counters, setup, NearSearch::kind_of(search).value());
-  return std::make_unique<ParallelLoop<NearSearch, NeedleModel<effects>>>(
+  return std::make_unique<ParallelLoop<NearSearch, NeedleModel<with_effects>>>(
       run, std::move(near), ReplacedRecords(), threads, tuning);
 }
 

@@ -9,16 +9,11 @@
 #include "src/archive/archive.h"
 #include "src/engine/tally.h"
 #include "src/physics/gas.h"
+#include "src/physics/transfer.h"
 
 namespace needlework {
 
-// Of src/engine/saved_run.cpp.
-void transfer(Archive& archive, Time& time);
-void transfer(Archive& archive, RecordedTouch& touch);
-void transfer(Archive& archive, Counters& counters);
-namespace kernels {
-void transfer(Archive& archive, Flight& flight);
-}
+void transfer(Archive& archive, Counters& counters);  // of src/engine/saved_run.cpp
 
 namespace test {
 

@@ -5,7 +5,7 @@
 
 #include "src/engine/event_loop.h"
 #include "src/engine/loops/loops.h"
-#include "src/engine/loops/with_effects.h"
+#include "src/engine/loops/with_model.h"
 
 namespace needlework {
 

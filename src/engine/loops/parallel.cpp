@@ -1,5 +1,5 @@
 #include "src/engine/loops/loops.h"
-#include "src/engine/loops/with_effects.h"
+#include "src/engine/loops/with_model.h"
 #include "src/engine/parallel_loop.h"
 
 namespace needlework {

@@ -35,7 +35,7 @@ Scene scene_of(const Case& c) {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 // Also for scenes that need neither effect.
-constexpr auto make_rough_tc_loop = test::make_parallel_loop<Effects{true, true}>;
+constexpr auto make_rough_tc_loop = test::make_parallel_loop<true>;
 
 class ParallelRun : public testing::TestWithParam<Case> {};
 

@@ -1,0 +1,86 @@
+// What a gas is made of: species of needles, and how needles of each two species collide.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace needlework {
+
+/// One species of needles.
+struct Species {
+  std::string name;         ///< any text; names must differ
+  std::uint64_t count = 0;  ///< number of needles
+  double length = 1.0;      ///< [L]
+  double mass = 1.0;        ///< [m]
+  double k = 6.0;           ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
+  double t_tr = 1.0;        ///< translational temperature of a drawn state
+  double t_rot = 1.0;       ///< rotational temperature of a drawn state
+
+  /// Moment of inertia about an axis through the centre, normal to the needle. [m L^2]
+  double inertia() const { return mass * (length * length) / (2 * k); }
+};
+
+/// Index of a species in Composition::species.
+using SpeciesIndex = std::uint8_t;
+inline constexpr std::size_t most_species = 255;
+
+/// Parameters of the collision rule.
+struct Restitution {
+  double epsilon = 1;  ///< normal, [0, 1]
+  double beta = -1;    ///< tangential, [-1, 1]; -1 is smooth
+
+  bool is_rough() const { return beta != -1; }
+  friend bool operator==(const Restitution&, const Restitution&) = default;
+};
+
+/// All species of a gas, in the order of the scene, and the collision rule of each two of them.
+/// There is at least one species.
+class Composition {
+ public:
+  /// One species of length 1 and mass 1.
+  Composition() : Composition({Species{}}, {}) {}
+  /// All pairs collide by the same rule.
+  Composition(std::vector<Species> all, const Restitution& rule)
+      : species_(std::move(all)), rules_(species_.size() * species_.size(), rule) {}
+
+  const std::vector<Species>& species() const { return species_; }
+  const Species& operator[](std::size_t index) const { return species_[index]; }
+  std::size_t size() const { return species_.size(); }
+
+  /// The rule of collisions of species a with species b, which is that of b with a.
+  const Restitution& restitution(std::size_t a, std::size_t b) const {
+    return rules_[a * species_.size() + b];
+  }
+  void set_restitution(std::size_t a, std::size_t b, const Restitution& rule) {
+    rules_[a * species_.size() + b] = rules_[b * species_.size() + a] = rule;
+  }
+  /// The rules of all pairs, by first and second species.
+  const std::vector<Restitution>& rules() const { return rules_; }
+
+  void set_count(std::size_t index, std::uint64_t count) { species_[index].count = count; }
+
+  std::uint64_t count() const;  ///< number of needles of all species
+  double longest() const;       ///< length of the longest species [L]
+  bool is_mixture() const { return size() > 1; }
+  /// Whether any pair has tangential restitution, or loses energy.
+  bool is_rough() const;
+  bool is_inelastic() const;
+  /// The species of each needle in order of id: those given or, if none are, as many of each as
+  /// there are, one species after the other.
+  std::vector<SpeciesIndex> in_order_of_id(const std::vector<SpeciesIndex>& given = {}) const;
+  /// The index of the pair (a, b) among all pairs without order, in rows: (0,0), (0,1), ..., (1,1).
+  std::size_t pair_index(std::size_t a, std::size_t b) const {
+    const std::size_t low = a < b ? a : b, high = a < b ? b : a;
+    return low * size() - low * (low + 1) / 2 + high;
+  }
+  std::size_t pairs() const { return size() * (size() + 1) / 2; }
+
+ private:
+  std::vector<Species> species_;
+  std::vector<Restitution> rules_;
+};
+
+}  // namespace needlework

@@ -1,0 +1,69 @@
+// The interface of sources of events: effects that are events of single needles, such as hits on a
+// wall or kicks of a thermostat.
+//
+// A scene has the sources that it calls for. Where there are none, the event loop has no code for
+// them. A source says when the next event of a needle is, and what happens then; the engine does
+// the rest: it keeps the calendar, replaces the record, searches again, adds up the energy, reports
+// and hashes the event, on any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// A needle at an event.
+struct NeedleAt {
+  Needle needle;
+  const Record& record;  ///< made before the event
+  const Species& species;
+  Time now;
+  Vec3d centre;            ///< [L]
+  Vec3d director;          ///< a unit vector to within rounding
+  Vec3d velocity;          ///< [L / time]
+  Vec3d angular_velocity;  ///< [1 / time]
+};
+
+/// The next event of a needle by one source.
+struct SourceEvent {
+  Time time = Time::never();
+  std::int8_t detail = 0;  ///< passed to happen(), such as which tip touches
+};
+
+/// What an event has done. Velocities need to be set only where the motion changes.
+struct SourceOutcome {
+  bool changes_motion = false;
+  Vec3d velocity, angular_velocity;  ///< after the event
+  double energy_change = 0;          ///< of the needle
+  // What reports hold besides (needlework/happening.h).
+  std::uint32_t object = 0;    ///< of the source, such as the index of a wall
+  double arm = 0;              ///< where on the needle it happens [L]
+  double normal_velocity = 0;  ///< before the event [L / time]
+  Vec3d impulse;               ///< on the needle [m L / time]
+};
+
+/// A source of events.
+///
+/// `next()` and `happen()` must depend on nothing but the needle's record, its values in the
+/// columns that the source has added to the gas (src/physics/columns.h), and constants. Then the
+/// trajectory depends on no search, calendar or thread. Several threads may call both for different
+/// needles at once. Neither throws.
+class EventSource {
+ public:
+  virtual ~EventSource() = default;
+
+  /// As Simulation::sources() and reports name it.
+  virtual const char* name() const = 0;
+  /// The first event of needle i at or after `now`, if it is not after `until`; never otherwise. Is
+  /// called again whenever the needle searches, and must then give the same answer as long as the
+  /// record and the columns are the same.
+  virtual SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const = 0;
+  /// What happens at such an event. May change the needle's values in the columns of the source.
+  virtual SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) = 0;
+  /// All numbers on which its events depend. A run is continued with the same ones only.
+  virtual std::vector<double> parameters() const { return {}; }
+};
+
+}  // namespace needlework

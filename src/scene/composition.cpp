@@ -1,0 +1,36 @@
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "needlework/scene.h"
+
+namespace needlework {
+
+Composition Scene::composition() const {
+  const Restitution everywhere{collisions.epsilon, collisions.beta};
+  std::vector<Species> all = species;
+  if (all.empty()) {
+    all.push_back({.name = {},
+                   .count = needles.count,
+                   .length = 1,
+                   .mass = 1,
+                   .k = needles.k,
+                   .t_tr = initial.t_tr,
+                   .t_rot = initial.t_rot});
+  }
+  Composition out(std::move(all), everywhere);
+  const auto index_of = [&](const std::string& name) {
+    const auto found = std::find_if(species.begin(), species.end(),
+                                    [&](const Species& each) { return each.name == name; });
+    return static_cast<std::size_t>(found - species.begin());
+  };
+  for (const Pair& pair : pairs) {
+    const std::size_t a = index_of(pair.between[0]), b = index_of(pair.between[1]);
+    if (a >= species.size() || b >= species.size()) continue;  // refused where scenes are checked
+    out.set_restitution(
+        a, b, {pair.epsilon.value_or(everywhere.epsilon), pair.beta.value_or(everywhere.beta)});
+  }
+  return out;
+}
+
+}  // namespace needlework
