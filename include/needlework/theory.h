@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "needlework/composition.h"
+
 namespace needlework::theory {
 
 /// The parameters of the theory.
@@ -88,5 +90,26 @@ double asymptotic_ratio(const Gas& gas);
 
 /// The k at which c = 1 for every epsilon < 1 (beta = -1).
 double equipartition_k();
+
+/// What happens in a mixture at one instant, in the units of the composition, in which k_B = 1.
+struct MixtureRates {
+  std::vector<double> collisions;          ///< of each two species, by Composition::pair_index
+                                           ///< [1 / time]
+  std::vector<Temperatures> temperatures;  ///< derivatives of the temperatures of each species
+};
+
+/// Rates of a mixture in this volume [L^3] whose species have Gaussian velocities with temperatures
+/// of their own, and positions and directors without correlation: exact then at every density, for
+/// any lengths, masses, k and restitution of each two species, in the limit of many needles (a
+/// species of N needles counts as N (N - 1) / 2 pairs of its own).
+MixtureRates mixture_rates(const Composition& composition, double volume,
+                           std::span<const Temperatures> now);
+
+/// The temperatures of each species at each of the times (finite, >= 0, any order), from those
+/// given at time 0, of a mixture that stays Gaussian and homogeneous. Relative accuracy about 1e-8.
+std::vector<std::vector<Temperatures>> mixture_cooling(const Composition& composition,
+                                                       double volume,
+                                                       std::span<const Temperatures> initial,
+                                                       std::span<const double> times);
 
 }  // namespace needlework::theory

@@ -126,8 +126,7 @@ std::vector<std::string> all_warnings(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   std::vector<std::string> all = warnings(scene);
   if (const Scene::Collisions& c = scene.collisions; c.tc && !keep_energy(c)) {
-    const double rate = theory::collision_rate(theory_density_of(scene),
-                                               initial_temperatures(loaded), scene.needles.k);
+    const double rate = initial_collision_rate(loaded);
     if (*c.tc * rate >= long_contact) {
       all.push_back(fmt::format("{}: is {:.3g} mean free times at the start: {}",
                                 place_of(scene, "collisions.tc", fmt::to_string(*c.tc)),

@@ -26,10 +26,12 @@ Explanation::Explanation(const LoadedScene& loaded)
     : scene(loaded.scene),
       density(density_of(scene)),
       initial(initial_temperatures(loaded)),
-      mean_free_time(1 /
-                     theory::collision_rate(theory_density_of(scene), initial, scene.needles.k)),
-      expected(forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta}, initial,
-                        theory_density_of(scene), scene.until)),
+      mean_free_time(1 / initial_collision_rate(loaded)),
+      // The cooling of a mixture is not forecast.
+      expected(scene.species.size() > 1
+                   ? std::nullopt
+                   : forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},
+                              initial, theory_density_of(scene), scene.until)),
       collisions(collisions_of(expected, scene)),
       seconds(expected && std::isfinite(expected->time)
                   ? estimated_setup_seconds(scene, density) +

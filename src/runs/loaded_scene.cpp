@@ -1,7 +1,9 @@
 #include "src/runs/loaded_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "needlework/error.h"
@@ -58,11 +60,13 @@ LoadedScene complete_scene(Scene given, State initial) {
 }
 
 Totals totals_of(const State& state, const Scene& scene) {
-  const Scene::Species species = scene.one_species();
-  const double inertia = species.mass * (species.length * species.length) / (2 * species.k);
+  const Composition composition = scene.composition();
+  const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);
   Totals totals;
   const double count = static_cast<double>(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
+    const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
+    const double inertia = species.inertia();
     totals.t_tr += species.mass * square(state.velocity[i]) / (3 * count);
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
     for (int axis = 0; axis < 3; ++axis)
@@ -78,22 +82,59 @@ theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
   return {totals.t_tr, totals.t_rot};
 }
 
+std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  std::vector<theory::Temperatures> out;
+  if (!loaded.initial) {
+    for (const Species& each : composition.species()) out.push_back({each.t_tr, each.t_rot});
+    return out;
+  }
+  out.assign(composition.size(), {0, 0});
+  const State& state = *loaded.initial;
+  const std::vector<SpeciesIndex> indices = composition.in_order_of_id(state.species);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const std::size_t index = composition.is_mixture() ? indices.at(i) : 0;
+    const Species& species = composition[index];
+    const double count = static_cast<double>(species.count);
+    out[index].t_tr += species.mass * square(state.velocity[i]) / (3 * count);
+    out[index].t_rot += species.inertia() * square(state.angular_velocity[i]) / (2 * count);
+  }
+  return out;
+}
+
+double initial_collision_rate(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  const Composition composition = scene.composition();
+  if (!composition.is_mixture()) {
+    return theory::collision_rate(theory_density_of(scene), initial_temperatures(loaded),
+                                  composition[0].k);
+  }
+  const auto& box = scene.needles.box;
+  const auto rates =
+      theory::mixture_rates(composition, box[0] * box[1] * box[2], temperatures_by_species(loaded));
+  const double all = std::accumulate(rates.collisions.begin(), rates.collisions.end(), 0.0);
+  return 2 * all / static_cast<double>(composition.count());
+}
+
 bool starts_in_equilibrium(const Scene& scene) {
-  const Scene::Collisions& c = scene.collisions;
-  const Scene::Initial& initial = scene.initial;
-  return c.epsilon == 1 && std::abs(c.beta) == 1 && initial.file.empty() &&
-         initial.t_tr == initial.t_rot && initial.t_tr > 0 && scene.needles.count >= 2;
+  const Composition composition = scene.composition();
+  const double t = composition[0].t_tr;
+  return !composition.is_inelastic() && scene.initial.file.empty() && t > 0 &&
+         std::ranges::all_of(composition.species(),
+                             [&](const Species& s) { return s.t_tr == t && s.t_rot == t; }) &&
+         composition.count() >= 2;
 }
 
 double density_of(const Scene& scene) {
   const auto& box = scene.needles.box;
-  const double length = scene.one_species().length;
+  const double length = scene.composition().longest();
   return static_cast<double>(scene.needles.count) * (length * length * length) /
          (box[0] * box[1] * box[2]);
 }
 
 double theory_density_of(const Scene& scene) {
-  const Scene::Species species = scene.one_species();
+  const Composition composition = scene.composition();
+  const Species& species = composition[0];
   return density_of(scene) / (species.length * std::sqrt(species.mass));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "needlework/scene.h"
 #include "needlework/state.h"
@@ -29,6 +30,13 @@ Totals totals_of(const State& state, const Scene& scene);
 
 /// Those that are drawn, or those of the state that is given.
 theory::Temperatures initial_temperatures(const LoadedScene& loaded);
+
+/// The same for each species. Those of one without needles are not numbers.
+std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loaded);
+
+/// Collisions that a needle takes part in per time at the start, on average over all needles, by
+/// kinetic theory. [1 / time]
+double initial_collision_rate(const LoadedScene& loaded);
 
 /// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
 bool starts_in_equilibrium(const Scene& scene);

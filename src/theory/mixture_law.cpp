@@ -1,0 +1,162 @@
+// A pair with the inverse-mass matrix M = (1/m + 1/m') 1 + (s^2/I) P + (s'^2/I') P' gets the
+// impulse J = -(1 + epsilon) M^-1 V_n - (1 + beta) M^-1 V_t from the relative velocity V of its
+// contact points. V is Gaussian with covariance S = (T/m + T'/m') 1 + (T_rot s^2/I) P + (T_rot'
+// s'^2/I') P', and its normal component has the density of a flux, so that <V_n^2> = 2 sigma^2 with
+// sigma^2 = n.S n. A freedom x of one needle with dx = y J and cov(x, V) = C then gains the energy
+// <C M^-1 J ...>; written out for both parts,
+//     (1 + epsilon) / M_n (-2 c_n + (1 + epsilon) y_n sigma^2 / M_n)
+//     - (1 + beta) tr(M^-1 C) + (1 + beta)^2 / 2 tr(M^-1 S M^-1 Y),
+// with C = (T/m) 1 and Y = 1/m for translation, C = (T_rot s^2/I) P and Y = (s^2/I) P for rotation.
+// Directors at a contact have the density (2/pi) sin^2 of the angle between them.
+#include "src/theory/mixture_law.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "src/theory/graded_rule.h"
+#include "src/theory/requirements.h"
+
+namespace needlework::theory {
+namespace {
+
+// A symmetric matrix in the plane of the directors.
+struct Matrix {
+  double xx = 1, xy = 0, yy = 1;
+
+  Matrix inverse() const {
+    const double determinant = xx * yy - xy * xy;
+    return {yy / determinant, -xy / determinant, xx / determinant};
+  }
+};
+
+Matrix combination(double one, double first, const Matrix& p, double second, const Matrix& q) {
+  return {one + first * p.xx + second * q.xx, first * p.xy + second * q.xy,
+          one + first * p.yy + second * q.yy};
+}
+
+double trace_of_product(const Matrix& a, const Matrix& b) {
+  return a.xx * b.xx + 2 * a.xy * b.xy + a.yy * b.yy;
+}
+
+// A B A.
+Matrix between(const Matrix& a, const Matrix& b) {
+  const double xx = a.xx * b.xx + a.xy * b.xy, xy = a.xx * b.xy + a.xy * b.yy;
+  const double yx = a.xy * b.xx + a.yy * b.xy, yy = a.xy * b.xy + a.yy * b.yy;
+  return {xx * a.xx + xy * a.xy, xx * a.xy + xy * a.yy, yx * a.xy + yy * a.yy};
+}
+
+// Of the angle between the directors, with weights (2/pi) sin^2: Gauss-Chebyshev of the second
+// kind.
+constexpr int angles = 48;
+
+}  // namespace
+
+MixtureLaw::MixtureLaw(const Composition& composition, double volume)
+    : composition_(composition), volume_(volume) {
+  require_positive("volume", volume);
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      pairs_.push_back({.first = a, .second = b, .contacts = {}});
+      tabulate(pairs_.back());
+    }
+  }
+}
+
+void MixtureLaw::tabulate(Pair& pair) const {
+  const Species &a = composition_[pair.first], &b = composition_[pair.second];
+  const bool rough = composition_.restitution(pair.first, pair.second).is_rough();
+  const double masses = 1 / a.mass + 1 / b.mass;
+  const auto arms = [&](const Species& species) {
+    const double half = species.length / 2;
+    const double feature = std::sqrt(1 + half * half / species.inertia() / masses);
+    return graded_rule(half, 0.02 * half / feature);
+  };
+  // Contacts of a pair of needles per volume and time are sqrt(pi / 8) L L' <sigma>, with the mean
+  // over a quarter of the square of arms.
+  const double unit = std::sqrt(std::numbers::pi / 8) * 4;
+  for (const auto& [s, weight_s] : arms(a)) {
+    for (const auto& [t, weight_t] : arms(b)) {
+      Contact contact{.weight = unit * weight_s * weight_t,
+                      .first = s * s / a.inertia(),
+                      .second = t * t / b.inertia(),
+                      .normal = 0,
+                      .once = {},
+                      .twice = {}};
+      contact.normal = masses + contact.first + contact.second;
+      for (int n = 1; rough && n <= angles; ++n) {
+        const double angle = std::numbers::pi * n / (angles + 1);
+        const double sine = std::sin(angle), cosine = std::cos(angle);
+        const double weight = 2 * sine * sine / (angles + 1);
+        const std::array<Matrix, 3> x = {Matrix{1, 0, 1}, Matrix{0, 0, 1},
+                                         Matrix{sine * sine, -sine * cosine, cosine * cosine}};
+        const Matrix inverse =
+            combination(masses, contact.first, x[1], contact.second, x[2]).inverse();
+        for (int i = 0; i < 3; ++i) {
+          contact.once[i] += weight * trace_of_product(inverse, x[i]);
+          for (int j = 0; j < 3; ++j) {
+            contact.twice[i][j] += weight * trace_of_product(between(inverse, x[j]), x[i]);
+          }
+        }
+      }
+      pair.contacts.push_back(contact);
+    }
+  }
+}
+
+void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const {
+  const Species &a = composition_[pair.first], &b = composition_[pair.second];
+  const Temperatures &t = now[pair.first], &u = now[pair.second];
+  const auto [epsilon, beta] = composition_.restitution(pair.first, pair.second);
+  const double flight = t.t_tr / a.mass + u.t_tr / b.mass;
+  // Gains of energy over all contacts: translation and rotation of one needle of each species.
+  double rate = 0, gain[4] = {};
+  for (const Contact& c : pair.contacts) {
+    const double turn_a = t.t_rot * c.first, turn_b = u.t_rot * c.second;
+    const double sigma2 = flight + (turn_a + turn_b);
+    const double weight = c.weight * std::sqrt(sigma2);
+    rate += weight;
+    const auto normal = [&](double x, double y) {
+      return (1 + epsilon) / c.normal * (-2 * x + (1 + epsilon) * sigma2 * y / c.normal);
+    };
+    // `matrix`: 1 for translation, P or P' for rotation.
+    const auto tangential = [&](int matrix, double x, double y) {
+      const double* twice = c.twice[matrix];
+      return (1 + beta) *
+             (-x * c.once[matrix] +
+              0.5 * (1 + beta) * y * (flight * twice[0] + turn_a * twice[1] + turn_b * twice[2]));
+    };
+    gain[0] +=
+        weight * (normal(t.t_tr / a.mass, 1 / a.mass) + tangential(0, t.t_tr / a.mass, 1 / a.mass));
+    gain[1] += weight * (normal(turn_a, c.first) + tangential(1, turn_a, c.first));
+    gain[2] +=
+        weight * (normal(u.t_tr / b.mass, 1 / b.mass) + tangential(0, u.t_tr / b.mass, 1 / b.mass));
+    gain[3] += weight * (normal(turn_b, c.second) + tangential(2, turn_b, c.second));
+  }
+  const double count_a = static_cast<double>(a.count), count_b = static_cast<double>(b.count);
+  const bool alike = pair.first == pair.second;
+  const double pairs = alike ? count_a * (count_a - 1) / 2 : count_a * count_b;
+  if (!(pairs > 0)) return;
+  out.collisions[composition_.pair_index(pair.first, pair.second)] = pairs * rate / volume_;
+  // Both needles of a pair gain; those of one species are both counted by their own gain.
+  const auto gains = [&](std::size_t species, double count, const double* each) {
+    const double share = pairs / (volume_ * count);
+    out.temperatures[species].t_tr += share * each[0] / 1.5;
+    out.temperatures[species].t_rot += share * each[1];
+  };
+  gains(pair.first, count_a, gain);
+  gains(pair.second, count_b, gain + 2);
+}
+
+MixtureRates MixtureLaw::rates(std::span<const Temperatures> now) const {
+  require(now.size() == composition_.size(), "temperatures", static_cast<double>(now.size()),
+          "those of each species");
+  for (const Temperatures& each : now) require_valid(each);
+  MixtureRates out;
+  out.collisions.resize(composition_.pairs());
+  out.temperatures.assign(composition_.size(), {.t_tr = 0, .t_rot = 0});
+  for (const Pair& pair : pairs_) add(pair, now, out);
+  return out;
+}
+
+}  // namespace needlework::theory

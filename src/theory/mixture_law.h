@@ -1,0 +1,46 @@
+// Rates of a mixture with Gaussian velocities: how often needles of each two species collide, and
+// how fast the temperatures of each species change.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "needlework/theory.h"
+
+namespace needlework::theory {
+
+/// The integrals over the contacts of each two species. What does not depend on temperatures is
+/// tabulated once. Immutable, so threads may share it.
+class MixtureLaw {
+ public:
+  /// Needs a volume > 0 [L^3].
+  MixtureLaw(const Composition& composition, double volume);
+
+  MixtureRates rates(std::span<const Temperatures> now) const;
+  const Composition& composition() const { return composition_; }
+
+ private:
+  // One node of the quadrature over the arms s and s' of a pair of species; the directors are
+  // averaged over. Of an impulse along a direction e, M is the inverse mass e.M e.
+  struct Contact {
+    double weight;         // of the collision rate, without sigma, per pair of needles
+    double first, second;  // s^2 / I, s'^2 / I' [1 / m]
+    double normal;         // M along the normal [1 / m]
+    // Means of traces in the plane of the directors, with P and P' the projections off each
+    // director: of M^-1 X and of M^-1 Y M^-1 X, for X in {1, P, P'} and Y in {1, P, P'}.
+    double once[3], twice[3][3];
+  };
+  struct Pair {
+    std::size_t first, second;
+    std::vector<Contact> contacts;
+  };
+
+  void tabulate(Pair& pair) const;
+  void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
+
+  Composition composition_;
+  double volume_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace needlework::theory
