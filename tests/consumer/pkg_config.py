@@ -20,9 +20,9 @@ WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 # What fortran/images.f90 prints: the first needle has left the box twice, once at either end.
 IMAGES = """\
 images of the first needle 8 -8 8
-images of the second needle -2147483647 0 2147483647
+images of the second needle -2147481599 0 2147481599
 the first needle is now at  1.0000  1.0000  4.0000
-state: needle 1: image = -2147483648: expected a whole number from -2147483647 to 2147483647
+state: needle 1: image = -2147483648: expected a whole number from -2147481599 to 2147481599
 """
 
 # What fortran/all.f90 prints.

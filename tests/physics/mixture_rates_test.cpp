@@ -191,7 +191,7 @@ TEST(ElasticMixture, CollidesAtTheExactRates) {
   std::array<Mean, 3> found;
   double time = 0;
   std::vector<std::uint64_t> before(3);
-  constexpr int batches = 260;
+  constexpr int batches = 300;
   for (int batch = 0; batch < batches; ++batch) {
     time += 4 * simulation.mean_free_time();
     const double start = simulation.time();

@@ -105,7 +105,14 @@ class Fields:
             self.text(name)
             self.text(name)
 
+        def pair(name):
+            self.text(f"{name}.between")
+            self.text(f"{name}.between")
+            self.optional(f"{name}.epsilon", self.f64)
+            self.optional(f"{name}.beta", self.f64)
+
         self.sequence("species", species)
+        self.sequence("pairs", pair)
         self.one("needles.count", "u64")
         self.several("needles.box", "f64", 3)
         self.f64("needles.k")

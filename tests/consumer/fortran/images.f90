@@ -5,7 +5,7 @@ program images
   integer, parameter :: n = 2
   character(len=*), parameter :: scene = c_null_char
   integer(c_int32_t), target :: image(3, n) = &
-    reshape([7, -8, 9, -2147483647, 0, 2147483647], [3, n])
+    reshape([7, -8, 9, -2147481599, 0, 2147481599], [3, n])
   real(c_double), target :: position(3, n), velocity(3, n), director(3, n)
   type(needlework_initial) :: initial
   type(needlework_state) :: into
