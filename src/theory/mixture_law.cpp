@@ -107,7 +107,8 @@ void MixtureLaw::tabulate(Pair& pair) const {
 void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const {
   const Species &a = composition_[pair.first], &b = composition_[pair.second];
   const Temperatures &t = now[pair.first], &u = now[pair.second];
-  const auto [epsilon, beta] = composition_.restitution(pair.first, pair.second);
+  const Restitution& rule = composition_.restitution(pair.first, pair.second);
+  const double epsilon = rule.epsilon, beta = rule.beta;
   const double flight = t.t_tr / a.mass + u.t_tr / b.mass;
   // Gains of energy over all contacts: translation and rotation of one needle of each species.
   double rate = 0, gain[4] = {};
