@@ -65,7 +65,16 @@ install_packages() {
   # A list that is too old names files that are no longer there.
   "${apt_get[@]}" "${install[@]}" >/dev/null 2>&1 </dev/null && return
   run_quietly "${apt_get[@]}" update
-  run_quietly "${apt_get[@]}" "${install[@]}"
+  run_quietly "${apt_get[@]}" "${install[@]}" && return
+  # One that fails alone is the reason; the others are installed meanwhile.
+  local package failed=()
+  for package in "${missing[@]}"; do
+    "${apt_get[@]}" install --no-install-recommends "$package" >/dev/null 2>&1 </dev/null ||
+      failed+=("$package")
+  done
+  ((${#failed[@]})) || return 0
+  echo "These packages cannot be installed: ${failed[*]}" >&2
+  return 1
 }
 
 # configure_release ON|OFF: with or without tests and benchmarks.

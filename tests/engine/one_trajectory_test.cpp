@@ -40,19 +40,24 @@ TEST(OneTrajectory, OfEverySearchCalendarAndInstructionSet) {
   }
 }
 
-TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
+void expect_one_hash(const std::string& isa, std::initializer_list<int> numbers_of_threads) {
   Scene scene = cooling_scene();
   for (const char* search : {"linked-cells", "capsules"}) {
-    for (const kernels::Isa isa : kernels::available()) {
-      for (const int threads : {2, 3, 4, 8}) {
-        scene.engine.search = search;
-        scene.engine.isa = kernels::name_of(isa);
-        scene.engine.threads = threads;
-        scene.engine.team = "all";
-        ASSERT_EQ(hash_of(scene), hash) << search << ", " << scene.engine.isa << ", " << threads;
-      }
+    for (const int threads : numbers_of_threads) {
+      scene.engine.search = search;
+      scene.engine.isa = isa;
+      scene.engine.threads = threads;
+      scene.engine.team = "all";
+      ASSERT_EQ(hash_of(scene), hash) << search << ", " << isa << ", " << threads;
     }
   }
+}
+
+TEST(OneTrajectory, OfThreads) { expect_one_hash("auto", {2, 3}); }
+
+TEST(OneTrajectory, OfThreadsOnEveryInstructionSet) {
+  for (const kernels::Isa isa : kernels::available())
+    expect_one_hash(kernels::name_of(isa), {2, 3, 4, 8});
 }
 
 // The requested kernels are in use: the wider the vectors, the fewer SIMD steps.
