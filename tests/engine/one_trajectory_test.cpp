@@ -40,7 +40,7 @@ TEST(OneTrajectory, OfEverySearchCalendarAndInstructionSet) {
   }
 }
 
-void expect_one_hash(const std::string& isa, std::initializer_list<int> numbers_of_threads) {
+void expect_one_hash(std::string_view isa, std::initializer_list<int> numbers_of_threads) {
   Scene scene = cooling_scene();
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const int threads : numbers_of_threads) {
