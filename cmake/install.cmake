@@ -49,3 +49,17 @@ write_basic_package_version_file(NeedleworkConfigVersion.cmake COMPATIBILITY Sam
 install(FILES ${PROJECT_BINARY_DIR}/NeedleworkConfig.cmake
               ${PROJECT_BINARY_DIR}/NeedleworkConfigVersion.cmake
         DESTINATION ${package_folder})
+
+# A Debian package: cmake --preset package, cmake --build --preset package, cpack --preset package.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME needlework)
+set(CPACK_PACKAGE_CONTACT "Needlework developers <needlework@localhost>")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR})
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# The Python package loads without h5py, which only reading files needs.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy, python3-h5py")
+include(CPack)
