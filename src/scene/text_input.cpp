@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "needlework/error.h"
-#include "src/scene/printable.h"
 #include "src/machine/descriptors.h"
+#include "src/scene/printable.h"
 
 namespace needlework {
 namespace {
