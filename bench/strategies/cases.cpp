@@ -162,7 +162,7 @@ std::vector<Case> by_volume_sizes() {
       gas.name += fmt::format(",k={}", k);
       std::vector<Parts> sizes;
       for (const double size : {0.5, 0.7, 0.85, 1.0, 1.2, 1.4, 2.0}) {
-        sizes.push_back(searched_by(chosen_search("auto", density)));
+        sizes.push_back(searched_by(chosen_search("auto", density, {})));
         sizes.back().volume_size = size;
       }
       for (Case& one : product({gas}, sizes)) out.push_back(std::move(one));

@@ -23,19 +23,25 @@ constexpr double overlap_of_side = 0.2;
 // third of a kilobyte each.
 constexpr double cells_per_needle = 2;
 
+double chosen_density(const Gas& gas, const SearchSetup& setup) {
+  return density_by_mean(setup.density.value_or(reduced_density(gas)), gas.composition);
+}
+
 CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   if (setup.cell_side) return CellGrid(gas.box, *setup.cell_side, gas.size());
-  const double density = setup.density.value_or(reduced_density(gas));
+  const double density = chosen_density(gas, setup);
   const bool linked_cells = kind == BoundingVolume::cell;
   const double side = linked_cells ? auto_cell_side(density) : auto_side_for_capsules(density);
-  return CellGrid(gas.box, side * gas.longest, gas.size(), setup.count_multiples, cells_per_needle,
+  return CellGrid(gas.box, side * mean_length(gas.composition) * gas.longest, gas.size(),
+                  setup.count_multiples, cells_per_needle,
                   linked_cells ? CellFit::at_least : CellFit::nearest);
 }
 
 double radius_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
   if (kind == BoundingVolume::cell) return 0;
   if (setup.capsule_radius) return *setup.capsule_radius;
-  return auto_capsule_radius(setup.density.value_or(reduced_density(gas))) * gas.longest;
+  return auto_capsule_radius(chosen_density(gas, setup)) * mean_length(gas.composition) *
+         gas.longest;
 }
 
 void store(float (&to)[3], const Vec3d& a) {

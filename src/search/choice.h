@@ -1,5 +1,5 @@
 // What `auto` stands for, by the number of needles per L^3 around a needle, L the length of the
-// longest needle; see sizing.h. `needlework bench hulls` compares these sizes with others, for
+// needles; see sizing.h. `needlework bench hulls` compares these sizes with others, for
 // masses from the tips to the centre of the needles.
 #pragma once
 
@@ -7,12 +7,35 @@
 #include <cmath>
 #include <string>
 
+#include "needlework/composition.h"
+
 namespace needlework {
 
-/// The search asked for by name; by `auto`, the cheaper one.
-inline std::string chosen_search(const std::string& asked, double density) {
+/// The mean length of the needles, as a share of the longest one.
+inline double mean_length(const Composition& composition) {
+  const double longest = composition.longest();
+  double sum = 0, count = 0;
+  for (const Species& each : composition.species()) {
+    sum += static_cast<double>(each.count) * (each.length / longest);
+    count += static_cast<double>(each.count);
+  }
+  return count > 0 ? sum / count : 1;
+}
+
+/// Needles per cube of their mean length, where there are so many per cube of the longest one: the
+/// density of the gas of one length that collides as often, since two needles meet about as often
+/// as the product of their lengths says.
+inline double density_by_mean(double density, const Composition& composition) {
+  const double share = mean_length(composition);
+  return density * (share * share * share);
+}
+
+/// The search asked for by name; by `auto`, the cheaper one. Density: needles per cube of the
+/// longest one.
+inline std::string chosen_search(const std::string& asked, double density,
+                                 const Composition& composition) {
   if (asked != "auto") return asked;
-  return density < 2.5 ? "linked-cells" : "capsules";
+  return density_by_mean(density, composition) < 2.5 ? "linked-cells" : "capsules";
 }
 
 /// Whether the search asked for has sizes to choose.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/search/choice.h"
 #include "tests/search/gas_drive.h"
 
 namespace needlework::test {
@@ -63,6 +64,24 @@ TEST(Sizing, IsCountedMoreRarelyWhereItDoesNotChange) {
     EXPECT_EQ(sizing.next(), last + apart);
     last = sizing.next();
     EXPECT_FALSE(sizing.look(last, gas, {}));
+  }
+}
+
+// Long needles that are few do not make a gas dense.
+TEST(Choice, OfTheSearchIsByTheMeanLength) {
+  const auto mixture = [](std::uint64_t long_ones) {
+    return Composition({{.name = "short", .count = 100 - long_ones, .length = 0.25},
+                        {.name = "long", .count = long_ones, .length = 2}},
+                       {});
+  };
+  EXPECT_EQ(density_by_mean(7, {}), 7);
+  EXPECT_EQ(density_by_mean(7, mixture(100)), 7);
+  EXPECT_DOUBLE_EQ(density_by_mean(512, mixture(0)), 1);
+  EXPECT_DOUBLE_EQ(mean_length(mixture(50)), 0.5625);
+  for (const double density : {3.0, 100.0}) {
+    EXPECT_EQ(chosen_search("auto", density, mixture(100)), "capsules");
+    EXPECT_EQ(chosen_search("auto", density, mixture(10)), "linked-cells");
+    EXPECT_EQ(chosen_search("capsules", density, mixture(10)), "capsules");
   }
 }
 
