@@ -260,7 +260,7 @@ FigureResult make_box_sizes(const PaperRuns& runs) {
     points.push_back(runs.points(set).front());
   }
   FigureResult result;
-  result.table.columns = {"box", "needles", "quantity", "collisions", "value", "error"};
+  result.table.columns = {"box", "needles", "collisions", "s", "s_error", "moment", "moment_error"};
   picture::Panel s{.title = "Order of the flow", .x = {"collisions per needle"}, .y = {"S"}};
   picture::Panel moment{.title = "Second moment of the density",
                         .x = {"collisions per needle"},
@@ -270,10 +270,14 @@ FigureResult make_box_sizes(const PaperRuns& runs) {
     const double box = scene.needles.box[0];
     const NamedPoint named{fmt::format("box {:g}", box), &point};
     const double count = static_cast<double>(scene.needles.count);
-    s.curves.push_back(
-        order_curve(named, "translational", Unit::one, {box, count, 0}, result.table));
-    moment.curves.push_back(
-        order_curve(named, "second_moment", Unit::start, {box, count, 1}, result.table));
+    Table rows, moments;
+    s.curves.push_back(order_curve(named, "translational", Unit::one, {box, count}, rows));
+    moment.curves.push_back(order_curve(named, "second_moment", Unit::start, {}, moments));
+    for (std::size_t n = 0; n < rows.rows.size(); ++n) {
+      result.table.rows.push_back(rows.rows[n]);
+      result.table.rows.back().insert(result.table.rows.back().end(), moments.rows[n].begin() + 1,
+                                      moments.rows[n].end());
+    }
     const double last = last_collisions(point);
     for (const double collisions : {shown_collisions, shown_collisions_once, 1500.0}) {
       if (collisions > last) continue;

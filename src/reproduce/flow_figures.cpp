@@ -55,7 +55,9 @@ picture::Panel arrows_of(const CellFields& fields, const ShearWave& wave, std::s
 
 FigureResult make_flow_field(const PaperRuns& runs) {
   FigureResult result;
-  result.table.columns = {"k", "t_rot0", "seed", "collisions", "x", "y", "z", "ux", "uy", "uz"};
+  // Axes count from 0; x and u are along the first one, y and v along the second one.
+  result.table.columns = {"k",           "t_rot0", "seed", "collisions", "first_axis",
+                          "second_axis", "x",      "y",    "u",          "v"};
   result.chart = {
       .title = "Flow of the dense gas after 600 collisions per needle",
       .description =
@@ -67,15 +69,15 @@ FigureResult make_flow_field(const PaperRuns& runs) {
     const Scene& scene = *point.scene;
     const FinishedRun& first = point.runs.front();
     const CellFields fields = shown(first);
-    for_each_cell(fields.cells, [&](const std::array<std::size_t, 3>& place) {
-      const auto& u = fields.flow[fields.index(place)];
-      result.table.rows.push_back({scene.needles.k, scene.initial.t_rot,
-                                   static_cast<double>(first.seed), fields.collisions,
-                                   fields.middle(0, place[0]), fields.middle(1, place[1]),
-                                   fields.middle(2, place[2]), u[0], u[1], u[2]});
-    });
-    result.chart.panels.push_back(
-        arrows_of(fields, strongest_shear_wave(fields), start_in_chart(scene)));
+    const ShearWave wave = strongest_shear_wave(fields);
+    result.chart.panels.push_back(arrows_of(fields, wave, start_in_chart(scene)));
+    const picture::Arrows& arrows = *result.chart.panels.back().arrows;
+    for (std::size_t n = 0; n < arrows.x.size(); ++n) {
+      result.table.rows.push_back(
+          {scene.needles.k, scene.initial.t_rot, static_cast<double>(first.seed), fields.collisions,
+           static_cast<double>(wave.gradient), static_cast<double>(wave.along), arrows.x[n],
+           arrows.y[n], arrows.u[n], arrows.v[n]});
+    }
     for (const double collisions : {shown_collisions, shown_collisions_once}) {
       const std::string variant = fmt::format("{}, at {:g}", start_of(scene), collisions);
       result.measurements.push_back(
@@ -91,9 +93,21 @@ FigureResult make_flow_field(const PaperRuns& runs) {
   return result;
 }
 
+namespace {
+
+// How many of the cells along z are dense.
+std::vector<double> dense_along_z(const CellFields& fields) {
+  const double depth = static_cast<double>(fields.cells[2]);
+  return seen_along(fields, 0, 1, [&](std::size_t cell) {
+    return fields.excess[cell] > dense_excess ? depth : 0;
+  });
+}
+
+}  // namespace
+
 FigureResult make_density_map(const PaperRuns& runs) {
   FigureResult result;
-  result.table.columns = {"k", "t_rot0", "seed", "x", "y", "z", "excess_start", "excess_after"};
+  result.table.columns = {"k", "t_rot0", "seed", "x", "y", "dense_start", "dense_after"};
   result.chart = {.title = "Cells with more than 1.5 times the mean density",
                   .description =
                       "How many of the cells along z are that dense, at the start and "
@@ -104,20 +118,16 @@ FigureResult make_density_map(const PaperRuns& runs) {
     const Scene& scene = *point.scene;
     const FinishedRun& first = point.runs.front();
     const CellFields start = shown(first, 0), after = shown(first);
-    for_each_cell(start.cells, [&](const std::array<std::size_t, 3>& place) {
-      const std::size_t cell = start.index(place);
-      result.table.rows.push_back({scene.needles.k, scene.initial.t_rot,
-                                   static_cast<double>(first.seed), start.middle(0, place[0]),
-                                   start.middle(1, place[1]), start.middle(2, place[2]),
-                                   start.excess[cell], after.excess[cell]});
-    });
+    const auto dense_start = dense_along_z(start), dense_after = dense_along_z(after);
+    for (std::size_t n = 0; n < dense_start.size(); ++n) {
+      result.table.rows.push_back(
+          {scene.needles.k, scene.initial.t_rot, static_cast<double>(first.seed),
+           start.middle(0, n % start.cells[0]), start.middle(1, n / start.cells[0]), dense_start[n],
+           dense_after[n]});
+    }
     for (const double collisions : {0.0, shown_collisions}) {
-      const CellFields& fields = collisions == 0 ? start : after;
-      const double depth = static_cast<double>(fields.cells[2]);
-      picture::Map map{fields.edges(0), fields.edges(1),
-                       seen_along(fields, 0, 1, [&](std::size_t cell) {
-                         return fields.excess[cell] > dense_excess ? depth : 0;
-                       })};
+      const double depth = static_cast<double>(start.cells[2]);
+      picture::Map map{start.edges(0), start.edges(1), collisions == 0 ? dense_start : dense_after};
       result.chart.panels.push_back(
           {.title = fmt::format("{}, {}", start_in_chart(scene),
                                 collisions == 0 ? "at the start" : "after 600"),

@@ -49,12 +49,10 @@ FigureResult make_ratio(const PaperRuns& runs) {
   result.table.columns = {"epsilon", "k", "ratio_theory", "ratio", "ratio_error", "seeds"};
   const std::vector<double> epsilons = steps(0, 0.99, 33), ks = steps(0.5, 16.5, 32);
   picture::Map map{epsilons, ks, {}};
-  const double nan = std::nan("");
   for (std::size_t j = 0; j + 1 < ks.size(); ++j) {
     for (std::size_t i = 0; i + 1 < epsilons.size(); ++i) {
       const double epsilon = (epsilons[i] + epsilons[i + 1]) / 2, k = (ks[j] + ks[j + 1]) / 2;
       map.values.push_back(theory::asymptotic_ratio({k, epsilon}));
-      result.table.rows.push_back({epsilon, k, map.values.back(), nan, nan, 0});
     }
   }
 
@@ -233,10 +231,10 @@ FigureResult make_relaxation(const PaperRuns& runs) {
     simulated.colour = line.colour = panel.curves.size() / 2;
     const std::vector<double> taus = taus_of(point.runs.front());
     for (std::size_t n = 0; n < taus.size(); ++n) {
+      if (theory[n] < 0.3 * fit_to * theory[0]) continue;
       const Measured d =
           measure(point, [&](const FinishedRun& run) { return differences_of(run).at(n); });
       result.table.rows.push_back({scene.needles.k, density, taus[n], d.value, d.error, theory[n]});
-      if (theory[n] < 0.3 * fit_to * theory[0]) continue;
       if (n % 2 == 0) simulated.x.push_back(taus[n]), simulated.y.push_back(d.value);
       line.x.push_back(taus[n]), line.y.push_back(theory[n]);
     }

@@ -53,25 +53,26 @@ std::vector<Row> reproduce(const Figure& figure, const PaperRuns& runs,
 }
 
 std::string json_of(std::span<const Row> rows, Size size) {
-  Json claims = Json::array();
+  std::vector<std::string> lines;
   for (const Row& row : rows) {
-    claims.push_back({{"id", row.id()},
-                      {"figure", row.figure},
-                      {"paper", optional(row.claim.paper.number)},
-                      {"measured", optional(row.measured.value)},
-                      {"error", optional(row.measured.error)},
-                      {"verdict", name_of(row.verdict)},
-                      {"precision", optional(row.claim.paper.precision)},
-                      {"seeds", row.measured.seeds ? Json(*row.measured.seeds) : Json(nullptr)},
-                      {"claim", row.claim.id},
-                      {"variant", text_or_null(row.variant)},
-                      {"statement", row.claim.statement},
-                      {"quantity", row.claim.quantity},
-                      {"where", text_or_null(row.claim.where)},
-                      {"reading", text_or_null(row.claim.reading)}});
+    const Json line{{"id", row.id()},
+                    {"figure", row.figure},
+                    {"paper", optional(row.claim.paper.number)},
+                    {"measured", optional(row.measured.value)},
+                    {"error", optional(row.measured.error)},
+                    {"verdict", name_of(row.verdict)},
+                    {"precision", optional(row.claim.paper.precision)},
+                    {"seeds", row.measured.seeds ? Json(*row.measured.seeds) : Json(nullptr)},
+                    {"claim", row.claim.id},
+                    {"variant", text_or_null(row.variant)},
+                    {"statement", row.claim.statement},
+                    {"quantity", row.claim.quantity},
+                    {"where", text_or_null(row.claim.where)},
+                    {"reading", text_or_null(row.claim.reading)}};
+    lines.push_back(line.dump(-1, ' ', false, Json::error_handler_t::replace));
   }
-  const Json json{{"size", name_of(size)}, {"claims", claims}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return fmt::format("{{\"size\": \"{}\", \"claims\": [\n{}\n]}}\n", name_of(size),
+                     fmt::join(lines, ",\n"));
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -28,7 +28,7 @@ struct Row {
 std::vector<Row> reproduce(const Figure& figure, const PaperRuns& runs,
                            std::span<const Claim> claims);
 
-/// The rows as one JSON object, {"claims": [...]}.
+/// The rows as one JSON object, {"size": ..., "claims": [...]}, a row a line.
 std::string json_of(std::span<const Row> rows, Size size);
 
 /// Writes a file as a whole: it has its name only when it is complete. Throws IoError.
