@@ -26,6 +26,8 @@ struct Species {
 /// Index of a species in Composition::species.
 using SpeciesIndex = std::uint8_t;
 inline constexpr std::size_t most_species = 255;
+/// Limit of the number of needles of all species together: ids are 32 bits wide.
+inline constexpr std::uint64_t most_needles = (std::uint64_t{1} << 32) - 2;
 
 /// Parameters of the collision rule.
 struct Restitution {

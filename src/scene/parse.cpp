@@ -278,6 +278,14 @@ void require_names(const Scene& scene, const Document& document, std::span<const
   }
 }
 
+// All species together have as many needles as there are ids.
+void require_ids(const Scene& scene, const Document& document, const Entry& last_count) {
+  const std::uint64_t count = scene.composition().count();
+  if (count <= most_needles) return;
+  throw document.error(last_count, fmt::format("expected at most {} needles of all species, not {}",
+                                               most_needles, count));
+}
+
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
   const Composition composition = scene.composition();
   const double length = composition.longest();
@@ -333,7 +341,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   const Document document(text, name, overrides);
   Scene scene;
   std::set<std::string> given;
-  Entry box;
+  Entry box, last_count;
   std::vector<Entry> names;
   for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
     if (entry.is_head) {
@@ -350,6 +358,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
       throw document.error(entry,
                            fmt::format("expected a scene with an entry [[{}]]", entry.section));
     if (full_name(entry) == "needles.box") box = entry;
+    if (full_name(entry) == "species.count") last_count = entry;
     if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
     if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
@@ -361,6 +370,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     scene.places[own_name(entry)] = document.place(entry);
   }
   require_names(scene, document, names);
+  require_ids(scene, document, last_count);
   if (given.contains("needles.box")) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
   adopt_species(scene);

@@ -33,7 +33,6 @@ constexpr double least_temperature = 1e-200;
 constexpr double largest_temperature = 1e200;
 constexpr double most_per_decade = 1e6;
 
-constexpr std::uint64_t most_needles = (std::uint64_t{1} << 32) - 2;  // ids are 32 bits wide
 constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t most_threads = 1024;
 constexpr std::uint64_t most_cells_along_an_axis = 10000;  // of output.grid

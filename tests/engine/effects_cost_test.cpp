@@ -81,7 +81,7 @@ CodeByLoop read_library() {
       "needlework::NeedleModel<(true|false)> *>::collide\\(");
   std::string object;
   CollideCode* code = nullptr;
-  char buffer[4096];
+  char buffer[1 << 16];  // names of templates are long
   while (fgets(buffer, sizeof buffer, pipe.get())) {
     const std::string line(buffer);
     if (line.find("file format") != line.npos) object = line.substr(0, line.find(':'));

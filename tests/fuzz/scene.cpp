@@ -32,16 +32,18 @@ void check_scene(const needlework::Scene& scene, const std::string& text) {
   require(!scene.engine.threads || *scene.engine.threads >= 1);
   require(scene.output.series_per_decade > 0);
   require(needlework::is_printable(scene.title) && needlework::is_printable(scene.output.file));
-  double length = 1;
-  require(scene.species.size() <= 1);
-  for (const needlework::Scene::Species& species : scene.species) {
-    length = species.length;
-    require(length > 0 && species.mass > 0 && species.k == scene.needles.k);
-    require(species.count == scene.needles.count);
+  const needlework::Composition composition = scene.composition();
+  require(composition.size() >= 1 && composition.count() <= needlework::most_needles);
+  require(scene.initial.file.empty() ? composition.count() == scene.needles.count : true);
+  require(scene.needles.k == composition[0].k);
+  for (const needlework::Species& species : scene.species) {
+    require(species.length > 0 && species.mass > 0 && species.k > 0);
     require(!species.name.empty() && needlework::is_printable(species.name));
   }
+  for (const needlework::Restitution& rule : composition.rules())
+    require(rule.epsilon >= 0 && rule.epsilon <= 1 && std::abs(rule.beta) <= 1);
   for (const double edge : scene.needles.box)
-    require(edge >= 2.01 * length || (edge == 0 && !scene.initial.file.empty()));
+    require(edge >= 2.01 * composition.longest() || (edge == 0 && !scene.initial.file.empty()));
   for (const std::string& warning : needlework::warnings(scene))
     require(needlework::is_printable(warning));
   if (scene.initial.file.empty() && scene.needles.count <= 10)
