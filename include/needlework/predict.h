@@ -8,13 +8,14 @@
 
 namespace needlework {
 
-/// A needle at time 0 for `predict`. The length of needles is 1.
+/// A needle at time 0 for `predict`.
 struct FreeNeedle {
   std::array<double, 3> position;          ///< centre [L]
   std::array<double, 3> orientation;       ///< director, normalised when read
   std::array<double, 3> velocity;          ///< [L / time]
   std::array<double, 3> angular_velocity;  ///< of which the part normal to the director is used [1
                                            ///< / time]
+  double length = 1.0;                     ///< [L]
 };
 
 struct FirstContact {
@@ -30,10 +31,10 @@ struct FirstContact {
 /// The first contact of two needles in (0, horizon], without periodic images. `just_collided`
 /// means that they have collided at time 0 and separate; that contact is not found again. Throws
 /// InputError for positions beyond 1e150, velocities beyond 1e300, a director that is 0, a horizon
-/// below 0, an accuracy out of range, numbers that are NaN, needles that come near each other so
-/// late that a double cannot tell where they are, and a search that would take more than about a
-/// second, as for needles that turn near each other for hundreds of thousands of radians without a
-/// contact.
+/// below 0, a length that is not above 0 or beyond 1e150, an accuracy out of range, numbers that
+/// are NaN, needles that come near each other so late that a double cannot tell where they are, and
+/// a search that would take more than about a second, as for needles that turn near each other for
+/// hundreds of thousands of radians without a contact.
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                      bool just_collided, const Accuracy& accuracy = standard_accuracy);
 

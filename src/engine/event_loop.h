@@ -144,8 +144,8 @@ std::optional<Stop> EventLoop<S, M>::run_alone(const Limits& limits, Time end) {
 template <Search S, Model M>
 bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   const Time until = std::min(next, limits.time);
-  if (run_.window_end > until || until == Time::never()) return false;
-  run_.now = run_.window_end;
+  if (run_.windows.end() > until || until == Time::never()) return false;
+  run_.now = run_.windows.end();
   run_.pass_window();
   FurtherTouches& touches = *run_.gas.further_touches;
   // No record of an earlier window is ever put back.

@@ -164,7 +164,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   const Record& second = gas_.records[b];
   const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
   const DoubleDouble elapsed = gas_.clock.exact_difference(now(), Gas::start_of(first, second));
-  const kernels::ContactGeometry contact = model_.geometry(pair, elapsed);
+  const kernels::ContactGeometry contact = model_.contact().geometry(pair, elapsed);
   const bool elastic = by_contact_time(a, b);
   const Impact impact = model_.collide(first, second, contact, event.side, elastic);
 
@@ -203,7 +203,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   gas_.add_touch(a, RecordedTouch::of(gas_.ids[b], gas_.records[b].serial, shift, touch));
   gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], gas_.records[a].serial, -shift, touch));
 
-  tally_.energy += run_.in_quanta(impact.energy_change);
+  tally_.energy += run_.energy.in_quanta(impact.energy_change);
   ++tally_.collisions;
   tally_.tc_collisions += elastic;
   if (M::has_effects && gas_.composition.is_mixture()) {
@@ -212,10 +212,10 @@ void EventProcessor<S, M>::collide(const Event& event) {
   }
   tally_.hash.add(report);
   const Time placed_a = place(a), placed_b = place(b);
-  const double apart = model_.time_apart(model_.pair(a, first, b, second, shift));
+  const double apart = model_.contact().time_apart(model_.pair(a, first, b, second, shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
-  if (run_.has_callback()) run_.report(happening, a, b, reports);
+  if (run_.listeners.any()) run_.listeners.report(gas_, happening, a, b, reports);
 }
 
 template <Search S, Model M>
@@ -223,15 +223,15 @@ void EventProcessor<S, M>::happen(const Event& event) {
   const Needle i = event.owner;
   count_at_instant(i, i);
   const Record& record = gas_.records[i];
-  const double elapsed = gas_.clock.difference(now(), record.time);
+  const auto motion = gas_.motion_from(record, now());
   const NeedleAt at{.needle = i,
                     .record = record,
                     .species = gas_.species_of(record),
                     .now = now(),
-                    .centre = centre_after(record.flight, elapsed),
-                    .director = director_after(record.flight, elapsed),
-                    .velocity = record.flight.v,
-                    .angular_velocity = record.flight.w};
+                    .centre = motion.centre(),
+                    .director = motion.director(),
+                    .velocity = motion.velocity(),
+                    .angular_velocity = motion.angular_velocity()};
   if (rollback_log) rollback_log->replaced(i, gas_);
   columns_before_.clear();
   gas_.columns.append(i, columns_before_);
@@ -258,12 +258,12 @@ void EventProcessor<S, M>::happen(const Event& event) {
       --tally_.at_instant;
       throw;
     }
-    tally_.energy += run_.in_quanta(outcome.energy_change);
+    tally_.energy += run_.energy.in_quanta(outcome.energy_change);
     tally_.hash.add(happening);
   }
   tally_.count(tally_.by_source, event.source, run_.sources.size());
   schedule(i, place(i));
-  if (run_.has_callback()) run_.report(happening, i, no_needle, reports);
+  if (run_.listeners.any()) run_.listeners.report(gas_, happening, i, no_needle, reports);
 }
 
 // The earliest event of the sources, if it is before `best`.
@@ -294,8 +294,8 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
   Event best;
   best.owner = i;
   best.lower_id = best.higher_id = gas_.ids[i];
-  best.time =
-      std::min({placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.search_span)});
+  best.time = std::min(
+      {placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.windows.search_span())});
   if constexpr (M::has_effects) consider_sources(i, best);
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,
                [&](Needle j, const Shift& shift, double from) {
@@ -366,15 +366,15 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
   const Time start = Gas::start_of(first, second);
   const DoubleDouble elapsed = gas_.clock.exact_difference(event.time, start);
   throw InvalidStateError(
-      message_of(
-          PairCollapse{.first = event.lower_id,
-                       .second = event.higher_id,
-                       .time = gas_.clock.since_start(event.time),
-                       .gap = model_.gap(pair, elapsed) / model_.geometry(pair, elapsed).sin_angle,
-                       .after = gas_.clock.difference(event.time, start),
-                       .root_tolerance = model_.accuracy().root_tolerance,
-                       .epsilon = model_.restitution(first, second).epsilon,
-                       .contact_time = model_.effects().contact_time}),
+      message_of(PairCollapse{.first = event.lower_id,
+                              .second = event.higher_id,
+                              .time = gas_.clock.since_start(event.time),
+                              .gap = model_.contact().gap(pair, elapsed) /
+                                     model_.contact().geometry(pair, elapsed).sin_angle,
+                              .after = gas_.clock.difference(event.time, start),
+                              .root_tolerance = model_.accuracy().root_tolerance,
+                              .epsilon = model_.restitution(first, second).epsilon,
+                              .contact_time = model_.effects().contact_time}),
       {{event.lower_id.value, event.higher_id.value}});
 }
 

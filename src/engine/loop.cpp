@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/engine/present_state.h"
 
 namespace needlework {
 
@@ -43,7 +44,7 @@ std::optional<Stop> Limits::reached_without_events(Run& run) const {
     return std::nullopt;
   }
   if (!run.nothing_can_happen()) return std::nullopt;
-  run.require_images(time);
+  require_images(run.gas, time);
   run.now = time;
   return Stop::time;
 }

@@ -21,7 +21,7 @@ struct Limits {
   /// The limit on collisions or energy that has been met, if any.
   std::optional<Stop> reached(const Run& run) const {
     if (static_cast<double>(run.tally.collisions) >= collisions) return Stop::collisions;
-    if (run.energy() <= energy) return Stop::energy;
+    if (run.present_energy() <= energy) return Stop::energy;
     return std::nullopt;
   }
   /// Whether the caller has interrupted the run, the limit on wall time has passed, or no limit on

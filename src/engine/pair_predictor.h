@@ -71,7 +71,7 @@ class PairPredictor {
 
   kernels::Contact first_contact(const kernels::Pair& pair, double from, double to) {
     kernels::EvaluationCounters spent;
-    const kernels::Contact contact = model_.first_contact(pair, from, to, spent);
+    const kernels::Contact contact = model_.contact().first_contact(pair, from, to, spent);
     counters_.evaluated += spent.evaluated;
     counters_.escalated += spent.escalated;
     return contact;
@@ -102,8 +102,8 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   kernels::Pair pair = model_.pair(a, first, b, second, shift);
 #ifndef NDEBUG
   if (start > now) {
-    const Vec3d apart = (model_.centre(first, pair.elapsed_first.hi) -
-                         model_.centre(second, pair.elapsed_second.hi)) -
+    const Vec3d apart = (model_.motion(first).centre(pair.elapsed_first.hi) -
+                         model_.motion(second).centre(pair.elapsed_second.hi)) -
                         to_double(pair.shift);
     const double reach = model_.reach(first, second);
     if (dot(apart, apart) <= reach * reach) read_ahead = true;
@@ -160,7 +160,7 @@ void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
   const double off = std::max(0x1p-38, 2 * model_.accuracy().root_tolerance);
   const kernels::Contact due = first_contact(before, std::max(0.0, elapsed - tick) * (1 - 0x1p-50),
                                              (elapsed + tick) * (1 + off));
-  const double gap = model_.gap(before, gas_.clock.exact_difference(now, start));
+  const double gap = model_.contact().gap(before, gas_.clock.exact_difference(now, start));
   const int side = gap > 0 ? 1 : gap < 0 ? -1 : 0;
   // A contact is due now and has not happened yet, or it is due so soon that its predicted time
   // lies after the root of f.
@@ -171,12 +171,14 @@ void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
     touch.side = side;
     // Exactly at contact: either a collision at this instant or a touch without one.
     const bool just_had = before.touch.touching && elapsed == 0;
-    if (touch.side == 0) touch.side = just_had ? before.touch.side : model_.side_after(before);
+    if (touch.side == 0)
+      touch.side = just_had ? before.touch.side : model_.contact().side_after(before);
     // Needles at rest relative to each other stay on the side that they had.
     if (touch.side == 0) touch.side = before.touch.side;
     // Needles that rotate with coinciding centres had no side before.
     if (touch.side == 0) {
-      touch.side = model_.side_after(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
+      touch.side =
+          model_.contact().side_after(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
     }
   }
   const Record &mine = gas_.records[a], &other = gas_.records[b];

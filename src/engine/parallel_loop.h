@@ -145,15 +145,15 @@ class ParallelLoop final : public EventLoop<S, M> {
 
   /// Collisions of the whole gas per time, from the mean free time.
   double thermal_rate() const {
-    return 0.5 * static_cast<double>(run_.gas.size()) / run_.mean_free_time;
+    return 0.5 * static_cast<double>(run_.gas.size()) / run_.windows.mean_free_time();
   }
   /// Whether keys, which are times since the start as doubles, have enough digits for the events of
   /// one window. In a gas that does not cool they lose them after some 2^30 mean free times.
   /// Threads compare nothing but keys, and could wait for each other without end.
   bool keys_resolve(Time now) const {
-    return run_.gas.clock.since_start(now) * 0x1p-30 <= run_.search_span;
+    return run_.gas.clock.since_start(now) * 0x1p-30 <= run_.windows.search_span();
   }
-  double thermal_speed() const { return std::sqrt(std::max(0.0, run_.energy())); }
+  double thermal_speed() const { return std::sqrt(std::max(0.0, run_.present_energy())); }
 
   CellCalendar& cell_calendar_;
   Phase<S> phase_;
@@ -185,11 +185,11 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
   for (std::uint32_t subdomain = 0; subdomain < phase_.threads; ++subdomain)
     threads_.emplace_back(phase_, this->model_, subdomain);
   phase_.may_be_too_slow = tuning.by_cost;
-  double squares = 0;
+  double fastest = 0;
   for (const Record& record : run.gas.records) {
-    squares = std::max(squares, dot(record.flight.v, record.flight.v));
+    fastest = std::max(fastest, run.gas.fastest_of(record));
   }
-  fastest_to_thermal_ = squares > 0 ? std::sqrt(squares) / thermal_speed() : 0;
+  fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
 }
 
 template <Search S, Model M>
@@ -213,7 +213,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     if (run_.tally.collisions >= limits.pause) return std::nullopt;
     // Threads order events by keys only, so that of several at the end of a window, or of the run,
     // a later one might be on top.
-    if (is_next_at(run_.window_end) || is_next_at(limits.time)) put_in_order();
+    if (is_next_at(run_.windows.end()) || is_next_at(limits.time)) put_in_order();
     const Time next = cell_calendar_.top().time;
     if (this->pass_window(next, limits)) continue;
     if (next > limits.time) {
@@ -222,10 +222,10 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     }
     if (next == Time::never()) return run_.end_of_events();
     // Before `ready` no thread has to rebase the times that the search stores.
-    const Time ready = search_.prepare(run_.now, run_.threads_at_hand());
+    const Time ready = search_.prepare(run_.now, run_.team.threads());
     const double left = std::ceil(limits.collisions) - static_cast<double>(run_.tally.collisions);
     const TeamChoice::Turn turn = by_cost_ ? team_.next() : all_together;
-    const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.window_end, last), ready,
+    const PhasePlan::Stretch stretch = plan_.next({next, std::min(run_.windows.end(), last), ready,
                                                    left, thermal_rate(), turn.together, turn.most});
     const std::uint64_t before = run_.tally.collisions;
     const bool together =
@@ -237,7 +237,7 @@ std::optional<Stop> ParallelLoop<S, M>::advance(const Limits& limits) {
     if (together) {
       run_together(limits, stretch.end);
     } else {
-      run_.set_threads_at_hand(1);
+      run_.team.set(1);
       put_in_order();
       preparing = time.seconds();
       stop = this->run_alone(limits, stretch.end);
@@ -292,7 +292,7 @@ void ParallelLoop<S, M>::run_together(const Limits& limits, Time end) {
   const Tally before = run_.tally;
   for (auto& thread : threads_) run_.tally.take(thread.tally());
   const bool redo = phase_.must_roll_back || limits.reached(run_);
-  run_.set_threads_at_hand(redo ? 1 : threads);
+  run_.team.set(redo ? 1 : threads);
   if (redo) {
     const Counters counters = run_.tally.counters;
     run_.tally = before;
@@ -332,10 +332,10 @@ void ParallelLoop<S, M>::roll_back() {
 // Reports what has happened in the phase, whole happenings in order of time.
 template <Search S, Model M>
 void ParallelLoop<S, M>::report() {
-  if (run_.times_callback) {
-    for (const auto& thread : threads_) run_.times_callback(thread.times());
+  if (run_.listeners.times) {
+    for (const auto& thread : threads_) run_.listeners.times(thread.times());
   }
-  if (!run_.callback && !run_.happening_callback) return;
+  if (!run_.listeners.want_happenings()) return;
   std::vector<const Happening*> all, before;
   for (const auto& thread : threads_) {
     before.swap(all);
@@ -343,7 +343,7 @@ void ParallelLoop<S, M>::report() {
     std::merge(before.begin(), before.end(), thread.reports().begin(), thread.reports().end(),
                std::back_inserter(all), comes_before);
   }
-  for (const Happening* happening : all) run_.pass_on(*happening);
+  for (const Happening* happening : all) run_.listeners.pass_on(*happening);
 }
 
 }  // namespace needlework

@@ -123,8 +123,8 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 // Damaged numbers could keep a run from ever ending. Speeds are bounded by the energy, which is
 // known twice.
 void Run::require_consistent() const {
-  require(is_time(gas.clock, now) && is_time(gas.clock, window_end) && now.epoch >= 0);
-  require(std::isfinite(initial_energy) && initial_energy >= 0 && std::isfinite(drift_of_windows_));
+  require(is_time(gas.clock, now) && is_time(gas.clock, windows.end()) && now.epoch >= 0);
+  require(std::isfinite(initial_energy) && initial_energy >= 0 && energy.is_sound());
   require(tally.tc_collisions <= tally.collisions && tally.at_instant <= tally.collisions &&
           tally.collisions < std::uint64_t{1} << 63);
   const auto is_past = [&](Time time) { return is_time(gas.clock, time) && time <= now; };
@@ -134,14 +134,14 @@ void Run::require_consistent() const {
   }
   // Where nothing can happen, time passes without windows.
   if (!nothing_can_happen()) {
-    require(now <= window_end && window_end <= gas.clock.add(now, window_span_));
+    require(now <= windows.end() && windows.end() <= gas.clock.add(now, windows.span()));
     const auto is_to_come = [&](Time time) { return time >= now; };
     require(std::ranges::all_of(gas.records, is_to_come, &Record::renewal));
   }
   // Files hold the images of needles in flight.
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
-    const Vec3d centre = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const Vec3d centre = gas.motion_from(record, now).centre();
     const double places[3] = {centre.x, centre.y, centre.z};
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double most = std::numeric_limits<std::int32_t>::max();
@@ -151,10 +151,8 @@ void Run::require_consistent() const {
   GasNumbers present = numbers();
   present.has_cooled = true;
   require(out_of_range(present).empty());
-  Totals sums;
-  set_energies(sums_of_squares(), sums);
-  const double sum = gas.size() == 0 ? 0 : sums.energy * static_cast<double>(gas.size());
-  require(std::abs(sum - energy()) <= 1e-6 * energy_at_window_);
+  const double sum = energy_of(gas, sums_of_squares(gas, team.threads()));
+  require(std::abs(sum - present_energy()) <= 1e-6 * energy.at_opening());
 }
 
 // Needles are saved in order of id, whatever their order in storage.
@@ -178,11 +176,13 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   require(!archive.reads() || std::ranges::is_sorted(gas.ids, increases));
   require(!archive.reads() ||
           std::ranges::adjacent_find(gas.ids, std::ranges::equal_to{}) == gas.ids.end());
-  archive(now, window_end, mean_free_time, initial_energy, energy_at_window_, quanta_at_window_,
-          drift_of_windows_);
+  archive(now);
+  windows.transfer(archive);
+  archive(initial_energy);
+  energy.transfer(archive);
   if (archive.reads()) {
-    require(std::isfinite(energy_at_window_) && energy_at_window_ >= 0 && mean_free_time > 0);
-    set_scales();
+    require(energy.is_sound() && windows.mean_free_time() > 0);
+    set_contact_time();
   }
   archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
           tally.instant, tally.at_instant);

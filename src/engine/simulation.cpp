@@ -10,7 +10,9 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "src/calendar/choice.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
+#include "src/engine/present_state.h"
 #include "src/engine/subdomains.h"
 #include "src/physics/permutation.h"
 #include "src/physics/vectors.h"
@@ -208,8 +210,8 @@ std::string why_no_collision(const State& initial) {
     return "";  // it cannot be simulated
   }
   const auto reason = collisionless(count, [&](std::size_t i) {
-    return Motion{vector_of(initial.velocity[i]), vector_of(initial.orientation[i]),
-                  vector_of(initial.angular_velocity[i])};
+    return Heading{vector_of(initial.velocity[i]), vector_of(initial.orientation[i]),
+                   vector_of(initial.angular_velocity[i])};
   });
   return reason ? words_for(*reason) : "";
 }
@@ -271,15 +273,15 @@ std::string Simulation::why_no_collision() const {
 }
 
 void Simulation::on_collision(std::function<void(const Collision&)> callback) {
-  implementation_->run.callback = std::move(callback);
+  implementation_->run.listeners.collision = std::move(callback);
 }
 
 void Simulation::on_collision_times(std::function<void(std::span<const double>)> callback) {
-  implementation_->run.times_callback = std::move(callback);
+  implementation_->run.listeners.times = std::move(callback);
 }
 
 void Simulation::on_happening(std::function<void(const Happening&)> callback) {
-  implementation_->run.happening_callback = std::move(callback);
+  implementation_->run.listeners.happening = std::move(callback);
 }
 
 std::vector<std::string> Simulation::sources() const {
@@ -301,7 +303,8 @@ Totals Simulation::totals() const {
 }
 std::vector<SpeciesTotals> Simulation::species_totals() const {
   const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.species_totals();
+  const Run& run = implementation_->run;
+  return needlework::species_totals(run.gas, sums_of_squares(run.gas, run.team.threads()));
 }
 std::vector<std::uint8_t> Simulation::species() const {
   const Gas& gas = implementation_->run.gas;
@@ -334,11 +337,12 @@ double Simulation::energy_drift() const {
   return implementation_->run.energy_drift();
 }
 double Simulation::epoch_length() const { return implementation_->run.gas.clock.epoch_length(); }
-double Simulation::mean_free_time() const { return implementation_->run.mean_free_time; }
+double Simulation::mean_free_time() const { return implementation_->run.windows.mean_free_time(); }
 std::string Simulation::trajectory_hash() const { return implementation_->run.tally.hash.hex(); }
 void Simulation::copy(State& into) const {
   const kernels::DefaultArithmetic arithmetic;
-  implementation_->run.copy(implementation_->isa, implementation_->by_id(), into);
+  const Run& run = implementation_->run;
+  copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
 }
 State Simulation::copy() const {
   State out;
@@ -347,7 +351,7 @@ State Simulation::copy() const {
 }
 FreeNeedle Simulation::needle(std::uint32_t id) const {
   const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.needle({id});
+  return needle_at(implementation_->run.gas, implementation_->run.now, {id});
 }
 void Simulation::set_velocities(std::span<const std::array<double, 3>> velocity,
                                 std::span<const std::array<double, 3>> angular_velocity) {

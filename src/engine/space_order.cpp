@@ -47,7 +47,7 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   keys.reserve(gas.size());
   for (const Record& record : gas.records) {
     StopRequest::check_in_turn(keys.size());
-    const Vec3d r = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const Vec3d r = gas.motion_from(record, now).centre();
     const double position[3] = {r.x, r.y, r.z};
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -53,7 +53,6 @@ class alignas(128) SubdomainThread {
  public:
   SubdomainThread(Phase<S>& phase, const M& model, std::uint32_t subdomain)
       : phase_(phase),
-        model_(model),
         subdomain_(subdomain),
         changes_(phase.calendar),
         search_(phase.search, tally_.counters),
@@ -120,10 +119,6 @@ class alignas(128) SubdomainThread {
   std::optional<Obstacle> earlier_around(const Vec3d& r, Block centre, Block block,
                                          TimeKey key) const;
   void sort_reports();
-  static double speed_of(const Record& record) {
-    const Vec3d& v = record.flight.v;
-    return std::sqrt(dot(v, v));
-  }
   // A needle of the event that is attempted, and the cell of the log to which it belongs.
   struct Taken {
     LoggedEvent event;
@@ -141,7 +136,6 @@ class alignas(128) SubdomainThread {
   static constexpr std::size_t most_deferred = 12;
 
   Phase<S>& phase_;
-  const M& model_;
   const std::uint32_t subdomain_;
   Tally tally_;
   SubdomainChanges changes_;
@@ -327,7 +321,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const auto check = [&](Needle i, const Taken& taken) {
     assert(is_near(block, phase_.calendar.block_of(i)) &&
            is_near(block, static_cast<Block>(taken.cell)));
-    const double speed = speed_of(phase_.run.gas.records[i]);
+    const double speed = phase_.run.gas.fastest_of(phase_.run.gas.records[i]);
     if (may_have_met(taken.event, speed, seen, inner)) phase_.must_roll_back = true;
   };
   check(event.owner, owner);
@@ -445,11 +439,10 @@ auto SubdomainThread<S, M>::earlier_around(const Vec3d& r, Block centre, Block b
 template <Search S, Model M>
 auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) const -> Taken {
   const Record& record = phase_.run.gas.records[i];
-  const double elapsed = phase_.run.gas.clock.difference(event.time, record.time);
-  const Vec3d r = model_.centre(record, elapsed);
+  const Vec3d r = phase_.run.gas.motion_from(record, event.time).centre();
   const std::size_t cell = phase_.causality_log.cell_of(r);
   phase_.causality_log.prefetch(cell);
-  return {{key, r, speed_of(record), !event.has_partner(), event.time}, cell};
+  return {{key, r, phase_.run.gas.fastest_of(record), !event.has_partner(), event.time}, cell};
 }
 
 // The box of cells around the cell of a needle at r and the cells in which it may be placed.

@@ -13,7 +13,7 @@
 namespace needlework {
 
 /// Velocity, director and angular velocity of a needle.
-struct Motion {
+struct Heading {
   Vec3d v, u, w;
 };
 
@@ -32,33 +32,35 @@ enum class Collisionless {
 const char* words_for(Collisionless reason);
 
 /// Whether the motion stays in a plane normal to this axis.
-inline bool stays_normal_to(int axis, const Motion& motion) {
+inline bool stays_normal_to(int axis, const Heading& heading) {
   const auto along = [&](const Vec3d& a) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; };
-  Vec3d across = motion.w;
+  Vec3d across = heading.w;
   (axis == 0 ? across.x : axis == 1 ? across.y : across.z) = 0;
-  return along(motion.u) == 0 && along(motion.v) == 0 && across == Vec3d{};
+  return along(heading.u) == 0 && along(heading.v) == 0 && across == Vec3d{};
 }
 
-/// Nothing if needles may collide, for all that motion(i) of each of `count` needles shows. That is
-/// known after a few needles if their motions have nothing in common.
-template <class MotionOf>
-std::optional<Collisionless> collisionless(std::size_t count, MotionOf&& motion) {
+/// Nothing if needles may collide, for all that heading(i) of each of `count` needles shows. That
+/// is known after a few needles if their motions have nothing in common.
+template <class HeadingOf>
+std::optional<Collisionless> collisionless(std::size_t count, HeadingOf&& heading) {
   using enum Collisionless;
   if (count < 2) return count == 0 ? no_needles : one_needle;
   const auto all = [&](const auto& holds) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (!holds(motion(i))) return false;
+      if (!holds(heading(i))) return false;
     }
     return true;
   };
-  const Motion first = motion(0);
-  if (all([&](const Motion& a) { return a.w == Vec3d{} && a.v == first.v; })) return alike;
-  if (all([&](const Motion& a) { return a.w == Vec3d{} && (a.u == first.u || a.u == -first.u); })) {
+  const Heading first = heading(0);
+  if (all([&](const Heading& a) { return a.w == Vec3d{} && a.v == first.v; })) return alike;
+  if (all([&](const Heading& a) {
+        return a.w == Vec3d{} && (a.u == first.u || a.u == -first.u);
+      })) {
     return parallel;
   }
-  if (all([](const Motion& a) { return stays_normal_to(0, a); })) return normal_to_x;
-  if (all([](const Motion& a) { return stays_normal_to(1, a); })) return normal_to_y;
-  if (all([](const Motion& a) { return stays_normal_to(2, a); })) return normal_to_z;
+  if (all([](const Heading& a) { return stays_normal_to(0, a); })) return normal_to_x;
+  if (all([](const Heading& a) { return stays_normal_to(1, a); })) return normal_to_y;
+  if (all([](const Heading& a) { return stays_normal_to(2, a); })) return normal_to_z;
   return std::nullopt;
 }
 

@@ -81,18 +81,6 @@ void Gas::add_touch(Needle i, const RecordedTouch& touch) {
   ++record.touch_count;
 }
 
-Time renewal_time(const Clock& clock, const Record& record, double length) {
-  const Vec3d& v = record.flight.v;
-  // Lengths per time are scaled by powers of two, so that scaling lengths or velocities by one is
-  // exact.
-  const double per_length = times_power_of_two(1.0, -exponent_of(length));
-  const double speed = std::max(
-      std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) * per_length, record.flight.omega);
-  if (speed == 0) return Time::never();
-  // A power of two near 2^10 / speed.
-  return clock.add(record.time, times_power_of_two(1.0, 10 - exponent_of(speed)));
-}
-
 Wrapped wrap(double x, double box) {
   double boxes = std::floor(x / box);
   const auto place = [&] { return to_double(DoubleDouble(x) - two_prod(boxes, box)); };
@@ -120,8 +108,7 @@ std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
 
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
   Record& record = gas.records[i];
-  const double elapsed = gas.clock.difference(now, record.time);
-  const Vec3d centre = centre_after(record.flight, elapsed);
+  const Vec3d centre = gas.motion_from(record, now).centre();
   double r[3] = {centre.x, centre.y, centre.z};
   Shift wraps{}, image = gas.images[i];
   for (int axis = 0; axis < 3; ++axis) {

@@ -11,6 +11,7 @@
 #include "src/physics/clock.h"
 #include "src/physics/columns.h"
 #include "src/physics/ids.h"
+#include "src/physics/motion.h"
 #include "src/physics/record.h"
 #include "src/physics/species.h"
 
@@ -36,6 +37,16 @@ struct Gas {
 
   void set_composition(Composition its_composition);
   const Species& species_of(const Record& record) const { return composition[record.species]; }
+  /// How a needle moves from its record on.
+  static FreeFlight motion(const Record& record) { return FreeFlight(record.flight); }
+  /// The same from `now` on.
+  MotionFrom<FreeFlight> motion_from(const Record& record, Time now) const {
+    return {motion(record), clock.difference(now, record.time)};
+  }
+  /// The centre moves no faster until the record is replaced. [L / time]
+  double fastest_of(const Record& record) const {
+    return motion(record).fastest(0, clock.difference(record.renewal, record.time));
+  }
   /// Makes room for so many needles, in columns too.
   void resize(std::size_t needles) {
     records.resize(needles);
@@ -60,8 +71,10 @@ struct Gas {
 kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
                         const Record& record_b, const Shift& shift);
 
-/// Time at which a record is renewed: after about 2^10 needle lengths or radians of flight.
-Time renewal_time(const Clock& clock, const Record& record, double length);
+/// Time at which a record of a needle of this length [L] is renewed, to keep its precision.
+inline Time renewal_time(const Clock& clock, const Record& record, double length) {
+  return clock.add(record.time, Gas::motion(record).lasts(length));
+}
 
 /// A coordinate in [0, box), and the number of boxes subtracted, a whole number.
 struct Wrapped {
@@ -76,7 +89,7 @@ inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);
 /// InvalidStateError beyond `most_boxes`.
 std::int32_t add_boxes(std::int32_t image, double boxes, Id id);
 
-/// The start of a new record. Its position follows from the free flight of the old one.
+/// The start of a new record. Its position follows from the motion of the old one.
 struct NewFlight {
   Vec3d director;
   Vec3d velocity;
@@ -84,7 +97,7 @@ struct NewFlight {
   double length = 1;  ///< of the needle [L]
 };
 
-/// Replaces the record of needle i at `now`: the centre moves to where its free flight has led and
+/// Replaces the record of needle i at `now`: the centre moves to where its motion has led and
 /// is wrapped into the box, the director is normalised, w is made normal to it, and touches are
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().

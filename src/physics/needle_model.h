@@ -16,7 +16,7 @@ class NeedleModel {
 
   /// `gas` must outlive the model. Without effects, `effects` must have none.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
-      : gas_(gas), effects_(effects), accuracy_(accuracy) {}
+      : gas_(gas), effects_(effects), contact_(accuracy) {}
 
   Effects effects() const {
     if constexpr (has_effects) return effects_;
@@ -27,11 +27,9 @@ class NeedleModel {
     if constexpr (has_effects) return gas_.composition.restitution(a.species, b.species);
     return gas_.composition.rules().front();
   }
-  const Accuracy& accuracy() const { return accuracy_; }
+  const Accuracy& accuracy() const { return contact_.accuracy(); }
 
-  Vec3d centre(const Record& record, double elapsed) const {
-    return centre_after(record.flight, elapsed);
-  }
+  FreeFlight motion(const Record& record) const { return Gas::motion(record); }
   /// Half the length of needle i. [L]
   double half_length(Needle i) const {
     if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
@@ -50,18 +48,7 @@ class NeedleModel {
     }
     return out;
   }
-  kernels::Contact first_contact(const kernels::Pair& pair, double from, double to,
-                                 kernels::EvaluationCounters& spent) const {
-    return kernels::first_contact(pair, from, to, spent, accuracy_);
-  }
-  double gap(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
-    return gap_at(pair, elapsed);
-  }
-  double time_apart(const kernels::Pair& pair) const { return kernels::time_apart(pair); }
-  int side_after(const kernels::Pair& pair) const { return kernels::side_after(pair); }
-  kernels::ContactGeometry geometry(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
-    return contact_geometry(pair, elapsed);
-  }
+  const NeedleContact& contact() const { return contact_; }
   Impact collide(const Record& a, const Record& b, const kernels::ContactGeometry& contact,
                  int side, bool elastic) const {
     const Meeting both{a.flight, b.flight, body(a), body(b), contact, side};
@@ -78,8 +65,8 @@ class NeedleModel {
   }
   Shift renew_in_flight(Needle i, Time now) const {
     const Record& record = gas_.records[i];
-    const double elapsed = gas_.clock.difference(now, record.time);
-    return renew(i, now, director_after(record.flight, elapsed), record.flight.v, record.flight.w);
+    const auto present = gas_.motion_from(record, now);
+    return renew(i, now, present.director(), present.velocity(), present.angular_velocity());
   }
 
  private:
@@ -90,7 +77,7 @@ class NeedleModel {
 
   Gas& gas_;
   Effects effects_;
-  Accuracy accuracy_;
+  NeedleContact contact_;
 };
 
 static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>>);

@@ -47,6 +47,12 @@ Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
   return {a[0], a[1], a[2]};
 }
 
+double half_length_of(const FreeNeedle& needle) {
+  if (needle.length >= 1 / farthest && needle.length <= farthest) return 0.5 * needle.length;
+  throw InputError(fmt::format("length = {:g}: expected a number from {:g} to {:g}", needle.length,
+                               1 / farthest, farthest));
+}
+
 kernels::Flight flight_of(const FreeNeedle& needle) {
   kernels::Flight out;
   out.r = read(needle.position, "position", farthest);
@@ -125,6 +131,8 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
   kernels::Pair pair;
   pair.first = &a;
   pair.second = &b;
+  pair.half_first = half_length_of(first);
+  pair.half_second = half_length_of(second);
   kernels::EvaluationCounters counters{.most_work = static_cast<std::uint64_t>(most_work)};
   if (just_collided) {
     const int side = kernels::side_after(pair);

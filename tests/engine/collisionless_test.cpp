@@ -8,6 +8,7 @@
 #include <string>
 
 #include "needlework/simulation.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "tests/support/runs.h"
 
@@ -111,7 +112,7 @@ struct Passing {
   Passing()
       : run(scene, make_gas(scene, passing())),
         loop(make_loop(run, {.search = "linked-cells", .calendar = "tournament"})) {
-    run.long_quiet = 64;
+    run.windows.long_quiet = 64;
   }
   static State passing() {
     State state;
@@ -135,7 +136,8 @@ TEST(Collisionless, LongQuietIsAnEndUnlessThereIsALimitOnTime) {
   EXPECT_EQ(passing.loop->advance(Limits(passing.run, until_collisions(1))),
             Stop::nothing_can_happen);
   // For two needles it takes 16 times as long.
-  const double window = passing.run.window_end.epoch > 0 ? passing.run.mean_free_time : 0;
+  const double window =
+      passing.run.windows.end().epoch > 0 ? passing.run.windows.mean_free_time() : 0;
   const double quiet = passing.run.gas.clock.since_start(passing.run.now);
   EXPECT_GE(quiet, 16 * 64 * window / 2);
   EXPECT_LE(quiet, 16 * 64 * window * 2);
@@ -151,9 +153,9 @@ TEST(Collisionless, CollisionsKeepAGasAlive) {
   const Scene scene = test::scene_of(2, 30);
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
-  run.long_quiet = 4;  // 64 windows of two needles, and thousands until the end
+  run.windows.long_quiet = 4;  // 64 windows of two needles, and thousands until the end
   EXPECT_EQ(loop->advance(Limits(run, until_collisions(300))), Stop::collisions);
-  EXPECT_GT(run.gas.clock.since_start(run.now), 200 * run.mean_free_time);
+  EXPECT_GT(run.gas.clock.since_start(run.now), 200 * run.windows.mean_free_time());
 }
 
 }  // namespace

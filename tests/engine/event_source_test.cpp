@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/engine/make_loop.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/run.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
@@ -86,7 +87,7 @@ Outcome outcome_of(const Scene& scene, std::uint32_t most, const Make& make,
   const HalfTurns& source = *owned;
   run.add_source(std::move(owned));
   Outcome out;
-  run.happening_callback = [&](const Happening& h) { out.happenings.push_back(h); };
+  run.listeners.happening = [&](const Happening& h) { out.happenings.push_back(h); };
   const auto loop = make(run);
   EXPECT_EQ(loop->advance(Limits(run, until)), until.time ? Stop::time : Stop::collisions);
   out.hash = run.tally.hash.hex();

@@ -32,7 +32,7 @@ constexpr int thin = 1;
 constexpr int thin = 50;  // unoptimised builds run the same test on fewer pairs
 #endif
 constexpr std::size_t thermal_count = 100000 / thin, hard_count = 10000 / thin;
-constexpr std::size_t symmetry_count = 2000 / thin;
+constexpr std::size_t symmetry_count = 2000 / thin, unequal_count = 2000 / thin;
 constexpr int most_complaints = 3;
 
 FirstContact engine(const NeedlePair& pair) {
@@ -72,12 +72,13 @@ struct Report {
     evaluations += static_cast<double>(found.evaluations);
     escalations += static_cast<double>(found.escalations);
     const bool contact = std::isfinite(found.time);
-    const bool well_formed =
-        contact ? (found.time > 0 || (pair.just_collided && found.time == 0)) &&
-                      found.time <= pair.horizon && std::abs(found.arm_first) <= 0.5 &&
-                      std::abs(found.arm_second) <= 0.5
-                : found.time == std::numeric_limits<double>::infinity() &&
-                      std::isnan(found.arm_first) && std::isnan(found.arm_second);
+    const bool well_formed = contact
+                                 ? (found.time > 0 || (pair.just_collided && found.time == 0)) &&
+                                       found.time <= pair.horizon &&
+                                       std::abs(found.arm_first) <= 0.5 * pair.first.length &&
+                                       std::abs(found.arm_second) <= 0.5 * pair.second.length
+                                 : found.time == std::numeric_limits<double>::infinity() &&
+                                       std::isnan(found.arm_first) && std::isnan(found.arm_second);
     if (!well_formed) {
       ++undefined;
       complain(id, pair, found, truth, "not an answer");
@@ -112,7 +113,8 @@ struct Report {
     }
     const double arm = std::max(std::abs(found.arm_first - truth.arm_first),
                                 std::abs(found.arm_second - truth.arm_second));
-    const double arm_allowed = std::max(1e-9, 4 * truth.arm_limit);
+    const double length = std::max(pair.first.length, pair.second.length);
+    const double arm_allowed = std::max(1e-9 * length, 4 * truth.arm_limit);
     worst_arm = std::max(worst_arm, arm);
     worst_arm_over_limit = std::max(worst_arm_over_limit, arm / arm_allowed);
     if (!(arm <= arm_allowed)) {
@@ -160,6 +162,20 @@ TEST_P(PredictOracle, AgreesOnEveryPair) {
   // In few pairs should the roundings of the records themselves decide. A family that the
   // arithmetic cannot handle would show here.
   EXPECT_LE(static_cast<double>(report.near_differs), 2 + 0.05 * static_cast<double>(report.near));
+}
+
+// Unequal needles: by a ratio that is a power of two and by odd ones, up to 20, either one longer.
+TEST_P(PredictOracle, AgreesOnUnequalNeedles) {
+  const PairFamily& family = GetParam();
+  Report report;
+  std::uint64_t number = 10;
+  for (const Lengths& lengths :
+       {Lengths{1, 4}, Lengths{1.7, 0.6}, Lengths{20, 1}, Lengths{0.05, 1}}) {
+    for (const NeedlePair& pair : draw_pairs(family.name, unequal_count, seed + number++, lengths))
+      report.check(report.pairs, pair);
+  }
+  report.print(family.name);
+  report.expect_clean();
 }
 
 TEST_P(PredictOracle, AgreesBackwardsInTime) {

@@ -21,6 +21,7 @@ void check(const FreeNeedle& needle) {
   }
   const auto& u = needle.orientation;
   require(u[0] != 0 || u[1] != 0 || u[2] != 0, "a director that is 0");
+  require(needle.length > 0 && std::isfinite(needle.length), "a length that is not above 0");
 }
 
 struct Result {

@@ -11,7 +11,8 @@ namespace needlework::test {
 /// How the answer was found.
 enum class Outcome {
   contact,
-  spheres_apart,   ///< |r12| stays above 1, or the interval in which it does not is empty
+  spheres_apart,   ///< |r12| stays above the mean length, or the interval in which it does not is
+                   ///< empty
   no_sign_change,  ///< f keeps its sign
   arms_outside,    ///< f changes sign, but never with both contact points on the needles
   parallel,        ///< all changes of sign come from directors that become parallel
@@ -67,7 +68,7 @@ struct OracleAnswer {
                      ///< known_root variants
 
   /// Distance to the opposite decision in units of the inputs' noise, at most margin_cap. It is
-  /// the least over all that could reverse the decision: a tip (| |s| - 1/2 | over the arm's own
+  /// the least over all that could reverse the decision: a tip (| |s| - half | over the arm's own
   /// noise), two close roots or a near miss (|f| at the extremum over noise_in), an end of the
   /// interval, the side after a collision, f(0) being the start or the root. Below about 8,
   /// rounding the inputs may reverse it.

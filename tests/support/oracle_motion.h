@@ -11,17 +11,25 @@
 
 namespace needlework::test {
 
-/// Both needles with time measured in units of 2^-exponent, so that the larger of |v12| and
-/// |w1| + |w2| lies in [1/2, 1), unless both are 0.
+/// Both needles with lengths measured in units of their mean length, so that |r12| <= 1 at a
+/// contact, and time in units of 2^-exponent, so that the larger of |v12| and |w1| + |w2| lies in
+/// [1/2, 1), unless both are 0.
 template <class Real>
 struct Motion {
   Vec<Real> separation, velocity;           ///< r1 - r2 and v1 - v2
   std::array<Vec<Real>, 2> director, side;  ///< u(t) = director cos + side sin
   std::array<Real, 2> spin;                 ///< |w|
+  std::array<Real, 2> half;                 ///< half lengths; their sum is 1
   int exponent = 0;
 
   Real total_spin() const { return spin[0] + spin[1]; }
 };
+
+/// The mean length of both needles.
+template <class Real>
+Real unit_of_length(const FreeNeedle& first, const FreeNeedle& second) {
+  return (Real(first.length) + Real(second.length)) / 2;
+}
 
 template <class Real>
 Motion<Real> make_motion(const FreeNeedle& first, const FreeNeedle& second) {
@@ -31,6 +39,10 @@ Motion<Real> make_motion(const FreeNeedle& first, const FreeNeedle& second) {
   Motion<Real> motion;
   motion.separation = convert<Real>(first.position) - convert<Real>(second.position);
   motion.velocity = convert<Real>(first.velocity) - convert<Real>(second.velocity);
+  const Real unit = unit_of_length<Real>(first, second);
+  for (Real& r : motion.separation) r /= unit;
+  for (Real& v : motion.velocity) v /= unit;
+  motion.half = {Real(first.length) / (2 * unit), Real(second.length) / (2 * unit)};
   const std::array<const FreeNeedle*, 2> needles = {&first, &second};
   for (int i = 0; i < 2; ++i) {
     const Vec<Real> given = convert<Real>(needles[i]->orientation);
@@ -58,6 +70,7 @@ Motion<To> convert_motion(const Motion<From>& from) {
     to.director[i] = convert<To>(from.director[i]);
     to.side[i] = convert<To>(from.side[i]);
     to.spin[i] = static_cast<To>(from.spin[i]);
+    to.half[i] = static_cast<To>(from.half[i]);
   }
   to.exponent = from.exponent;
   return to;

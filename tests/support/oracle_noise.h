@@ -25,7 +25,8 @@ struct Noise {
   double shift_inputs = 0, shift_evaluation = 0;  ///< of the time of the root
   std::array<double, 2> arms_inputs, arms_evaluation;
   std::array<double, 2> arms;
-  /// |u_j x r12| - |x| / 2 in units of its noise: positive means that the contact point lies off
+  std::array<double, 2> half;  ///< half lengths
+  /// |u_j x r12| - |x| half in units of its noise: positive means that the contact point lies off
   /// the needle. Unlike the arm it keeps its meaning where the directors become parallel.
   std::array<double, 2> moments_outside;
 };
@@ -45,6 +46,7 @@ inline Noise noise_at(const Motion<double>& motion, const Geometry<double>& g, d
   }
   const double sine = std::sqrt(g.xx);
   Noise noise;
+  noise.half = motion.half;
   noise.inputs = dr * sine + turned + residual;
   noise.evaluation = noise.inputs + 2 * u * (distance + speed * t);
   // Where f' vanishes, f'' limits how far a root can move.
@@ -63,7 +65,7 @@ inline Noise noise_at(const Motion<double>& motion, const Geometry<double>& g, d
     const double moment = norm(cross(g.u[1 - i], g.separation));
     const double moment_noise =
         dr + 2 * (du[0] + du[1]) + (speed + 2 * motion.total_spin()) * (noise.shift_inputs + reach);
-    noise.moments_outside[i] = (moment - sine / 2) / moment_noise;
+    noise.moments_outside[i] = (moment - motion.half[i] * sine) / moment_noise;
   }
   return noise;
 }
@@ -84,7 +86,7 @@ class Conditions {
 
   void add_arms(const Noise& noise) {
     for (int i = 0; i < 2; ++i) {
-      const double inside = 0.5 - std::abs(noise.arms[i]);
+      const double inside = noise.half[i] - std::abs(noise.arms[i]);
       // At parallel directors the arm is 0/0 and says nothing.
       const double margin = std::isnan(inside) ? 0 : over(inside, noise.arms_inputs[i]);
       add(inside > 0, inside > 0 ? margin : std::max(margin, noise.moments_outside[i]));

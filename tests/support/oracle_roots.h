@@ -40,8 +40,8 @@ typename OracleSearch<Real>::Bracket OracleSearch<Real>::narrow(const Real& begi
   return bracket;
 }
 
-/// Proof in double that one of |s12|, |s21| exceeds 0.501 all over the bracket: |r12| < 1 gives
-/// |d(s x.x)/dt| <= |v12| + 2W and |d(x.x)/dt| <= 2W.
+/// Proof in double that one of |s12|, |s21| exceeds its half length by 0.001 all over the bracket:
+/// |r12| < 1 gives |d(s x.x)/dt| <= |v12| + 2W and |d(x.x)/dt| <= 2W.
 template <class Real>
 bool OracleSearch<Real>::arms_clearly_outside(const Bracket& bracket) const {
   const double middle = (bracket.low + bracket.high) / 2, half = (bracket.high - bracket.low) / 2;
@@ -49,9 +49,11 @@ bool OracleSearch<Real>::arms_clearly_outside(const Bracket& bracket) const {
   const double spin = coarse_motion_.total_spin(), speed = norm(coarse_motion_.velocity);
   const double noise = 128 * unit_roundoff<double>() * (1 + spin * std::abs(middle)) *
                        (1 + norm(coarse_motion_.separation) + speed * std::abs(middle));
-  const double most = 0.501 * (g.xx + 2 * spin * half + noise);
+  const auto most = [&](int i) {
+    return (coarse_motion_.half[i] + 0.001) * (g.xx + 2 * spin * half + noise);
+  };
   const double lost = 1.001 * (speed + 2 * spin) * half + noise;
-  return std::abs(g.numerator[0]) - lost > most || std::abs(g.numerator[1]) - lost > most;
+  return std::abs(g.numerator[0]) - lost > most(0) || std::abs(g.numerator[1]) - lost > most(1);
 }
 
 template <class Real>
@@ -94,7 +96,8 @@ Noise OracleSearch<Real>::noise(const Geometry<Real>& g, const Real& t, double f
 }
 
 /// True when x = u1 x u2 may vanish within `radius` of the root, so that the root may be one of x
-/// and not a contact. A contact needs the part of r12 normal to a director to be below |x| / 2.
+/// and not a contact. A contact needs the part of r12 normal to a director to be below |x| times a
+/// half length.
 template <class Real>
 bool OracleSearch<Real>::judge_parallel(const Geometry<Real>& g, const Real& radius) {
   using std::sqrt;
@@ -147,7 +150,7 @@ void OracleSearch<Real>::judge_root(const Real& t) {
     const Real arm = g.numerator[i] / g.xx;
     const Real wrong =
         64 * unit_roundoff<Real>() * (1 + abs(arm)) / sqrt(g.xx) + abs(g.arm_rate[i]) * radius;
-    const Real margin = Real(1) / 2 - abs(arm);
+    const Real margin = motion_.half[i] - abs(arm);
     if (abs(margin) <= wrong) open_question();
     inside = inside && margin > wrong;
   }
@@ -160,12 +163,13 @@ void OracleSearch<Real>::judge_root(const Real& t) {
   answer_.outcome = Outcome::contact;
   answer_.time = static_cast<double>(exact);
   answer_.time_low = static_cast<double>(Real(exact - Real(answer_.time)));
-  answer_.arm_first = static_cast<double>(Real(g.numerator[0] / g.xx));
-  answer_.arm_second = static_cast<double>(Real(g.numerator[1] / g.xx));
+  answer_.arm_first = static_cast<double>(Real(unit_ * g.numerator[0] / g.xx));
+  answer_.arm_second = static_cast<double>(Real(unit_ * g.numerator[1] / g.xx));
   answer_.time_limit = over(here.evaluation, f1 * time);
   answer_.input_limit = over(here.inputs, f1 * time);
   answer_.root_depth = over(over(f1 * f1, 2 * f2), here.evaluation);
-  answer_.arm_limit = std::max(here.arms_evaluation[0], here.arms_evaluation[1]);
+  answer_.arm_limit =
+      static_cast<double>(unit_) * std::max(here.arms_evaluation[0], here.arms_evaluation[1]);
 }
 
 }  // namespace needlework::test

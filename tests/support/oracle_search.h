@@ -18,6 +18,7 @@ class OracleSearch {
   OracleSearch(const FreeNeedle& first, const FreeNeedle& second, double horizon,
                bool just_collided, KnownRoot known_root)
       : motion_(make_motion<Real>(first, second)),
+        unit_(unit_of_length<Real>(first, second)),
         coarse_motion_(convert_motion<double>(motion_)),
         curve_(make_curve(motion_)),
         just_collided_(just_collided),
@@ -73,6 +74,7 @@ class OracleSearch {
   }
 
   Motion<Real> motion_;
+  Real unit_;  ///< of length
   Motion<double> coarse_motion_;
   Curve<Real> curve_;
   Curve<double> coarse_;

@@ -11,7 +11,11 @@ namespace {
 
 constexpr double rod_spin = 3.4641016151377544;  // sqrt(2k), k = 6: thermal at T = 1
 
-double any_arm(Random& random) { return random.uniform(-0.5, 0.5); }
+/// Where on each needle the contact is.
+std::array<double, 2> any_arms(Random& random, const Lengths& lengths) {
+  const double first = lengths[0] * random.uniform(-0.5, 0.5);
+  return {first, lengths[1] * random.uniform(-0.5, 0.5)};
+}
 
 /// A time for the built contact, and a horizon that sometimes ends before it.
 NeedlePair before(const PairState& state, Random& random, double longest) {
@@ -19,7 +23,7 @@ NeedlePair before(const PairState& state, Random& random, double longest) {
   return before_contact(state, time, time * random.uniform(0.9, 3));
 }
 
-NeedlePair thermal(Random& random, double k) {
+NeedlePair thermal(Random& random, const Lengths& lengths, double k) {
   const Vec<double> entry = random.direction();
   // Flux through the sphere: the normal component is Rayleigh distributed.
   const Vec<double> free = random.normal_vector(std::sqrt(2.0));
@@ -27,10 +31,11 @@ NeedlePair thermal(Random& random, double k) {
   const Vec<double> velocity = free - (dot(free, entry) + inwards) * entry;
   const Vec<double> centre = random.normal_vector(std::sqrt(0.5));
   const double delay = random.uniform(0, 0.3);
-  const double crossing = -2 * dot(entry, velocity) / dot(velocity, velocity);
+  const double reach = 0.5 * (lengths[0] + lengths[1]);  // of the bounding spheres
+  const double crossing = -2 * reach * dot(entry, velocity) / dot(velocity, velocity);
   const Vec<double> place = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
   NeedlePair pair;
-  pair.first.position = place + (entry - delay * velocity);
+  pair.first.position = place + (reach * entry - delay * velocity);
   pair.second.position = place;
   pair.first.velocity = centre + 0.5 * velocity;
   pair.second.velocity = centre - 0.5 * velocity;
@@ -44,44 +49,55 @@ NeedlePair thermal(Random& random, double k) {
   return pair;
 }
 
-NeedlePair draw_rods(Random& random) { return thermal(random, 6); }
-NeedlePair draw_dumbbells(Random& random) { return thermal(random, 2); }
+NeedlePair draw_rods(Random& random, const Lengths& lengths) { return thermal(random, lengths, 6); }
+NeedlePair draw_dumbbells(Random& random, const Lengths& lengths) {
+  return thermal(random, lengths, 2);
+}
 
-NeedlePair parallel(Random& random, double least, double most) {
+NeedlePair parallel(Random& random, const Lengths& lengths, double least, double most) {
   // Slow rotation keeps the pair nearly parallel all the time, fast one leads through it.
   const double spin = random.coin() ? rod_spin : random.log_uniform(1e-4, 1);
   const PairState state = draw_contact(random, {.angle_sine = random.log_uniform(least, most),
-                                                .arms = {any_arm(random), any_arm(random)},
+                                                .arms = any_arms(random, lengths),
                                                 .spin = {spin, spin}});
   return before(state, random, 1);
 }
 
-NeedlePair draw_parallel(Random& random) { return parallel(random, 1e-7, 1e-1); }
-NeedlePair draw_parallel_to_rounding(Random& random) { return parallel(random, 1e-16, 1e-7); }
+NeedlePair draw_parallel(Random& random, const Lengths& lengths) {
+  return parallel(random, lengths, 1e-7, 1e-1);
+}
+NeedlePair draw_parallel_to_rounding(Random& random, const Lengths& lengths) {
+  return parallel(random, lengths, 1e-16, 1e-7);
+}
 
-NeedlePair tip(Random& random, double least, double most) {
+NeedlePair tip(Random& random, const Lengths& lengths, double least, double most) {
   const double offset = random.log_uniform(least, most);
   const bool outside = random.coin();
   const double tip = (random.coin() ? 1 : -1) * (outside ? 0.5 + offset : 0.5 - offset);
-  const double other = any_arm(random);
+  const double other = random.uniform(-0.5, 0.5);
   const bool first = random.coin();
-  const PairState state = draw_contact(
-      random, {.arms = {first ? tip : other, first ? other : tip}, .spin = {rod_spin, rod_spin}});
+  const std::array<double, 2> arms = {lengths[0] * (first ? tip : other),
+                                      lengths[1] * (first ? other : tip)};
+  const PairState state = draw_contact(random, {.arms = arms, .spin = {rod_spin, rod_spin}});
   NeedlePair pair = before(state, random, 1);
   if (outside) pair.contact_time.reset();
   return pair;
 }
-NeedlePair draw_tip(Random& random) { return tip(random, 1e-13, 1e-3); }
-NeedlePair draw_tip_to_rounding(Random& random) { return tip(random, 1e-16, 1e-13); }
+NeedlePair draw_tip(Random& random, const Lengths& lengths) {
+  return tip(random, lengths, 1e-13, 1e-3);
+}
+NeedlePair draw_tip_to_rounding(Random& random, const Lengths& lengths) {
+  return tip(random, lengths, 1e-16, 1e-13);
+}
 
-NeedlePair draw_tip_to_tip(Random& random) {
-  std::array<double, 2> arms;
+NeedlePair draw_tip_to_tip(Random& random, const Lengths& lengths) {
+  std::array<double, 2> arms = lengths;
   bool inside = true;
   for (double& arm : arms) {
     const double offset = random.log_uniform(1e-13, 1e-2);
     const bool out = random.below(4) == 0;
     inside &= !out;
-    arm = (random.coin() ? 1 : -1) * (out ? 0.5 + offset : 0.5 - offset);
+    arm *= (random.coin() ? 1 : -1) * (out ? 0.5 + offset : 0.5 - offset);
   }
   const PairState state = draw_contact(random, {.arms = arms, .spin = {rod_spin, rod_spin}});
   NeedlePair pair = before(state, random, 1);
@@ -89,9 +105,9 @@ NeedlePair draw_tip_to_tip(Random& random) {
   return pair;
 }
 
-NeedlePair grazing(Random& random, double low, double high) {
-  PairState state = draw_contact(
-      random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
+NeedlePair grazing(Random& random, const Lengths& lengths, double low, double high) {
+  PairState state =
+      draw_contact(random, {.arms = any_arms(random, lengths), .spin = {rod_spin, rod_spin}});
   const Real sine = norm(cross(state.first.orientation, state.second.orientation));
   const double apart = random.log_uniform(low, high);
   const bool miss = random.coin();
@@ -109,12 +125,16 @@ NeedlePair grazing(Random& random, double low, double high) {
   return pair;
 }
 
-NeedlePair draw_grazing(Random& random) { return grazing(random, 1e-10, 1e-2); }
-NeedlePair draw_grazing_to_rounding(Random& random) { return grazing(random, 1e-12, 1e-10); }
+NeedlePair draw_grazing(Random& random, const Lengths& lengths) {
+  return grazing(random, lengths, 1e-10, 1e-2);
+}
+NeedlePair draw_grazing_to_rounding(Random& random, const Lengths& lengths) {
+  return grazing(random, lengths, 1e-12, 1e-10);
+}
 
-NeedlePair just_collided(Random& random, double soonest, double latest) {
-  PairState state = draw_contact(
-      random, {.arms = {any_arm(random), any_arm(random)}, .spin = {rod_spin, rod_spin}});
+NeedlePair just_collided(Random& random, const Lengths& lengths, double soonest, double latest) {
+  PairState state =
+      draw_contact(random, {.arms = any_arms(random, lengths), .spin = {rod_spin, rod_spin}});
   const bool comes_back = random.below(4) > 0;
   const double after = random.log_uniform(soonest, latest);
   if (comes_back) {
@@ -133,31 +153,36 @@ NeedlePair just_collided(Random& random, double soonest, double latest) {
   if (comes_back) pair.contact_time = after;
   return pair;
 }
-NeedlePair draw_just_collided(Random& random) { return just_collided(random, 1e-6, 1); }
-NeedlePair draw_back_to_rounding(Random& random) { return just_collided(random, 1e-12, 1e-6); }
+NeedlePair draw_just_collided(Random& random, const Lengths& lengths) {
+  return just_collided(random, lengths, 1e-6, 1);
+}
+NeedlePair draw_back_to_rounding(Random& random, const Lengths& lengths) {
+  return just_collided(random, lengths, 1e-12, 1e-6);
+}
 
-NeedlePair draw_fast_spin(Random& random) {
+NeedlePair draw_fast_spin(Random& random, const Lengths& lengths) {
   const double fast = random.log_uniform(1, 1e4);
   const double other = random.coin() ? fast : random.log_uniform(1, 1e4);
   const PairState state =
-      draw_contact(random, {.arms = {any_arm(random), any_arm(random)}, .spin = {fast, other}});
+      draw_contact(random, {.arms = any_arms(random, lengths), .spin = {fast, other}});
   // |w| t stays below about 1e3 up to the horizon.
   return before(state, random, std::min(1.0, 100 / std::max(fast, other)));
 }
 
-NeedlePair draw_still(Random& random) {
+NeedlePair draw_still(Random& random, const Lengths& lengths) {
   const int which = random.below(3);
   const double reach = random.uniform(0.3, 0.6);
-  const std::array<double, 2> arms = {reach * random.uniform(-1, 1), reach * random.uniform(-1, 1)};
+  const double first = reach * random.uniform(-1, 1), second = reach * random.uniform(-1, 1);
+  const std::array<double, 2> arms = {lengths[0] * first, lengths[1] * second};
   const PairState state = draw_contact(
       random, {.arms = arms, .spin = {which == 0 ? rod_spin : 0, which == 1 ? rod_spin : 0}});
   NeedlePair pair = before(state, random, 1);
-  if (std::abs(arms[0]) >= 0.5 || std::abs(arms[1]) >= 0.5) pair.contact_time.reset();
+  if (std::abs(first) >= 0.5 || std::abs(second) >= 0.5) pair.contact_time.reset();
   return pair;
 }
 
-NeedlePair draw_slow(Random& random) {
-  NeedlePair pair = thermal(random, 6);
+NeedlePair draw_slow(Random& random, const Lengths& lengths) {
+  NeedlePair pair = thermal(random, lengths, 6);
   if (random.coin()) return slowed(pair, 600);
   const double factor = random.log_uniform(1e-12, 1e-1);
   for (FreeNeedle* needle : {&pair.first, &pair.second}) {
@@ -168,7 +193,7 @@ NeedlePair draw_slow(Random& random) {
   return pair;
 }
 
-NeedlePair draw_planar(Random& random) {
+NeedlePair draw_planar(Random& random, const Lengths& lengths) {
   PairState state = draw_contact(random, {.spin = {0, 0}});
   // Half of the planes are normal to an axis, where the directors stay in them exactly.
   Vec<Real> e1 = {Real(0), Real(0), Real(0)}, e2 = e1, e3 = e1;
@@ -193,16 +218,17 @@ NeedlePair draw_planar(Random& random) {
   state.second.orientation = director(angle + between);
   state.first.angular_velocity = Real(spin) * e3;
   state.second.angular_velocity = Real(other) * e3;
-  state.first.position = point - Real(any_arm(random)) * state.first.orientation;
-  state.second.position = point - Real(any_arm(random)) * state.second.orientation;
+  const std::array<double, 2> arms = any_arms(random, lengths);
+  state.first.position = point - Real(arms[0]) * state.first.orientation;
+  state.second.position = point - Real(arms[1]) * state.second.orientation;
   return before(state, random, 1);
 }
 
-NeedlePair draw_mixed_scales(Random& random) {
+NeedlePair draw_mixed_scales(Random& random, const Lengths& lengths) {
   const bool fast = random.coin();
   const double spin = fast ? 1e6 : 1e-6;
   const PairState state =
-      draw_contact(random, {.arms = {any_arm(random), any_arm(random)}, .spin = {spin, spin}});
+      draw_contact(random, {.arms = any_arms(random, lengths), .spin = {spin, spin}});
   return before(state, random, fast ? 1e-4 : 1);
 }
 
@@ -244,15 +270,18 @@ const std::vector<PairFamily>& pair_families() {
   return families;
 }
 
-std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed) {
+std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed,
+                                   const Lengths& lengths) {
   for (const PairFamily& candidate : pair_families()) {
     if (candidate.name != family) continue;
     Random random(seed ^ hash(family));
     std::vector<NeedlePair> pairs;
     pairs.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
-      pairs.push_back(candidate.draw(random));
-      pairs.back().family = candidate.name;
+      NeedlePair& pair = pairs.emplace_back(candidate.draw(random, lengths));
+      pair.family = candidate.name;
+      pair.first.length = lengths[0];
+      pair.second.length = lengths[1];
     }
     return pairs;
   }
@@ -286,8 +315,11 @@ NeedlePair slowed(const NeedlePair& pair, int power) {
 }
 
 NeedlePair advanced(const NeedlePair& pair, double time) {
-  NeedlePair other =
-      changed(pair, [&](FreeNeedle& needle) { needle = rounded(flown(read(needle), Real(time))); });
+  NeedlePair other = changed(pair, [&](FreeNeedle& needle) {
+    const double length = needle.length;
+    needle = rounded(flown(read(needle), Real(time)));
+    needle.length = length;
+  });
   other.horizon = pair.horizon - time;
   other.just_collided = false;
   other.contact_time.reset();

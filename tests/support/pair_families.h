@@ -28,13 +28,16 @@ struct NeedlePair {
 /// result: the engine normalises directors in double, and the oracle in many digits.
 inline constexpr double least_margin = 8;
 
+/// Lengths of the first and the second needle.
+using Lengths = std::array<double, 2>;
+
 /// A family of pairs. `made_of_limits`: for most pairs rounding the inputs may reverse the
 /// decision, on purpose.
 struct PairFamily {
   std::string_view name;
   bool thermal;  ///< drawn from equilibrium
   bool made_of_limits;
-  NeedlePair (*draw)(Random&);
+  NeedlePair (*draw)(Random&, const Lengths&);
 
   /// So that a failing test names the family.
   friend void PrintTo(const PairFamily& family, std::ostream* out) { *out << family.name; }
@@ -57,7 +60,8 @@ const std::vector<PairFamily>& pair_families();
 
 /// `count` pairs, which are the same for equal `seed` on every machine. Throws
 /// std::invalid_argument for an unknown name.
-std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed);
+std::vector<NeedlePair> draw_pairs(std::string_view family, std::size_t count, std::uint64_t seed,
+                                   const Lengths& lengths = {1, 1});
 
 /// Swaps the needles. The contact has the same time, arms swapped.
 NeedlePair exchanged(const NeedlePair& pair);

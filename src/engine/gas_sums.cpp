@@ -1,0 +1,112 @@
+#include "src/engine/gas_sums.h"
+
+#include <array>
+#include <utility>
+
+#include "src/engine/exact_sums.h"
+#include "src/physics/mean_free_time.h"
+
+namespace needlework {
+
+std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, int threads) {
+  std::vector<SumsOfSquares> out(gas.composition.size());
+  if (gas.size() == 0) return out;
+  for (std::size_t species = 0; species < out.size(); ++species) {
+    const auto [v2, w2] = exact_sums(gas.records, threads, [&](const Record& a) {
+      if (a.species != species) return std::array{0.0, 0.0};
+      return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
+    });
+    out[species] = {v2, w2};
+  }
+  return out;
+}
+
+std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  std::vector<SpeciesTotals> out;
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const Species& species = gas.composition[index];
+    SpeciesTotals& of = out.emplace_back();
+    of.count = species.count;
+    if (of.count == 0) continue;
+    const double count = static_cast<double>(species.count);
+    of.t_tr = species.mass * sums[index].v2 / (3 * count);
+    of.t_rot =
+        species.mass * (species.length * species.length) * sums[index].w2 / (4 * species.k * count);
+  }
+  return out;
+}
+
+namespace {
+
+// Means over all needles.
+void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
+  if (gas.size() == 0) return;
+  out.t_tr = out.t_rot = 0;
+  for (const SpeciesTotals& of : species_totals(gas, sums)) {
+    const double share = static_cast<double>(of.count) / static_cast<double>(gas.size());
+    out.t_tr += share * of.t_tr;
+    out.t_rot += share * of.t_rot;
+  }
+  out.energy = 1.5 * out.t_tr + out.t_rot;
+}
+
+}  // namespace
+
+double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  Totals totals;
+  set_temperatures(gas, sums, totals);
+  return totals.energy * static_cast<double>(gas.size());
+}
+
+Totals totals_of(const Gas& gas, int threads) {
+  Totals out;
+  if (gas.size() == 0) return out;
+  std::vector<SumsOfSquares> sums;
+  for (std::size_t species = 0; species < gas.composition.size(); ++species) {
+    // All at once: reading the records takes most of the time.
+    const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads, [&](const Record& a) {
+      if (a.species != species) return std::array<double, 5>{};
+      const Vec3d& v = a.flight.v;
+      return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
+    });
+    sums.push_back({v2, w2});
+    const double mass = gas.composition[species].mass;
+    for (const auto& [axis, sum] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)}) {
+      out.momentum[axis] += mass * sum;
+    }
+  }
+  set_temperatures(gas, sums, out);
+  return out;
+}
+
+double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  std::vector<SpeciesTemperatures> temperatures;
+  for (const SpeciesTotals& of : species_totals(gas, sums)) {
+    temperatures.push_back({of.t_tr, of.t_rot});
+  }
+  if (gas.composition.is_mixture()) {
+    return mean_free_time(gas.composition, gas.box[0] * gas.box[1] * gas.box[2], temperatures);
+  }
+  const Species& species = gas.composition[0];
+  return mean_free_time({.density = gas.density(),
+                         .t_tr = temperatures[0].t_tr,
+                         .t_rot = temperatures[0].t_rot,
+                         .length = species.length,
+                         .mass = species.mass,
+                         .k = species.k});
+}
+
+GasNumbers numbers_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, bool moves) {
+  GasNumbers out{.count = static_cast<double>(gas.size()), .species = {}, .moves = moves};
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    const Species& species = gas.composition[index];
+    out.species.push_back({.length = species.length,
+                           .mass = species.mass,
+                           .k = species.k,
+                           .v2 = sums[index].v2,
+                           .w2 = sums[index].w2});
+  }
+  return out;
+}
+
+}  // namespace needlework

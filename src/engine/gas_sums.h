@@ -1,0 +1,31 @@
+// Sums over all needles of a gas, and what follows from them.
+#pragma once
+
+#include <vector>
+
+#include "needlework/totals.h"
+#include "src/physics/gas.h"
+#include "src/scene/derived_numbers.h"
+
+namespace needlework {
+
+/// Sums over all needles of a species, on which its energy depends.
+struct SumsOfSquares {
+  double v2 = 0, w2 = 0;  ///< [L^2 / time^2], [1 / time^2]
+};
+
+/// Of all needles of each species. The threads share the work; see exact_sums.h.
+std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, int threads);
+
+std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// The energy of all needles. [energy]
+double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// Temperatures, energy and momentum; times and counts are left as they are.
+Totals totals_of(const Gas& gas, int threads);
+/// By kinetic theory, for what these sums say of temperatures. [time]
+double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// What tells whether searches can follow needles with these sums of squares; `moves` is whether
+/// any needle does.
+GasNumbers numbers_of(const Gas& gas, const std::vector<SumsOfSquares>& sums, bool moves);
+
+}  // namespace needlework

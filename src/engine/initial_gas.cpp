@@ -1,0 +1,162 @@
+#include "src/engine/initial_gas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/machine/stop_request.h"
+#include "src/physics/vectors.h"
+#include "src/scene/box_edges.h"
+#include "src/scene/derived_numbers.h"
+
+namespace needlework {
+namespace {
+
+void check_size(std::size_t actual, std::size_t expected, const char* what) {
+  if (actual == expected) return;
+  throw InputError(std::string("state: ") + std::to_string(actual) + " rows of " + what +
+                   ": expected " + std::to_string(expected));
+}
+
+[[noreturn]] void refuse_vector(const Vec3d& a, const char* what, Id id, const char* expected) {
+  throw InputError(fmt::format("state: needle {}: {} = ({}, {}, {}): expected {}", id.value, what,
+                               a.x, a.y, a.z, expected));
+}
+
+void check_vector(const Vec3d& a, const char* what, Id id) {
+  if (!is_finite(a)) refuse_vector(a, what, id, "finite numbers");
+}
+
+// The numbers that records count to, also once the centre is wrapped into the box.
+void check_image(const Gas& gas, Needle i) {
+  const Vec3d& r = gas.records[i].flight.r;
+  const double place[3] = {r.x, r.y, r.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t image = gas.images[i][axis];
+    if (image < -most_boxes || image > most_boxes) {
+      throw InputError(
+          fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}",
+                      gas.ids[i].value, image, -most_boxes, most_boxes));
+    }
+    const double boxes = wrap(place[axis], gas.box[axis]).boxes;
+    if (std::abs(image + boxes) <= most_boxes) continue;
+    throw InputError(fmt::format(
+        "state: needle {}: position {} in a box of {}, with image {}: expected it within {} boxes",
+        gas.ids[i].value, place[axis], gas.box[axis], image, most_boxes));
+  }
+}
+
+// The species of the scene with the counts of the state.
+Composition composition_of(const Scene& scene, const State& initial) {
+  Composition composition = scene.composition();
+  if (!composition.is_mixture()) composition.set_count(0, initial.size());
+  if (composition.count() != initial.size()) {
+    throw InputError(
+        fmt::format("state: {} needles: expected {}, as the species of the scene count",
+                    initial.size(), composition.count()));
+  }
+  return composition;
+}
+
+// Gives each needle its species; needles are in order of id, and came from these rows of the state.
+void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>& rows) {
+  const Composition& composition = gas.composition;
+  if (!composition.is_mixture()) {
+    const auto other =
+        std::find_if(initial.species.begin(), initial.species.end(),
+                     [&](SpeciesIndex index) { return index != initial.species.front(); });
+    if (other == initial.species.end()) return;
+    throw InputError(
+        fmt::format("state: needles of species {} and {}: expected a scene with as many "
+                    "[[species]]",
+                    initial.species.front(), *other));
+  }
+  if (initial.species.empty()) {
+    std::size_t i = 0;
+    for (std::size_t index = 0; index < composition.size(); ++index) {
+      for (std::uint64_t n = 0; n < composition[index].count; ++n) {
+        gas.records[i++].species = static_cast<SpeciesIndex>(index);
+      }
+    }
+    return;
+  }
+  check_size(initial.species.size(), initial.size(), "species");
+  std::vector<std::uint64_t> counts(composition.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SpeciesIndex index = initial.species[rows[i]];
+    if (index >= composition.size()) {
+      throw InputError(fmt::format("state: needle {}: species = {}: expected an index below {}",
+                                   gas.ids[i].value, index, composition.size()));
+    }
+    ++counts[index];
+    gas.records[i].species = index;
+  }
+  for (std::size_t index = 0; index < composition.size(); ++index) {
+    if (counts[index] == composition[index].count) continue;
+    throw InputError(fmt::format("state: {} needles of species {}: expected {}, as in the scene",
+                                 counts[index], composition[index].name, composition[index].count));
+  }
+}
+
+}  // namespace
+
+Gas make_gas(const Scene& scene, const State& initial) {
+  const std::size_t count = initial.size();
+  check_size(initial.velocity.size(), count, "velocity");
+  check_size(initial.orientation.size(), count, "orientation");
+  check_size(initial.angular_velocity.size(), count, "angular velocity");
+  if (!initial.image.empty()) check_size(initial.image.size(), count, "image");
+  if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
+  Gas gas;
+  gas.box = initial.box;
+  gas.set_composition(composition_of(scene, initial));
+  const double length = gas.longest;
+  for (const double edge : initial.box) {
+    if (!(edge >= least_edge(length) && edge <= largest_edge(length))) {
+      throw InputError(fmt::format("state: box edge {}: expected from {:.10g} to {:.10g}", edge,
+                                   least_edge(length), largest_edge(length)));
+    }
+  }
+  if (is_too_sparse(initial.box, static_cast<double>(count), length)) {
+    throw InputError(fmt::format("state: box edges {}, {}, {} for {} needles: expected {}",
+                                 initial.box[0], initial.box[1], initial.box[2], count,
+                                 not_too_sparse));
+  }
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!initial.id.empty()) {
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return initial.id[a] < initial.id[b]; });
+  }
+  gas.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    StopRequest::check_in_turn(i);
+    const std::size_t from = order[i];
+    kernels::Flight& flight = gas.records[i].flight;
+    flight.r = vector_of(initial.position[from]);
+    flight.v = vector_of(initial.velocity[from]);
+    flight.u = vector_of(initial.orientation[from]);
+    flight.w = vector_of(initial.angular_velocity[from]);
+    gas.ids[i] = {initial.id.empty() ? static_cast<std::uint32_t>(i) : initial.id[from]};
+    if (i > 0 && gas.ids[i] == gas.ids[i - 1]) {
+      throw InputError("state: id " + std::to_string(gas.ids[i].value) +
+                       " twice: expected distinct ids");
+    }
+    if (!initial.image.empty()) gas.images[i] = initial.image[from];
+    check_vector(flight.r, "position", gas.ids[i]);
+    check_image(gas, Needle(i));
+    check_vector(flight.v, "velocity", gas.ids[i]);
+    check_vector(flight.u, "orientation", gas.ids[i]);
+    check_vector(flight.w, "angular velocity", gas.ids[i]);
+    if (flight.u == Vec3d{})
+      refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
+  }
+  set_species(gas, initial, order);
+  return gas;
+}
+
+}  // namespace needlework

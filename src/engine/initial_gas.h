@@ -1,0 +1,14 @@
+// The needles of a run as a state describes them.
+#pragma once
+
+#include "needlework/scene.h"
+#include "needlework/state.h"
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// Makes the needles of a run from a state. Throws InputError for a state that cannot be
+/// simulated.
+Gas make_gas(const Scene& scene, const State& initial);
+
+}  // namespace needlework

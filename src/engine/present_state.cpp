@@ -1,0 +1,85 @@
+#include "src/engine/present_state.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "kernels/free_flight.h"
+#include "needlework/error.h"
+#include "src/physics/vectors.h"
+
+namespace needlework {
+
+void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Needle>& order,
+                State& out) {
+  using C = kernels::FlightColumns;
+  out.box = gas.box;
+  out.resize(gas.size());
+  out.species.resize(gas.composition.is_mixture() ? gas.size() : 0);
+  // Few enough for the columns to stay in the first-level cache.
+  constexpr std::size_t at_once = 64;
+  static_assert(at_once % kernels::flights_at_once == 0);
+  double columns[C::columns][at_once] = {};
+  kernels::FlightColumns flights;
+  for (int c = 0; c < C::columns; ++c) flights.column[c] = columns[c];
+  for (std::size_t begin = 0; begin < order.size(); begin += at_once) {
+    const std::span needles(&order[begin], std::min(at_once, order.size() - begin));
+    for (std::size_t n = 0; n < needles.size(); ++n) {
+      const Record& record = gas.records[needles[n]];
+      flights.put(n, record.flight, gas.clock.difference(at, record.time));
+    }
+    kernels::fly(isa, flights, needles.size());
+    for (std::size_t n = 0; n < needles.size(); ++n) {
+      const Needle i = needles[n];
+      const kernels::Flight& flight = gas.records[i].flight;
+      std::array<double, 3> r = to_array(flights.centre(n));
+      Shift image = gas.images[i];
+      for (int axis = 0; axis < 3; ++axis) {
+        const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+        r[axis] = wrapped.place;
+        image[axis] += static_cast<std::int32_t>(wrapped.boxes);  // see most_boxes
+      }
+      const bool just_now = columns[C::elapsed][n] == 0;
+      const std::size_t row = begin + n;
+      out.id[row] = gas.ids[i].value;
+      if (!out.species.empty()) out.species[row] = gas.records[i].species;
+      out.position[row] = r;
+      out.image[row] = image;
+      out.velocity[row] = to_array(flight.v);
+      out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
+      out.angular_velocity[row] = to_array(flight.w);
+    }
+  }
+}
+
+FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
+  const auto found = std::find(gas.ids.begin(), gas.ids.end(), id);
+  if (found == gas.ids.end()) {
+    throw InputError(fmt::format("needle {}: expected the id of a needle", id.value));
+  }
+  const Record& record = gas.records[static_cast<std::size_t>(found - gas.ids.begin())];
+  const auto motion = gas.motion_from(record, at);
+  const Vec3d centre = motion.centre();
+  FreeNeedle out;
+  out.position = {wrap(centre.x, gas.box[0]).place, wrap(centre.y, gas.box[1]).place,
+                  wrap(centre.z, gas.box[2]).place};
+  out.orientation = to_array(motion.unit_director());
+  out.velocity = to_array(motion.velocity());
+  out.angular_velocity = to_array(motion.angular_velocity());
+  out.length = gas.species_of(record).length;
+  return out;
+}
+
+void require_images(const Gas& gas, Time at) {
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Vec3d centre = gas.motion_from(gas.records[i], at).centre();
+    const double place[3] = {centre.x, centre.y, centre.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      add_boxes(gas.images[i][axis], wrap(place[axis], gas.box[axis]).boxes, gas.ids[i]);
+    }
+  }
+}
+
+}  // namespace needlework

@@ -1,0 +1,63 @@
+// The interface of contacts of two bodies: when they touch, and how.
+#pragma once
+
+#include <concepts>
+
+#include "kernels/first_contact.h"
+#include "needlework/accuracy.h"
+
+namespace needlework {
+
+/// A contact of two bodies, described by a contact function: it is 0 at a contact, and its value
+/// [L] is called the gap. Thin needles cross it from either side, so that a pair is on one side of
+/// each other or the other, 1 or -1; bodies that exclude a volume are always on side 1.
+///
+/// All are pure functions of the pair. They do not depend on when they are called, on the search or
+/// on the thread. Exchanging the bodies and negating the shift changes no bit. None throws.
+///   `first_contact(pair, from, to, spent)` returns the first contact in (0, to], as a time since
+///     the later record. The caller knows that there is none before `from`. If the pair touches to
+///     within rounding and its records do not hold the side, it decides nothing and sets
+///     `side_unknown`.
+///   `gap(pair, elapsed)` is the value of the contact function; where the pair holds a touch, it is
+///     continued from that touch.
+///   `side_after(pair)` is for a pair that touches at the time of the later record: the sign of the
+///     gap just after it, or 0 if there is none.
+///   `time_apart(pair)` is for a pair that has just collided, at the time of both records: no
+///     contact comes before it.
+///   `geometry(pair, elapsed)` is for the moment of a contact: directors, normal and arms.
+template <class C>
+concept ContactLaw = requires(const C& contact, const kernels::Pair& pair, double time,
+                              const DoubleDouble& elapsed, kernels::EvaluationCounters& spent) {
+  { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
+  { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
+  { contact.side_after(pair) } -> std::convertible_to<int>;
+  { contact.time_apart(pair) } -> std::convertible_to<double>;
+  { contact.geometry(pair, elapsed) } -> std::same_as<kernels::ContactGeometry>;
+};
+
+/// The contact of thin needles: f = r12 . (u1 x u2) vanishes within both lengths.
+class NeedleContact {
+ public:
+  explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
+  const Accuracy& accuracy() const { return accuracy_; }
+
+  kernels::Contact first_contact(const kernels::Pair& pair, double from, double to,
+                                 kernels::EvaluationCounters& spent) const {
+    return kernels::first_contact(pair, from, to, spent, accuracy_);
+  }
+  double gap(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
+    return gap_at(pair, elapsed);
+  }
+  int side_after(const kernels::Pair& pair) const { return kernels::side_after(pair); }
+  double time_apart(const kernels::Pair& pair) const { return kernels::time_apart(pair); }
+  kernels::ContactGeometry geometry(const kernels::Pair& pair, const DoubleDouble& elapsed) const {
+    return contact_geometry(pair, elapsed);
+  }
+
+ private:
+  Accuracy accuracy_;
+};
+
+static_assert(ContactLaw<NeedleContact>);
+
+}  // namespace needlework
