@@ -16,7 +16,8 @@ double momentum_drift(const Totals& initial, const Totals& now, const Scene& sce
     square += change * change;
   }
   double mass = 0;
-  for (const Species& each : scene.composition().species()) {
+  const Composition composition = scene.composition();
+  for (const Species& each : composition.species()) {
     mass += static_cast<double>(each.count) * each.mass;
   }
   const double scale = std::sqrt(mass * now.t_tr);
