@@ -15,8 +15,8 @@
 
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
-#include "src/engine/make_loop.h"
 #include "src/engine/initial_gas.h"
+#include "src/engine/make_loop.h"
 #include "src/engine/run.h"
 
 namespace {

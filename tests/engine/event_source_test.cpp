@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/engine/make_loop.h"
 #include "src/engine/initial_gas.h"
+#include "src/engine/make_loop.h"
 #include "src/engine/run.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"

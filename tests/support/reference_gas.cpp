@@ -161,7 +161,8 @@ class Gas {
     const int side = dot(v, contact.normal) > 0 ? -1 : 1;
     const Restitution restitution{factor * (1 + scene_.collisions.epsilon) - 1,
                                   scene_.collisions.beta};
-    const needlework::Body body = body_of(Species{.name = {}, .length = 1, .mass = 1, .k = scene_.needles.k});
+    const needlework::Body body =
+        body_of(Species{.name = {}, .length = 1, .mass = 1, .k = scene_.needles.k});
     const Impact impact =
         needlework::collide<false>({a.flight, b.flight, body, body, contact, side}, restitution);
     Collision report;
