@@ -1,6 +1,7 @@
 """Builds the module needlework._core with CMake, for pip; the rest is in pyproject.toml."""
 
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,9 @@ class BuildWithCMake(build_ext):
         subprocess.run(["cmake", "--build", build, "--target", "needlework_python"], check=True)
         built, = (build / "python/needlework").glob("_core*.so")
         self.copy_file(str(built), str(target))
+        # Scenes and claims of the paper, which CMake has put into the package.
+        paper = Path("needlework/reproduce/paper")
+        shutil.copytree(build / "python" / paper, target.parent.parent / paper, dirs_exist_ok=True)
 
 
 setup(version=VERSION, ext_modules=[Extension("needlework._core", sources=[])],

@@ -7,6 +7,15 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# Where the program finds the Python package once both are installed; beside it in the build tree.
+set(python_from_program "")
+if(NEEDLEWORK_PYTHON_FOLDER)
+  file(RELATIVE_PATH python_from_program ${CMAKE_INSTALL_FULL_BINDIR}
+       ${CMAKE_INSTALL_PREFIX}/${NEEDLEWORK_PYTHON_FOLDER})
+endif()
+target_compile_definitions(needlework_program PRIVATE
+  NEEDLEWORK_PYTHON="${NEEDLEWORK_PYTHON}" NEEDLEWORK_PYTHON_FROM_PROGRAM="${python_from_program}")
+
 # Manual and completions are printed by the program itself.
 set(reference ${PROJECT_BINARY_DIR}/reference)
 file(MAKE_DIRECTORY ${reference})
@@ -60,6 +69,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-# The Python package loads without h5py, which only reading files needs.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy, python3-h5py")
+# The Python package loads without h5py, which only reading files needs, and Matplotlib, which only
+# pictures and `needlework reproduce` need.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy, python3-h5py, python3-matplotlib")
 include(CPack)

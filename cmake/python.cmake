@@ -28,16 +28,22 @@ target_link_libraries(needlework_python PRIVATE needlework fmt::fmt)
 # Only what Python looks for is visible, so that nothing meets symbols of other modules.
 target_link_options(needlework_python PRIVATE -Wl,--exclude-libs,ALL)
 
-file(GLOB python_files RELATIVE ${PROJECT_SOURCE_DIR}/python/needlework CONFIGURE_DEPENDS
-     python/needlework/*.py python/needlework/*.pyi python/needlework/py.typed)
+# What is Python, and the scenes, grids and claims of the paper, which needlework.reproduce reads.
 set(copies)
-foreach(file ${python_files})
-  add_custom_command(OUTPUT ${package}/${file}
-                     COMMAND ${CMAKE_COMMAND} -E copy
-                             ${PROJECT_SOURCE_DIR}/python/needlework/${file} ${package}/${file}
-                     DEPENDS ${PROJECT_SOURCE_DIR}/python/needlework/${file} VERBATIM)
-  list(APPEND copies ${package}/${file})
-endforeach()
+function(copy_to_package from to)
+  list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/${from}/)
+  file(GLOB_RECURSE files RELATIVE ${PROJECT_SOURCE_DIR}/${from} CONFIGURE_DEPENDS ${ARGN})
+  foreach(file ${files})
+    add_custom_command(OUTPUT ${to}/${file}
+                       COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/${from}/${file}
+                               ${to}/${file}
+                       DEPENDS ${PROJECT_SOURCE_DIR}/${from}/${file} VERBATIM)
+    list(APPEND copies ${to}/${file})
+  endforeach()
+  set(copies ${copies} PARENT_SCOPE)
+endfunction()
+copy_to_package(python/needlework ${package} *.py *.pyi py.typed)
+copy_to_package(profiles/paper ${package}/reproduce/paper *.toml)
 add_custom_target(needlework_python_files ALL DEPENDS ${copies})
 add_dependencies(needlework_python needlework_python_files)
 
@@ -51,3 +57,5 @@ set(NEEDLEWORK_PYTHON_FOLDER ${python_folder} CACHE STRING
 install(TARGETS needlework_python DESTINATION ${NEEDLEWORK_PYTHON_FOLDER}/needlework)
 install(DIRECTORY python/needlework DESTINATION ${NEEDLEWORK_PYTHON_FOLDER}
         FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed)
+install(DIRECTORY profiles/paper/ DESTINATION ${NEEDLEWORK_PYTHON_FOLDER}/needlework/reproduce/paper
+        FILES_MATCHING PATTERN *.toml)

@@ -245,7 +245,7 @@ Exit codes:
   2   wrong usage
   3   a scene or an input file that cannot be used
   4   the state of a run became invalid
-  5   a file that cannot be read or written
+  5   a file that cannot be read or written, or a package that is missing (reproduce)
   75  stopped by a signal or a time limit, after saving if there is a file
 
 Environment:
@@ -253,6 +253,8 @@ Environment:
                    FALSE: files are not locked, so that two writers go unnoticed
   NEEDLEWORK_FORK  0: HDF5 files are read without a child process
   NEEDLEWORK_ISA   instruction set, unless an option or the scene names one
+  NEEDLEWORK_PYTHON
+                   Python that reproduce calls, in place of the one of the build
   NO_COLOR         if set and not empty, run --watch draws without colours
   OMP_NUM_THREADS  number of threads, unless an option or the scene gives one)");
 }

@@ -1,4 +1,4 @@
-// `needlework reproduce`: the figures and claims of the paper.
+// `needlework reproduce`: the figures and claims of the paper, which the Python package makes.
 #pragma once
 
 #include <optional>
@@ -9,15 +9,16 @@ namespace needlework::cli {
 
 struct ReproduceArguments {
   std::string figure;
-  std::optional<std::string> out;
+  std::optional<std::string> out, data;
   std::optional<int> threads;
   bool quick = false, json = false, quiet = false, force = false;
 };
 
-/// What may be asked for: the figures, and all.
+/// What may be asked for: all, and the figures as python/needlework/reproduce/figures.py names
+/// them, which a test compares. They are here too so that usage and help need no Python.
 std::vector<std::string> names_of_figures();
 
-/// Returns the exit code.
+/// Returns the exit code if Python cannot be run; else this process becomes Python.
 int run(const ReproduceArguments& arguments);
 
 }  // namespace needlework::cli

@@ -133,31 +133,49 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
   add_choice(
       command->add_option("FIGURE", arguments->figure, "a figure of the paper, or all")->required(),
       names_of_figures());
-  command->add_flag("--quick", arguments->quick,
-                    "smaller systems, fewer seeds: at most 15 minutes");
+  CLI::Option* const quick = command->add_flag("--quick", arguments->quick,
+                                               "smaller systems, fewer seeds: at most 15 minutes");
   command
       ->add_option("--out", arguments->out,
                    "folder for runs, data and pictures; by default reproduction, or "
                    "reproduction-quick")
       ->option_text("DIR");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "number of runs at a time; by default, the number of cores")
-      ->option_text("N")
-      ->check(number_in(1, 1024));
-  command->add_flag("--json", arguments->json, "print the claims as one JSON object");
+  CLI::Option* const threads =
+      command
+          ->add_option("--threads", arguments->threads,
+                       "number of runs at a time; by default, the number of cores")
+          ->option_text("N")
+          ->check(number_in(1, 1024));
+  CLI::Option* const json =
+      command->add_flag("--json", arguments->json, "print the claims as one JSON object");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");
-  command->add_flag("--force", arguments->force,
-                    "use a folder with something else in it; runs that differ are run again");
+  CLI::Option* const force =
+      command->add_flag("--force", arguments->force,
+                        "use a folder with something else in it; runs that differ are run again");
+  command
+      ->add_option("--from", arguments->data,
+                   "run nothing, and draw the pictures again from the data (CSV) in a folder; "
+                   "by default into the same one")
+      ->option_text("DIR")
+      ->excludes(quick)
+      ->excludes(threads)
+      ->excludes(json)
+      ->excludes(force);
   command->footer(R"(The paper is "Granular cooling of hard needles" by Huthmann, Aspelmeier and
 Zippelius. Runs that are finished are used again; the same command continues
 after an interruption. For each figure, its data (CSV) and picture (SVG) are
 written, and each claim is compared with the measurement: it agrees within three
 standard errors plus the paper's precision, differs, or is open.
 
+The runs are sweeps of this program. Data, pictures and verdicts are made by the
+Python package needlework.reproduce, which needs NumPy, h5py and Matplotlib; the
+environment variable NEEDLEWORK_PYTHON names a Python other than the one that
+the package was built for.
+
 Examples:
   needlework reproduce 3 --quick
-  needlework reproduce all --out reproduction)");
+  needlework reproduce all --out reproduction
+  needlework reproduce 5a --from reproduction --out pictures)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

@@ -8,7 +8,7 @@
 #include "needlework/scene.h"
 #include "needlework/theory.h"
 #include "needlework/totals.h"
-#include "src/picture/chart.h"
+#include "src/picture/terminal_chart.h"
 
 namespace needlework::cli {
 

@@ -3,18 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace needlework::picture {
 namespace {
 
-constexpr std::array<Colour, 7> curves{{{0x00, 0x72, 0xb2},
-                                        {0xd5, 0x5e, 0x00},
-                                        {0x00, 0x9e, 0x73},
-                                        {0xcc, 0x79, 0xa7},
-                                        {0xe6, 0x9f, 0x00},
-                                        {0x56, 0xb4, 0xe9},
-                                        {0x33, 0x33, 0x33}}};
 // The maps of Matplotlib (CC0) at ten places; between them they are nearly linear.
 constexpr std::array<Colour, 10> viridis{{{0x44, 0x01, 0x54},
                                           {0x48, 0x28, 0x78},
@@ -47,13 +42,6 @@ constexpr std::array<Colour, 5> dark_blue_to_red{{{0x10, 0x4e, 0x9e},
                                                   {0xc8, 0xc8, 0xc8},
                                                   {0xe0, 0x7f, 0x5c},
                                                   {0xa5, 0x10, 0x25}}};
-constexpr std::array<Colour, 7> blue_to_red{{{0x21, 0x66, 0xac},
-                                             {0x67, 0xa9, 0xcf},
-                                             {0xd1, 0xe5, 0xf0},
-                                             {0xf7, 0xf7, 0xf7},
-                                             {0xfd, 0xdb, 0xc7},
-                                             {0xef, 0x8a, 0x62},
-                                             {0xb2, 0x18, 0x2b}}};
 
 std::uint8_t mixed_part(std::uint8_t first, std::uint8_t second, double share) {
   return static_cast<std::uint8_t>(std::lround(share * first + (1 - share) * second));
@@ -69,16 +57,6 @@ Colour mixed(Colour first, Colour second, double share) {
   return {mixed_part(first.red, second.red, share), mixed_part(first.green, second.green, share),
           mixed_part(first.blue, second.blue, share)};
 }
-
-bool is_light(Colour colour) {
-  // The brightness of a colour by ITU-R BT.601.
-  return 0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue > 150;
-}
-
-Colour curve_colour(std::size_t number) { return curves[number % curves.size()]; }
-
-Gradient sequential_gradient() { return viridis; }
-Gradient diverging_gradient() { return blue_to_red; }
 
 Gradient sequential_gradient(bool dark_ground) {
   // Without the part that is lost on the ground.

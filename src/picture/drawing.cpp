@@ -39,8 +39,12 @@ std::string svg(const Drawing& drawing) {
     add_line(group, stroke, stroke.width, stroke.colour);
   }
   for (const Words& words : drawing.words) {
-    add_text(document.root(), words.place.x, words.place.y, words.text,
-             {.size = words.size, .anchor = name_of(words.anchor), .colour = words.colour});
+    add_text(document.root(), "text", words.text,
+             {{"x", words.place.x},
+              {"y", words.place.y},
+              {"font-size", words.size},
+              {"text-anchor", name_of(words.anchor)},
+              {"fill", words.colour}});
   }
   return document.text();
 }

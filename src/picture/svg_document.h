@@ -23,29 +23,13 @@ struct Attribute {
   std::string value;
 };
 
-void set(pugi::xml_node node, const Attribute& attribute);
-
 /// Appends an element to `parent`, and returns it.
 pugi::xml_node add(pugi::xml_node parent, const char* name,
                    std::initializer_list<Attribute> attributes = {});
 
-struct TextStyle {
-  double size = 13;  ///< height of a line is about 1.2 of it [pixels]
-  const char* anchor = "start";
-  bool bold = false;
-  double turned = 0;  ///< degrees, clockwise
-  Colour colour{0x22, 0x22, 0x22};
-};
-
-/// Adds text, the base line of which is at (x, y), with _{...} below and ^{...} above the line.
-void add_text(pugi::xml_node parent, double x, double y, const std::string& text,
-              const TextStyle& style = {});
-
-/// About how long a text is, as fonts differ [pixels].
-double text_width(const std::string& text, double size);
-
-/// The text without the braces of _{...} and ^{...}.
-std::string plain_text(const std::string& text);
+/// Adds an element with these attributes that holds a text.
+void add_text(pugi::xml_node parent, const char* name, const std::string& text,
+              std::initializer_list<Attribute> attributes = {});
 
 class SvgDocument {
  public:

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
-#include "src/picture/marks.h"
-#include "src/picture/svg_document.h"
+#include "src/picture/point.h"
 
 namespace needlework::picture {
 namespace {
@@ -33,19 +33,6 @@ std::string coloured(const std::string& text, std::size_t colour, bool colours) 
   return fmt::format("\033[{}m{}\033[0m", ansi_colours[colour % ansi_colours.size()], text);
 }
 
-// 10^{−3} with the digits that stand above the line.
-std::string with_superscripts(const std::string& label) {
-  constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  const std::size_t at = label.find("^{");
-  if (at == label.npos) return label;
-  std::string text = label.substr(0, at);
-  for (const char c : label.substr(at)) {
-    if (c >= '0' && c <= '9') text += digits[static_cast<std::size_t>(c - '0')];
-    if (c == '\xe2') text += "⁻";  // the first byte of the minus of labels
-  }
-  return text;
-}
-
 std::size_t columns_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -56,18 +43,51 @@ std::string right_aligned(const std::string& text, std::size_t columns) {
   return std::string(columns - std::min(columns, columns_of(text)), ' ') + text;
 }
 
+bool is_finite(const Point& point) { return std::isfinite(point.x) && std::isfinite(point.y); }
+
+/// The scales of the area of dots, x from left to right and y from the bottom up.
+struct Area {
+  Scale x, y;
+
+  Point operator()(double x_value, double y_value) const { return {x(x_value), y(y_value)}; }
+  bool holds(const Point& point) const {
+    constexpr double rounding = 1e-6;
+    return point.x >= x.begin - rounding && point.x <= x.end + rounding &&
+           point.y <= y.begin + rounding && point.y >= y.end - rounding;
+  }
+};
+
+// The part of a segment inside the area, by the method of Liang and Barsky.
+std::optional<std::pair<Point, Point>> clipped(Point a, Point b, const Area& area) {
+  const Point d{b.x - a.x, b.y - a.y};
+  double begin = 0, end = 1;
+  for (const auto& [along, from, low, high] : {std::array{d.x, a.x, area.x.begin, area.x.end},
+                                               std::array{d.y, a.y, area.y.end, area.y.begin}}) {
+    if (along == 0) {
+      if (from < low || from > high) return std::nullopt;
+      continue;
+    }
+    const auto [enter, leave] = std::minmax({(low - from) / along, (high - from) / along});
+    begin = std::max(begin, enter);
+    end = std::min(end, leave);
+  }
+  if (begin > end) return std::nullopt;
+  return std::pair(Point{a.x + begin * d.x, a.y + begin * d.y},
+                   Point{a.x + end * d.x, a.y + end * d.y});
+}
+
 class TerminalChart {
  public:
   TerminalChart(const Panel& panel, TerminalSize size, bool colours)
       : panel_(panel), size_(size), colours_(colours) {
     rows_ = size.rows - 3;  // title, axis and numbers
     const Range y = range(panel.y, &Curve::y, 0.02);
-    y_ticks_ = labelled(ticks(y, panel.y.logarithmic, std::max(2, static_cast<int>(rows_ / 3))));
+    y_ticks_ = ticks(y, panel.y.logarithmic, std::max(2, static_cast<int>(rows_ / 3)));
     for (const Tick& tick : y_ticks_) left_ = std::max(left_, columns_of(tick.label));
     left_ = std::min(left_, size.columns / 2);
     columns_ = size.columns - left_ - 1;
     const Range x = range(panel.x, &Curve::x, 0);
-    x_ticks_ = labelled(ticks(x, panel.x.logarithmic, std::max(2, static_cast<int>(columns_ / 9))));
+    x_ticks_ = ticks(x, panel.x.logarithmic, std::max(2, static_cast<int>(columns_ / 9)));
     cells_.resize(rows_ * columns_);
     area_.x = {x, panel.x.logarithmic, 0, 2.0 * static_cast<double>(columns_) - 1};
     area_.y = {y, panel.y.logarithmic, 4.0 * static_cast<double>(rows_) - 1, 0};
@@ -90,14 +110,6 @@ class TerminalChart {
     return all.range(margin);
   }
 
-  static std::vector<Tick> labelled(const std::vector<Tick>& ticks) {
-    std::vector<Tick> chosen;
-    for (const Tick& tick : ticks) {
-      if (!tick.label.empty()) chosen.push_back({tick.value, with_superscripts(tick.label)});
-    }
-    return chosen;
-  }
-
   std::size_t colour_of(std::size_t curve) const {
     return panel_.curves[curve].colour.value_or(curve);
   }
@@ -108,47 +120,51 @@ class TerminalChart {
   }
 
   void draw(const Curve& curve, std::size_t colour) {
-    if (curve.style != Curve::Style::points) {
-      for (const std::vector<Point>& line : lines_of(curve, area_)) draw_line(line, colour);
-      return;
-    }
+    const bool points = curve.style == Curve::Style::points;
+    Point last{NAN, NAN};
     for (std::size_t i = 0; i < curve.y.size(); ++i) {
       const Point at = area_(curve.x[i], curve.y[i]);
-      if (!std::isfinite(at.x) || !std::isfinite(at.y) || !area_.holds(at)) continue;
-      Cell& marked = cell(std::lround(at.x), std::lround(at.y));
-      marked.point = true;
-      marked.colour = colour;
+      if (points) draw_point(at, colour);
+      if (!points && is_finite(last) && is_finite(at)) draw_segment(last, at, colour);
+      last = at;
     }
   }
 
-  void draw_line(const std::vector<Point>& line, std::size_t colour) {
+  void draw_point(Point at, std::size_t colour) {
+    if (!is_finite(at) || !area_.holds(at)) return;
+    Cell& marked = cell(std::lround(at.x), std::lround(at.y));
+    marked.point = true;
+    marked.colour = colour;
+  }
+
+  void draw_segment(Point from, Point to, std::size_t colour) {
     // Bits of the dots of a braille character, by row and column.
     constexpr unsigned bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
-    for (std::size_t i = 1; i < line.size(); ++i) {
-      const Point a = line[i - 1], d{line[i].x - a.x, line[i].y - a.y};
-      const double steps = std::ceil(std::max({std::abs(d.x), std::abs(d.y), 1.0}));
-      for (double step = 0; step <= steps; ++step) {
-        const long x = std::lround(a.x + step / steps * d.x);
-        const long y = std::lround(a.y + step / steps * d.y);
-        Cell& marked = cell(x, y);
-        marked.dots |= bits[y % 4][x % 2];
-        if (!marked.point) marked.colour = colour;
-      }
+    const auto inside = clipped(from, to, area_);
+    if (!inside) return;
+    const Point a = inside->first, d{inside->second.x - a.x, inside->second.y - a.y};
+    const double steps = std::ceil(std::max({std::abs(d.x), std::abs(d.y), 1.0}));
+    for (double step = 0; step <= steps; ++step) {
+      const long x = std::lround(a.x + step / steps * d.x);
+      const long y = std::lround(a.y + step / steps * d.y);
+      Cell& marked = cell(x, y);
+      marked.dots |= bits[y % 4][x % 2];
+      if (!marked.point) marked.colour = colour;
     }
   }
 
   // With a legend, as far as there is room for it.
   std::string title() const {
-    std::string text = plain_text(panel_.title);
+    std::string text = panel_.title;
     std::size_t used = columns_of(text);
     if (used > size_.columns) return right_aligned("", size_.columns);
     for (std::size_t i = 0; i < panel_.curves.size(); ++i) {
       const Curve& curve = panel_.curves[i];
       if (curve.name.empty()) continue;
       const std::string mark = curve.style == Curve::Style::points ? "o" : "⠒⠒";
-      const std::string entry = "  " + mark + " " + plain_text(curve.name);
+      const std::string entry = "  " + mark + " " + curve.name;
       if (used + columns_of(entry) > size_.columns) break;
-      text += "  " + coloured(mark, colour_of(i), colours_) + " " + plain_text(curve.name);
+      text += "  " + coloured(mark, colour_of(i), colours_) + " " + curve.name;
       used += columns_of(entry);
     }
     return text + std::string(size_.columns - used, ' ');
@@ -197,7 +213,7 @@ class TerminalChart {
       const std::size_t middle = left_ + 1 + column_of(tick);
       put(tick.label, middle - std::min(middle, columns_of(tick.label) / 2));
     }
-    const std::string name = plain_text(panel_.x.label);
+    const std::string& name = panel_.x.label;
     if (columns_of(name) < size_.columns) put(name, size_.columns - columns_of(name));
     return text + std::string(size_.columns - used, ' ');
   }

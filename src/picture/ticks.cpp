@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <limits>
 
 namespace needlework::picture {
@@ -35,9 +38,19 @@ std::string with_minus(const std::string& number) {
   return text;
 }
 
+// With the digits that stand above the line.
+std::string power_text(int exponent) {
+  constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char c : fmt::to_string(std::abs(exponent))) {
+    text += digits[static_cast<std::size_t>(c - '0')];
+  }
+  return text;
+}
+
 std::string with_power(double factor, int decimals, int exponent) {
-  if (decimals == 0 && factor == 1) return fmt::format("10^{{{}}}", exponent);
-  return fmt::format("{:.{}f}·10^{{{}}}", factor, decimals, exponent);
+  if (decimals == 0 && factor == 1) return power_text(exponent);
+  return fmt::format("{:.{}f}·{}", factor, decimals, power_text(exponent));
 }
 
 std::vector<Tick> linear_ticks(Range range, int count) {
@@ -77,17 +90,14 @@ std::vector<Tick> logarithmic_ticks(Range range, int count) {
   const int stride = std::max(1, static_cast<int>(std::ceil(decades / count)));
   const bool plain = first >= -3 && last <= 4;
   std::vector<Tick> all;
-  const auto add = [&](double factor, int exponent, bool labelled) {
-    const double value = factor * power_of_ten(exponent);
-    if (value < range.low * (1 - 1e-9) || value > range.high * (1 + 1e-9)) return;
-    all.push_back({value, labelled ? label_of(factor, exponent, plain) : ""});
-  };
   for (int exponent = first; exponent <= last; ++exponent) {
-    add(1, exponent, exponent % stride == 0);
-    if (stride > 1) continue;
-    for (int factor = 2; factor < 10; ++factor) {
+    if (exponent % stride != 0) continue;
+    for (const int factor : {1, 2, 5}) {
       // With few decades in sight, decades alone say too little.
-      add(factor, exponent, decades < 2 && (factor == 2 || factor == 5));
+      if (factor > 1 && decades >= 2) continue;
+      const double value = factor * power_of_ten(exponent);
+      if (value < range.low * (1 - 1e-9) || value > range.high * (1 + 1e-9)) continue;
+      all.push_back({value, label_of(factor, exponent, plain)});
     }
   }
   return all;

@@ -10,10 +10,10 @@ struct Range {
   double low = 0, high = 1;
 };
 
-/// A place on an axis. Minor ticks have no label.
+/// A place on an axis with its number, such as "0.5" or "2·10⁻³".
 struct Tick {
   double value;
-  std::string label;  ///< with ^{...} for powers, as in the texts of a chart
+  std::string label;
 };
 
 /// Whether an axis has a place for the value: it is finite and, on a logarithmic axis, positive.
@@ -39,8 +39,8 @@ class RangeOfValues {
   Range range_;
 };
 
-/// Ticks at multiples of 1, 2 or 5 times a power of ten, or at decades with minor ticks between
-/// them; about `count` have labels. The range must be usable.
+/// About `count` ticks at multiples of 1, 2 or 5 times a power of ten, or at decades. The range
+/// must be usable.
 std::vector<Tick> ticks(Range range, bool logarithmic, int count);
 
 /// Maps values to pixels.

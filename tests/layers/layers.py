@@ -53,9 +53,6 @@ LAYERS = [
            "observe", "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
-    # The figures and claims of the paper: a client of the library.
-    Layer("reproduce", ["src/reproduce"], [],
-          ["base", "scene", "observe", "io", "runs", "picture"], ["theory", "trajectory"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
           ["base", "machine", "kernels", "scene", "runs"],
@@ -65,7 +62,7 @@ LAYERS = [
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "machine", "scene", "search", "calendar", "observe", "io", "audit", "runs",
-           "picture", "reproduce", "bindings", "report"],
+           "picture", "bindings", "report"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
@@ -78,7 +75,7 @@ LIBRARIES = [
     (r"pugixml\.hpp", ["io", "picture"]),
     (r"png\.h", ["picture"]),
     (r"CLI/.*", ["program"]),
-    (r"nlohmann/.*", ["scene", "program", "bindings", "report", "reproduce"]),
+    (r"nlohmann/.*", ["scene", "program", "bindings", "report"]),
     (r"mpi\.h", ["program"]),
     (r"pybind11/.*", ["bindings"]),
     (r"csignal|signal\.h", ["io", "program"]),

@@ -121,6 +121,18 @@ TEST(NeedlePictures, OfSvgAreWellFormedAndHaveALineForEachStroke) {
   EXPECT_EQ(document.select_nodes("//text").size(), drawing.words.size());
 }
 
+TEST(Drawings, OfSvgEscapeTextsAndWhatXmlCannotHold) {
+  Drawing drawing;
+  drawing.title = "a <b> & \"c\"";
+  drawing.words = {{"tab\there, bell\a", {0, 0}, Words::Anchor::end, 13, {}}};
+  pugi::xml_document document;
+  const std::string text = svg(drawing);
+  ASSERT_TRUE(document.load_string(text.c_str()));
+  EXPECT_STREQ(document.select_node("//title").node().text().get(), "a <b> & \"c\"");
+  EXPECT_EQ(text.find('\a'), std::string::npos);
+  EXPECT_STREQ(document.select_node("//text/@text-anchor").attribute().value(), "end");
+}
+
 TEST(NeedlePictures, FitIntoAnySize) {
   for (const auto& [width, height] : {std::pair{300, 300}, {300, 2000}, {2000, 300}}) {
     NeedlePicture settings;

@@ -25,7 +25,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 Panel diagonal() {
   Panel panel;
-  panel.title = "T_{tr}";
+  panel.title = "Ttr";
   panel.x = {"time", false, Range{0, 10}};
   panel.y = {"", false, Range{0, 1}};
   panel.curves.resize(2);

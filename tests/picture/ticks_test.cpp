@@ -14,9 +14,7 @@ const double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> labels(const std::vector<Tick>& ticks) {
   std::vector<std::string> labels;
-  for (const Tick& tick : ticks) {
-    if (!tick.label.empty()) labels.push_back(tick.label);
-  }
+  for (const Tick& tick : ticks) labels.push_back(tick.label);
   return labels;
 }
 
@@ -31,20 +29,17 @@ TEST(Ticks, AreMultiplesOfOneTwoOrFiveTimesAPowerOfTen) {
 }
 
 TEST(Ticks, OfVeryLargeAndVerySmallNumbersHaveAPower) {
-  EXPECT_EQ(labels(ticks({0, 4e7}, false, 4)),
-            (Labels{"0", "10^{7}", "2·10^{7}", "3·10^{7}", "4·10^{7}"}));
-  EXPECT_EQ(labels(ticks({0, 3e-9}, false, 3)), (Labels{"0", "10^{−9}", "2·10^{−9}", "3·10^{−9}"}));
+  EXPECT_EQ(labels(ticks({0, 4e7}, false, 4)), (Labels{"0", "10⁷", "2·10⁷", "3·10⁷", "4·10⁷"}));
+  EXPECT_EQ(labels(ticks({0, 3e-9}, false, 3)), (Labels{"0", "10⁻⁹", "2·10⁻⁹", "3·10⁻⁹"}));
   // The digits in which neighbours differ are there.
   EXPECT_EQ(labels(ticks({1e6, 1e6 + 2}, false, 2)),
-            (Labels{"1.000000·10^{6}", "1.000001·10^{6}", "1.000002·10^{6}"}));
+            (Labels{"1.000000·10⁶", "1.000001·10⁶", "1.000002·10⁶"}));
 }
 
-TEST(Ticks, OfLogarithmicAxesAreDecadesWithMinorTicksBetweenThem) {
-  const std::vector<Tick> all = ticks({1e-3, 1}, true, 5);
-  EXPECT_EQ(labels(all), (Labels{"0.001", "0.01", "0.1", "1"}));
-  EXPECT_EQ(all.size(), 4 + 3 * 8);
+TEST(Ticks, OfLogarithmicAxesAreDecadesOrPartsOfThem) {
+  EXPECT_EQ(labels(ticks({1e-3, 1}, true, 5)), (Labels{"0.001", "0.01", "0.1", "1"}));
   EXPECT_EQ(labels(ticks({1e-11, 1}, true, 6)),
-            (Labels{"10^{−10}", "10^{−8}", "10^{−6}", "10^{−4}", "10^{−2}", "1"}));
+            (Labels{"10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "1"}));
   EXPECT_EQ(labels(ticks({1, 30}, true, 5)), (Labels{"1", "2", "5", "10", "20"}));
 }
 
@@ -60,7 +55,6 @@ TEST(Ticks, AreInTheRangeAndNotTooManyWhateverTheRange) {
         const std::vector<Tick> all = ticks(range, logarithmic, 5);
         EXPECT_GE(labels(all).size(), 1) << low << " " << ratio << " " << logarithmic;
         EXPECT_LE(labels(all).size(), 10) << low << " " << ratio << " " << logarithmic;
-        EXPECT_LE(all.size(), 310);
         for (const Tick& tick : all) {
           EXPECT_GE(tick.value, range.low - 1e-5 * (range.high - range.low));
           EXPECT_LE(tick.value, range.high + 1e-5 * (range.high - range.low));

@@ -17,7 +17,11 @@ sim = needlework.Simulation({{"needles": {{"count": 100, "box": 5}}}})
 assert sim.run(time=1) == "time" and sim.totals.collisions > 0
 from pathlib import Path
 assert Path(needlework.__file__).with_name("py.typed").exists()
+from needlework.reproduce import FIGURES, PAPER, read_claims
+assert {{claim.figure for claim in read_claims(PAPER / "claims.toml").values()}} <= set(FIGURES)
 """
+
+DATA = "needles_per_cell,growth,error\n20,19,2\n39,35,4\n"
 
 
 def run(*command, **environment):
@@ -34,6 +38,10 @@ def main(way, folder):
             run("cmake", "--install", folder, "--prefix", prefix)
             package, = prefix.glob("lib/python*/*-packages/needlework")
             run(sys.executable, "-c", check, PYTHONPATH=str(package.parent))
+            # The program finds the package that is installed with it.
+            Path("figure-cells.csv").write_text(DATA)
+            run(prefix / "bin/needlework", "reproduce", "cells", "--from", ".", PYTHONPATH="")
+            assert Path("figure-cells.svg").exists()
         else:
             run(sys.executable, "-m", "venv", "--system-site-packages", prefix)
             run(prefix / "bin/pip", "install", "--no-build-isolation", "--no-deps", folder)

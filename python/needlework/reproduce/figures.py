@@ -1,0 +1,46 @@
+"""All figures, those of the paper first."""
+
+from . import alignment, causes, dense, dilute, flow, fluctuations, ratio, relaxation
+from .figure import Figure
+
+FIGURES = {figure.name: figure for figure in (
+    Figure("2", "Figure 2: cooling of the dilute gas", ("dilute",),
+           dilute.measure_cooling, dilute.draw_cooling),
+    Figure("3", "Figure 3: long-time ratio of temperatures", ("ratio",),
+           ratio.measure_ratio, ratio.draw_ratio),
+    Figure("4", "Figure 4: flow field of the dense gas", ("dense",),
+           flow.measure_flow_field, flow.draw_flow_field),
+    Figure("5a", "Figure 5a: order of the flow S", ("dense",),
+           dense.measure_flow_order, dense.draw_flow_order),
+    Figure("5b", "Figure 5b: cooling of the dense gas", ("dense",),
+           dense.measure_dense_cooling, dense.draw_dense_cooling),
+    Figure("6", "Figure 6: regions of higher density", ("dense",),
+           flow.measure_density, flow.draw_density),
+    Figure("7", "Figure 7: flow and density along a line", ("dense",),
+           flow.measure_line_profiles, flow.draw_line_profiles),
+    Figure("8", "Figure 8: directors and velocities", ("dense",),
+           alignment.measure_alignment, alignment.draw_alignment),
+    Figure("fluctuations", "Fluctuations of the dilute gas beside an elastic one",
+           ("dilute", "elastic"),
+           fluctuations.measure_fluctuations, fluctuations.draw_fluctuations),
+    Figure("moment", "Second moment of the density of the dense gas", ("dense",),
+           dense.measure_second_moment, dense.draw_second_moment),
+    Figure("rotation", "Order of the rotation of the dense gas", ("dense",),
+           dense.measure_rotation, dense.draw_rotation),
+    Figure("relaxation", "Elastic relaxation to equipartition", ("relaxation",),
+           relaxation.measure_relaxation, relaxation.draw_relaxation),
+    Figure("rough", "Beyond the paper: long-time ratio of rough needles", ("rough",),
+           ratio.measure_rough_ratio, ratio.draw_rough_ratio),
+    Figure("sizes", "Beyond the paper: the dense gas in boxes of several sizes",
+           ("box-small", "box-middle", "box-large", "dense"),
+           dense.measure_box_sizes, dense.draw_box_sizes),
+    Figure("clusters", "Beyond the paper: alignment inside clusters", ("dense",),
+           alignment.measure_clusters, alignment.draw_clusters),
+    Figure("cells", "Test of why: size of the cells", ("dense",),
+           causes.measure_cells, causes.draw_cells),
+    Figure("tc-dilute", "Test of why: contact time of the dilute gas", ("dilute", "dilute-tc"),
+           causes.measure_contact_time_dilute, causes.draw_contact_time_dilute),
+    Figure("tc-dense", "Test of why: contact time of the dense gas", ("dense", "dense-tc"),
+           causes.measure_contact_time_dense, causes.draw_contact_time_dense),
+)}
+"""By name, as the command takes it."""

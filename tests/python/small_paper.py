@@ -1,0 +1,50 @@
+"""The runs of the paper with a handful of needles each, which take some seconds in all."""
+
+import os
+from pathlib import Path
+
+from needlework.reproduce import PAPER
+
+PROGRAM = os.environ.get("NEEDLEWORK_PROGRAM", "needlework")
+
+FEW = {"needles.count": 40}
+COLD = {"needles.box": 3, "until.energy_ratio": 1e-2}
+DENSE = {**FEW, "needles.box": 2.2, "output.grid": 2, "until.collisions_per_needle": 30}
+DILUTE = {**FEW, "needles.box": 3, "output.grid": 2, "until.energy_ratio": 1e-7}
+TC = {"collisions.tc_relative": [1e-2, 1e-4]}
+
+
+def box(edge):
+    return "dense", {"needles.count": 16, "needles.box": edge, "output.grid": 2,
+                     "until.collisions_per_needle": 605}
+
+
+GRIDS = {
+    "dilute": ("dilute", DILUTE),
+    "dilute-tc": ("dilute", {**DILUTE, **TC}),
+    "elastic": ("elastic", {**FEW, "needles.box": 3, "output.grid": 2,
+                            "until.collisions_per_needle": 20}),
+    "ratio": ("ratio", {**FEW, "collisions.epsilon": [0.8], "needles.k": [2, 4.3607], **COLD}),
+    "rough": ("rough", {**FEW, "collisions.epsilon": [0.7, 0.9], "collisions.beta": [-0.5, 0.5],
+                        **COLD}),
+    "relaxation": ("relaxation", {**FEW, "needles.box": [3, 4], "until.time": 20}),
+    "dense": ("dense", {**DENSE, "needles.k": [6, 2], "initial.t_rot": [1, 0]}),
+    "dense-tc": ("dense", {**DENSE, **TC}),
+    "box-small": box(2.1),
+    "box-middle": box(2.4),
+    "box-large": box(2.3),
+}
+"""Scene and parameters of each set; seeds are 1, 2 and 3."""
+
+
+def write(folder):
+    """Writes scenes, small grids and the claims into a folder, as PaperRuns and --paper take it."""
+    paper = Path(folder)
+    (paper / "full").mkdir(parents=True)
+    for file in PAPER.glob("*.toml"):
+        (paper / file.name).write_text(file.read_text())
+    for name, (scene, parameters) in GRIDS.items():
+        lines = [f'scene = "../{scene}.toml"', "seeds = [1, 2, 3]", "[parameters]"]
+        lines += (f'"{key}" = {value}' for key, value in parameters.items())
+        (paper / "full" / f"{name}.toml").write_text("\n".join(lines) + "\n")
+    return paper
