@@ -120,6 +120,12 @@ class SmallPaper(InAFolder):
             self.assertEqual((parts / file).read_bytes(),
                              (self.folder / "whole" / file).read_bytes())
 
+    def test_says_that_the_program_for_its_runs_is_missing(self):
+        code, _, err = reproduce("3", "--paper", self.paper, "--out", self.folder / "out",
+                                 "--quiet", "--program", "/none/needlework")
+        self.assertEqual((code, err), (5, "needlework: --program /none/needlework: cannot be run: "
+                                          "No such file or directory\n"))
+
     def test_needs_finished_runs_of_all_points(self):
         runs = PaperRuns(self.folder / "out", "full", self.paper)
         with self.assertRaisesRegex(InputError, "dense: expected finished runs of all points of "

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Optional
 
+from ..errors import IoError
 from .runs import PaperRuns
 
 STOPPED = 75
@@ -28,7 +29,10 @@ def run_set(runs: PaperRuns, name: str, program: str, *, threads: Optional[int] 
     received: list[int] = []
     with _signals_go_to(received) as receivers:
         # The table that a sweep prints is not what this command is asked for.
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        try:
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        except OSError as error:
+            raise IoError(f"--program {program}: cannot be run: {error.strerror}") from None
         receivers.append(process)
         if received:  # between the handlers and the start
             process.send_signal(received[0])
