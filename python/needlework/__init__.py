@@ -17,8 +17,9 @@ from .collisions import COLLISION, COLLISION_WITH_STATES
 from .contacts import FirstContacts, predict
 from .data import Data
 from .errors import Error, InputError, InvalidStateError, IoError
+from .frames import Frame, Frames
 from .gsd_file import to_gsd
-from .reading import Events, Frame, Frames, Recording, Series, VelocitiesSet, read
+from .reading import Events, Recording, Series, VelocitiesSet, read
 from .simulation import Counters, SceneWarning, Simulation, Totals
 from .state import State
 from .values import Table, Values

@@ -1,4 +1,4 @@
-"""Reads files of runs: series, frames and collisions as NumPy arrays.
+"""Reads files of runs: series, frames (in frames.py) and collisions as NumPy arrays.
 
 Files are read with h5py rather than with the library, which reads last frames and series only:
 h5py reads the frames and the collisions that are asked for and nothing else, whatever the size of
@@ -11,7 +11,7 @@ import fcntl
 import os
 import struct
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,7 @@ from . import _core
 from .collisions import RECORDED_COLLISION
 from .data import value_of
 from .errors import InputError, IoError
-from .state import ARRAYS, State
+from .frames import Frame, Frames, find_needles, places
 from .values import NotPickled, Table, Values, html_table, pandas_table
 
 if TYPE_CHECKING:
@@ -32,11 +32,14 @@ TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
 
 
 def read(path: str | os.PathLike[str]) -> Recording:
-    """Opens a file that a run has written, or is writing.
+    """Opens a file that a run has written, or is writing, or any other H5MD file of needles, of
+    which there are the frames only.
 
     What is already in the file at that moment can be read. Close it and open it again to see more.
 
-    Raises IoError if the file cannot be read, and InputError if it is not the file of a run.
+    Raises IoError if the file cannot be read, and InputError if it does not hold needles: position,
+    velocity, orientation and angular_velocity in /particles/needles, or in the only group under
+    /particles, in one of the layouts that initial.file can have.
     """
     return Recording(path)
 
@@ -85,95 +88,6 @@ class VelocitiesSet(Table):
     """Total momentum, [C, 2, 3]."""
 
 
-class Frame(NotPickled):
-    """All needles at one instant, in order of id. Arrays are read when they are asked for."""
-
-    _instead = "frame.state, its arrays, or the path of the file"
-
-    def __init__(self, needles: h5py.Group, index: int) -> None:
-        self._needles = needles
-        self._index = index
-        self.time: float = float(needles["position/time"][index])
-        """Since the start of the run [time]."""
-        self.collisions: int = int(needles["position/step"][index])
-        """Number of collisions before this instant."""
-
-    def _row(self, name: str) -> np.ndarray:
-        return self._needles[name]["value"][self._index]
-
-    @cached_property
-    def position(self) -> np.ndarray:
-        """Centres in the box, [N, 3] [L]."""
-        return self._row("position")
-
-    @cached_property
-    def velocity(self) -> np.ndarray:
-        """Velocities, [N, 3] [L / time]."""
-        return self._row("velocity")
-
-    @cached_property
-    def orientation(self) -> np.ndarray:
-        """Unit directors, [N, 3]."""
-        return self._row("orientation")
-
-    @cached_property
-    def angular_velocity(self) -> np.ndarray:
-        """Angular velocities, normal to the directors, [N, 3] [1 / time]."""
-        return self._row("angular_velocity")
-
-    @cached_property
-    def image(self) -> np.ndarray:
-        """Number of boxes to add to each centre to follow its path, [N, 3]."""
-        return self._row("image")
-
-    @cached_property
-    def box(self) -> np.ndarray:
-        """Edges of the periodic box, [3] [L]."""
-        return self._row("box/edges").diagonal().copy()
-
-    @cached_property
-    def id(self) -> np.ndarray:
-        """Ids of the needles, [N], the same in all frames."""
-        return self._needles["id"][:]
-
-    @property
-    def state(self) -> State:
-        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
-        id by name, from which ``Simulation(scene, **state)`` starts."""
-        return State.of(getattr(self, name) for name in ARRAYS)
-
-    def __repr__(self) -> str:
-        return f"<Frame {self._index} at time {self.time:g}, {self.collisions} collisions>"
-
-
-class Frames(NotPickled, Sequence):
-    """Frames by index: ``frames[-1]``, ``len(frames)``, ``for frame in frames``."""
-
-    _instead = "the path of the file"
-
-    def __init__(self, needles: h5py.Group) -> None:
-        self._needles = needles
-        # The step of a frame is written last.
-        self._count = len(needles["position/step"])
-
-    def __len__(self) -> int:
-        return self._count
-
-    def __getitem__(self, index: Any) -> Any:
-        places = _places("frames", self._count, index)
-        if isinstance(places, range):
-            return [Frame(self._needles, place) for place in places]
-        return Frame(self._needles, places)
-
-    @property
-    def time(self) -> np.ndarray:
-        """Times of all frames, [F] [time]."""
-        return self._needles["position/time"][:self._count]
-
-    def __repr__(self) -> str:
-        return f"<{self._count} Frames>"
-
-
 class Events(NotPickled):
     """Collisions in the order of their times.
 
@@ -199,14 +113,14 @@ class Events(NotPickled):
                 raise InputError(f"events[{index!r}]: expected one of "
                                  f"{', '.join(self.dtype.names)}")
             return self._group[index][:self._count].astype(self.dtype[index].base)
-        places = _places("events", self._count, index)
-        if not isinstance(places, range):
-            return self[places:places + 1][0]
-        first, last = (min(places), max(places) + 1) if places else (0, 0)
+        chosen = places("events", self._count, index)
+        if not isinstance(chosen, range):
+            return self[chosen:chosen + 1][0]
+        first, last = (min(chosen), max(chosen) + 1) if chosen else (0, 0)
         rows = np.empty(last - first, dtype=self.dtype)
         for name in self.dtype.names:
             rows[name] = self._group[name][first:last]
-        return rows[::places.step] if places.step > 0 else rows[::-1][::-places.step]
+        return rows[::chosen.step] if chosen.step > 0 else rows[::-1][::-chosen.step]
 
     def __iter__(self) -> Iterator[np.void]:
         for begin in range(0, self._count, 8192):
@@ -221,17 +135,20 @@ class Events(NotPickled):
 
 
 class Recording(NotPickled):
-    """The file of a run; see read(). It is closed by close(), by ``with``, or when forgotten."""
+    """The file of a run, or of needles; see read(). It is closed by close(), by ``with``, or when
+    forgotten."""
 
     _instead = "recording.path, for needlework.read() elsewhere"
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fsdecode(path)
         self._file, self._held = _open(self.path)
-        if "particles/needles/position/step" not in self._file:
-            self._file.close()
-            raise InputError(f"{self.path}: /particles/needles is missing: "
-                             "expected the file of a run of Needlework")
+        try:
+            self._needles = find_needles(self.path, self._file)
+            self._frames = Frames(self.path, self._needles)
+        except BaseException:
+            self.close()
+            raise
 
     @cached_property
     def series(self) -> Series:
@@ -280,7 +197,8 @@ class Recording(NotPickled):
     @property
     def frames(self) -> Frames:
         """States of all needles, read one by one."""
-        return Frames(self._group("particles/needles", "needles"))
+        self._require_open()
+        return self._frames
 
     @property
     def events(self) -> Events:
@@ -297,13 +215,13 @@ class Recording(NotPickled):
     def gas(self) -> Values:
         """What theory has to know: count, box, k, epsilon, beta, length and mass, and
         undisturbed_until, when a caller first replaced the velocities, or inf."""
-        needles = self._group("particles/needles", "needles")
-        masses = needles["mass"][:1] if "mass" in needles else ()
         given = self.parameters
-        return Values({"count": len(needles["id"]), "box": self.frames[0].box, "k": given.k,
+        first = self.frames[0]
+        masses = self._needles["mass"][:1] if "mass" in self._needles else ()
+        return Values({"count": len(first.id), "box": first.box, "k": given.k,
                        "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
-                       "mass": float(masses[0]) if len(masses) else 1.0,
+                       "mass": given.get("mass", float(masses[0]) if len(masses) else 1.0),
                        "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
 
     def close(self) -> None:
@@ -317,13 +235,16 @@ class Recording(NotPickled):
     def __exit__(self, *exception: object) -> None:
         self.close()
 
+    def _require_open(self) -> None:
+        if not self._file:
+            raise IoError(f"{self.path}: is closed: expected an open file")
+
     def _has(self, name: str) -> bool:
         """Files of older versions have less."""
         return name in self._group("/", "the root")
 
     def _group(self, name: str, expected: str) -> h5py.Group:
-        if not self._file:
-            raise IoError(f"{self.path}: is closed: expected an open file")
+        self._require_open()
         if name not in self._file:
             raise InputError(f"{self.path}: /{name} is missing: expected {expected}")
         return self._file[name]
@@ -334,9 +255,11 @@ class Recording(NotPickled):
     def _repr_html_(self) -> str:
         facts = {"file": self.path}
         if self._file:
-            facts |= {"title": self.parameters.title, "needles": self.gas.count,
-                      "samples": self.series.rows, "frames": len(self.frames),
-                      "events": len(self.events) if "events" in self._file else "not recorded"}
+            frames = self.frames
+            facts |= {"title": self.parameters.title if self._has("parameters") else "",
+                      "needles": len(frames[0].id), "frames": len(frames),
+                      "samples": self.series.rows if self._has("series") else "not recorded",
+                      "events": len(self.events) if self._has("events") else "not recorded"}
         return html_table(facts)
 
 
@@ -403,18 +326,6 @@ def _locks(path: str) -> tuple[bool, bool]:
         except OSError:  # a file system without locks
             return False, False
     return written, True
-
-
-def _places(name: str, count: int, index: Any) -> int | range:
-    """The place that an index means, or the places of a slice."""
-    try:
-        return range(count)[index]
-    except IndexError:
-        expected = f"an index from {-count} to {count - 1}" if count else "no index, as it is empty"
-        raise IndexError(f"{name}[{index}]: expected {expected}") from None
-    except TypeError:
-        raise InputError(f"{name}: an index of the type {type(index).__name__}: expected a whole "
-                         f"number or a slice; to choose by a mask, read all: {name}[:]") from None
 
 
 def _plain(value: Any) -> Any:

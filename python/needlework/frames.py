@@ -1,0 +1,354 @@
+"""Frames of H5MD files: those that runs have written, and those of other programs.
+
+The layouts that are read are those of initial.file; docs/file-format.md lists them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .errors import InputError, IoError
+from .state import ARRAYS, State
+from .values import NotPickled
+
+if TYPE_CHECKING:
+    import h5py
+
+VECTORS = ("position", "velocity", "orientation", "angular_velocity")
+
+
+class Frame(NotPickled):
+    """All needles at one instant, in the order of the file, which is that of id where Needlework has
+    written it. Arrays are read when they are asked for."""
+
+    _instead = "frame.state, its arrays, or the path of the file"
+
+    def __init__(self, needles: Needles, index: int) -> None:
+        self._needles = needles
+        self._index = index
+        self.time: float = float(needles.times[index])
+        """Since the start of the run [time]; not a number where the file does not say it."""
+        self.collisions: int | None = None if needles.steps is None else int(needles.steps[index])
+        """Number of collisions before this instant, which other programs than Needlework count as
+        they like; None where the file does not say it."""
+
+    def _vectors(self, name: str, dtype: type = np.float64) -> np.ndarray:
+        return self._needles.row(name, 2, self._index, dtype)
+
+    @cached_property
+    def position(self) -> np.ndarray:
+        """Centres in the box, [N, 3] [L]."""
+        return self._vectors("position")
+
+    @cached_property
+    def velocity(self) -> np.ndarray:
+        """Velocities, [N, 3] [L / time]."""
+        return self._vectors("velocity")
+
+    @cached_property
+    def orientation(self) -> np.ndarray:
+        """Unit directors, [N, 3]."""
+        return self._vectors("orientation")
+
+    @cached_property
+    def angular_velocity(self) -> np.ndarray:
+        """Angular velocities, normal to the directors, [N, 3] [1 / time]."""
+        return self._vectors("angular_velocity")
+
+    @cached_property
+    def image(self) -> np.ndarray:
+        """Number of boxes to add to each centre to follow its path, [N, 3]; 0 where the file does
+        not hold it."""
+        if "image" not in self._needles:
+            return np.zeros((self._needles.count, 3), dtype=np.int32)
+        return self._vectors("image", np.int32)
+
+    @cached_property
+    def box(self) -> np.ndarray:
+        """Edges of the periodic box, [3] [L]."""
+        return self._needles.box(self._index)
+
+    @cached_property
+    def id(self) -> np.ndarray:
+        """Ids of the needles, [N]; 0 to N - 1 where the file does not hold them."""
+        if "id" not in self._needles:
+            return np.arange(self._needles.count, dtype=np.uint32)
+        return self._needles.row("id", 1, self._index, np.uint32)
+
+    @property
+    def state(self) -> State:
+        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
+        id by name, from which ``Simulation(scene, **state)`` starts."""
+        return State.of(getattr(self, name) for name in ARRAYS)
+
+    def __repr__(self) -> str:
+        collisions = "" if self.collisions is None else f", {self.collisions} collisions"
+        return f"<Frame {self._index} at time {self.time:g}{collisions}>"
+
+
+class Frames(NotPickled, Sequence):
+    """Frames by index: ``frames[-1]``, ``len(frames)``, ``for frame in frames``."""
+
+    _instead = "the path of the file"
+
+    def __init__(self, path: str, group: h5py.Group) -> None:
+        self._needles = Needles(path, group)
+
+    def __len__(self) -> int:
+        return self._needles.frames
+
+    def __getitem__(self, index: Any) -> Any:
+        chosen = places("frames", len(self), index)
+        if isinstance(chosen, range):
+            return [Frame(self._needles, place) for place in chosen]
+        return Frame(self._needles, chosen)
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of all frames, [F] [time]; not numbers where the file does not hold them."""
+        return self._needles.times.copy()
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} Frames>"
+
+
+def places(name: str, count: int, index: Any) -> int | range:
+    """The place that an index means, or the places of a slice."""
+    try:
+        return range(count)[index]
+    except IndexError:
+        expected = f"an index from {-count} to {count - 1}" if count else "no index, as it is empty"
+        raise IndexError(f"{name}[{index}]: expected {expected}") from None
+    except TypeError:
+        raise InputError(f"{name}: an index of the type {type(index).__name__}: expected a whole "
+                         f"number or a slice; to choose by a mask, read all: {name}[:]") from None
+
+
+def find_needles(path: str, file: h5py.File) -> h5py.Group:
+    """The group of the needles: /particles/needles, or the only group under /particles."""
+    import h5py
+
+    groups = {}
+    if isinstance(_get(file, "particles"), h5py.Group):
+        particles = file["particles"]
+        groups = {name: item for name in particles
+                  if isinstance(item := _get(particles, name), h5py.Group)}
+    if "needles" in groups:
+        return groups["needles"]
+    if len(groups) != 1:
+        raise InputError(f"{path}: /particles: {len(groups)} groups: expected the file of a run, or "
+                         "an H5MD file with one group of particles, or one named needles")
+    return next(iter(groups.values()))
+
+
+def _get(group: h5py.Group, name: str) -> Any:
+    """What has this name, or None if nothing has, or a link leads nowhere."""
+    try:
+        return group.get(name)
+    except (KeyError, OSError):
+        return None
+
+
+class Element:
+    """An H5MD element, a group with the dataset value and optionally step and time, or a plain
+    dataset, which is read like an element without step and time."""
+
+    def __init__(self, path: str, group: h5py.Group, name: str) -> None:
+        import h5py
+
+        item = _get(group, name)
+        self._group = item if isinstance(item, h5py.Group) else None
+        self.is_group = self._group is not None
+        where = f"{group.name}/{name}"
+        self._path = path
+        self.name = where + "/value" if self.is_group else where
+        self._value = _get(item, "value") if self.is_group else item
+        if not isinstance(self._value, h5py.Dataset):
+            self.reject("missing: expected a dataset")
+        if self._value.dtype.kind not in "iuf":
+            self.reject("the values are not numbers: expected floating point or integers")
+        self.shape = self._value.shape or ()
+        # The step of a row is written last.
+        self.steps = self._grid("step", np.int64)
+        self.rows = self.shape[0] if self.shape else 0
+        if self.steps is not None:
+            if len(self.steps) > self.rows:
+                self.reject(f"{len(self.steps)} steps: expected {self.rows}, one for each row")
+            self.rows = len(self.steps)
+            if np.any(np.diff(self.steps) < 0):
+                self.reject("steps that go back: expected them in order")
+
+    def reject(self, reason: str) -> None:
+        raise InputError(f"{self._path}: {self.name}: {reason}")
+
+    @property
+    def times(self) -> np.ndarray | None:
+        """The time of each row, or None."""
+        return self._grid("time", np.float64)
+
+    def read(self, row: int | None, dtype: type) -> np.ndarray:
+        """One row, or all of them, as numbers of this type."""
+        if not self._value:
+            raise IoError(f"{self._path}: is closed: expected an open file")
+        try:
+            values = self._value[()] if row is None else self._value[row]
+        except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
+            raise IoError(f"{self._path}: {self.name}: cannot be read: {error}") from error
+        if values.dtype == dtype:
+            return values
+        with np.errstate(invalid="ignore"):
+            converted = values.astype(dtype)
+        if np.dtype(dtype).kind != "f" and not np.array_equal(converted, values):
+            self.reject(f"expected whole numbers that {np.dtype(dtype).name} can hold")
+        return converted
+
+    def _grid(self, name: str, dtype: type) -> np.ndarray | None:
+        """H5MD allows either one step and time for each row, or a scalar increment with an
+        offset."""
+        import h5py
+
+        item = _get(self._group, name) if self.is_group else None
+        if not isinstance(item, h5py.Dataset):
+            return None
+        if item.dtype.kind not in "iuf" or len(item.shape or ()) > 1:
+            self.reject(f"{name} of type {item.dtype} and shape {item.shape}: expected one number "
+                        "for each row")
+        values = item[()]
+        if item.shape:
+            return values.astype(dtype)
+        offset, rows = item.attrs.get("offset", 0), self.shape[0] if self.shape else 0
+        if dtype is np.float64:
+            return float(offset) + np.arange(rows) * float(values)
+        grid = [int(offset) + row * int(values) for row in (0, max(rows - 1, 0))]
+        if any(abs(number) >= 2**63 for number in grid):
+            self.reject(f"steps up to {max(grid)}: expected numbers of 64 bits")
+        return int(offset) + np.arange(rows, dtype=np.int64) * int(values)
+
+
+class Needles:
+    """The group of the needles of a file, and which rows of its elements belong to one frame.
+
+    Frames are the steps that all elements with steps have. If elements differ in their steps, a
+    frame is a step that is common to all, and the last row with that step belongs to it. Without
+    steps a frame is a row of the positions.
+    """
+
+    def __init__(self, path: str, group: h5py.Group) -> None:
+        self._elements = {name: Element(path, group, name) for name in VECTORS}
+        for name in ("image", "id", "box/edges"):
+            if _get(group, name) is not None:
+                self._elements[name] = Element(path, group, name)
+        if "box/edges" not in self:
+            raise InputError(f"{path}: {group.name}/box/edges: missing: expected edges")
+        position = self._elements["position"]
+        if len(position.shape) not in (2, 3) or position.shape[-1] != 3:
+            position.reject(f"shape {position.shape}: expected [frames][needles][3]")
+        self.count = position.shape[-2]
+        self._common: np.ndarray | None = None  # steps of the frames, if elements differ in them
+        self.frames = self._count_frames(position)
+        self._require_shapes()
+        self.steps, self.times = self._steps_and_times(position)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._elements
+
+    def row(self, name: str, rank: int, frame: int, dtype: type) -> np.ndarray:
+        """What an element, of which one frame has `rank` dimensions, holds of a frame."""
+        element = self._elements[name]
+        return element.read(self._row(element, rank, frame), dtype)
+
+    def box(self, frame: int) -> np.ndarray:
+        """Edges of the box in a frame, which may be vectors, the rows of a diagonal matrix."""
+        edges = self._elements["box/edges"]
+        rank = 1 if len(edges.shape) == 1 or self._edges_by_row(edges) else 2
+        values = edges.read(self._row(edges, rank, frame), np.float64)
+        if values.ndim == 2:
+            if np.any(values[~np.eye(3, dtype=bool)] != 0):
+                edges.reject("edges that are not along the axes: expected a rectangular box")
+            values = values.diagonal().copy()
+        if not np.all((values > 0) & (values < math.inf)):
+            edges.reject(f"{values.tolist()}: expected edges above 0")
+        return values
+
+    def _count_frames(self, position: Element) -> int:
+        timed = [element for element in self._elements.values() if element.steps is not None]
+        if any(element.rows == 0 for element in timed):
+            return 0  # a run has not written its first frame yet
+        if not timed:
+            return 1 if len(position.shape) == 2 else position.rows
+        first = timed[0]
+        if not all(np.array_equal(element.steps, first.steps) for element in timed):
+            common = first.steps
+            for element in timed:
+                common = np.intersect1d(common, element.steps)
+            if len(common) == 0:
+                first.reject("no step in common with the other elements: expected one")
+            self._common = common
+        return first.rows if self._common is None else len(self._common)
+
+    def _row(self, element: Element, rank: int, frame: int) -> int | None:
+        """The row of this frame, or None if the element is one frame as a whole."""
+        if len(element.shape) == rank:
+            return None
+        if element.rows == 0:
+            element.reject("no frames: expected at least one")
+        if element.steps is not None:
+            if self._common is None:
+                return frame
+            return int(np.searchsorted(element.steps, self._common[frame], side="right")) - 1
+        position = self._elements["position"]
+        if len(position.shape) == 3 and element.rows != position.rows:
+            element.reject(f"{element.rows} frames: expected {position.rows}, as in "
+                           f"{position.name}")
+        # Without steps, an element belongs to the rows of the positions.
+        if element is not position and len(position.shape) == 3:
+            return self._row(position, 2, frame)
+        if element.rows == self.frames:
+            return frame
+        if frame + 1 == self.frames:
+            return element.rows - 1
+        element.reject(f"{element.rows} frames: expected {self.frames}")
+
+    def _require_shapes(self) -> None:
+        for name, element in self._elements.items():
+            shape, count = element.shape, self.count
+            if name == "box/edges":
+                good = len(shape) in (1, 2, 3) and shape[-1] == 3
+                good = good and (len(shape) < 3 or shape[1] == 3)
+                expected = "[3], [3][3], [frames][3] or [frames][3][3]"
+            elif name == "id":
+                good = len(shape) in (1, 2) and shape[-1] == count
+                expected = f"[{count}] or [frames][{count}]"
+            else:
+                good = shape[-2:] == (count, 3) and len(shape) in (2, 3)
+                good = good and (len(shape) == 3 or not element.is_group)
+                expected = f"[frames][{count}][3]"
+            if not good:
+                element.reject(f"shape {list(shape)}: expected {expected}")
+
+    def _edges_by_row(self, edges: Element) -> bool:
+        """Whether edges of shape [n][3] have one row for each frame. The shape [3][3] is read as a
+        matrix unless it must be the edges of three frames."""
+        if len(edges.shape) != 2:
+            return False
+        if edges.shape[0] != 3 or edges.steps is not None:
+            return True
+        position = self._elements["position"]
+        if len(position.shape) != 3 or position.rows != 3:
+            return False
+        values = edges.read(None, np.float64)
+        # Three equal rows are not a matrix, because the box would have no volume.
+        return edges.is_group or bool(np.all(values == values[0]))
+
+    def _steps_and_times(self, position: Element) -> tuple[np.ndarray | None, np.ndarray]:
+        steps, times = position.steps, position.times
+        rows = np.array([self._row(position, 2, frame) or 0 for frame in range(self.frames)], int)
+        known = None if steps is None else steps[rows]
+        if times is None or len(times) <= rows.max(initial=-1):
+            return known, np.full(self.frames, np.nan)
+        return known, times[rows]
