@@ -13,6 +13,9 @@ from .reading import Recording, read
 
 __all__ = ["to_gsd"]
 
+DRAWN_RADIUS = 0.02
+"""Needles have no thickness. They are drawn with this radius in the middle, in lengths."""
+
 
 def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: Any = None,
            force: bool = False) -> int:
@@ -30,7 +33,8 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
 
     Returns the number of frames written. GSD holds numbers in single precision. Centres are shifted
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
-    turns (0, 0, 1) into the director. GSD has no angular velocity: it is in
+    turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
+    that OVITO draws needles. GSD has no angular velocity: it is in
     ``log["particles/angular_velocity"]``, in double precision, and the time is in ``log["time"]``.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
@@ -79,6 +83,8 @@ def _snapshot(frame: Any, gas: Any) -> Any:
     particles = snapshot.particles
     particles.N = count
     particles.types = ["needle"]
+    radius = DRAWN_RADIUS * gas.length
+    particles.type_shapes = [{"type": "Ellipsoid", "a": radius, "b": radius, "c": gas.length / 2}]
     particles.typeid = np.zeros(count, dtype=np.uint32)
     particles.position = frame.position - frame.box / 2
     particles.image = frame.image

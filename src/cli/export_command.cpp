@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "needlework/error.h"
@@ -28,11 +27,6 @@ std::string endings(bool many) {
     if (format.many || !many) all.push_back(format.endings.front());
   }
   return fmt::format("{}", fmt::join(all, ", "));
-}
-
-bool fits(const io::ExportFormat& format, const std::string& path) {
-  return std::any_of(format.endings.begin(), format.endings.end(),
-                     [&](std::string_view ending) { return path.ends_with(ending); });
 }
 
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
@@ -88,7 +82,7 @@ int run(const ExportArguments& arguments) {
                     format->what, endings(true)));
     return bad_usage;
   }
-  if (!fits(*format, to)) {
+  if (!io::has_ending_of(*format, to)) {
     print_warning(fmt::format("OUT {}: will be {} nevertheless: expected a name that ends in {}",
                               to, format->what, format->endings.front()));
   }

@@ -33,8 +33,8 @@ void add_import_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<ImportArguments>();
   command
       ->add_option("FILE", arguments->from,
-                   "configuration of DynamO (.xml or .xml.bz2), extended XYZ, or dump or data file "
-                   "of LAMMPS")
+                   "configuration of DynamO, extended XYZ, or dump or data file of LAMMPS, also "
+                   "compressed with bzip2 or gzip")
       ->required();
   command->add_option("--out", arguments->folder, "folder for scene.toml and state.h5")
       ->option_text("DIR")
@@ -83,7 +83,9 @@ void add_export_command(CLI::App& app, int& exit_code) {
   xyz     .xyz, .extxyz       all frames  extended XYZ: ASE, OVITO
   lammps  .dump, .lammpstrj   all frames  dump of LAMMPS
   lammps  .data, .lmp         one frame   data file of LAMMPS
-  dynamo  .xml, .xml.bz2      one frame   configuration of DynamO
+  dynamo  .xml                one frame   configuration of DynamO
+
+The last four are compressed where .gz or .bz2 follows the ending.
 
 Examples:
   needlework export run.h5 run.pvd

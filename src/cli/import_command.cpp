@@ -28,10 +28,27 @@ namespace fs = std::filesystem;
 
 constexpr double assumed_collisions_per_needle = 10;
 
-// A string in TOML, for which that of JSON serves: control characters and invalid UTF-8 are gone.
-std::string toml(const std::string& text) { return nlohmann::json(printable(text)).dump(); }
+// A string in TOML, for which that of JSON in ASCII serves. The text must be UTF-8.
+std::string toml(const std::string& text) {
+  constexpr int in_one_line = -1;
+  std::string quoted = nlohmann::json(text).dump(in_one_line);
+  for (auto at = quoted.find('\x7f'); at != quoted.npos; at = quoted.find('\x7f', at)) {
+    quoted.replace(at, 1, "\\u007f");  // which JSON allows, and TOML does not
+  }
+  return quoted;
+}
 
-// A key that the file does not give has the value of the scene's default.
+// The name of the state in a scene. Unlike a title, it must be exact.
+std::string path_in_toml(const std::string& path) {
+  try {
+    return toml(path);
+  } catch (const nlohmann::json::type_error&) {  // it is not UTF-8
+    throw IoError(fmt::format(
+        "--out {}: cannot be named in a scene: expected a folder whose full name is UTF-8",
+        printable(fs::path(path).parent_path().string())));
+  }
+}
+
 void warn_of_what_is_assumed(const io::Material& material, const std::string& path) {
   const Scene::Species species;
   const Scene::Collisions collisions;
@@ -43,6 +60,15 @@ void warn_of_what_is_assumed(const io::Material& material, const std::string& pa
     print_warning(
         fmt::format("{}: {} is not in the file: {} is assumed", printable(path), name, assumed));
   }
+}
+
+void warn_of_roundings(const io::Configuration& read, const std::string& path) {
+  const io::Roundings& roundings = read.roundings;
+  if (roundings.needles == 0) return;
+  print_warning(
+      fmt::format("{}: {} of {} needles were projected: their directors were not of length 1, or "
+                  "their angular velocities not normal to them, by up to {:.2g}, as rounding does",
+                  printable(path), roundings.needles, read.state.size(), roundings.largest));
 }
 
 std::string scene_text(const io::Configuration& read, const std::string& from,
@@ -72,12 +98,12 @@ epsilon = {}
 [until]
 collisions_per_needle = {}  # not from the file: choose an end
 )",
-                     toml("Imported from " + fs::path(from).filename().string()),
+                     toml(printable("Imported from " + fs::path(from).filename().string())),
                      fmt::join(read.state.box, ", "),
-                     toml(material.name.empty() ? "needles" : material.name), read.state.size(),
-                     material.length.value_or(species.length), material.mass.value_or(species.mass),
-                     material.k.value_or(species.k), toml(state_file),
-                     material.epsilon.value_or(collisions.epsilon),
+                     toml(material.name.empty() ? "needles" : printable(material.name)),
+                     read.state.size(), material.length.value_or(species.length),
+                     material.mass.value_or(species.mass), material.k.value_or(species.k),
+                     path_in_toml(state_file), material.epsilon.value_or(collisions.epsilon),
                      beta == collisions.beta ? "" : fmt::format("beta = {}\n", beta),
                      assumed_collisions_per_needle);
 }
@@ -133,6 +159,7 @@ int run(const ImportArguments& arguments) {
     runs::require_writable(file, arguments.force, file);
   }
   warn_of_what_is_assumed(read.material, arguments.from);
+  warn_of_roundings(read, arguments.from);
   write_state(state_file, arguments.force, scene, read.state);
   io::TextFile out(scene_file, arguments.force);
   out.write(text);

@@ -97,6 +97,7 @@ std::vector<Description> run_file_descriptions() {
        time, scalar},
       {"/parameters/k", "Shape of the needles, k = m L^2 / (2 I)", none, scalar},
       {"/parameters/length", "Length of a needle", length, scalar},
+      {"/parameters/mass", "Mass of a needle", "mass", scalar},
       {"/parameters/epsilon", "Coefficient of normal restitution", none, scalar},
       {"/parameters/beta", "Coefficient of tangential restitution", none, scalar},
 

@@ -190,6 +190,7 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   };
   write_species("k", &Species::k);
   write_species("length", &Species::length);
+  write_species("mass", &Species::mass);
   write("epsilon", scene.collisions.epsilon);
   write("beta", scene.collisions.beta);
 }

@@ -71,6 +71,13 @@ std::optional<std::string> text(const Value& value) {
   return string && is_printable(*string) ? std::optional(*string) : std::nullopt;
 }
 
+// Files that exist may have any name that the system allows. Messages escape what is not printable.
+std::optional<std::string> path_to_read(const Value& value) {
+  const auto* string = value.as<std::string>();
+  const bool is_path = string && !string->empty() && string->find('\0') == string->npos;
+  return is_path ? std::optional(*string) : std::nullopt;
+}
+
 std::optional<std::string> one_of(const Value& value,
                                   std::initializer_list<std::string_view> names) {
   const auto name = text(value);
@@ -236,7 +243,7 @@ const SceneKey keys[] = {
     {"initial", "t_rot", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
      [](Scene& s, V v) { return store(s.initial.t_rot, temperature(v)); }},
     {"initial", "file", "the path of an H5MD file",
-     [](Scene& s, V v) { return store(s.initial.file, text(v)) && !s.initial.file.empty(); }},
+     [](Scene& s, V v) { return store(s.initial.file, path_to_read(v)); }},
 
     {"collisions", "epsilon", "a number from 0 to 1",
      [](Scene& s, V v) { return store(s.collisions.epsilon, number(v, 0, 1)); }},

@@ -90,6 +90,42 @@ TEST_F(ExportCommand, ImportOfAnExportHasTheSameSpecies) {
             "needlework: warning: a.dump: epsilon is not in the file: 1 is assumed\n");
 }
 
+// Nothing is in such a file but what all needles would have.
+TEST_F(ExportCommand, AFileWithoutNeedlesKeepsItsSpecies) {
+  write("none.toml",
+        "needles.box = 7\nuntil.time = 1\ncollisions.epsilon = 0.5\ncollisions.tc = 1e-3\n"
+        "[[species]]\nname = \"a\"\ncount = 0\nlength = 1.5\nmass = 3\nk = 2.3\n");
+  ASSERT_EQ(run("run none.toml --quiet --out a.h5").exit_code, 0);
+  for (const char* name : {"a.xml", "a.xyz", "a.data"}) {
+    ASSERT_EQ(run(fmt::format("export a.h5 {}", name)).exit_code, 0) << name;
+    const Outcome imported = run(fmt::format("import {} --out {}-folder", name, name));
+    EXPECT_EQ(imported.exit_code, 0);
+    EXPECT_EQ(imported.out + imported.err, "");
+    const std::string scene = read(std::string(name) + "-folder/scene.toml");
+    for (const char* line :
+         {"count = 0\n", "length = 1.5\n", "mass = 3\n", "k = 2.3\n", "epsilon = 0.5\n"}) {
+      EXPECT_NE(scene.find(line), scene.npos) << name << " " << line;
+    }
+    EXPECT_EQ(
+        run(fmt::format("run {}-folder/scene.toml --quiet --set until.time=1", name)).exit_code, 0);
+  }
+}
+
+TEST_F(ExportCommand, DumpsOfNeedlesOfAnyLengthAreReadBack) {
+  for (const char* length : {"1e-3", "0.5", "40"}) {
+    write("frames.toml",
+          fmt::format("needles.box = {}\nuntil.time = 0.1\noutput.file = \"{}.h5\"\n[[species]]\n"
+                      "name = \"a\"\ncount = 20\nlength = {}\n",
+                      7 * std::stod(length), length, length));
+    ASSERT_EQ(run("run frames.toml --quiet").exit_code, 0);
+    ASSERT_EQ(run(fmt::format("export {0}.h5 {0}.dump", length)).exit_code, 0);
+    ASSERT_EQ(run(fmt::format("import {0}.dump --out {0}-folder", length)).exit_code, 0);
+    EXPECT_EQ(run(fmt::format("run {}-folder/scene.toml --quiet", length)).exit_code, 0);
+    EXPECT_EQ(frame(fmt::format("{}-folder/state.h5", length), 0).position,
+              io::read_last_frame(path(fmt::format("{}.h5", length))).position);
+  }
+}
+
 TEST_F(ExportCommand, WritesAllFramesWhereTheFormatHoldsThem) {
   make_frames();
   const auto count = [&](const std::string& name, const std::string& word) {

@@ -82,5 +82,37 @@ TEST_F(ImportCommand, NamesThatNeedQuotesAreKept) {
   EXPECT_EQ(scene.title, "Imported from lines \"a\\b\".xml");
 }
 
+// The scene names its state by its path, which has to be the one that was written.
+TEST_F(ImportCommand, FoldersMayHaveAnyNameThatAFolderCanHave) {
+  write("lines.xml", dynamo_text);
+  for (const char* folder : {"a\nb", "a\tb", "\x1b[1m\x7f", "q\"u\\o'te", "\u00e9\u202e"}) {
+    const std::string quoted = "'" + std::string(folder) + "'";
+    const std::string word = folder[1] == '"' ? "\"q\\\"u\\\\o'te\"" : quoted;
+    const Outcome imported = run("import lines.xml --out " + word);
+    EXPECT_EQ(imported.exit_code, 0) << imported.err;
+    EXPECT_EQ(run("run " + word + "/scene.toml --quiet").exit_code, 0) << folder;
+  }
+  const Outcome outcome = run("import lines.xml --out 'a\xff'");
+  EXPECT_EQ(outcome.exit_code, 5);
+  EXPECT_TRUE(
+      outcome.complains("a\\xff: cannot be named in a scene: expected a folder whose full"));
+  EXPECT_FALSE(exists("a\xff"));
+}
+
+TEST_F(ImportCommand, WarnsOfWhatRoundingHasDone) {
+  write("a.xyz",
+        "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+        "angular_velocity:R:3 length=1 mass=1 k=6 epsilon=1\nX 1 3 3 1 0 0 0.577 0.577 0.578 1 -1 "
+        "0\n");
+  const Outcome imported = run("import a.xyz --out a");
+  EXPECT_EQ(imported.exit_code, 0);
+  EXPECT_EQ(
+      imported.err,
+      "needlework: warning: a.xyz: 1 of 1 needles were projected: their directors were not of "
+      "length 1, or their angular velocities not normal to them, by up to 2.9e-05, as "
+      "rounding does\n");
+  EXPECT_EQ(run("run a/scene.toml --quiet --set until.time=1").exit_code, 0);
+}
+
 }  // namespace
 }  // namespace needlework

@@ -204,6 +204,17 @@ TEST_F(Dynamo, EntitiesOfTheirOwnAreRefused) {
             "line 40: V x = &m;: expected a finite number");
 }
 
+TEST_F(Dynamo, AngularVelocitiesAreProjectedWhereRoundingExplainsIt) {
+  const Configuration read = this->read(replaced(dynamo_text, "<O x=\"0.1\" y=\"0.2\" z=\"0\"/>",
+                                                 "<O x=\"0.1\" y=\"0.2\" z=\"0.0001\"/>"));
+  EXPECT_EQ(read.roundings.needles, 1u);
+  EXPECT_NEAR(read.roundings.largest, 4.5e-4, 1e-5);
+  const auto& w = read.state.angular_velocity[1];
+  EXPECT_EQ(w[0], 0.1);
+  EXPECT_EQ(w[1], 0.2);
+  EXPECT_NEAR(w[2], 0, 1e-18);
+}
+
 TEST_F(Dynamo, FilesThatAreCutShortAreRefused) {
   const std::size_t end = dynamo_text.rfind("</DynamOconfig>") + 15;
   for (std::size_t size = 0; size < end; size += size < end - 40 ? 17 : 1) {

@@ -1,11 +1,12 @@
 """Reads what `needlework export` made of write_h5md_sample's files with ASE: extended XYZ and dumps of
-LAMMPS."""
+LAMMPS. A gas that has cooled, written by ASE with its 8 decimals, is imported again."""
 import os
 import signal
 import subprocess
 import sys
 import tempfile
 
+import h5py
 import numpy as np
 
 try:
@@ -15,6 +16,12 @@ except ImportError:
     sys.exit(77)  # skipped
 
 NEEDLES, FRAMES = 5, 7
+
+COOLED = """
+needles = { count = 500, box = 10 }
+initial = { t_tr = 1e-8, t_rot = 1e-9 }
+until.collisions_per_needle = 2
+"""
 
 
 def same(found, wanted):
@@ -38,7 +45,12 @@ def check_xyz(path):
         one = np.ones(NEEDLES)
         same(atoms.arrays["id"], 10 + i)
         same(atoms.arrays["velo"], np.stack([-1.0 * i, 0.5 * frame * one, 2.0 * i], axis=-1))
-        same(atoms.arrays["orientation"], np.stack([0 * one, i % 2 == 0, i % 2 == 1], axis=-1))
+        same(atoms.arrays["director"], np.stack([0 * one, i % 2 == 0, i % 2 == 1], axis=-1))
+        x, y, z, w = atoms.arrays["orientation"].T  # which turns (0, 0, 1) into the director
+        turned = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+                          axis=-1)
+        assert np.allclose(turned, atoms.arrays["director"], rtol=0, atol=1e-15)
+        same(atoms.arrays["aspherical_shape"], np.tile([0.02, 0.02, 0.5], (NEEDLES, 1)))
         same(atoms.arrays["angular_velocity"], np.stack([i + frame, 0 * one, 0 * one], axis=-1))
         info = {"Time": 0.5 * frame, "length": 1, "mass": 1, "k": 4.5, "epsilon": 0.75,
                 "beta": -0.5}
@@ -52,6 +64,30 @@ def check_dump(path):
         check_frame(atoms, frame)
 
 
+def check_way_back(program, folder):
+    def run(*command):
+        return subprocess.run([program, *command], cwd=folder, check=True, timeout=3600, text=True,
+                              capture_output=True).stderr
+
+    with open(os.path.join(folder, "cooled.toml"), "w") as file:
+        file.write(COOLED)
+    run("run", "cooled.toml", "--out", "cooled.h5", "--quiet")
+    run("export", "cooled.h5", "cooled.xyz", "--frame", "last")
+    atoms = ase.io.read(os.path.join(folder, "cooled.xyz"))
+    ase.io.write(os.path.join(folder, "back.xyz"), atoms)
+    said = run("import", "back.xyz", "--out", "back")
+    assert "needles were projected" in said, said
+    run("run", "back/scene.toml", "--quiet")
+    frames = []
+    for name in ("cooled.h5", "back/state.h5"):
+        with h5py.File(os.path.join(folder, name)) as file:
+            group = file["particles/needles"]
+            frames.append({key: group[key]["value"][-1] for key in
+                           ("position", "velocity", "orientation", "angular_velocity")})
+    for key, wanted in frames[0].items():
+        assert np.max(np.abs(frames[1][key] - wanted)) < 2e-8, key
+
+
 def main(writer, program):
     with tempfile.TemporaryDirectory() as folder:
         result = subprocess.run([writer, folder], timeout=3600)
@@ -61,6 +97,7 @@ def main(writer, program):
             subprocess.run([program, "export", os.path.join(folder, "sample.h5"), path], check=True,
                            timeout=3600)
             check(path)
+        check_way_back(program, folder)
 
 
 if __name__ == "__main__":

@@ -70,6 +70,14 @@ class ToGsd(unittest.TestCase):
             self.assertEqual(file[0].configuration.step, 100)
             self.assertAlmostEqual(file[0].particles.moment_inertia[0][0], 1 / 12, places=6)
 
+    def test_needles_are_drawn_as_long_as_they_are(self):
+        scene = {"needles": {"box": 9}, "species": [{"name": "long", "count": 30, "length": 3}]}
+        out = self.path("long.gsd")
+        needlework.to_gsd(needlework.Simulation(scene), out)
+        with gsd.hoomd.open(out, "rb") as file:
+            shape, = file[0].particles.type_shapes
+            self.assertEqual(shape, {"type": "Ellipsoid", "a": 0.06, "b": 0.06, "c": 1.5})
+
     def test_existing_files_are_kept(self):
         out = self.path("run.gsd")
         needlework.to_gsd(self.run, out)

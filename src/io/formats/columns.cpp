@@ -1,10 +1,12 @@
 #include "src/io/formats/columns.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "needlework/error.h"
@@ -16,12 +18,37 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
+constexpr std::int64_t most_images = std::numeric_limits<std::int32_t>::max();
+
 Vector read_vector(const Row& row, const VectorColumns& columns, const char* name) {
   Vector vector;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     vector[axis] = row.read(columns[axis], fmt::format("{} {}", name, "xyz"[axis]));
   }
   return vector;
+}
+
+// How many decimals three numbers have that are written with a fixed number of them; 0 for others.
+std::size_t common_decimals(const Row& row, const VectorColumns& columns) {
+  std::size_t common = 0;
+  for (const std::size_t column : columns) {
+    const std::string_view text = row.fields[column];
+    const std::size_t point = text.find('.');
+    if (point == text.npos || text.find_first_of("eE") != text.npos) return 0;
+    const std::size_t decimals = text.size() - point - 1;
+    if (common != 0 && decimals != common) return 0;
+    common = decimals;
+  }
+  return common;
+}
+
+// How much of a vector along u the rounding of its components to so many decimals explains. Numbers
+// with an exponent have as many digits as others, so that their rounding is small beside them.
+double rounding_along(const Row& row, const VectorColumns& columns, const Vector& u) {
+  const std::size_t decimals = common_decimals(row, columns);
+  if (decimals == 0) return 0;
+  const double half = 0.5 * std::pow(0.1, static_cast<double>(decimals));
+  return 1.01 * half * (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2]));
 }
 
 void read_common(const Row& row, std::optional<std::size_t> column, const char* name,
@@ -45,79 +72,148 @@ std::pair<const char*, std::optional<double> Material::*> const materials[] = {
 
 }  // namespace
 
-void require_all_vectors(const Columns& columns, const Row& head) {
-  for (const auto& [name, vector] :
-       {std::pair("position", columns.position), std::pair("velocity", columns.velocity),
-        std::pair("orientation", columns.orientation),
-        std::pair("angular velocity", columns.angular_velocity)}) {
-    if (!vector) head.reject(fmt::format("no {}: expected columns of it", name));
+void require_all_vectors(const Columns& columns, const ColumnNames& names, const Row& head) {
+  std::vector<std::string> missing;
+  for (const auto& [name, vector, expected] :
+       {std::tuple("position", columns.position, names.position),
+        std::tuple("velocity", columns.velocity, names.velocity),
+        std::tuple("orientation", columns.orientation, names.orientation),
+        std::tuple("angular velocity", columns.angular_velocity, names.angular_velocity)}) {
+    if (!vector) missing.push_back(fmt::format("no {}: expected the columns {}", name, expected));
   }
+  if (!missing.empty()) head.reject(fmt::format("{}", fmt::join(missing, "; ")));
 }
 
-void reserve_needles(State& state, const Columns& columns, std::int64_t count, std::size_t bytes) {
+void NeedleReader::reserve(std::int64_t count, std::size_t bytes) {
   // A digit and a blank, or the end of the line, for each column.
-  const std::size_t n = std::min(static_cast<std::size_t>(count), bytes / (2 * columns.count) + 1);
+  const std::size_t n = std::min(static_cast<std::size_t>(count), bytes / (2 * columns_.count) + 1);
+  State& state = configuration_.state;
   state.position.reserve(n);
   state.velocity.reserve(n);
   state.orientation.reserve(n);
   state.angular_velocity.reserve(n);
-  if (columns.image) state.image.reserve(n);
-  if (columns.id) state.id.reserve(n);
+  if (columns_.image || columns_.unwrapped) state.image.reserve(n);
+  if (columns_.id) state.id.reserve(n);
 }
 
-void read_needle(const Row& row, const Columns& columns, Configuration& configuration) {
-  if (row.fields.size() != columns.count) {
-    row.reject(fmt::format("{} columns: expected {}", row.fields.size(), columns.count));
+void NeedleReader::read(const Row& row) {
+  if (row.fields.size() != columns_.count) {
+    row.reject(fmt::format("{} columns: expected {}", row.fields.size(), columns_.count));
   }
-  State& state = configuration.state;
-  const Vector u = read_vector(row, *columns.orientation, "orientation");
-  const Vector w = read_vector(row, *columns.angular_velocity, "angular velocity");
-  if (!is_unit(u)) {
-    row.reject(
-        fmt::format("orientation = ({}, {}, {}), of length {}: expected a unit vector, "
-                    "within {}",
-                    u[0], u[1], u[2], length_of(u), director_tolerance));
-  }
-  if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
-    row.reject(
-        fmt::format("angular velocity = ({}, {}, {}), of which {} of its length along the "
-                    "orientation: expected none, within {}",
-                    w[0], w[1], w[2], part, director_tolerance));
-  }
-  state.position.push_back(read_vector(row, *columns.position, "position"));
-  state.velocity.push_back(read_vector(row, *columns.velocity, "velocity"));
-  state.orientation.push_back(u);
-  state.angular_velocity.push_back(w);
-  if (columns.image) {
-    constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-    auto& image = state.image.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      image[axis] =
-          static_cast<std::int32_t>(row.read_whole((*columns.image)[axis], "image", -most, most));
-    }
-  }
-  if (columns.id) {
+  State& state = configuration_.state;
+  read_rotation(row);
+  read_position(row);
+  state.velocity.push_back(read_vector(row, *columns_.velocity, "velocity"));
+  if (columns_.id) {
     const std::int64_t most = std::numeric_limits<std::uint32_t>::max();
     state.id.push_back(static_cast<std::uint32_t>(
-        row.read_whole(*columns.id, "id", columns.first_id, most) - columns.first_id));
+        row.read_whole(*columns_.id, "id", columns_.first_id, most) - columns_.first_id));
   }
-  read_common(row, columns.length, "length", configuration.material.length);
-  read_common(row, columns.mass, "mass", configuration.material.mass);
+  read_common(row, columns_.length, "length", configuration_.material.length);
+  read_common(row, columns_.mass, "mass", configuration_.material.mass);
 }
 
-void require_distinct_ids(const State& state, std::int64_t first_id, const std::string& path) {
-  std::vector<std::uint32_t> ids = state.id;
+void NeedleReader::read_position(const Row& row) {
+  State& state = configuration_.state;
+  const Vector read = read_vector(row, *columns_.position, "position");
+  Vector r = read;
+  std::array<std::int32_t, 3> image{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double edge = state.box[axis], lower = columns_.lower[axis];
+    if (columns_.unwrapped) {
+      const double boxes = std::floor(columns_.scaled ? r[axis] : (r[axis] - lower) / edge);
+      if (!(std::abs(boxes) <= most_images)) {
+        row.reject(fmt::format("position {} = {}: expected one at most {} boxes away", "xyz"[axis],
+                               read[axis], most_images));
+      }
+      image[axis] = static_cast<std::int32_t>(boxes);
+      // With one rounding, so that a position comes back as it was wrapped.
+      r[axis] = std::fma(-boxes, columns_.scaled ? 1 : edge, r[axis]);
+    }
+    if (columns_.scaled) r[axis] = lower + r[axis] * edge;
+    if (!std::isfinite(r[axis])) {
+      row.reject(fmt::format("position {} = {}: expected a number of boxes that a double can hold",
+                             "xyz"[axis], read[axis]));
+    }
+  }
+  state.position.push_back(r);
+  if (columns_.unwrapped) {
+    state.image.push_back(image);
+  } else if (columns_.image) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      image[axis] = static_cast<std::int32_t>(
+          row.read_whole((*columns_.image)[axis], "image", -most_images, most_images));
+    }
+    state.image.push_back(image);
+  }
+}
+
+void NeedleReader::read_rotation(const Row& row) {
+  Vector u = read_vector(row, *columns_.orientation, "orientation");
+  Vector w = read_vector(row, *columns_.angular_velocity, "angular velocity");
+  double deviation = 0;
+  if (const double off = std::abs(length_of(u) - 1); !(off <= director_tolerance)) {
+    if (!(off <= largest_rounding)) {
+      row.reject(
+          fmt::format("orientation = ({}, {}, {}), of length {}: expected a unit vector, "
+                      "within {}",
+                      u[0], u[1], u[2], length_of(u), largest_rounding));
+    }
+    u = normalised(u);
+    deviation = off;
+  }
+  if (const double part = std::abs(part_along(w, u)); !(part <= director_tolerance)) {
+    const double along = part * length_of(w);
+    if (part <= largest_rounding) {
+      deviation = std::max(deviation, part);
+    } else if (along <= rounding_along(row, *columns_.angular_velocity, u)) {
+      slow_.push_back({{row.path, row.number, {}}, along});
+    } else {
+      row.reject(
+          fmt::format("angular velocity = ({}, {}, {}), of which {} of its length along the "
+                      "orientation: expected none, within {}",
+                      w[0], w[1], w[2], part, largest_rounding));
+    }
+    w = without_part_along(w, u);
+  }
+  if (deviation > 0) configuration_.roundings.add(deviation);
+  configuration_.state.orientation.push_back(u);
+  configuration_.state.angular_velocity.push_back(w);
+}
+
+void NeedleReader::finish(const std::string& path) {
+  require_distinct_ids(path);
+  if (slow_.empty()) return;
+  const auto& all = configuration_.state.angular_velocity;
+  double size = 0;  // of the vector of all components, without overflow
+  for (const Vector& w : all) size = std::hypot(size, length_of(w));
+  const double mean = size / std::sqrt(static_cast<double>(all.size()));
+  for (const SlowRotation& each : slow_) {
+    const double deviation = each.along / mean;
+    if (!(deviation <= largest_rounding)) {
+      each.place.reject(fmt::format(
+          "angular velocity with {} along the orientation, which rounding explains, but which is "
+          "{:.3g} of the root mean square of all needles: expected more digits, for at most {}",
+          each.along, deviation, largest_rounding));
+    }
+    configuration_.roundings.add(deviation);
+  }
+}
+
+void NeedleReader::require_distinct_ids(const std::string& path) const {
+  std::vector<std::uint32_t> ids = configuration_.state.id;
   std::sort(ids.begin(), ids.end());
   const auto twice = std::adjacent_find(ids.begin(), ids.end());
   if (twice == ids.end()) return;
-  throw InputError(
-      fmt::format("{}: id = {} for two needles: expected different ids", path, *twice + first_id));
+  throw InputError(fmt::format("{}: id = {} for two needles: expected different ids", path,
+                               *twice + columns_.first_id));
 }
 
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row) {
   for (const auto& [known, member] : materials) {
     if (name != known) continue;
+    if (material.*member) row.reject(fmt::format("{} twice: expected it once", name));
     double number = 0;
     if (read_decimal(value, number) != std::errc()) {
       row.reject(fmt::format("{} = {}: expected a finite number", name, value));

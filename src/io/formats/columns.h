@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/io/formats/configuration.h"
 #include "src/io/formats/lines.h"
@@ -22,26 +23,61 @@ struct Columns {
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
   std::optional<std::size_t> length, mass;
+  bool scaled = false;               ///< positions are multiples of the edges, from `lower`
+  bool unwrapped = false;            ///< positions are not wrapped into the box: images follow from
+                                     ///< them
+  std::array<double, 3> lower = {};  ///< bounds of the box [L]
 };
 
-/// Throws InputError, naming what is missing, unless the head of a table names columns for
-/// position, velocity, orientation and angular velocity.
-void require_all_vectors(const Columns& columns, const Row& head);
+/// What the columns of each vector are called in a format, as messages say it.
+struct ColumnNames {
+  const char *position, *velocity, *orientation, *angular_velocity;
+};
 
-/// Takes memory for so many needles that follow, but for no more than a text of so many bytes can
-/// hold.
-void reserve_needles(State& state, const Columns& columns, std::int64_t count, std::size_t bytes);
+/// Throws InputError, naming what is missing and which columns would do, unless the head of a table
+/// names columns for position, velocity, orientation and angular velocity.
+void require_all_vectors(const Columns& columns, const ColumnNames& names, const Row& head);
 
-/// Appends the needle in a row. Throws InputError if a number cannot be used, if the
-/// director is not a unit vector or if the angular velocity is not normal to it, and if its length
-/// or mass is not that of the needles before.
-void read_needle(const Row& row, const Columns& columns, Configuration& configuration);
+/// Appends the needles of a table to a configuration, line by line.
+class NeedleReader {
+ public:
+  /// `configuration` must outlive this object, and its box must be known.
+  NeedleReader(const Columns& columns, Configuration& configuration)
+      : columns_(columns), configuration_(configuration) {}
 
-/// Throws InputError, "PATH: id ...", if an id occurs twice.
-void require_distinct_ids(const State& state, std::int64_t first_id, const std::string& path);
+  /// Takes memory for so many needles that follow, but for no more than a text of so many bytes can
+  /// hold.
+  void reserve(std::int64_t count, std::size_t bytes);
+
+  /// Appends the needle in a row. Throws InputError if a number cannot be used, if its length or
+  /// mass is not that of the needles before, and if the director is not a unit vector or the
+  /// angular velocity is not normal to it, by more than a rounding of the numbers in the row
+  /// explains: see largest_rounding. What is within that is projected.
+  void read(const Row& row);
+
+  /// Throws InputError if an id occurs twice, and if what was projected away from an angular
+  /// velocity is not small in comparison with those of all needles.
+  void finish(const std::string& path);
+
+ private:
+  using Vector = std::array<double, 3>;
+  struct SlowRotation {
+    Row place;     // without its fields
+    double along;  // what was projected away [1 / time]
+  };
+
+  void read_position(const Row& row);
+  void read_rotation(const Row& row);
+  void require_distinct_ids(const std::string& path) const;
+
+  Columns columns_;
+  Configuration& configuration_;
+  // Of which the rounding of a number with so many decimals is a large part.
+  std::vector<SlowRotation> slow_;
+};
 
 /// Sets a number of the material by its name: length, mass, k, epsilon or beta. Other names are
-/// left alone.
+/// left alone. Throws InputError for what is not a number, or is set already.
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row);
 /// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", without those that are

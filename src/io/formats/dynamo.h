@@ -16,12 +16,11 @@
 
 namespace needlework::io {
 
-/// Whether a file with this beginning can be a configuration, which is XML or compressed with
-/// bzip2.
+/// Whether a text with this beginning can be a configuration, which is XML.
 bool is_dynamo(std::string_view beginning);
 
 /// Reads a configuration of one species of equal lines in a periodic box, in Newtonian dynamics. It
-/// may be compressed with bzip2. Positions, velocities and angular velocities are those of the file
+/// may be compressed. Positions, velocities and angular velocities are those of the file
 /// bit for bit; a director is within 4 * 2^-53 of that of the quaternion, in each component. Files
 /// of earlier programs, in which U is the director itself and ranges are attributes, are read as
 /// well.

@@ -22,7 +22,7 @@ constexpr const char* version = "1.5.0";
 constexpr std::size_t max_xml_bytes = std::size_t{1} << 30;
 
 // A director that was written beside a quaternion differs from the quaternion's by roundings alone.
-constexpr double largest_rounding = 1e-14;
+constexpr double largest_difference = 1e-14;
 
 Vector vector_of(const XmlElement& element) {
   return {element.number("x"), element.number("y"), element.number("z")};
@@ -167,7 +167,7 @@ Vector read_director(const XmlElement& particle) {
   const XmlElement element = particle.child("Director");
   if (!is_unit(exact)) element.reject(fmt::format("of length {}: expected a unit vector", length));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::abs(exact[axis] / length - director[axis]) <= largest_rounding) continue;
+    if (std::abs(exact[axis] / length - director[axis]) <= largest_difference) continue;
     element.reject(fmt::format("({}, {}, {}): expected ({}, {}, {}), to which U turns (0, 0, 1)",
                                exact[0], exact[1], exact[2], director[0], director[1],
                                director[2]));
@@ -175,7 +175,8 @@ Vector read_director(const XmlElement& particle) {
   return exact;
 }
 
-void read_particle(const XmlElement& particle, State& state) {
+void read_particle(const XmlElement& particle, Configuration& configuration) {
+  State& state = configuration.state;
   const std::size_t number = state.size();
   if (particle.has("Static")) particle.reject("Static", "none: all needles move");
   particle.require_only({"ID"}, {"P", "V", "O", "U", "Director"});
@@ -183,11 +184,15 @@ void read_particle(const XmlElement& particle, State& state) {
     particle.reject("ID", fmt::format("{}: particles are numbered in order", number));
   }
   const Vector u = read_director(particle);
-  const Vector w = read_vector(particle, "O");
-  if (const double part = part_along(w, u); !(std::abs(part) <= director_tolerance)) {
-    particle.child("O").reject(
-        fmt::format("{} of its length is along the director: expected none, within {}", part,
-                    director_tolerance));
+  Vector w = read_vector(particle, "O");
+  if (const double part = std::abs(part_along(w, u)); !(part <= director_tolerance)) {
+    if (!(part <= largest_rounding)) {
+      particle.child("O").reject(
+          fmt::format("{} of its length is along the director: expected none, within {}", part,
+                      largest_rounding));
+    }
+    w = without_part_along(w, u);
+    configuration.roundings.add(part);
   }
   state.position.push_back(read_vector(particle, "P"));
   state.velocity.push_back(read_vector(particle, "V"));
@@ -195,7 +200,7 @@ void read_particle(const XmlElement& particle, State& state) {
   state.angular_velocity.push_back(w);
 }
 
-void read_particles(const XmlElement& root, State& state) {
+void read_particles(const XmlElement& root, Configuration& configuration) {
   const XmlElement data = root.child("ParticleData");
   data.require_only({"OrientationData", "N"}, {"Pt"});
   if (!data.has("OrientationData")) {
@@ -203,8 +208,9 @@ void read_particles(const XmlElement& root, State& state) {
         "OrientationData is missing: expected OrientationData=\"Y\", and U and O in each Pt");
   }
   for (auto particle = data.first("Pt"); particle; particle = particle->next()) {
-    read_particle(*particle, state);
+    read_particle(*particle, configuration);
   }
+  const State& state = configuration.state;
   if (data.has("N") && data.number("N") != static_cast<double>(state.size())) {
     data.reject("N", fmt::format("{}, the number of particles", state.size()));
   }
@@ -213,7 +219,6 @@ void read_particles(const XmlElement& root, State& state) {
 }  // namespace
 
 bool is_dynamo(std::string_view beginning) {
-  if (beginning.starts_with("BZh")) return true;
   const auto first = beginning.find_first_not_of("\xef\xbb\xbf \t\r\n");
   return first != beginning.npos && beginning[first] == '<';
 }
@@ -238,7 +243,7 @@ Configuration read_dynamo(const std::string& path) {
   material.k = static_cast<double>(length * length / (2 * inertia));
   material.beta = -1;  // the impulse is normal to both lines
   configuration.state.box = read_box(simulation);
-  read_particles(root, configuration.state);
+  read_particles(root, configuration);
   return configuration;
 }
 

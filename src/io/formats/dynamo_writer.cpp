@@ -1,28 +1,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "src/io/formats/dynamo.h"
+#include "src/io/formats/rod.h"
 #include "src/io/formats/text_file.h"
-#include "src/io/needle_check.h"
 
 namespace needlework::io {
 namespace {
 
 using Vector = std::array<double, 3>;
-
-// A unit quaternion that turns (0, 0, 1) into the direction of a.
-std::array<double, 4> quaternion_of(const Vector& a) {
-  const double length = length_of(a);
-  const Vector u{a[0] / length, a[1] / length, a[2] / length};
-  // Of two forms, the one that is not near 0.
-  std::array<double, 4> q{1 + u[2], -u[1], u[0], 0};
-  if (u[2] < 0) q = {u[0], 0, 1 - u[2], u[1]};
-  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-  for (double& component : q) component /= size;
-  return q;
-}
 
 class DynamoWriter : public FrameWriter {
  public:

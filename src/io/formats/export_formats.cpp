@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/io/formats/compression.h"
 #include "src/io/formats/dynamo.h"
 #include "src/io/formats/lammps.h"
 #include "src/io/formats/pvd.h"
@@ -32,29 +33,31 @@ std::unique_ptr<FrameWriter> open_vtkhdf(const std::string& path, bool force,
 }  // namespace
 
 std::span<const ExportFormat> export_formats() {
+  using Endings = std::vector<std::string_view>;
   static const ExportFormat formats[] = {
-      {"vtkhdf", "a VTKHDF file", {".vtkhdf", ".hdf"}, false, false, open_vtkhdf},
-      {"pvd", "a collection of VTK files", {".pvd"}, true, false, write_pvd},
-      {"xyz", "an extended XYZ file", {".xyz", ".extxyz"}, true, false, write_xyz},
-      {"lammps",
-       "a data file of LAMMPS",
-       {".data", ".lmp", ".lammps"},
-       false,
-       false,
+      {"vtkhdf", "a VTKHDF file", Endings{".vtkhdf", ".hdf"}, false, false, false, open_vtkhdf},
+      {"pvd", "a collection of VTK files", Endings{".pvd"}, true, false, false, write_pvd},
+      {"xyz", "an extended XYZ file", Endings{".xyz", ".extxyz"}, true, true, false, write_xyz},
+      {"lammps", "a data file of LAMMPS", Endings{".data", ".lmp", ".lammps"}, false, true, false,
        write_lammps_data},
-      {"lammps", "a dump of LAMMPS", {".dump", ".lammpstrj"}, true, false, write_lammps_dump},
-      {"dynamo", "a configuration of DynamO", {".xml", ".xml.bz2"}, false, true, write_dynamo},
+      {"lammps", "a dump of LAMMPS", Endings{".dump", ".lammpstrj"}, true, true, false,
+       write_lammps_dump},
+      {"dynamo", "a configuration of DynamO", Endings{".xml"}, false, true, true, write_dynamo},
   };
   return formats;
+}
+
+bool has_ending_of(const ExportFormat& format, std::string_view path) {
+  if (format.compressible) path = without_compression(path);
+  return std::any_of(format.endings.begin(), format.endings.end(),
+                     [&](std::string_view ending) { return path.ends_with(ending); });
 }
 
 const ExportFormat* find_export_format(std::string_view name, std::string_view path, bool many) {
   const ExportFormat* other = nullptr;
   for (const ExportFormat& format : export_formats()) {
     if (!name.empty() && name != format.name) continue;
-    const bool fits = std::any_of(format.endings.begin(), format.endings.end(),
-                                  [&](std::string_view ending) { return path.ends_with(ending); });
-    if (fits) return &format;
+    if (has_ending_of(format, path)) return &format;
     if (!name.empty() && (!other || (many && !other->many))) other = &format;
   }
   return other;

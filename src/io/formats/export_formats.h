@@ -17,12 +17,16 @@ struct ExportFormat {
   std::string_view what;                  ///< "a VTKHDF file"
   std::vector<std::string_view> endings;  ///< of file names, the usual one first
   bool many;                              ///< whether it holds several frames
+  bool compressible;                      ///< whether .gz or .bz2 may follow the ending
   bool whole_material;                    ///< whether the material must be complete
   std::unique_ptr<FrameWriter> (*open)(const std::string& path, bool force,
                                        const Material& material);
 };
 
 std::span<const ExportFormat> export_formats();
+
+/// Whether the name of a file has an ending of the format.
+bool has_ending_of(const ExportFormat& format, std::string_view path);
 
 /// The format of this name, or of any name if `name` is empty, that the ending of `path` means.
 /// Without a fitting ending, it is the first format of the name that holds several frames, if these

@@ -1,12 +1,10 @@
 #include "src/io/formats/input_text.h"
 
-#include <bzlib.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <new>
 #include <system_error>
 #include <vector>
 
@@ -43,69 +41,56 @@ std::FILE* open_to_read(const std::string& path) {
 
 }  // namespace
 
+// The text of a file that is compressed: one stream, or several one after the other.
 class InputText::Decompressor {
  public:
-  Decompressor() : block_(block_size) { begin(); }
-  ~Decompressor() { BZ2_bzDecompressEnd(&stream_); }
-  Decompressor(const Decompressor&) = delete;
-  Decompressor& operator=(const Decompressor&) = delete;
+  enum class Status { more, end, cut_short, damaged };
+
+  explicit Decompressor(Compression compression)
+      : compression_(compression), block_(block_size), stream_(make_decompressor(compression)) {}
 
   // Fills `to` from the bytes that more(to, size) reads, which returns 0 at the end of the file.
-  // Sets `size` to what has come, and returns BZ_OK, BZ_STREAM_END (of the last stream) or an
-  // error.
+  // Sets `size` to what has come; end: of the last stream.
   template <class More>
-  int read(char* to, std::size_t& size, More&& more) {
-    stream_.next_out = to;
-    stream_.avail_out = static_cast<unsigned>(size);
-    int status = BZ_OK;
-    while (status == BZ_OK && stream_.avail_out > 0) {
-      if (stream_.avail_in == 0) fill(more);
-      if (ended_) {  // another stream may follow in the same file
-        if (stream_.avail_in == 0) {
-          status = BZ_STREAM_END;
-          break;
-        }
-        restart();
+  Status read(char* to, std::size_t& size, More&& more) {
+    buffers_.out = to;
+    buffers_.out_left = size;
+    Status status = Status::more;
+    while (status == Status::more && buffers_.out_left > 0) {
+      if (buffers_.in_left == 0) {
+        buffers_.in = block_.data();
+        buffers_.in_left = more(block_.data(), block_.size());
       }
-      const unsigned wanted = stream_.avail_out;
-      const bool starved = stream_.avail_in == 0;
-      status = BZ2_bzDecompress(&stream_);
-      ended_ = status == BZ_STREAM_END;
-      if (ended_) status = BZ_OK;
-      // No input is left, and still it asks for more.
-      else if (status == BZ_OK && starved && stream_.avail_out == wanted)
-        status = BZ_UNEXPECTED_EOF;
+      status = step();
     }
-    size -= stream_.avail_out;
+    size -= buffers_.out_left;
     return status;
   }
 
  private:
-  void begin() {
-    if (BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) throw std::bad_alloc();
-  }
-  template <class More>
-  void fill(More&& more) {
-    stream_.next_in = block_.data();
-    stream_.avail_in = static_cast<unsigned>(more(block_.data(), block_.size()));
-  }
-  void restart() {
-    char* const next = stream_.next_in;
-    char* const out = stream_.next_out;
-    const unsigned in_left = stream_.avail_in, out_left = stream_.avail_out;
-    BZ2_bzDecompressEnd(&stream_);
-    stream_ = {};
-    begin();
-    stream_.next_in = next;
-    stream_.avail_in = in_left;
-    stream_.next_out = out;
-    stream_.avail_out = out_left;
-    ended_ = false;
+  Status step() {
+    const std::size_t wanted = buffers_.out_left;
+    const bool starved = buffers_.in_left == 0;
+    if (!stream_) {  // another stream may follow in the same file
+      if (starved) return Status::end;
+      stream_ = make_decompressor(compression_);
+    }
+    switch (stream_->step(buffers_, starved)) {
+      case CompressedStream::Progress::end:
+        stream_.reset();
+        return Status::more;
+      case CompressedStream::Progress::damaged:
+        return Status::damaged;
+      default:
+        // No input is left, and still it asks for more.
+        return starved && buffers_.out_left == wanted ? Status::cut_short : Status::more;
+    }
   }
 
+  Compression compression_;
   std::vector<char> block_;
-  bz_stream stream_ = {};
-  bool ended_ = false;
+  std::unique_ptr<CompressedStream> stream_;  // null between two of them
+  Buffers buffers_;
 };
 
 InputText::InputText(const std::string& path, std::size_t most)
@@ -119,8 +104,8 @@ InputText::InputText(const std::string& path, std::size_t most)
   if (!file_) fail(path, errno);
   std::string beginning(3, '\0');
   beginning.resize(read_file(beginning.data(), beginning.size()));
-  compressed_ = beginning == "BZh";
-  if (compressed_) most_ = std::min(most, std::max(always_allowed, largest_expansion * bytes_));
+  compression_ = compression_of_content(beginning);
+  if (is_compressed()) most_ = std::min(most, std::max(always_allowed, largest_expansion * bytes_));
   rewind();
 }
 
@@ -128,7 +113,7 @@ InputText::~InputText() = default;
 
 void InputText::rewind() {
   if (std::fseek(file_.get(), 0, SEEK_SET) != 0) fail(path_, errno);
-  if (compressed_) decompressor_ = std::make_unique<Decompressor>();
+  if (is_compressed()) decompressor_ = std::make_unique<Decompressor>(compression_);
   offset_ = 0;
 }
 
@@ -140,13 +125,13 @@ std::size_t InputText::read_file(char* to, std::size_t size) {
 }
 
 std::size_t InputText::read(char* to, std::size_t size) {
-  if (!compressed_) {
+  if (!is_compressed()) {
     // What is added to the file meanwhile does not count.
     size = read_file(to, std::min(size, bytes_ - offset_));
     offset_ += size;
     return size;
   }
-  const int status = decompressor_->read(
+  const Decompressor::Status status = decompressor_->read(
       to, size, [this](char* block, std::size_t most) { return read_file(block, most); });
   offset_ += size;
   if (offset_ > most_) {
@@ -155,17 +140,19 @@ std::size_t InputText::read(char* to, std::size_t size) {
                     "bytes",
                     path_, most_, bytes_));
   }
-  if (status != BZ_OK && status != BZ_STREAM_END) {
-    throw InputError(path_ + (status == BZ_UNEXPECTED_EOF
-                                  ? ": cut short: expected a complete bzip2 file"
-                                  : ": damaged: expected a bzip2 file"));
+  if (status == Decompressor::Status::cut_short) {
+    throw InputError(
+        fmt::format("{}: cut short: expected a complete {} file", path_, name_of(compression_)));
+  }
+  if (status == Decompressor::Status::damaged) {
+    throw InputError(fmt::format("{}: damaged: expected a {} file", path_, name_of(compression_)));
   }
   return size;
 }
 
 void InputText::seek(std::size_t offset) {
   rewind();
-  if (!compressed_) {
+  if (!is_compressed()) {
     offset_ = std::min(offset, bytes_);
     if (fseeko(file_.get(), static_cast<off_t>(offset_), SEEK_SET) != 0) fail(path_, errno);
     return;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/io/decimal.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
@@ -76,23 +77,33 @@ Configuration DataReader::read() {
   for (const double edge : configuration_.state.box) require(edge > 0, "bounds of the box");
   require(count_ == 0 || !atoms_.empty(), "Atoms");
   require(count_ == 0 || !velocities_.empty(), "Velocities");
-  const Columns without = columns_of(false), with = columns_of(true);
+  // All rows have as many columns as the first.
+  const bool with_images = !atoms_.empty() && atoms_[0].fields.size() > atom_columns;
+  NeedleReader needles(columns_of(with_images), configuration_);
   for (Row& row : atoms_) {
     const auto velocity = velocities_.find(row.fields[0]);
     if (velocity == velocities_.end()) {
       row.reject(fmt::format("no velocity of atom {}: expected one", row.fields[0]));
     }
-    const bool with_images = row.fields.size() > atom_columns;
     const auto& further = velocity->second.fields;
     row.fields.insert(row.fields.end(), further.begin() + 1, further.end());
-    read_needle(row, with_images ? with : without, configuration_);
+    needles.read(row);
   }
-  require_distinct_ids(configuration_.state, without.first_id, path_);
+  needles.finish(path_);
   return std::move(configuration_);
 }
 
+// The first line whatever it says or, if that is blank, the next line with a word that is not the
+// number of a header.
 void DataReader::read_title() {
   lines_.advance("a title");
+  if (lines_.is_blank() && lines_.advance_to_text()) {
+    double number = 0;
+    if (read_decimal(lines_.fields()[0], number) == std::errc()) {
+      read_header_line();
+      return;
+    }
+  }
   for (const std::string_view word : lines_.fields()) {
     const std::size_t equals = word.find('=');
     if (equals == word.npos) continue;
@@ -107,10 +118,15 @@ void DataReader::read_header_line() {
   const Row& row = lines_.row();
   const auto& fields = row.fields;
   if (fields.size() >= 2 && fields[1] == "atoms") {
+    if (count_ >= 0) row.reject("a second number of atoms: expected one");
     count_ = row.read_whole(0, "number of atoms", 0, most_needles);
   }
-  if (std::find(fields.begin(), fields.end(), "xy") != fields.end()) {
-    row.reject("a tilted box: expected a rectangular one");
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i] != "xy") continue;  // of "XY XZ YZ xy xz yz"
+    for (std::size_t tilt = 0; tilt < i; ++tilt) {
+      if (row.read(tilt, "tilt") == 0) continue;
+      row.reject(fmt::format("tilt = {}: expected 0, a rectangular box", fields[tilt]));
+    }
   }
   constexpr const char* upper[] = {"xhi", "yhi", "zhi"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -129,6 +145,7 @@ void DataReader::read_section() {
     if (line.find(style) == line.npos && !line.ends_with("# hybrid")) {
       lines_.reject(fmt::format("{}: expected Atoms # {}", line.substr(0, 60), style));
     }
+    if (!atoms_.empty()) lines_.reject("Atoms a second time: expected them once");
     atoms_ = read_rows(name);
     const std::size_t width = atoms_.empty() ? atom_columns : atoms_[0].fields.size();
     for (const Row& row : atoms_) {

@@ -6,6 +6,7 @@
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
+#include "src/io/formats/rod.h"
 #include "src/io/formats/text_file.h"
 
 namespace needlework::io {
@@ -15,19 +16,41 @@ constexpr std::string_view begin_of_frame = "ITEM: TIMESTEP";
 constexpr std::string_view begin_of_box = "ITEM: BOX BOUNDS";
 constexpr std::string_view begin_of_atoms = "ITEM: ATOMS";
 
-void read_box(Lines& lines, State& state) {
-  const auto words = lines.fields();
-  if (words.size() != 6 || !std::all_of(words.begin() + 3, words.end(),
-                                        [](std::string_view word) { return word == "pp"; })) {
+constexpr ColumnNames dump_names{"x y z, xs ys zs, xu yu zu or xsu ysu zsu", "vx vy vz",
+                                 "mux muy muz", "omegax omegay omegaz"};
+
+bool is_rectangular(const std::vector<std::string_view>& words, std::size_t first_boundary) {
+  return words.size() == first_boundary + 3 &&
+         std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first_boundary), words.end(),
+                     [](std::string_view word) { return word == "pp"; });
+}
+
+// Sets the edges and returns the lower bounds. A box with the tilts xy, xz and yz is rectangular if
+// they are 0.
+std::array<double, 3> read_box(Lines& lines, State& state) {
+  const std::vector<std::string_view> words = lines.fields();
+  const bool tilted = words.size() > 5 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
+  if (!is_rectangular(words, tilted ? 6 : 3)) {
     lines.reject(fmt::format("{}: expected {} pp pp pp, a rectangular periodic box",
                              lines.line().substr(0, 60), begin_of_box));
   }
-  for (double& edge : state.box) {
+  std::array<double, 3> lower{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     lines.advance("the bounds of the box");
-    if (lines.fields().size() != 2) lines.reject("expected the two bounds of the box");
-    edge = lines.row().read(1, "upper bound") - lines.row().read(0, "lower bound");
-    if (!(edge > 0)) lines.reject(fmt::format("an edge of {}: expected one > 0", edge));
+    const Row& row = lines.row();
+    if (row.fields.size() != (tilted ? 3 : 2)) {
+      row.reject(tilted ? "expected the two bounds of the box and a tilt"
+                        : "expected the two bounds of the box");
+    }
+    lower[axis] = row.read(0, "lower bound");
+    const double edge = row.read(1, "upper bound") - lower[axis];
+    if (!(edge > 0)) row.reject(fmt::format("an edge of {}: expected one > 0", edge));
+    if (tilted && row.read(2, "tilt") != 0) {
+      row.reject(fmt::format("tilt = {}: expected 0, a rectangular box", row.fields[2]));
+    }
+    state.box[axis] = edge;
   }
+  return lower;
 }
 
 Columns read_columns(const Lines& lines) {
@@ -35,6 +58,10 @@ Columns read_columns(const Lines& lines) {
   Columns columns;
   columns.first_id = 1;
   columns.count = words.size() - 2;
+  for (auto word = words.begin() + 2; word != words.end(); ++word) {
+    if (std::find(words.begin() + 2, word, *word) == word) continue;
+    lines.reject(fmt::format("two columns {}: expected different names", *word));
+  }
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
     const auto found = std::find(words.begin() + 2, words.end(), name);
     if (found == words.end()) return {};
@@ -47,13 +74,25 @@ Columns read_columns(const Lines& lines) {
   };
   columns.id = find("id");
   columns.position = find_vector("x", "y", "z");
+  if (!columns.position) {
+    columns.position = find_vector("xs", "ys", "zs");
+    columns.scaled = columns.position.has_value();
+  }
+  if (!columns.position) {
+    columns.position = find_vector("xu", "yu", "zu");
+    columns.unwrapped = columns.position.has_value();
+  }
+  if (!columns.position) {
+    columns.position = find_vector("xsu", "ysu", "zsu");
+    columns.scaled = columns.unwrapped = columns.position.has_value();
+  }
   columns.image = find_vector("ix", "iy", "iz");
   columns.velocity = find_vector("vx", "vy", "vz");
   columns.orientation = find_vector("mux", "muy", "muz");
   columns.angular_velocity = find_vector("omegax", "omegay", "omegaz");
   columns.length = find("diameter");
   columns.mass = find("mass");
-  require_all_vectors(columns, lines.row());
+  require_all_vectors(columns, dump_names, lines.row());
   return columns;
 }
 
@@ -81,9 +120,13 @@ class DumpWriter : public FrameWriter {
     file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} pp pp pp\n0 {}\n0 {}\n0 {}\n",
                 begin_of_frame, frame.number, state.size(), begin_of_box, state.box[0],
                 state.box[1], state.box[2]);
-    file_.print("{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz{}{}\n",
-                begin_of_atoms, length_ ? " diameter" : "", mass_ ? " mass" : "");
-    std::string common;
+    file_.print(
+        "{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz quatw quati quatj "
+        "quatk shapex shapey shapez{}{}\n",
+        begin_of_atoms, length_ ? " diameter" : "", mass_ ? " mass" : "");
+    // Diameters of an ellipsoid, as LAMMPS has them.
+    const double length = length_.value_or(1), width = 2 * drawn_radius * length;
+    std::string common = fmt::format(" {} {} {}", width, width, length);
     if (length_) common += fmt::format(" {}", *length_);
     if (mass_) common += fmt::format(" {}", *mass_);
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -92,9 +135,11 @@ class DumpWriter : public FrameWriter {
       const auto& u = state.orientation[i];
       const auto& w = state.angular_velocity[i];
       const auto image = state.image.empty() ? std::array<std::int32_t, 3>{} : state.image[i];
-      file_.print("{} 1 {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n",
+      const auto q = quaternion_of(u);
+      file_.print("{} 1 {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n",
                   std::int64_t{id_of(state, i)} + 1, r[0], r[1], r[2], image[0], image[1], image[2],
-                  v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], common);
+                  v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[0], q[1], q[2], q[3],
+                  common);
     }
   }
   void publish() override { file_.publish(); }
@@ -106,7 +151,10 @@ class DumpWriter : public FrameWriter {
 
 }  // namespace
 
-bool is_lammps_dump(std::string_view beginning) { return beginning.starts_with("ITEM: "); }
+bool is_lammps_dump(std::string_view beginning) {
+  Lines lines(beginning, "");
+  return lines.advance_to_text() && lines.line().starts_with("ITEM: ");
+}
 
 Configuration read_lammps_dump(const std::string& path) {
   InputText file(path);
@@ -115,10 +163,11 @@ Configuration read_lammps_dump(const std::string& path) {
   lines.advance(begin_of_frame);
   Configuration configuration;
   std::int64_t count = -1;
+  std::array<double, 3> lower{};
   while (!lines.line().starts_with(begin_of_atoms)) {
     if (!lines.line().starts_with("ITEM: ")) lines.reject("expected ITEM: and a name");
     if (lines.line().starts_with(begin_of_box)) {
-      read_box(lines, configuration.state);
+      lower = read_box(lines, configuration.state);
     } else {
       const bool is_count = lines.line().starts_with("ITEM: NUMBER OF ATOMS");
       lines.advance("a number");
@@ -131,17 +180,19 @@ Configuration read_lammps_dump(const std::string& path) {
   if (configuration.state.box[0] == 0) {
     lines.reject(fmt::format("no box: expected {} before", begin_of_box));
   }
-  const Columns columns = read_columns(lines);
-  reserve_needles(configuration.state, columns, count, frame.bytes());
+  Columns columns = read_columns(lines);
+  columns.lower = lower;
+  NeedleReader needles(columns, configuration);
+  needles.reserve(count, frame.bytes());
   const std::string expected = fmt::format("{} atoms", count);
   for (std::int64_t i = 0; i < count; ++i) {
     lines.advance(expected);
-    read_needle(lines.row(), columns, configuration);
+    needles.read(lines.row());
   }
   while (lines.advance_if_any()) {
     if (!lines.is_blank()) lines.reject(fmt::format("expected no line after {} atoms", count));
   }
-  require_distinct_ids(configuration.state, columns.first_id, path);
+  needles.finish(path);
   return configuration;
 }
 

@@ -14,6 +14,8 @@ namespace {
 // The part of a file that is in memory.
 constexpr std::size_t longest_line = std::size_t{1} << 20;
 
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 bool separates(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
@@ -106,6 +108,10 @@ bool Lines::pass_if_any() {
   next_ += line_.size() + 1;
   ++row_.number;
   row_.fields.clear();
+  if (row_.number == 1 && line_.starts_with(byte_order_mark)) {
+    line_.remove_prefix(byte_order_mark.size());
+  }
+  if (line_.ends_with('\r')) line_.remove_suffix(1);
   return true;
 }
 
@@ -118,6 +124,13 @@ bool Lines::advance_if_any() {
     while (i < line_.size() && separates(line_[i])) ++i;
   }
   return true;
+}
+
+bool Lines::advance_to_text() {
+  while (advance_if_any()) {
+    if (!is_blank()) return true;
+  }
+  return false;
 }
 
 void Lines::advance(std::string_view expected) { require(advance_if_any(), expected); }

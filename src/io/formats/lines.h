@@ -33,7 +33,8 @@ struct PlaceInText {
   std::size_t lines = 0;  ///< before it
 };
 
-/// The lines of a text, one after the other.
+/// The lines of a text, one after the other, without a byte order mark before the first and a
+/// carriage return at the end.
 class Lines {
  public:
   /// The text and the path must outlive this object.
@@ -46,6 +47,8 @@ class Lines {
   void advance(std::string_view expected);
   /// The same, but returns false at the end of the text.
   bool advance_if_any();
+  /// Goes to the next line that is not blank; false if there is none.
+  bool advance_to_text();
   /// The same two without the fields, which are those of no line then.
   void pass(std::string_view expected);
   bool pass_if_any();

@@ -49,7 +49,9 @@ static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
   material.length = read_positive(source, "/parameters/length");
-  material.mass = read_positive(source, find_particles(source) + "/mass");
+  // Without needles, the group of them does not hold their mass.
+  material.mass = read_positive(source, "/parameters/mass");
+  if (!material.mass) material.mass = read_positive(source, find_particles(source) + "/mass");
   material.k = read_positive(source, "/parameters/k");
   material.epsilon = read_number(source, "/parameters/epsilon");
   material.beta = read_number(source, "/parameters/beta");

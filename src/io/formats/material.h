@@ -16,9 +16,9 @@ struct Material {
   std::optional<double> beta;     ///< tangential restitution [1]
 };
 
-/// Reads the material of an H5MD file: the numbers in /parameters that a Writer writes, and the
-/// mass in the group of the needles. Throws IoError if the file cannot be read, and InputError if a
-/// number cannot be used or if the needles have several masses.
+/// Reads the material of an H5MD file: the numbers in /parameters that a Writer writes or else, of
+/// the mass, those in the group of the needles. Throws IoError if the file cannot be read, and
+/// InputError if a number cannot be used or if the needles have several masses.
 Material read_material(const std::string& path);
 
 /// Throws InputError if length, mass, k or epsilon is absent. `path` is the file that was read.

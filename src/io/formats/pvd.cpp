@@ -131,6 +131,11 @@ void PvdWriter::list(double time, int part, const std::string& name) {
       case '"':
         file += "&quot;";
         break;
+      case '\n':
+      case '\r':
+      case '\t':  // a reader would take these for blanks
+        file += fmt::format("&#{};", static_cast<int>(c));
+        break;
       default:
         file += c;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "needlework/error.h"
+#include "src/io/formats/compression.h"
 #include "src/io/formats/dynamo.h"
 #include "src/io/formats/input_text.h"
 #include "src/io/formats/lammps.h"
@@ -31,6 +32,7 @@ std::string beginning_of(const std::string& path) {
 }  // namespace
 
 bool is_configuration(std::string_view beginning) {
+  if (compression_of_content(beginning) != Compression::none) return true;
   for (const Format& format : formats) {
     if (format.fits(beginning)) return true;
   }

@@ -8,7 +8,8 @@
 
 namespace needlework::io {
 
-/// Whether a file with this beginning is in one of the formats that are read.
+/// Whether a file with this beginning is in one of the formats that are read, or compressed, so
+/// that only reading it tells.
 bool is_configuration(std::string_view beginning);
 
 /// Reads a configuration of DynamO, the last frame of an extended XYZ file or of a dump of LAMMPS,

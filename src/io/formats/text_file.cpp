@@ -1,10 +1,8 @@
 #include "src/io/formats/text_file.h"
 
-#include <bzlib.h>
-
-#include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include "needlework/error.h"
 #include "src/machine/descriptors.h"
@@ -19,37 +17,13 @@ std::FILE* open_to_write(const std::string& path) {
 
 }  // namespace
 
-struct TextFile::Compressor {
-  explicit Compressor(std::FILE* file) {
-    int status = BZ_OK;
-    constexpr int largest_blocks = 9;
-    stream = BZ2_bzWriteOpen(&status, file, largest_blocks, 0, 0);
-  }
-  ~Compressor() { close(true); }
-
-  int write(const char* data, std::size_t size) {
-    int status = BZ_OK;
-    if (!stream) return BZ_MEM_ERROR;
-    BZ2_bzWrite(&status, stream, const_cast<char*>(data), static_cast<int>(size));
-    return status;
-  }
-  int close(bool abandon) {
-    int status = BZ_OK;
-    if (stream) BZ2_bzWriteClose(&status, stream, abandon ? 1 : 0, nullptr, nullptr);
-    stream = nullptr;
-    return status;
-  }
-
-  BZFILE* stream = nullptr;
-};
-
 TextFile::TextFile(const std::string& path, bool force)
     : path_(path),
       atomic_(path, force),
       file_(open_to_write(atomic_.temporary()),
             [](std::FILE* file) { return file ? std::fclose(file) : 0; }) {
   if (!file_) fail(errno);
-  if (path.ends_with(".bz2")) compressor_ = std::make_unique<Compressor>(file_.get());
+  compressor_ = make_compressor(compression_of_name(path));
 }
 
 TextFile::~TextFile() = default;
@@ -64,23 +38,38 @@ void TextFile::write(std::string_view bytes) {
 }
 
 void TextFile::write_block() {
-  // The compressor takes sizes as int.
-  constexpr std::size_t most = std::size_t{1} << 30;
-  errno = 0;
-  for (std::size_t from = 0; from < block_.size(); from += most) {
-    const std::size_t size = std::min(most, block_.size() - from);
-    const bool written = compressor_
-                             ? compressor_->write(block_.data() + from, size) == BZ_OK
-                             : std::fwrite(block_.data() + from, 1, size, file_.get()) == size;
-    if (!written) fail(errno != 0 ? errno : EIO);
+  if (block_.size() == 0) return;
+  if (compressor_) {
+    compress(false);
+  } else {
+    write_to_file(block_.data(), block_.size());
   }
   block_.clear();
 }
 
+void TextFile::write_to_file(const char* bytes, std::size_t size) {
+  errno = 0;
+  if (std::fwrite(bytes, 1, size, file_.get()) != size) fail(errno != 0 ? errno : EIO);
+}
+
+// Compresses the block; `last`: and completes the stream.
+void TextFile::compress(bool last) {
+  std::vector<char> out(block_size);
+  Buffers buffers{.in = block_.data(), .in_left = block_.size()};
+  auto progress = CompressedStream::Progress::more;
+  do {
+    buffers.out = out.data();
+    buffers.out_left = out.size();
+    progress = compressor_->step(buffers, last);
+    if (progress == CompressedStream::Progress::damaged) fail(EIO);
+    write_to_file(out.data(), out.size() - buffers.out_left);
+  } while (last ? progress != CompressedStream::Progress::end : buffers.in_left > 0);
+}
+
 void TextFile::publish() {
   write_block();
+  if (compressor_) compress(true);
   errno = 0;
-  if (compressor_ && compressor_->close(false) != BZ_OK) fail(errno != 0 ? errno : EIO);
   if (std::fclose(file_.release()) != 0) fail(errno != 0 ? errno : EIO);
   atomic_.publish();
 }

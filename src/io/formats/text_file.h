@@ -11,11 +11,12 @@
 #include <utility>
 
 #include "src/io/atomic_file.h"
+#include "src/io/formats/compression.h"
 
 namespace needlework::io {
 
-/// A file under a temporary name, which is written in large blocks, compressed with bzip2 if its
-/// name ends in .bz2. All members throw IoError, "PATH: reason".
+/// A file under a temporary name, which is written in large blocks, compressed if its name
+/// ends in .bz2 or .gz. All members throw IoError, "PATH: reason".
 class TextFile {
  public:
   /// See AtomicFile for `force`.
@@ -38,14 +39,15 @@ class TextFile {
  private:
   static constexpr std::size_t block_size = std::size_t{1} << 20;
 
-  struct Compressor;
   void write_block();
+  void write_to_file(const char* bytes, std::size_t size);
+  void compress(bool last);
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
   AtomicFile atomic_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::unique_ptr<Compressor> compressor_;
+  std::unique_ptr<CompressedStream> compressor_;  ///< null if it is not
   fmt::memory_buffer block_;
 };
 

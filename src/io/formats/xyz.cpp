@@ -5,15 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "needlework/error.h"
 #include "src/io/decimal.h"
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
+#include "src/io/formats/rod.h"
 #include "src/io/formats/text_file.h"
 
 namespace needlework::io {
 namespace {
+
+constexpr ColumnNames xyz_names{"pos:R:3", "velo:R:3 or velocities:R:3",
+                                "director:R:3 or orientation:R:3", "angular_velocity:R:3"};
 
 std::string_view unquoted(std::string_view text) {
   if (text.size() >= 2 && (text.front() == '"' || text.front() == '\'') &&
@@ -42,6 +47,7 @@ void read_lattice(std::string_view text, const Lines& lines, State& state) {
 // "name:type:columns:name:type:columns..."
 Columns read_properties(std::string_view text, const Lines& lines) {
   Columns columns;
+  std::set<std::string_view> found;
   while (!text.empty()) {
     std::string_view parts[3];
     for (std::string_view& part : parts) {
@@ -55,6 +61,9 @@ Columns read_properties(std::string_view text, const Lines& lines) {
       lines.reject(
           fmt::format("Properties with {}:{}:{}: expected NAME:TYPE:COLUMNS", name, type, width));
     }
+    if (!found.insert(name).second) {
+      lines.reject(fmt::format("Properties with {} twice: expected different names", name));
+    }
     const std::size_t first = columns.count;
     columns.count += static_cast<std::size_t>(width[0] - '0');
     const VectorColumns vector{first, first + 1, first + 2};
@@ -63,7 +72,8 @@ Columns read_properties(std::string_view text, const Lines& lines) {
     if (!is_vector) continue;
     if (name == "pos") columns.position = vector;
     if (name == "velo" || name == "velocities") columns.velocity = vector;
-    if (name == "orientation") columns.orientation = vector;
+    if (name == "director") columns.orientation = vector;
+    if (name == "orientation" && !found.contains("director")) columns.orientation = vector;
     if (name == "angular_velocity") columns.angular_velocity = vector;
   }
   return columns;
@@ -71,10 +81,14 @@ Columns read_properties(std::string_view text, const Lines& lines) {
 
 Columns read_comment(const Lines& lines, Configuration& configuration) {
   std::string_view lattice, properties;
+  std::set<std::string_view> keys;
   for (const std::string_view word : words_of(lines.line())) {
     const std::size_t equals = word.find('=');
     if (equals == word.npos) continue;
-    const std::string_view key = word.substr(0, equals);
+    const std::string_view key = unquoted(word.substr(0, equals));
+    if (!keys.insert(key).second) {
+      lines.reject(fmt::format("{} twice: expected each key once", quotation(key)));
+    }
     const std::string_view value = unquoted(word.substr(equals + 1));
     if (key == "Lattice") lattice = value;
     if (key == "Properties") properties = value;
@@ -87,7 +101,7 @@ Columns read_comment(const Lines& lines, Configuration& configuration) {
   if (properties.empty()) lines.reject("Properties is missing: expected the names of the columns");
   read_lattice(lattice, lines, configuration.state);
   const Columns columns = read_properties(properties, lines);
-  require_all_vectors(columns, lines.row());
+  require_all_vectors(columns, xyz_names, lines.row());
   return columns;
 }
 
@@ -101,11 +115,10 @@ std::int64_t read_count(const Lines& lines) {
 PartOfFile find_last_frame(InputText& file, const std::string& path) {
   Lines lines(file, path);
   PartOfFile last;
-  while (lines.advance_if_any()) {
+  bool more = lines.advance_to_text();
+  while (more) {
     if (lines.is_blank()) {  // blank lines may end the file
-      while (lines.advance_if_any()) {
-        if (!lines.is_blank()) lines.reject("expected no line after a blank one");
-      }
+      if (lines.advance_to_text()) lines.reject("expected no line after a blank one");
       break;
     }
     last.begin = lines.place();
@@ -113,6 +126,7 @@ PartOfFile find_last_frame(InputText& file, const std::string& path) {
     const std::string expected = fmt::format("the comment and {} needles", count);
     for (std::int64_t i = 0; i <= count; ++i) lines.pass(expected);
     last.end = lines.next_place().offset;
+    more = lines.advance_if_any();
   }
   return last;
 }
@@ -120,28 +134,34 @@ PartOfFile find_last_frame(InputText& file, const std::string& path) {
 class XyzWriter : public FrameWriter {
  public:
   XyzWriter(const std::string& path, bool force, const Material& material)
-      : material_(text_of(material)), file_(path, force) {}
+      : length_(material.length.value_or(1)), material_(text_of(material)), file_(path, force) {}
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
     file_.print(
-        "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:"
-        "3:orientation:R:3:angular_velocity:R:3",
+        "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
+        "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3",
         state.size(), state.box[0], state.box[1], state.box[2]);
     if (frame.time) file_.print(" Time={}", *frame.time);
     file_.print(" pbc=\"T T T\"{}{}\n", material_.empty() ? "" : " ", material_);
+    // Semi-axes of an ellipsoid.
+    const std::string shape =
+        fmt::format(" {} {} {}", drawn_radius * length_, drawn_radius * length_, 0.5 * length_);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& v = state.velocity[i];
       const auto& u = state.orientation[i];
       const auto& w = state.angular_velocity[i];
-      file_.print("X {} {} {} {} {} {} {} {} {} {} {} {} {}\n", r[0], r[1], r[2], id_of(state, i),
-                  v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2]);
+      const auto q = quaternion_of(u);
+      file_.print("X {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n", r[0], r[1], r[2],
+                  id_of(state, i), v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[1], q[2],
+                  q[3], q[0], shape);
     }
   }
   void publish() override { file_.publish(); }
 
  private:
+  double length_;
   std::string material_;
   TextFile file_;
 };
@@ -150,7 +170,7 @@ class XyzWriter : public FrameWriter {
 
 bool is_xyz(std::string_view beginning) {
   Lines lines(beginning, "");
-  if (!lines.advance_if_any() || lines.fields().size() != 1) return false;
+  if (!lines.advance_to_text() || lines.fields().size() != 1) return false;
   const std::string_view count = lines.fields()[0];
   return std::all_of(count.begin(), count.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
@@ -164,13 +184,14 @@ Configuration read_xyz(const std::string& path) {
   lines.advance("a comment");
   Configuration configuration;
   const Columns columns = read_comment(lines, configuration);
-  reserve_needles(configuration.state, columns, count, frame.bytes());
+  NeedleReader needles(columns, configuration);
+  needles.reserve(count, frame.bytes());
   const std::string expected = fmt::format("{} needles", count);
   for (std::int64_t i = 0; i < count; ++i) {
     lines.advance(expected);
-    read_needle(lines.row(), columns, configuration);
+    needles.read(lines.row());
   }
-  require_distinct_ids(configuration.state, columns.first_id, path);
+  needles.finish(path);
   return configuration;
 }
 

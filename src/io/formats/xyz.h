@@ -15,12 +15,14 @@ namespace needlework::io {
 bool is_xyz(std::string_view beginning);
 
 /// Reads the last frame, which must have Lattice (rectangular) and the columns pos, velo (or
-/// velocities), orientation (a unit vector) and angular_velocity; id is optional. Length, mass, k,
-/// epsilon and beta are taken from the comment line. Numbers are not changed. Throws IoError if the
-/// file cannot be read, and InputError, "PATH: line N: reason".
+/// velocities), director or orientation (a unit vector) and angular_velocity; id is optional.
+/// Length, mass, k, epsilon and beta are taken from the comment line. Numbers are not changed, but
+/// for what is rounded: see NeedleReader. Throws IoError if the file cannot be read, and
+/// InputError, "PATH: line N: reason".
 Configuration read_xyz(const std::string& path);
 
-/// Writes frames from which read_xyz() reads the same numbers. The chemical species is X.
+/// Writes frames from which read_xyz() reads the same numbers. The chemical species is X. By the
+/// columns orientation, a quaternion (x, y, z, w), and aspherical_shape, OVITO draws needles.
 std::unique_ptr<FrameWriter> write_xyz(const std::string& path, bool force,
                                        const Material& material);
 
