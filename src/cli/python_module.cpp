@@ -17,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The modules that the package imports are looked for first, as an ImportError in the middle of it
+// The modules that the package imports are imported first, as an ImportError in the middle of it
 // would not say what to install.
 constexpr const char* bootstrap = R"(
 import runpy, sys
-from importlib.util import find_spec
+from importlib import import_module
 folder, module = sys.argv[1:3]
 del sys.argv[1:3]
 sys.path[:] = [folder] * bool(folder) + [path for path in sys.path if path]
@@ -31,10 +31,16 @@ def give_up(message):
 if sys.version_info < (3, 9):
     give_up(f"is Python {sys.version.split()[0]}: expected 3.9 or newer; "
             "NEEDLEWORK_PYTHON names another one")
+def is_missing(name):
+    try:
+        import_module(name)
+    except ImportError:
+        return True
+    return False
 needed = ["numpy", "h5py", "matplotlib"] + ["tomli"] * (sys.version_info < (3, 11))
-missing = [name for name in needed if find_spec(name) is None]
+missing = list(filter(is_missing, needed))
 if missing:
-    give_up(f"has no {', '.join(missing)}: expected `apt install "
+    give_up(f"cannot import {', '.join(missing)}: expected `apt install "
             f"{' '.join('python3-' + name for name in missing)}` or `pip install "
             f"{' '.join(missing)}`, or another Python in NEEDLEWORK_PYTHON")
 try:

@@ -324,7 +324,7 @@ class Program(InAFolder):
     def test_says_what_to_install_before_it_runs_anything(self):
         outcome = self.run_program("3", "--quick", NEEDLEWORK_PYTHON=self.python("-S"))
         self.assertEqual(outcome.returncode, 5)
-        self.assertIn("has no numpy, h5py, matplotlib: expected `apt install python3-numpy "
+        self.assertIn("cannot import numpy, h5py, matplotlib: expected `apt install python3-numpy "
                       "python3-h5py python3-matplotlib` or `pip install numpy h5py matplotlib`",
                       outcome.stderr)
         outcome = self.run_program("3", "--quick", NEEDLEWORK_PYTHON="/none/python")

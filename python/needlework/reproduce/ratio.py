@@ -16,6 +16,9 @@ from .runs import FinishedRun, PaperRuns, Point
 SETTLED = 0.1
 """E/E(0) below which the ratio of temperatures is constant."""
 
+ROUGH_K = 6.0
+"""k of all rough needles."""
+
 COLUMNS = ("ratio_theory", "ratio", "ratio_error", "seeds")
 
 
@@ -77,10 +80,6 @@ def draw_rough_ratio(table: Table) -> Figure:
     style.label(axes, r"$\beta$", r"$T_{\rm tr} / T_{\rm rot}$",
                 f"Theory (lines) and simulation (points), $k = {ROUGH_K:g}$")
     return figure
-
-
-ROUGH_K = 6.0
-"""k of all rough needles."""
 
 
 def _add_point(result: Result, point: Point, x: float, y: float) -> tuple[Measured, float]:
