@@ -80,6 +80,13 @@ class Frame(NotPickled):
             return np.arange(self._needles.count, dtype=np.uint32)
         return self._needles.row("id", 1, self._index, np.uint32)
 
+    @cached_property
+    def species(self) -> np.ndarray:
+        """Species of the needles, [N], counted from 0; all 0 where the file does not hold them."""
+        if "species" not in self._needles:
+            return np.zeros(self._needles.count, dtype=np.uint8)
+        return self._needles.row("species", 1, self._index, np.uint8)
+
     @property
     def state(self) -> State:
         """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
@@ -240,7 +247,7 @@ class Needles:
 
     def __init__(self, path: str, group: h5py.Group) -> None:
         self._elements = {name: Element(path, group, name) for name in VECTORS}
-        for name in ("image", "id", "box/edges"):
+        for name in ("image", "id", "species", "box/edges"):
             if _get(group, name) is not None:
                 self._elements[name] = Element(path, group, name)
         if "box/edges" not in self:
@@ -321,7 +328,7 @@ class Needles:
                 good = len(shape) in (1, 2, 3) and shape[-1] == 3
                 good = good and (len(shape) < 3 or shape[1] == 3)
                 expected = "[3], [3][3], [frames][3] or [frames][3][3]"
-            elif name == "id":
+            elif name in ("id", "species"):
                 good = len(shape) in (1, 2) and shape[-1] == count
                 expected = f"[{count}] or [frames][{count}]"
             else:

@@ -34,7 +34,8 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     Returns the number of frames written. GSD holds numbers in single precision. Centres are shifted
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
-    that OVITO draws needles. GSD has no angular velocity: it is in
+    that OVITO draws needles. The species of a mixture are its types; of a mixture the source must be
+    a file. GSD has no angular velocity: it is in
     ``log["particles/angular_velocity"]``, in double precision, and the time is in ``log["time"]``.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
@@ -46,14 +47,15 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     if isinstance(source, (str, os.PathLike)):
         with read(source) as run:
             return to_gsd(run, path, frames, force)
-    chosen = _frames_of(source, frames)
+    chosen, gas = _frames_of(source, frames), source.gas
+    names = _names_of(source, np.size(gas.length))
     unfinished = path + ".part"  # the file appears under its name when it is complete
     try:
         with _core.StandardDescriptors():
             opened = gsd.hoomd.open(unfinished, "wb")
         with opened as file:
             for frame in chosen:
-                file.append(_snapshot(frame, source.gas))
+                file.append(_snapshot(frame, gas, names))
         os.replace(unfinished, path)
     except OSError as error:
         raise IoError(f"{path}: cannot be written: {error.strerror or error}") from error
@@ -72,7 +74,18 @@ def _frames_of(source: Any, frames: Any) -> list[Any]:
     return chosen if isinstance(chosen, list) else [chosen]
 
 
-def _snapshot(frame: Any, gas: Any) -> Any:
+def _names_of(source: Any, count: int) -> list[str]:
+    """The names of the types: those of the species, if there are several."""
+    if count == 1:
+        return ["needle"]
+    import tomllib
+
+    species = tomllib.loads(source.parameters.scene).get("species", [])
+    names = [str(each.get("name")) for each in species]
+    return names if len(set(names)) == count else [f"needle {i + 1}" for i in range(count)]
+
+
+def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     import gsd.hoomd
 
     snapshot = gsd.hoomd.Snapshot()
@@ -80,20 +93,24 @@ def _snapshot(frame: Any, gas: Any) -> Any:
     collisions = frame.collisions if hasattr(frame, "collisions") else frame.totals.collisions
     snapshot.configuration.step = collisions
     snapshot.configuration.box = [*frame.box, 0, 0, 0]
+    # One number, or one for each species of a mixture.
+    lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
+    inertia = masses * lengths**2 / (2 * shapes)
+    species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     particles = snapshot.particles
     particles.N = count
-    particles.types = ["needle"]
-    radius = DRAWN_RADIUS * gas.length
-    particles.type_shapes = [{"type": "Ellipsoid", "a": radius, "b": radius, "c": gas.length / 2}]
-    particles.typeid = np.zeros(count, dtype=np.uint32)
+    particles.types = names
+    particles.type_shapes = [{"type": "Ellipsoid", "a": DRAWN_RADIUS * length,
+                              "b": DRAWN_RADIUS * length, "c": length / 2}
+                             for length in lengths.tolist()]
+    particles.typeid = species.astype(np.uint32)
     particles.position = frame.position - frame.box / 2
     particles.image = frame.image
     particles.velocity = frame.velocity
     particles.orientation = quaternions(frame.orientation)
-    particles.mass = np.full(count, gas.mass)
-    inertia = gas.mass * gas.length**2 / (2 * gas.k)
-    particles.moment_inertia = np.tile([inertia, inertia, 0], (count, 1))
-    particles.diameter = np.full(count, gas.length)
+    particles.mass = masses[species]
+    particles.moment_inertia = np.stack([inertia, inertia, 0 * inertia], axis=1)[species]
+    particles.diameter = lengths[species]
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time])}
     return snapshot

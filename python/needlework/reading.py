@@ -217,11 +217,18 @@ class Recording(NotPickled):
         undisturbed_until, when a caller first replaced the velocities, or inf."""
         given = self.parameters
         first = self.frames[0]
-        masses = self._needles["mass"][:1] if "mass" in self._needles else ()
+        masses = self._needles["mass"][:] if "mass" in self._needles else np.empty(0)
+        if not len(masses):
+            mass = 1.0
+        elif np.size(given.get("length", 1.0)) == 1:
+            mass = float(masses[0])
+        else:
+            ones = [np.flatnonzero(first.species == index)[:1] for index in range(len(given.length))]
+            mass = np.array([masses[one].sum() for one in ones])  # 0 of a species without needles
         return Values({"count": len(first.id), "box": first.box, "k": given.k,
                        "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
-                       "mass": given.get("mass", float(masses[0]) if len(masses) else 1.0),
+                       "mass": given.get("mass", mass),
                        "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
 
     def close(self) -> None:

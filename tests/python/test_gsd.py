@@ -78,6 +78,25 @@ class ToGsd(unittest.TestCase):
             shape, = file[0].particles.type_shapes
             self.assertEqual(shape, {"type": "Ellipsoid", "a": 0.06, "b": 0.06, "c": 1.5})
 
+    def test_species_are_types(self):
+        run = self.path("mixture.h5")
+        species = [{"name": "short", "count": 20, "length": 0.5, "mass": 3, "k": 2},
+                   {"name": "long", "count": 10, "length": 2}]
+        with needlework.Simulation({"needles": {"box": 9}, "species": species,
+                                    "output": {"file": run}}) as sim:
+            sim.run(time=0.1)
+        out = self.path("mixture.gsd")
+        needlework.to_gsd(run, out)
+        with gsd.hoomd.open(out, "rb") as file:
+            particles = file[-1].particles
+            self.assertEqual(particles.types, ["short", "long"])
+            np.testing.assert_array_equal(particles.typeid, [0] * 20 + [1] * 10)
+            np.testing.assert_array_equal(particles.mass, [3] * 20 + [1] * 10)
+            np.testing.assert_array_equal(particles.diameter, [0.5] * 20 + [2] * 10)
+            np.testing.assert_allclose(particles.moment_inertia[:, 0],
+                                       [3 * 0.25 / 4] * 20 + [4 / 12] * 10, rtol=1e-6)
+            self.assertEqual([shape["c"] for shape in particles.type_shapes], [0.25, 1])
+
     def test_existing_files_are_kept(self):
         out = self.path("run.gsd")
         needlework.to_gsd(self.run, out)
