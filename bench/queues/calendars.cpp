@@ -106,7 +106,7 @@ template <class Model, Calendar C>
 class Play {
  public:
   explicit Play(std::uint32_t n)
-      : calendar_(n, clock_of_play, (std::size_t{n} + in_block - 1) / in_block), n_(n) {
+      : calendar_(n, clock_of_play, (std::size_t{n} + in_cell - 1) / in_cell), n_(n) {
     for (Needle i{0}; i < n; ++i) set(model_.draw(i, n, {}));
   }
   Event step() {
@@ -118,9 +118,9 @@ class Play {
   }
 
  private:
-  static constexpr std::uint32_t in_block = 16;  // needles, by index
+  static constexpr std::uint32_t in_cell = 16;  // needles, by index
 
-  void set(const Event& event) { calendar_.set(event, event.owner.index / in_block); }
+  void set(const Event& event) { calendar_.set(event, event.owner.index / in_cell); }
 
   Model model_;
   C calendar_;

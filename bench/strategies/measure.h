@@ -14,7 +14,7 @@ inline constexpr Counters::Named counters_shown[] = {{"events", &Counters::event
                                                      {"searches", &Counters::searches},
                                                      {"candidates", &Counters::candidates},
                                                      {"filtered", &Counters::filtered},
-                                                     {"isolated", &Counters::isolated},
+                                                     {"isolated", &Counters::bracket_steps},
                                                      {"predicted", &Counters::predicted},
                                                      {"evaluated", &Counters::evaluated},
                                                      {"escalated", &Counters::escalated},

@@ -147,7 +147,7 @@ class Writer {
 /// or the function returns, and has limits of memory and time, so that a file on which HDF5
 /// crashes, hangs or takes all memory is an IoError or an InputError. Without it such a file ends
 /// the program. In both cases HDF5 loads no plugins and follows no links into other files.
-void set_reading_apart(bool apart);
+void set_reads_in_child_process(bool apart);
 
 /// The frames of any H5MD file that has position, velocity, orientation and angular_velocity in
 /// /particles/needles, or in the only group under /particles, whatever its name.

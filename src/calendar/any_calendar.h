@@ -13,15 +13,15 @@ namespace needlework {
 /// Receives the new event of a needle.
 class EventSink {
  public:
-  /// `by_block`: whether the block passed to set() matters.
-  explicit EventSink(bool by_block) : needs_block(by_block) {}
+  /// `by_cell`: whether the cell passed to set() matters.
+  explicit EventSink(bool by_cell) : needs_cell(by_cell) {}
   virtual ~EventSink() = default;
-  /// Replaces the event of event.owner, which is now in this block.
-  virtual void set(const Event& event, BlockIndex block) = 0;
-  /// Prefetches what set() of an event of needle i in this block will access.
-  virtual void prefetch(Needle i, BlockIndex block) const = 0;
+  /// Replaces the event of event.owner, which is now in this cell.
+  virtual void set(const Event& event, CellIndex cell) = 0;
+  /// Prefetches what set() of an event of needle i in this cell will access.
+  virtual void prefetch(Needle i, CellIndex cell) const = 0;
 
-  const bool needs_block;
+  const bool needs_cell;
 };
 
 /// The interface of all models of the concept Calendar, with the same promises.
@@ -34,14 +34,14 @@ class AnyCalendar : public EventSink {
   virtual const Event& of(Needle i) const = 0;
   virtual Needle likely_next() const = 0;
   /// Starts again with n needles whose events never happen. Frees the old memory first.
-  virtual void reset(std::size_t n, const Clock& clock, std::size_t blocks) = 0;
+  virtual void reset(std::size_t n, const Clock& clock, std::size_t cells) = 0;
 };
 
 /// Implements that interface by a calendar of type C.
 template <Calendar C>
 class CalendarOf final : public AnyCalendar {
  public:
-  CalendarOf() : AnyCalendar(C::by_block), calendar_(0, Clock(), 1) {}
+  CalendarOf() : AnyCalendar(C::by_cell), calendar_(0, Clock(), 1) {}
 
   /// The calendar itself, for code that needs more of it than every calendar offers.
   C& get() { return calendar_; }
@@ -50,13 +50,13 @@ class CalendarOf final : public AnyCalendar {
   const Event& top() const override { return calendar_.top(); }
   const Event& of(Needle i) const override { return calendar_.of(i); }
   Needle likely_next() const override { return calendar_.likely_next(); }
-  void set(const Event& event, BlockIndex block) override { calendar_.set(event, block); }
-  void prefetch(Needle i, BlockIndex block) const override {
-    if constexpr (requires { calendar_.prefetch(i, block); }) calendar_.prefetch(i, block);
+  void set(const Event& event, CellIndex cell) override { calendar_.set(event, cell); }
+  void prefetch(Needle i, CellIndex cell) const override {
+    if constexpr (requires { calendar_.prefetch(i, cell); }) calendar_.prefetch(i, cell);
   }
-  void reset(std::size_t n, const Clock& clock, std::size_t blocks) override {
+  void reset(std::size_t n, const Clock& clock, std::size_t cells) override {
     calendar_ = C(0, clock, 1);
-    calendar_ = C(n, clock, blocks);
+    calendar_ = C(n, clock, cells);
   }
 
  private:

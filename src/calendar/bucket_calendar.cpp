@@ -22,7 +22,7 @@ BucketCalendar::BucketCalendar(std::size_t n, const Clock& clock, std::size_t)
   keep_all_in_heap();
 }
 
-void BucketCalendar::set(const Event& event, BlockIndex) {
+void BucketCalendar::set(const Event& event, CellIndex) {
   const Needle i = event.owner;
   keys_[i] = events_.put(event);
   const Number number = number_of(keys_[i]);

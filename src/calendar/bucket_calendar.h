@@ -29,7 +29,7 @@ namespace needlework {
 class BucketCalendar {
  public:
   static constexpr const char* name = "bucket";
-  static constexpr bool by_block = false;
+  static constexpr bool by_cell = false;
 
   BucketCalendar(std::size_t n, const Clock& clock, std::size_t);
 
@@ -37,7 +37,7 @@ class BucketCalendar {
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex);
+  void set(const Event& event, CellIndex);
 
   /// Number of events in heap, buckets and list, replaced ones included.
   std::size_t entries() const { return heap_.size() + filed_ + far_.size(); }

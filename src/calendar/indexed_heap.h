@@ -10,7 +10,7 @@ namespace needlework {
 class IndexedHeap {
  public:
   static constexpr const char* name = "indexed-heap";
-  static constexpr bool by_block = false;
+  static constexpr bool by_cell = false;
 
   IndexedHeap(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock), heap_(n) {
     for (Needle i{0}; i < n; ++i) heap_.set(i, events_.key(i), events_);
@@ -20,7 +20,7 @@ class IndexedHeap {
   const Event& top() const { return events_[heap_.top()]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return heap_.top(); }
-  void set(const Event& event, BlockIndex) { heap_.set(event.owner, events_.put(event), events_); }
+  void set(const Event& event, CellIndex) { heap_.set(event.owner, events_.put(event), events_); }
 
  private:
   EventTable events_;

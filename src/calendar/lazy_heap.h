@@ -16,7 +16,7 @@ namespace needlework {
 class LazyHeap {
  public:
   static constexpr const char* name = "lazy-heap";
-  static constexpr bool by_block = false;
+  static constexpr bool by_cell = false;
 
   LazyHeap(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock), version_(n) {
     rebuild();
@@ -30,7 +30,7 @@ class LazyHeap {
   std::size_t entries() const { return heap_.size(); }
 
   Needle likely_next() const { return top().owner; }
-  void set(const Event& event, BlockIndex) {
+  void set(const Event& event, CellIndex) {
     events_.put(event);
     heap_.push({event, ++version_[event.owner]});
     if (heap_.size() > 2 * version_.size() + 8) rebuild();

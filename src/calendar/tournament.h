@@ -12,7 +12,7 @@ namespace needlework {
 class Tournament {
  public:
   static constexpr const char* name = "tournament";
-  static constexpr bool by_block = false;
+  static constexpr bool by_cell = false;
 
   Tournament(std::size_t n, const Clock& clock, std::size_t)
       : events_(n, clock), tree_(n, events_.key_of(Time::never())) {}
@@ -26,11 +26,11 @@ class Tournament {
     return i;
   }
 
-  void prefetch(Needle i, BlockIndex) const {
+  void prefetch(Needle i, CellIndex) const {
     events_.prefetch(i);
     tree_.prefetch(i.index);
   }
-  void set(const Event& event, BlockIndex) {
+  void set(const Event& event, CellIndex) {
     tree_.update(
         event.owner.index, events_.put(event),
         [&](std::uint32_t a, std::uint32_t b) { return events_.before(Needle(a), Needle(b)); },

@@ -54,7 +54,7 @@ std::string name_of(FileKind kind) {
       return "the grid of a sweep (TOML)";
     case FileKind::pairs:
       return "a list of pairs of needles (CSV)";
-    case FileKind::foreign:
+    case FileKind::configuration:
       return "a configuration of another program";
     default:
       return "an HDF5 file";
@@ -69,7 +69,7 @@ std::string command_for(FileKind kind, const std::string& path) {
       return fmt::format("needlework sweep {} runs", path);
     case FileKind::pairs:
       return fmt::format("needlework predict {} reads", path);
-    case FileKind::foreign:
+    case FileKind::configuration:
       return fmt::format("needlework import {} reads", path);
     default:
       return fmt::format("needlework info {} describes", path);
@@ -98,7 +98,7 @@ FileKind kind_of(const std::string& path) {
   const std::string text = beginning_of(path);
   if (text.starts_with(hdf5_signature)) return FileKind::h5md;
   if (is_line_of_a_pair(text)) return FileKind::pairs;
-  if (io::is_configuration(text)) return FileKind::foreign;
+  if (io::is_configuration(text)) return FileKind::configuration;
   try {
     return kind_of_toml(text);
   } catch (const InputError&) {

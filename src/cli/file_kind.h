@@ -5,10 +5,10 @@
 
 namespace needlework::cli {
 
-enum class FileKind { scene, grid, pairs, h5md, foreign, unknown };
+enum class FileKind { scene, grid, pairs, h5md, configuration, unknown };
 
-/// What a file holds, as far as its first bytes, its sections or its lines say. `foreign` is a
-/// configuration of another program, which `needlework import` reads.
+/// What a file holds, as far as its first bytes, its sections or its lines say. `configuration` is
+/// a configuration of another program, which `needlework import` reads.
 FileKind kind_of(const std::string& path);
 
 /// Throws the exception being handled. If the file is of another kind than expected, the message of

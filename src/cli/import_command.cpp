@@ -145,7 +145,7 @@ void make_folder(const std::string& folder) {
 }  // namespace
 
 int run(const ImportArguments& arguments) {
-  const io::Configuration read = read_file(arguments.from, FileKind::foreign,
+  const io::Configuration read = read_file(arguments.from, FileKind::configuration,
                                            [&] { return read_configuration(arguments.from); });
   const fs::path folder(arguments.folder);
   const std::string scene_file = (folder / "scene.toml").string();

@@ -12,7 +12,7 @@
 namespace needlework::cli {
 namespace {
 
-// Messages quote files of strangers, whose control characters would reach the terminal.
+// Messages quote untrusted files, whose control characters would reach the terminal.
 void print_line(std::string_view kind, std::string_view message) {
   std::string line(message);
   std::replace(line.begin(), line.end(), '\n', ' ');

@@ -53,7 +53,7 @@ Ranks::Ranks() {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   // Open MPI advises against forks: with some networks they corrupt what is being sent.
-  if (count_ > 1) io::set_reading_apart(false);
+  if (count_ > 1) io::set_reads_in_child_process(false);
 }
 
 Ranks::~Ranks() {

@@ -149,13 +149,14 @@ std::string thread_line(const Report& report) {
   }
   const auto events = static_cast<double>(counters.events);
   const double time = threads * report.course.loop.wall();
-  return line("threads",
-              "{}: {:.3g} events a turn, blocked {} of the time; {:.2g} looks at others and {:.2g} "
-              "messages to them an event; {} of {} phases undone",
-              text, events / static_cast<double>(std::max<std::uint64_t>(counters.turns, 1)),
-              per_cent(1e-9 * static_cast<double>(counters.blocked) / time),
-              static_cast<double>(counters.border) / events,
-              static_cast<double>(counters.foreign) / events, counters.redone, counters.phases);
+  return line(
+      "threads",
+      "{}: {:.3g} events between stalls, blocked {} of the time; {:.2g} looks at others and {:.2g} "
+      "messages to them an event; {} of {} phases undone",
+      text, events / static_cast<double>(std::max<std::uint64_t>(counters.stalls, 1)),
+      per_cent(1e-9 * static_cast<double>(counters.blocked) / time),
+      static_cast<double>(counters.border) / events,
+      static_cast<double>(counters.messages) / events, counters.redone, counters.phases);
 }
 
 }  // namespace

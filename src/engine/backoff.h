@@ -69,7 +69,7 @@ class BlockedTime {
 /// Called before a thread reads or publishes progress. Does nothing in a normal build. In a build
 /// with NEEDLEWORK_RANDOM_YIELDS it delays the thread at random by some microseconds, or yields
 /// the core, to produce orders of execution that are otherwise very rare.
-inline void look_away() {
+inline void random_pause() {
 #ifdef NEEDLEWORK_RANDOM_YIELDS
   thread_local unsigned state =
       static_cast<unsigned>(reinterpret_cast<std::uintptr_t>(&state) >> 4);

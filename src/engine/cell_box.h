@@ -105,19 +105,19 @@ class CellBall {
       : cells_(grid.counts()),
         squared_sides_(grid.sides()),
         distance_(distance),
-        reach_(cells_within(grid, distance)) {
+        extent_(cells_within(grid, distance)) {
     for (double& side : squared_sides_) side *= side;
-    for (std::int32_t z = -reach_[2]; z <= reach_[2]; ++z) {
-      for (std::int32_t y = -reach_[1]; y <= reach_[1]; ++y) {
+    for (std::int32_t z = -extent_[2]; z <= extent_[2]; ++z) {
+      for (std::int32_t y = -extent_[1]; y <= extent_[1]; ++y) {
         std::int32_t x = -1;
-        while (x < reach_[0] && comes_near({x + 1, y, z})) ++x;
+        while (x < extent_[0] && comes_near({x + 1, y, z})) ++x;
         if (x >= 0) rows_.push_back({{-x, y, z}, std::min(2 * x, cells_[0] - 1)});
       }
     }
   }
 
   /// Largest distance of a cell of the ball from the centre along each axis, in cells.
-  const CellCounts& reach() const { return reach_; }
+  const CellCounts& extent() const { return extent_; }
 
   /// Whether a cell is closer than the distance to a position, which is given as
   /// CellGrid::in_sides.
@@ -168,7 +168,7 @@ class CellBall {
   CellCounts cells_;
   std::array<double, 3> squared_sides_;  ///< of cells [L^2]
   double distance_;
-  CellCounts reach_;
+  CellCounts extent_;
   std::vector<Row> rows_;
 };
 

@@ -52,7 +52,7 @@ class EventProcessor {
   /// Searches the next contact of needle i from now on and puts its next event into the calendar.
   /// `just_hit` is the needle with which it has just collided, if any.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, const JustHit& just_hit = {});
-  void enter(const Event& event) { calendar_.set(event, block_of(event.owner)); }
+  void enter(const Event& event) { calendar_.set(event, cell_of(event.owner)); }
   /// Prefetches what the processing of an event of this needle will read.
   void prefetch(Needle i) const {
     needlework::prefetch(&gas_.records[i]);
@@ -79,7 +79,7 @@ class EventProcessor {
 #endif
 
  private:
-  BlockIndex block_of(Needle i) const { return calendar_.needs_block ? search_.cell_index(i) : 0; }
+  CellIndex cell_of(Needle i) const { return calendar_.needs_cell ? search_.cell_index(i) : 0; }
   void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
@@ -288,8 +288,8 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
   ++tally_.counters.searches;
   if (rollback_log) rollback_log->scheduled(i, gas_.records[i]);
   // Needed after the search, which takes longer than memory does.
-  const BlockIndex block = block_of(i);
-  calendar_.prefetch(i, block);
+  const CellIndex cell = cell_of(i);
+  calendar_.prefetch(i, cell);
   const Time time = now();
   Event best;
   best.owner = i;
@@ -303,7 +303,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
                  return gas_.clock.difference(best.time, time);
                });
   search_.set_next_event(i, best.time);
-  calendar_.set(best, block);
+  calendar_.set(best, cell);
 }
 
 // Looks for a contact of i with candidate j that is earlier than `best`, and replaces `best` by

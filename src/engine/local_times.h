@@ -37,7 +37,7 @@ class LocalTimes {
 
   /// Publishes the earliest event that a thread has still to process.
   void publish_next(std::size_t thread, TimeKey key) {
-    look_away();
+    random_pause();
     times_[thread].next.store(key, std::memory_order_relaxed);
   }
   /// What has been published of the events before one event, as its thread saw it.
@@ -64,7 +64,7 @@ class LocalTimes {
 
   /// The earliest event that another thread has still to process.
   TimeKey next_of_others(std::size_t thread) const {
-    look_away();
+    random_pause();
     TimeKey out = ~TimeKey{0};
     for (std::size_t t = 0; t < times_.size(); ++t) {
       if (t != thread) out = std::min(out, times_[t].next.load(std::memory_order_relaxed));

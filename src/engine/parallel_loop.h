@@ -3,13 +3,13 @@
 // The box is divided into subdomains, one for each thread. A thread processes the events of the
 // needles in its subdomain, the earliest first. An event reads and writes only within some cells of
 // its place, so events that are far apart may be processed in any order, or at the same time. An
-// event waits while a block within reach has an earlier one; other events of the subdomain, far
+// event waits while a cell in sight has an earlier one; other events of the subdomain, far
 // from the waiting ones, go on. A thread also waits while another thread is very far behind in
 // time. Near other subdomains a thread locks the cells to which its event may write before it reads
 // any.
 //
 // This is nearly always enough, but no such rule can be enough with certainty: a chain of
-// collisions may propagate in almost no time, from an event outside the reach to the place of one
+// collisions may propagate in almost no time, from an event out of sight to the place of one
 // that has already been processed. So every event looks for later ones that have been processed
 // near it. They do no harm if no needle of the one event can meet a needle of the other in
 // between: then neither event affects the other before the later time, and the contacts after it

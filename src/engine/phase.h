@@ -26,8 +26,6 @@ namespace needlework {
 /// each thread.
 template <Search S>
 struct Phase {
-  using Block = CellCalendar::Block;
-
   /// `sight`: distance from its needles within which an event looks for earlier ones, in lengths
   /// of the longest needles. `place`: who asked for the threads, for messages.
   Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its_threads, double sight,
@@ -39,7 +37,7 @@ struct Phase {
   /// largest number of collisions of one thread.
   void begin(double fastest, std::uint64_t most);
 
-  CellBox cell_of(Block block) const { return {places[block], {}}; }
+  CellBox box_of(CellIndex cell) const { return {places[cell], {}}; }
 
   Run& run;
   S& search;
@@ -50,17 +48,17 @@ struct Phase {
                                 ///< this distance [L]
   const CellCounts neighbours;  ///< cells that cover this distance; an event reads nothing farther
                                 ///< away
-  const CellBall reach;         ///< where an event looks for earlier ones
-  CellCounts apart;             ///< events farther apart never access the same data
-  std::vector<CellCounts> places;   ///< cell of each block
-  std::vector<std::uint8_t> inner;  ///< for each block: no other thread accesses data near it
-  /// For each block: the blocks of other subdomains within reach, in rows from `first` to `end`
+  const CellBall in_sight;      ///< where an event looks for earlier ones
+  CellCounts independent;       ///< events farther apart never access the same data
+  std::vector<CellCounts> places;   ///< of each cell in the grid
+  std::vector<std::uint8_t> inner;  ///< for each cell: no other thread accesses data near it
+  /// For each cell: the cells of other subdomains in sight, in rows from `first` to `end`
   /// - 1.
   struct Row {
-    Block first, end;
+    CellIndex first, end;
   };
-  std::vector<Row> foreign;
-  std::vector<std::uint32_t> foreign_from;  ///< where the rows of a block begin in `foreign`
+  std::vector<Row> remote;
+  std::vector<std::uint32_t> remote_from;  ///< where the rows of a cell begin in `remote`
   RegionLocks region_locks;
   CausalityLog causality_log;
   LocalTimes local_times;
@@ -88,7 +86,7 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
       // Needles closer than this may meet before one of them is placed again; includes rounding.
       sight_of_log(1.01 * run.gas.longest + 2 * search.drift()),
       neighbours(cells_within(search.grid(), sight_of_log)),
-      reach(search.grid(), sight * run.gas.longest + search.drift()),
+      in_sight(search.grid(), sight * run.gas.longest + search.drift()),
       region_locks(cells, neighbours, threads),
       causality_log(search.grid(), run.gas.clock, run.gas.longest),
       local_times(threads, sight_of_log, run.gas.longest),
@@ -99,43 +97,43 @@ Phase<S>::Phase(Run& its_run, S& its_search, CellCalendar& its_calendar, int its
   // places of both may be, and reads no farther than that from where it writes.
   assert(search.radius() <= search.drift());
   for (int axis = 0; axis < 3; ++axis) {
-    apart[axis] = 3 * neighbours[axis];
+    independent[axis] = 3 * neighbours[axis];
     if (cells[axis] >= RegionLocks::most_cells) {
       throw InputError(std::string(place) + ": expected 1 for a box of " +
                        std::to_string(cells[axis]) + " cells along an edge");
     }
   }
-  const auto x = static_cast<Block>(cells[0]), y = static_cast<Block>(cells[1]);
-  for (Block b = 0; b < calendar.blocks(); ++b) {
-    places.push_back({static_cast<std::int32_t>(b % x), static_cast<std::int32_t>(b / x % y),
-                      static_cast<std::int32_t>(b / x / y)});
+  const auto x = static_cast<CellIndex>(cells[0]), y = static_cast<CellIndex>(cells[1]);
+  for (CellIndex c = 0; c < calendar.cells(); ++c) {
+    places.push_back({static_cast<std::int32_t>(c % x), static_cast<std::int32_t>(c / x % y),
+                      static_cast<std::int32_t>(c / x / y)});
   }
 }
 
 template <Search S>
 void Phase<S>::divide() {
   const std::vector<std::uint32_t> subdomain =
-      divide_box(cells, run.gas.box, calendar.needles_in_blocks(), threads);
+      divide_box(cells, run.gas.box, calendar.needles_in_cells(), threads);
   // An event looks for earlier ones from its own cell, and from that of its partner.
-  CellCounts far = reach.reach();
+  CellCounts far = in_sight.extent();
   for (int axis = 0; axis < 3; ++axis) far[axis] += neighbours[axis];
   std::vector<std::uint8_t> shown = inner_cells(cells, subdomain, far);
   for (std::uint8_t& each : shown) each = !each;
   calendar.divide(subdomain, threads, shown);
-  inner = inner_cells(cells, subdomain, apart);
-  const std::vector<std::uint8_t> ours = inner_cells(cells, subdomain, reach.reach());
-  foreign.clear();
-  foreign_from = {0};
-  for (Block b = 0; b < calendar.blocks(); ++b) {
-    if (!ours[b]) {
-      reach.any_row(places[b], [&](Block first, Block end) {
+  inner = inner_cells(cells, subdomain, independent);
+  const std::vector<std::uint8_t> ours = inner_cells(cells, subdomain, in_sight.extent());
+  remote.clear();
+  remote_from = {0};
+  for (CellIndex c = 0; c < calendar.cells(); ++c) {
+    if (!ours[c]) {
+      in_sight.any_row(places[c], [&](CellIndex first, CellIndex end) {
         // Subdomains are boxes, so that two cells suffice.
-        const bool own = subdomain[first] == subdomain[b] && subdomain[end - 1] == subdomain[b];
-        if (!own) foreign.push_back({first, end});
+        const bool own = subdomain[first] == subdomain[c] && subdomain[end - 1] == subdomain[c];
+        if (!own) remote.push_back({first, end});
         return false;
       });
     }
-    foreign_from.push_back(static_cast<std::uint32_t>(foreign.size()));
+    remote_from.push_back(static_cast<std::uint32_t>(remote.size()));
   }
 }
 

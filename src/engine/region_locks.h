@@ -37,7 +37,7 @@ class RegionLocks {
     std::atomic<std::uint64_t>& mine = locks_[thread].part[part];
     if (mine.load(std::memory_order_relaxed) == packed(box)) return {};
     mine.store(packed(box), std::memory_order_seq_cst);
-    look_away();
+    random_pause();
     for (std::size_t other = 0; other < locks_.size(); ++other) {
       if (other == thread) continue;
       Backoff backoff(32);

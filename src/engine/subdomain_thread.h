@@ -28,15 +28,15 @@ struct SubdomainChanges final : EventSink {
   };
 
   explicit SubdomainChanges(CellCalendar& its_calendar) : EventSink(true), calendar(its_calendar) {}
-  void set(const Event& event, BlockIndex block) override {
-    needles.push_back({event.owner, calendar.subdomain_of(calendar.block_of(event.owner))});
-    calendar.put(event, block, blocks);
+  void set(const Event& event, CellIndex cell) override {
+    needles.push_back({event.owner, calendar.subdomain_of(calendar.cell_of(event.owner))});
+    calendar.put(event, cell, cells);
   }
-  void prefetch(Needle i, BlockIndex block) const override { calendar.prefetch(i, block); }
+  void prefetch(Needle i, CellIndex cell) const override { calendar.prefetch(i, cell); }
 
   CellCalendar& calendar;
   std::vector<Change> needles;
-  std::vector<BlockIndex> blocks;  ///< whose keys may have changed
+  std::vector<CellIndex> cells;  ///< whose keys may have changed
 };
 
 /// The order in which happenings are reported.
@@ -84,20 +84,18 @@ class alignas(128) SubdomainThread {
   const std::vector<double>& times() const { return reports_.times; }
 
  private:
-  using Block = CellCalendar::Block;
+  static constexpr CellIndex nobody = ~CellIndex{0};
 
-  static constexpr Block nobody = ~Block{0};
-
-  // What an event waits for: that a block has no earlier one, or that another thread changes its
+  // What an event waits for: that a cell has no earlier one, or that another thread changes its
   // lock.
   struct Obstacle {
-    Block block = nobody;
+    CellIndex cell = nobody;
     RegionLocks::Conflict lock{};
-    bool is_lock() const { return block == nobody; }
+    bool is_lock() const { return cell == nobody; }
   };
   struct Deferred {
     Needle needle;
-    Block block;
+    CellIndex cell;
     TimeKey key;
     Obstacle obstacle;
   };
@@ -116,7 +114,7 @@ class alignas(128) SubdomainThread {
     phase_.calendar.prefetch(i);
     processor_.prefetch(i);
   }
-  std::optional<Obstacle> earlier_around(const Vec3d& r, Block centre, Block block,
+  std::optional<Obstacle> earlier_around(const Vec3d& r, CellIndex centre, CellIndex cell,
                                          TimeKey key) const;
   void sort_reports();
   // A needle of the event that is attempted, and the cell of the log to which it belongs.
@@ -126,8 +124,8 @@ class alignas(128) SubdomainThread {
   };
   Taken take(Needle i, const Event& event, TimeKey key) const;
   CellBox cells_of(Needle i, const Vec3d& r) const;
-  bool is_near(Block a, Block b) const {
-    return near(phase_.cell_of(a), phase_.cell_of(b), phase_.cells, phase_.neighbours);
+  bool is_near(CellIndex a, CellIndex b) const {
+    return near(phase_.box_of(a), phase_.box_of(b), phase_.cells, phase_.neighbours);
   }
   bool may_have_met(const LoggedEvent& mine, double speed, const LocalTimes::Seen& seen,
                     bool inner) const;
@@ -173,7 +171,7 @@ void SubdomainThread<S, M>::work(TimeKey end) {
   BlockedTime blocked_time;
   const auto go_on = [&] {
     backoff.reset();
-    blocked_time.end(tally_.counters.turns, tally_.counters.blocked);
+    blocked_time.end(tally_.counters.stalls, tally_.counters.blocked);
   };
   const auto wait = [&] {
     blocked_time.begin();
@@ -223,17 +221,17 @@ template <Search S, Model M>
 auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   prefetch(i);
   prefetch(phase_.calendar.likely_next_in(subdomain_));
-  const Block block = phase_.calendar.block_of(i);
+  const CellIndex cell = phase_.calendar.cell_of(i);
   // Else it has just left, and mail is on its way.
-  if (phase_.calendar.subdomain_of(block) != subdomain_) return Outcome::blocked;
-  const bool inner = phase_.inner[block];
+  if (phase_.calendar.subdomain_of(cell) != subdomain_) return Outcome::blocked;
+  const bool inner = phase_.inner[cell];
   const auto give_up = [&] {
     phase_.region_locks.release(subdomain_);
     return Outcome::other;
   };
   const auto defer = [&](const Obstacle& obstacle) {
-    ++tally_.counters.held;
-    deferred_.push_back({i, block, key, obstacle});
+    ++tally_.counters.deferred;
+    deferred_.push_back({i, cell, key, obstacle});
     phase_.calendar.follow(i, subdomain_, CellCalendar::no_event);
     return give_up();
   };
@@ -253,12 +251,12 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   };
   if (!inner) {
     ++tally_.counters.border;
-    if (const auto conflict = lock(RegionLocks::owner, phase_.cell_of(block))) {
+    if (const auto conflict = lock(RegionLocks::owner, phase_.box_of(cell))) {
       return wait_for(*conflict);
     }
     // Another thread may have changed this event, or others of the subdomain near it, just before
     // the lock.
-    if (phase_.calendar.key_of(i) != key || phase_.calendar.block_of(i) != block ||
+    if (phase_.calendar.key_of(i) != key || phase_.calendar.cell_of(i) != cell ||
         phase_.mail.has_some(subdomain_)) {
       return give_up();
     }
@@ -269,19 +267,19 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   const Taken owner = take(event.owner, event, key);
   const bool may_wait = !inner || !deferred_.empty();
   if (may_wait) {
-    if (const auto earlier = earlier_around(owner.event.r, block, block, key)) {
+    if (const auto earlier = earlier_around(owner.event.r, cell, cell, key)) {
       return defer(*earlier);
     }
   }
   std::optional<Taken> partner;  // unless the event changes the owner alone
   if (event.has_partner()) {
     // If the partner is no longer near, it has collided since the prediction.
-    const Block other = phase_.calendar.block_of(event.partner);
-    if (is_near(block, other)) {
-      if (const auto conflict = lock(RegionLocks::partner, phase_.cell_of(other))) {
+    const CellIndex other = phase_.calendar.cell_of(event.partner);
+    if (is_near(cell, other)) {
+      if (const auto conflict = lock(RegionLocks::partner, phase_.box_of(other))) {
         return wait_for(*conflict);
       }
-      if (phase_.calendar.block_of(event.partner) != other) return give_up();
+      if (phase_.calendar.cell_of(event.partner) != other) return give_up();
       if (!processor_.is_stale(event)) {
         partner = take(event.partner, event, key);
       } else if (phase_.run.gas.records[event.partner].time > event.time) {
@@ -290,7 +288,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
       }
     }
     if (partner && may_wait) {
-      if (const auto earlier = earlier_around(partner->event.r, other, block, key)) {
+      if (const auto earlier = earlier_around(partner->event.r, other, cell, key)) {
         return defer(*earlier);
       }
     }
@@ -311,7 +309,7 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   if (partner) fastest = std::max(fastest, partner->event.speed);
   const LocalTimes::Seen seen = phase_.local_times.publish_event(subdomain_, key, fastest);
   changes_.needles.clear();
-  changes_.blocks.clear();
+  changes_.cells.clear();
 #ifndef NDEBUG
   processor_.watch_reading_ahead();
 #endif
@@ -319,8 +317,8 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
   latest_ = std::max(latest_, event.time);
   if (tally_.collisions > phase_.most_collisions) phase_.too_many = phase_.must_roll_back = true;
   const auto check = [&](Needle i, const Taken& taken) {
-    assert(is_near(block, phase_.calendar.block_of(i)) &&
-           is_near(block, static_cast<Block>(taken.cell)));
+    assert(is_near(cell, phase_.calendar.cell_of(i)) &&
+           is_near(cell, static_cast<CellIndex>(taken.cell)));
     const double speed = phase_.run.gas.fastest_of(phase_.run.gas.records[i]);
     if (may_have_met(taken.event, speed, seen, inner)) phase_.must_roll_back = true;
   };
@@ -339,14 +337,14 @@ auto SubdomainThread<S, M>::attempt(Needle i, TimeKey key) -> Outcome {
 template <Search S, Model M>
 void SubdomainThread<S, M>::release_deferred() {
   std::erase_if(deferred_, [&](const Deferred& deferred) {
-    look_away();
+    random_pause();
     if (deferred.obstacle.is_lock()) {
       if (phase_.region_locks.lasts(deferred.obstacle.lock)) return false;
     } else {
-      const Block other = deferred.obstacle.block;
+      const CellIndex other = deferred.obstacle.cell;
       assert(phase_.calendar.is_shown(other));
       const TimeKey published = phase_.calendar.published_key(other);
-      if (published < deferred.key || (published == deferred.key && other < deferred.block)) {
+      if (published < deferred.key || (published == deferred.key && other < deferred.cell)) {
         return false;
       }
     }
@@ -360,21 +358,21 @@ void SubdomainThread<S, M>::read_mail() {
   for (const Needle i : phase_.mail.take(subdomain_)) follow(i);
 }
 
-// Publishes the keys of the blocks that an event has changed, and lets the subdomains concerned
+// Publishes the keys of the cells that an event has changed, and lets the subdomains concerned
 // know of the needles. Keys that have become earlier are published first, so that no thread sees
 // this event completed without the events that follow from it.
 template <Search S, Model M>
 void SubdomainThread<S, M>::publish_changes() {
-  look_away();
-  for (const Block b : changes_.blocks) {
-    if (phase_.calendar.first_key(b) < phase_.calendar.published_key(b)) phase_.calendar.publish(b);
+  random_pause();
+  for (const CellIndex c : changes_.cells) {
+    if (phase_.calendar.first_key(c) < phase_.calendar.published_key(c)) phase_.calendar.publish(c);
   }
-  for (const Block b : changes_.blocks) {
-    look_away();
-    phase_.calendar.publish(b);
+  for (const CellIndex c : changes_.cells) {
+    random_pause();
+    phase_.calendar.publish(c);
   }
   for (const auto& [i, before] : changes_.needles) {
-    const std::uint32_t now = phase_.calendar.subdomain_of(phase_.calendar.block_of(i));
+    const std::uint32_t now = phase_.calendar.subdomain_of(phase_.calendar.cell_of(i));
     notify(now, i);
     if (before != now) notify(before, i);
   }
@@ -384,7 +382,7 @@ void SubdomainThread<S, M>::publish_changes() {
 template <Search S, Model M>
 void SubdomainThread<S, M>::notify(std::uint32_t subdomain, Needle i) {
   if (subdomain == subdomain_) return follow(i);
-  ++tally_.counters.foreign;
+  ++tally_.counters.messages;
   phase_.mail.send(subdomain, i);
 }
 
@@ -392,46 +390,45 @@ void SubdomainThread<S, M>::notify(std::uint32_t subdomain, Needle i) {
 template <Search S, Model M>
 void SubdomainThread<S, M>::follow(Needle i) {
   std::erase_if(deferred_, [&](const Deferred& deferred) { return deferred.needle == i; });
-  const bool is_here = phase_.calendar.subdomain_of(phase_.calendar.block_of(i)) == subdomain_;
+  const bool is_here = phase_.calendar.subdomain_of(phase_.calendar.cell_of(i)) == subdomain_;
   phase_.calendar.follow(i, subdomain_,
                          is_here ? phase_.calendar.key_of(i) : CellCalendar::no_event);
 }
 
-// A block within reach of r, of a needle in the block `centre`, that has an event before that of
-// `block`; what that event waits for, if no block can tell when it has been processed; or nothing.
-// Among the subdomain's own blocks only deferred ones can have one.
+// A cell in sight of r, of a needle in the cell `centre`, that has an event before that of
+// `cell`; what that event waits for, if no cell can tell when it has been processed; or nothing.
+// Among the subdomain's own cells only deferred ones can have one.
 template <Search S, Model M>
-auto SubdomainThread<S, M>::earlier_around(const Vec3d& r, Block centre, Block block,
+auto SubdomainThread<S, M>::earlier_around(const Vec3d& r, CellIndex centre, CellIndex cell,
                                            TimeKey key) const -> std::optional<Obstacle> {
-  look_away();
+  random_pause();
   const Vec3d position = phase_.search.grid().in_sides(r);
   for (const Deferred& deferred : deferred_) {
-    const bool before = deferred.key < key || (deferred.key == key && deferred.block < block);
-    if (before && phase_.reach.comes_near(position, phase_.places[deferred.block])) {
-      // Only blocks that are shown tell when the event has been processed.
-      return phase_.calendar.is_shown(deferred.block) ? Obstacle{deferred.block}
-                                                      : deferred.obstacle;
+    const bool before = deferred.key < key || (deferred.key == key && deferred.cell < cell);
+    if (before && phase_.in_sight.comes_near(position, phase_.places[deferred.cell])) {
+      // Only cells that are shown tell when the event has been processed.
+      return phase_.calendar.is_shown(deferred.cell) ? Obstacle{deferred.cell} : deferred.obstacle;
     }
   }
   std::optional<Obstacle> found;
   if (key < next_of_others_) return found;
-  const auto has_earlier = [&](Block first, Block end) {
-    for (Block b = first; b < end; ++b) {
-      assert(phase_.calendar.is_shown(b) || phase_.calendar.subdomain_of(b) == subdomain_);
-      const TimeKey published = phase_.calendar.published_key(b);
-      if (published > key || (published == key && b >= block)) continue;
-      if (!phase_.reach.comes_near(position, phase_.places[b])) continue;
-      found = Obstacle{b};
+  const auto has_earlier = [&](CellIndex first, CellIndex end) {
+    for (CellIndex c = first; c < end; ++c) {
+      assert(phase_.calendar.is_shown(c) || phase_.calendar.subdomain_of(c) == subdomain_);
+      const TimeKey published = phase_.calendar.published_key(c);
+      if (published > key || (published == key && c >= cell)) continue;
+      if (!phase_.in_sight.comes_near(position, phase_.places[c])) continue;
+      found = Obstacle{c};
       return true;
     }
     return false;
   };
   if (phase_.calendar.subdomain_of(centre) != subdomain_) {
-    phase_.reach.any_row(phase_.places[centre], has_earlier);
+    phase_.in_sight.any_row(phase_.places[centre], has_earlier);
     return found;
   }
-  for (std::uint32_t n = phase_.foreign_from[centre]; n < phase_.foreign_from[centre + 1]; ++n) {
-    if (has_earlier(phase_.foreign[n].first, phase_.foreign[n].end)) break;
+  for (std::uint32_t n = phase_.remote_from[centre]; n < phase_.remote_from[centre + 1]; ++n) {
+    if (has_earlier(phase_.remote[n].first, phase_.remote[n].end)) break;
   }
   return found;
 }

@@ -1,7 +1,7 @@
 #include "src/io/contents.h"
 
 #include "needlework/error.h"
-#include "src/io/apart.h"
+#include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -99,7 +99,7 @@ struct Contents::Implementation {
   explicit Implementation(const std::string& path)
       : file(path, [&] { return std::make_unique<OpenContents>(path); }) {}
 
-  Apart<OpenContents> file;
+  InChildProcess<OpenContents> file;
 };
 
 Contents::Contents(const std::string& path)

@@ -8,7 +8,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "src/io/apart.h"
+#include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -281,7 +281,7 @@ void Overview::add_parameters() {
 }  // namespace
 
 std::string describe(const std::string& path) {
-  return read_apart(path, [&] { return Overview(path).write(); });
+  return read_in_child_process(path, [&] { return Overview(path).write(); });
 }
 
 }  // namespace needlework::io

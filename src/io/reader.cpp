@@ -10,8 +10,8 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "src/io/apart.h"
 #include "src/io/frame_rows.h"
+#include "src/io/in_child_process.h"
 #include "src/io/needle_check.h"
 #include "src/io/source.h"
 #include "src/machine/stop_request.h"
@@ -324,7 +324,7 @@ struct FrameFile::Implementation {
   explicit Implementation(const std::string& path)
       : reader(path, [&] { return std::make_unique<FrameReader>(path); }) {}
 
-  Apart<FrameReader> reader;
+  InChildProcess<FrameReader> reader;
   std::size_t count = reader.call<&FrameReader::count>();
   std::size_t needles = reader.call<&FrameReader::needles>();
 };

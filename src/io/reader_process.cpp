@@ -33,7 +33,7 @@
 namespace needlework::io {
 namespace {
 
-std::atomic<bool> apart_wanted = true;
+std::atomic<bool> child_process_wanted = true;
 
 // The first byte of an answer.
 enum class Outcome : char { done, input_error, io_error, invalid_argument, no_memory, other };
@@ -207,11 +207,11 @@ std::string how_it_ended(int status, ReadingLimits limits) {
 
 }  // namespace
 
-void set_reading_apart(bool apart) { apart_wanted = apart; }
+void set_reads_in_child_process(bool wanted) { child_process_wanted = wanted; }
 
-bool reading_apart() {
+bool reads_in_child_process() {
   const char* fork = std::getenv("NEEDLEWORK_FORK");
-  return apart_wanted && !(fork && std::string_view(fork) == "0");
+  return child_process_wanted && !(fork && std::string_view(fork) == "0");
 }
 
 ReadingLimits limits_for(std::uint64_t file_bytes) {

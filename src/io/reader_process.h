@@ -1,5 +1,5 @@
 // A child process that reads a file, so that a file on which HDF5 crashes, hangs or takes all
-// memory is an error and no more: HDF5 was not made for files of strangers.
+// memory is an error and no more: HDF5 was not made for untrusted files.
 #pragma once
 
 #include <sys/types.h>
@@ -11,9 +11,9 @@
 
 namespace needlework::io {
 
-/// Whether files are read in a child process: yes, unless set_reading_apart(false) has been called
-/// or the environment variable NEEDLEWORK_FORK is 0.
-bool reading_apart();
+/// Whether files are read in a child process: yes, unless set_reads_in_child_process(false) has
+/// been called or the environment variable NEEDLEWORK_FORK is 0.
+bool reads_in_child_process();
 
 /// What one request may take.
 struct ReadingLimits {

@@ -3,7 +3,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "src/io/apart.h"
+#include "src/io/in_child_process.h"
 #include "src/io/source.h"
 #include "src/trajectory/saved_totals.h"
 
@@ -73,7 +73,7 @@ static RecordedRun read_run_here(const std::string& path, bool with_series) {
 }
 
 RecordedRun read_run(const std::string& path, bool with_series) {
-  return read_apart(path, [&] { return read_run_here(path, with_series); });
+  return read_in_child_process(path, [&] { return read_run_here(path, with_series); });
 }
 
 }  // namespace needlework::io

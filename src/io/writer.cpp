@@ -11,10 +11,10 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
-#include "src/io/apart.h"
 #include "src/io/atomic_file.h"
 #include "src/io/continuation.h"
 #include "src/io/hdf5.h"
+#include "src/io/in_child_process.h"
 #include "src/io/layout.h"
 #include "src/io/output_file.h"
 #include "src/io/source.h"
@@ -84,7 +84,7 @@ void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, cons
   file.emplace(path, path);
   if (approve) approve();
   // Before this process opens the file, which another one may have damaged.
-  read_apart(path, [&] {
+  read_in_child_process(path, [&] {
     require_continuable(Source(path), scene, run, from);
     return true;
   });

@@ -154,7 +154,7 @@ inline void NearSearch::follow(const kernels::Seeker& seeker, const JustHit& jus
     from[k] = hit ? apart : 0;
     if (hit && !parts) propose(found, k, 0);
   }
-  counters_.isolated += kernels_.bracket(seeker, pairs, count);
+  counters_.bracket_steps += kernels_.bracket(seeker, pairs, count);
   for (std::size_t k = 0; k < count; ++k) {
     if (from[k] <= seeker.ahead) propose(found, k, from[k] / volumes.per_time);
   }

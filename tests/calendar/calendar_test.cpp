@@ -56,14 +56,14 @@ class SortedReference {
   std::multiset<Event> sorted_;
 };
 
-// Needles are grouped into blocks by index.
-constexpr std::size_t in_block = 16;
-BlockIndex block_of(Needle i) { return static_cast<BlockIndex>(i / in_block); }
+// Needles are grouped into cells by index.
+constexpr std::size_t in_cell = 16;
+CellIndex cell_of(Needle i) { return static_cast<CellIndex>(i / in_cell); }
 
 template <Calendar C>
 C make_calendar_of(int n) {
   const auto size = static_cast<std::size_t>(n);
-  return C(size, Clock(), (size + in_block - 1) / in_block);
+  return C(size, Clock(), (size + in_cell - 1) / in_cell);
 }
 
 bool equal_in_order(const Event& a, const Event& b) { return !(a < b) && !(b < a); }
@@ -118,7 +118,7 @@ void expect_reference(int n, bool ties) {
   for (Needle i{0}; i < size; ++i) last[i].owner = i;
   for (int step = 0; step < operations; ++step) {
     const Event event = draw_event(random, n, step / 50, ties);
-    calendar.set(event, block_of(event.owner));
+    calendar.set(event, cell_of(event.owner));
     reference.set(event);
     last[event.owner] = event;
     ASSERT_TRUE(equal_in_order(calendar.top(), reference.top()))
@@ -157,7 +157,7 @@ class Loop {
     Event event;
     event.owner = owner;
     event.time = clock_.add(now_, ahead);
-    calendar_.set(named(event), block_of(owner));
+    calendar_.set(named(event), cell_of(owner));
     reference_.set(named(event));
   }
 
@@ -240,7 +240,7 @@ TYPED_TEST(CalendarTest, TakesOneInstantByIds) {
     Event event;
     event.owner = owner;
     event.time = {epoch, 0.5};
-    calendar.set(named(event), block_of(owner));
+    calendar.set(named(event), cell_of(owner));
   };
   constexpr Needle end(n);
   for (Needle i{0}; i < end; ++i) put(i, 0);
@@ -310,13 +310,13 @@ TYPED_TEST(CalendarTest, IsMadeByItsName) {
   Random random(seed);
   for (const int n : {50, 20, 200}) {  // each time from the beginning
     const auto size = static_cast<std::size_t>(n);
-    calendar->reset(size, Clock(), (size + in_block - 1) / in_block);
+    calendar->reset(size, Clock(), (size + in_cell - 1) / in_cell);
     EXPECT_EQ(calendar->top().time, Time::never());
     TypeParam direct = make_calendar_of<TypeParam>(n);
     for (int step = 0; step < 1000; ++step) {
       const Event event = draw_event(random, n, step / 50, true);
-      calendar->set(event, block_of(event.owner));
-      direct.set(event, block_of(event.owner));
+      calendar->set(event, cell_of(event.owner));
+      direct.set(event, cell_of(event.owner));
       ASSERT_TRUE(equal_in_order(calendar->top(), direct.top())) << n << ", step " << step;
       ASSERT_EQ(calendar->of(event.owner).time, event.time);
       ASSERT_EQ(calendar->likely_next(), direct.likely_next());
@@ -388,9 +388,9 @@ TEST(BucketCalendar, ChangesItsWidthOnlyAfterManyEvents) {
 class DividedCalendar {
  public:
   static constexpr int n = 200;
-  static constexpr std::uint32_t blocks = 7, subdomains = 3;
+  static constexpr std::uint32_t cells = 7, subdomains = 3;
 
-  DividedCalendar() : calendar(n, Clock(), blocks), events(n), block(n, 0) {
+  DividedCalendar() : calendar(n, Clock(), cells), events(n), cell(n, 0) {
     for (Needle i{0}; i < n; ++i) events[i].owner = i;
     divide();
   }
@@ -399,10 +399,10 @@ class DividedCalendar {
     for (auto& each : shown) each = random.below(2) == 0;
     calendar.divide(subdomain, subdomains, shown);
   }
-  /// An event of a needle that one time in three has moved to another block.
+  /// An event of a needle that one time in three has moved to another cell.
   Event draw(std::int64_t epoch, bool ties) {
     Event event = draw_event(random, n, epoch, ties);
-    if (random.below(3) == 0) block[event.owner] = static_cast<std::uint32_t>(random.below(blocks));
+    if (random.below(3) == 0) cell[event.owner] = static_cast<std::uint32_t>(random.below(cells));
     events[event.owner] = event;
     return event;
   }
@@ -416,35 +416,35 @@ class DividedCalendar {
     }
     return out;
   }
-  TimeKey earliest_in(std::uint32_t b) const {
-    return earliest([&](Needle i) { return block[i] == b; });
+  TimeKey earliest_in(std::uint32_t c) const {
+    return earliest([&](Needle i) { return cell[i] == c; });
   }
   TimeKey earliest_of_subdomain(std::uint32_t z) const {
-    return earliest([&](Needle i) { return subdomain[block[i]] == z; });
+    return earliest([&](Needle i) { return subdomain[cell[i]] == z; });
   }
   const Event& first() const { return *std::min_element(events.begin(), events.end()); }
 
   CellCalendar calendar;
   std::vector<Event> events;
-  std::vector<std::uint32_t> block;  ///< of each needle
-  std::vector<std::uint32_t> subdomain = std::vector<std::uint32_t>(blocks);
-  std::vector<std::uint8_t> shown = std::vector<std::uint8_t>(blocks);
+  std::vector<std::uint32_t> cell;  ///< of each needle
+  std::vector<std::uint32_t> subdomain = std::vector<std::uint32_t>(cells);
+  std::vector<std::uint8_t> shown = std::vector<std::uint8_t>(cells);
   Random random = Random(seed);
 };
 
-TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownBlocks) {
+TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownCells) {
   DividedCalendar divided;
   const CellCalendar& calendar = divided.calendar;
   for (int step = 0; step < operations; ++step) {
     if (step % 1000 == 0) divided.divide();
     const Event event = divided.draw(step / 50, step % 2 == 0);
-    divided.calendar.set(event, divided.block[event.owner]);
+    divided.calendar.set(event, divided.cell[event.owner]);
     ASSERT_EQ(calendar.key_of(event.owner), divided.key(event.owner));
-    ASSERT_EQ(calendar.block_of(event.owner), divided.block[event.owner]);
-    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
-      ASSERT_EQ(calendar.is_shown(b), divided.shown[b] != 0);
-      ASSERT_EQ(calendar.published_key(b),
-                divided.shown[b] ? divided.earliest_in(b) : CellCalendar::no_event)
+    ASSERT_EQ(calendar.cell_of(event.owner), divided.cell[event.owner]);
+    for (std::uint32_t c = 0; c < divided.cells; ++c) {
+      ASSERT_EQ(calendar.is_shown(c), divided.shown[c] != 0);
+      ASSERT_EQ(calendar.published_key(c),
+                divided.shown[c] ? divided.earliest_in(c) : CellCalendar::no_event)
           << "step " << step;
     }
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
@@ -453,9 +453,9 @@ TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownBlocks) {
     ASSERT_TRUE(equal_in_order(calendar.top(), divided.first()))
         << "step " << step << ", seed " << seed;
   }
-  const std::vector<std::size_t> counts = calendar.needles_in_blocks();
-  for (std::uint32_t b = 0; b < divided.blocks; ++b) {
-    EXPECT_EQ(counts[b], std::count(divided.block.begin(), divided.block.end(), b));
+  const std::vector<std::size_t> counts = calendar.needles_in_cells();
+  for (std::uint32_t c = 0; c < divided.cells; ++c) {
+    EXPECT_EQ(counts[c], std::count(divided.cell.begin(), divided.cell.end(), c));
   }
 }
 
@@ -463,24 +463,24 @@ TEST(CellCalendar, KnowsTheEarliestOfSubdomainsAndShownBlocks) {
 TEST(CellCalendar, ChangesInSteps) {
   DividedCalendar divided;
   CellCalendar& calendar = divided.calendar;
-  std::vector<CellCalendar::Block> changed;
+  std::vector<CellIndex> changed;
   for (int step = 0; step < operations; ++step) {
     if (step % 1000 == 0) divided.divide();
-    std::vector<TimeKey> published(divided.blocks), won(divided.subdomains);
-    for (std::uint32_t b = 0; b < divided.blocks; ++b) published[b] = calendar.published_key(b);
+    std::vector<TimeKey> published(divided.cells), won(divided.subdomains);
+    for (std::uint32_t c = 0; c < divided.cells; ++c) published[c] = calendar.published_key(c);
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) won[z] = calendar.winning_key(z);
     const Event event = divided.draw(step / 50, true);
     const Needle i = event.owner;
-    const std::uint32_t before = calendar.subdomain_of(calendar.block_of(i)),
-                        now = calendar.subdomain_of(divided.block[i]);
+    const std::uint32_t before = calendar.subdomain_of(calendar.cell_of(i)),
+                        now = calendar.subdomain_of(divided.cell[i]);
     changed.clear();
-    calendar.put(event, divided.block[i], changed);
-    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
-      ASSERT_EQ(calendar.published_key(b), published[b]) << "step " << step;
-      if (!divided.shown[b]) continue;
-      ASSERT_EQ(calendar.first_key(b), divided.earliest_in(b)) << "step " << step;
-      if (calendar.first_key(b) != published[b]) {
-        ASSERT_TRUE(std::find(changed.begin(), changed.end(), b) != changed.end());
+    calendar.put(event, divided.cell[i], changed);
+    for (std::uint32_t c = 0; c < divided.cells; ++c) {
+      ASSERT_EQ(calendar.published_key(c), published[c]) << "step " << step;
+      if (!divided.shown[c]) continue;
+      ASSERT_EQ(calendar.first_key(c), divided.earliest_in(c)) << "step " << step;
+      if (calendar.first_key(c) != published[c]) {
+        ASSERT_TRUE(std::find(changed.begin(), changed.end(), c) != changed.end());
       }
     }
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
@@ -489,12 +489,12 @@ TEST(CellCalendar, ChangesInSteps) {
     if (step % 10 == 5) {
       calendar.order_again();  // makes up for the steps that are missing
     } else {
-      for (const CellCalendar::Block b : changed) calendar.publish(b);
+      for (const CellIndex c : changed) calendar.publish(c);
       if (before != now) calendar.follow(i, before, CellCalendar::no_event);
       calendar.follow(i, now, calendar.key_of(i));
     }
-    for (std::uint32_t b = 0; b < divided.blocks; ++b) {
-      if (divided.shown[b]) ASSERT_EQ(calendar.published_key(b), divided.earliest_in(b));
+    for (std::uint32_t c = 0; c < divided.cells; ++c) {
+      if (divided.shown[c]) ASSERT_EQ(calendar.published_key(c), divided.earliest_in(c));
     }
     for (std::uint32_t z = 0; z < divided.subdomains; ++z) {
       ASSERT_EQ(calendar.winning_key(z), divided.earliest_of_subdomain(z)) << "step " << step;

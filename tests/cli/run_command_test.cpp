@@ -349,7 +349,7 @@ TEST_F(RunCommand, RefusesThreadsThatSearchOrCalendarCannotUse) {
 TEST_F(RunCommand, ReportsWhatThreadsDid) {
   const std::string more = "small.toml --set needles.count=1000 --set needles.box=8 ";
   const std::string few = "small.toml --set needles.count=20 --set needles.box=4 ";
-  EXPECT_NE(run("run " + more + "--threads 2").out.find(" events a turn, blocked "),
+  EXPECT_NE(run("run " + more + "--threads 2").out.find(" events between stalls, blocked "),
             std::string::npos);
   EXPECT_NE(run("run " + few + "--threads 2").out.find("2; one did all"), std::string::npos);
   EXPECT_EQ(run("run " + more + "--threads 1").out.find("threads"), std::string::npos);

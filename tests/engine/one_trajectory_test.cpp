@@ -68,7 +68,7 @@ TEST(OneTrajectory, IsFollowedInFewerStepsByWiderVectors) {
     scene.engine.isa = kernels::name_of(isa);
     Simulation simulation(scene);
     simulation.advance(test::until_collisions(collisions_per_needle));
-    const std::uint64_t steps = simulation.counters().isolated;
+    const std::uint64_t steps = simulation.counters().bracket_steps;
     EXPECT_GT(steps, 0u);
     if (before > 0) {
       EXPECT_LT(static_cast<double>(steps), 0.9 * static_cast<double>(before));

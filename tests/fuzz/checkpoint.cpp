@@ -117,7 +117,7 @@ void resume_a_little(const std::string& output) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   static const std::array<Base, 2> bases{base_of(run_plain()),
                                          base_of(fuzz::run_with_everything())};
-  io::set_reading_apart(false);
+  io::set_reads_in_child_process(false);
   FuzzedDataProvider data(bytes, size);
   const Base& base = bases[data.ConsumeIntegralInRange<std::size_t>(0, 1)];
   std::string content = base.content;

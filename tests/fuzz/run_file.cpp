@@ -29,7 +29,7 @@ void show(const std::string& path) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   static const fuzz::BaseFile base(fuzz::run_with_everything());
-  io::set_reading_apart(false);
+  io::set_reads_in_child_process(false);
   FuzzedDataProvider data(bytes, size);
   const std::string path = fuzz::folder() / "input.h5";
   base.edit(path, data);

@@ -66,7 +66,7 @@ void run_a_little(const std::string& path) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   static const std::array<fuzz::BaseFile, 3> bases = make_bases();
-  io::set_reading_apart(false);
+  io::set_reads_in_child_process(false);
   FuzzedDataProvider data(bytes, size);
   const std::string path = fuzz::folder() / "input.h5";
   bases[data.ConsumeIntegralInRange<std::size_t>(0, 2)].edit(path, data);

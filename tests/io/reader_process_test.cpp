@@ -9,14 +9,14 @@
 #include <stdexcept>
 #include <thread>
 
-#include "src/io/apart.h"
+#include "src/io/in_child_process.h"
 #include "src/machine/stop_request.h"
 #include "tests/io/support.h"
 
 namespace needlework::io {
 namespace {
 
-class ReadingApart : public InFolder {
+class ReadInChildProcess : public InFolder {
  protected:
   std::string make() {
     const std::string path = file("made.h5");
@@ -28,7 +28,7 @@ class ReadingApart : public InFolder {
   // What a child that does this is said to have done, without the name of the file.
   template <class Error, class Read>
   std::string end_of(Read read) {
-    return message_of<Error>([&] { read_apart("f.h5", read); });
+    return message_of<Error>([&] { read_in_child_process("f.h5", read); });
   }
 };
 
@@ -36,15 +36,15 @@ ReaderProcess::Service reading(std::function<void()> action) {
   return [action](std::string_view) { return action(), std::string(); };
 }
 
-TEST_F(ReadingApart, ErrorsOfTheChildAreThoseOfItsCaller) {
+TEST_F(ReadInChildProcess, ErrorsOfTheChildAreThoseOfItsCaller) {
   EXPECT_EQ(end_of<InputError>([]() -> int { throw InputError("bad"); }), "bad");
   EXPECT_EQ(end_of<IoError>([]() -> int { throw IoError("gone"); }), "gone");
   EXPECT_EQ(end_of<std::invalid_argument>([]() -> int { throw std::invalid_argument("no"); }),
             "no");
-  EXPECT_EQ(read_apart("f.h5", [] { return std::string("fine"); }), "fine");
+  EXPECT_EQ(read_in_child_process("f.h5", [] { return std::string("fine"); }), "fine");
 }
 
-TEST_F(ReadingApart, ACrashIsAnError) {
+TEST_F(ReadInChildProcess, ACrashIsAnError) {
   EXPECT_EQ(end_of<IoError>([]() -> int { return raise(SIGSEGV); }),
             "f.h5: damaged: HDF5 crashed while it read the file (signal 11, Segmentation fault)");
   EXPECT_EQ(end_of<IoError>([]() -> int { std::abort(); }),
@@ -54,7 +54,7 @@ TEST_F(ReadingApart, ACrashIsAnError) {
 }
 
 // A child that would never answer, and nobody waits for.
-TEST_F(ReadingApart, IsStoppedWithItsChild) {
+TEST_F(ReadInChildProcess, IsStoppedWithItsChild) {
   pid_t child = 0;
   {
     ReaderProcess process("f.h5", {1u << 30, 600}, [] {
@@ -71,7 +71,7 @@ TEST_F(ReadingApart, IsStoppedWithItsChild) {
   EXPECT_NE(kill(child, 0), 0);
 }
 
-TEST_F(ReadingApart, AfterACrashEveryRequestFails) {
+TEST_F(ReadInChildProcess, AfterACrashEveryRequestFails) {
   ReaderProcess process("f.h5", {1u << 30, 5}, [] { return reading([] { raise(SIGBUS); }); });
   for (int n = 0; n < 2; ++n) {
     EXPECT_NE(message_of<IoError>([&] { process.ask("anything"); }).find("signal 7"),
@@ -79,7 +79,7 @@ TEST_F(ReadingApart, AfterACrashEveryRequestFails) {
   }
 }
 
-TEST_F(ReadingApart, AHangIsAnError) {
+TEST_F(ReadInChildProcess, AHangIsAnError) {
   ReaderProcess process("f.h5", {1u << 30, 0}, [] {
     return reading([] {
       std::atomic<int> n = 0;
@@ -90,7 +90,7 @@ TEST_F(ReadingApart, AHangIsAnError) {
             "f.h5: damaged: reading it took more than 0 s");
 }
 
-TEST_F(ReadingApart, TakingAllMemoryIsAnError) {
+TEST_F(ReadInChildProcess, TakingAllMemoryIsAnError) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer ends a process that has no memory left";
 #endif
@@ -105,21 +105,21 @@ TEST_F(ReadingApart, TakingAllMemoryIsAnError) {
             "this machine");
 }
 
-TEST_F(ReadingApart, WithoutAChildTheSameIsRead) {
+TEST_F(ReadInChildProcess, WithoutAChildTheSameIsRead) {
   const std::string path = make();
-  const State apart = read_last_frame(path);
-  set_reading_apart(false);
-  EXPECT_FALSE(reading_apart());
-  expect_same(read_last_frame(path), apart);
-  set_reading_apart(true);
+  const State by_child = read_last_frame(path);
+  set_reads_in_child_process(false);
+  EXPECT_FALSE(reads_in_child_process());
+  expect_same(read_last_frame(path), by_child);
+  set_reads_in_child_process(true);
   setenv("NEEDLEWORK_FORK", "0", 1);
-  EXPECT_FALSE(reading_apart());
+  EXPECT_FALSE(reads_in_child_process());
   unsetenv("NEEDLEWORK_FORK");
-  EXPECT_TRUE(reading_apart());
+  EXPECT_TRUE(reads_in_child_process());
 }
 
 // Programs that want to know nothing of their children, or wait for any of them.
-TEST_F(ReadingApart, TheProgramMayIgnoreItsChildren) {
+TEST_F(ReadInChildProcess, TheProgramMayIgnoreItsChildren) {
   const std::string path = make();
   const auto before = signal(SIGCHLD, SIG_IGN);
   EXPECT_EQ(read_last_frame(path).size(), 2u);
@@ -128,7 +128,7 @@ TEST_F(ReadingApart, TheProgramMayIgnoreItsChildren) {
   signal(SIGCHLD, before);
 }
 
-TEST_F(ReadingApart, NoProcessIsLeft) {
+TEST_F(ReadInChildProcess, NoProcessIsLeft) {
   const std::string path = make();
   read_last_frame(path);
   { const FrameFile file(path); }
@@ -138,7 +138,7 @@ TEST_F(ReadingApart, NoProcessIsLeft) {
 }
 
 // A child that held the lock of a file would keep its writer from opening it again.
-TEST_F(ReadingApart, ChildrenHoldNoLocksOfTheProgram) {
+TEST_F(ReadInChildProcess, ChildrenHoldNoLocksOfTheProgram) {
   const std::string path = make(), written = file("run.h5");
   Writer writer(written, true, make_scene(2), {});
   writer.write_frame(make_totals(0), make_state(2));
@@ -150,7 +150,7 @@ TEST_F(ReadingApart, ChildrenHoldNoLocksOfTheProgram) {
 }
 
 // The fork waits until no other thread uses HDF5, which the child could never use otherwise.
-TEST_F(ReadingApart, OtherThreadsMayUseHdf5) {
+TEST_F(ReadInChildProcess, OtherThreadsMayUseHdf5) {
   const std::string path = make();
   std::atomic<bool> done = false;
   std::thread host([&] {
@@ -161,7 +161,7 @@ TEST_F(ReadingApart, OtherThreadsMayUseHdf5) {
   host.join();
 }
 
-TEST_F(ReadingApart, SeveralThreadsReadAtTheSameTime) {
+TEST_F(ReadInChildProcess, SeveralThreadsReadAtTheSameTime) {
   const std::string path = make();
   std::vector<std::thread> threads;
   std::atomic<int> read = 0;

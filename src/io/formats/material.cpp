@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "needlework/error.h"
-#include "src/io/apart.h"
+#include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
@@ -59,7 +59,7 @@ static Material read_material_here(const std::string& path) {
 }
 
 Material read_material(const std::string& path) {
-  return read_apart(path, [&] { return read_material_here(path); });
+  return read_in_child_process(path, [&] { return read_material_here(path); });
 }
 
 void require_complete(const Material& material, const std::string& path) {

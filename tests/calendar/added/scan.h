@@ -11,7 +11,7 @@ namespace needlework {
 class Scan {
  public:
   static constexpr const char* name = "scan";
-  static constexpr bool by_block = false;
+  static constexpr bool by_cell = false;
 
   Scan(std::size_t n, const Clock& clock, std::size_t) : events_(n, clock) {}
 
@@ -19,7 +19,7 @@ class Scan {
   const Event& top() const { return events_[first_]; }
   const Event& of(Needle i) const { return events_[i]; }
   Needle likely_next() const { return first_; }
-  void set(const Event& event, BlockIndex) {
+  void set(const Event& event, CellIndex) {
     events_.put(event);
     if (event.owner != first_) {
       if (events_.before(event.owner, first_)) first_ = event.owner;

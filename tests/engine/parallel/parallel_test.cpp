@@ -124,8 +124,8 @@ TEST(Parallel, UsesItsThreads) {
   EXPECT_EQ(simulation.queue(), "cell-calendar");
   EXPECT_GT(counters.phases, 5u);
   EXPECT_LE(counters.redone, counters.phases / 5);
-  EXPECT_GT(counters.foreign, 10u);  // collisions over the border
-  EXPECT_GT(counters.sorts, 0u);     // which divides the box again
+  EXPECT_GT(counters.messages, 10u);  // collisions over the border
+  EXPECT_GT(counters.sorts, 0u);      // which divides the box again
 }
 
 TEST(Parallel, StopsWhereOneThreadStops) {

@@ -1,5 +1,4 @@
-// Objects that live in a child process and are used by their members: what reads files of
-// strangers.
+// Objects that live in a child process and are used by their members: what reads untrusted files.
 #pragma once
 
 #include <filesystem>
@@ -20,16 +19,16 @@
 namespace needlework::io {
 
 /// An object that reads the file `path`, made and kept in a child process (see ReaderProcess); in
-/// this one if reading_apart() is false. Arguments and results of its members go through an
-/// Archive. Each call is a session of HDF5.
+/// this one if reads_in_child_process() is false. Arguments and results of its members go through
+/// an Archive. Each call is a session of HDF5.
 template <class Object>
-class Apart {
+class InChildProcess {
  public:
   /// `make` returns a std::unique_ptr<Object>. Throws what it throws, and what ReaderProcess
   /// throws.
   template <class Make>
-  Apart(const std::string& path, Make make) {
-    if (!reading_apart()) {
+  InChildProcess(const std::string& path, Make make) {
+    if (!reads_in_child_process()) {
       const hdf5::Session session;
       here_ = make();
       return;
@@ -43,7 +42,7 @@ class Apart {
       return [object](std::string_view request) { return answer(*object, request); };
     });
   }
-  ~Apart() {
+  ~InChildProcess() {
     const hdf5::Session session;
     here_.reset();
   }
@@ -96,14 +95,14 @@ class Apart {
   mutable std::optional<ReaderProcess> process_;
 };
 
-/// The result of `read()`, which reads the file `path`, called as a member of Apart is.
+/// The result of `read()`, which reads the file `path`, called as a member of InChildProcess is.
 template <class Read>
-auto read_apart(const std::string& path, Read read) {
+auto read_in_child_process(const std::string& path, Read read) {
   struct Once {
     Read read;
     auto get() { return read(); }
   };
-  const Apart<Once> once(path, [&] { return std::make_unique<Once>(Once{read}); });
+  const InChildProcess<Once> once(path, [&] { return std::make_unique<Once>(Once{read}); });
   return once.template call<&Once::get>();
 }
 
