@@ -23,6 +23,7 @@ HWY_AFTER_NAMESPACE();
 #endif
 
 #if HWY_ONCE
+#include "kernels/simd_isas.h"
 
 namespace needlework::kernels {
 
@@ -41,18 +42,11 @@ using sine_cosine_detail::turned;
 
 void fly(Isa isa, const FlightColumns& needles, std::size_t n) {
   switch (isa) {
-#if HWY_TARGETS & HWY_SSE4
-    case Isa::sse4:
-      return N_SSE4::fly(needles, n);
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case Isa::avx2:
-      return N_AVX2::fly(needles, n);
-#endif
-#if HWY_TARGETS & HWY_AVX3
-    case Isa::avx512:
-      return N_AVX3::fly(needles, n);
-#endif
+#define NEEDLEWORK_FLY(isa, space, target) \
+  case Isa::isa:                           \
+    return space::fly(needles, n);
+    NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_FLY)
+#undef NEEDLEWORK_FLY
     default:
       return scalar::fly(needles, n);
   }

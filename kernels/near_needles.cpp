@@ -28,6 +28,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 
+#include "kernels/simd_isas.h"
 #include "kernels/simd_scalar.h"
 
 namespace needlework::kernels {
@@ -39,22 +40,12 @@ namespace scalar {
 
 namespace {
 
-#define NEEDLEWORK_NEAR_KERNELS(isa, name)                          \
-  constexpr NearKernels isa##_kernels = {                           \
-      Isa::isa,          name::floats_at_once,   name::overlapping, \
-      name::approaching, name::contact_function, name::bracket}
-
-NEEDLEWORK_NEAR_KERNELS(scalar, scalar);
-#if HWY_TARGETS & HWY_SSE4
-NEEDLEWORK_NEAR_KERNELS(sse4, N_SSE4);
-#endif
-#if HWY_TARGETS & HWY_AVX2
-NEEDLEWORK_NEAR_KERNELS(avx2, N_AVX2);
-#endif
-#if HWY_TARGETS & HWY_AVX3
-NEEDLEWORK_NEAR_KERNELS(avx512, N_AVX3);
-#endif
-
+#define NEEDLEWORK_NEAR_KERNELS(isa, space, target)                    \
+  constexpr NearKernels isa##_kernels = {                              \
+      Isa::isa,           space::floats_at_once,   space::overlapping, \
+      space::approaching, space::contact_function, space::bracket};
+NEEDLEWORK_NEAR_KERNELS(scalar, scalar, )
+NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_NEAR_KERNELS)
 #undef NEEDLEWORK_NEAR_KERNELS
 
 }  // namespace
@@ -75,32 +66,20 @@ std::string_view name_of(Isa isa) {
 std::vector<Isa> available() {
   std::vector<Isa> out{Isa::scalar};
   [[maybe_unused]] const auto supported = hwy::SupportedTargets();
-#if HWY_TARGETS & HWY_SSE4
-  if (supported & HWY_SSE4) out.push_back(Isa::sse4);
-#endif
-#if HWY_TARGETS & HWY_AVX2
-  if (supported & HWY_AVX2) out.push_back(Isa::avx2);
-#endif
-#if HWY_TARGETS & HWY_AVX3
-  if (supported & HWY_AVX3) out.push_back(Isa::avx512);
-#endif
+#define NEEDLEWORK_ADD(isa, space, target) \
+  if (supported & target) out.push_back(Isa::isa);
+  NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_ADD)
+#undef NEEDLEWORK_ADD
   return out;
 }
 
 const NearKernels& near_kernels(Isa isa) {
   switch (isa) {
-#if HWY_TARGETS & HWY_SSE4
-    case Isa::sse4:
-      return sse4_kernels;
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case Isa::avx2:
-      return avx2_kernels;
-#endif
-#if HWY_TARGETS & HWY_AVX3
-    case Isa::avx512:
-      return avx512_kernels;
-#endif
+#define NEEDLEWORK_KERNELS(isa, space, target) \
+  case Isa::isa:                               \
+    return isa##_kernels;
+    NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_KERNELS)
+#undef NEEDLEWORK_KERNELS
     default:
       return scalar_kernels;
   }

@@ -21,8 +21,6 @@ constexpr double early_reach = 0x1p-10;
 /// passed through each other.
 constexpr double longest_touch = 0x1p-10;
 
-Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
-
 // A mixing function: the finaliser of SplitMix64.
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15;

@@ -20,8 +20,6 @@ bool near(const Vector<double>& a, const Vector<double>& b, double size) {
   return norm(difference) <= rounding * size;
 }
 
-Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
-
 }  // namespace
 
 // The directors and velocities are those with which the run begins: unit vectors, and angular

@@ -10,7 +10,6 @@ using Number = Ball<Quad>;
 using Vector3 = Vector<Quad>;
 
 Vector3 middle(const Vector<Number>& a) { return {{a[0].middle, a[1].middle, a[2].middle}}; }
-Vector<double> vector(const std::array<double, 3>& a) { return {{a[0], a[1], a[2]}}; }
 Quad nearest(const Quad& a) {
   using std::floor;
   return floor(a + Quad(0.5));

@@ -45,6 +45,8 @@ T norm(const Vector<T>& a) {
   return sqrt(dot(a, a));
 }
 
+inline Vector<double> vector(const std::array<double, 3>& a) { return {a}; }
+
 /// The same vector in another number type.
 template <class To, class From>
 Vector<To> to(const Vector<From>& a) {

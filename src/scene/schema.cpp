@@ -41,8 +41,9 @@ constexpr double most_cells = 1e6;
 // Stores a value that was read. Returns false if there is none.
 template <typename T, typename U>
 bool store(T& target, std::optional<U> value) {
-  if (value) target = static_cast<T>(*std::move(value));
-  return value.has_value();
+  if (!value) return false;
+  target = static_cast<T>(*std::move(value));
+  return true;
 }
 
 std::optional<double> number(const Value& value, double least, double greatest = unlimited) {

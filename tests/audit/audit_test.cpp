@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "tests/support/audit_setup.h"
+#include "tests/support/by_build.h"
 #include "tests/support/reference_gas.h"
 #include "tests/support/runs.h"
 
@@ -18,21 +20,7 @@ namespace {
 using audit::Findings;
 using audit::Kind;
 
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
-
-audit::Setup setup_of(const Scene& scene, double epoch_length) {
-  const auto& c = scene.collisions;
-  audit::Setup setup;
-  setup.epoch_length = epoch_length;
-  setup.rule = {c.epsilon, c.beta, scene.needles.k};
-  setup.tc = c.tc;
-  setup.tc_relative = c.tc_relative;
-  return setup;
-}
+constexpr int thin = test::by_build(1, 10);
 
 std::string text_of(const Findings& findings) {
   std::string text;
@@ -57,14 +45,12 @@ struct EngineRun {
   double end = 0;
 
   EngineRun(const Scene& scene, double per_needle) {
-    Simulation simulation(scene);
-    initial = simulation.copy();
-    setup = setup_of(scene, simulation.epoch_length());
-    simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
-    Scene::Until until;
-    until.collisions_per_needle = per_needle / thin;
-    simulation.advance(until);
-    end = simulation.time();
+    Followed run(scene);
+    initial = run->copy();
+    setup = audit_setup(scene, run->epoch_length());
+    run->advance(until_collisions(per_needle / thin));
+    end = run->time();
+    collisions = run.collisions;
   }
 
   Findings audited() const {
@@ -180,7 +166,7 @@ TEST_P(PlantedFault, IsReported) {
   Scene scene = gas(20, 1.5);
   const ReferenceRun run = run_reference(scene, collisions, planted.fault);
   ASSERT_GT(run.planted, 0);
-  audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
+  audit::Audit audit(run.initial, audit_setup(scene, reference_epoch));
   for (const Collision& collision : run.collisions) audit.add(collision);
   audit.finish(run.end);
   const Findings& findings = audit.findings();
@@ -205,7 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(PlantedFault, NoneIsReportedWhereThereIsNone) {
   const Scene scene = gas(20, 1.5);
   const ReferenceRun run = run_reference(scene, collisions, {});
-  audit::Audit audit(run.initial, setup_of(scene, reference_epoch));
+  audit::Audit audit(run.initial, audit_setup(scene, reference_epoch));
   for (const Collision& collision : run.collisions) audit.add(collision);
   audit.finish(run.end);
   expect_clean(audit.findings(), "reference");
@@ -326,7 +312,7 @@ TEST(Audit, ReportsThatItGaveUp) {
   state.angular_velocity = {{0, 0, 0}, {0, 0, 1}};
   for (const double spin : {1.0, 1e5}) {
     state.angular_velocity[1][2] = spin;
-    audit::Audit audit(state, setup_of(test::scene_of(2, 8), 1));
+    audit::Audit audit(state, audit_setup(test::scene_of(2, 8), 1));
     audit.finish(1);
     EXPECT_TRUE(audit.findings().clean());
     EXPECT_EQ(audit.findings().checked, 1u);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tests/support/by_build.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/pairs_csv.h"
@@ -22,11 +23,7 @@ namespace needlework::test {
 
 namespace {
 
-#ifdef NDEBUG
-constexpr std::size_t count = 2000;
-#else
-constexpr std::size_t count = 100;
-#endif
+constexpr std::size_t count = test::by_build<std::size_t>(2000, 100);
 constexpr std::uint64_t seed = 77;
 constexpr double clear = 48, few = 64;
 

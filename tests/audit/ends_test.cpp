@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/audit/audit.h"
+#include "tests/support/audit_setup.h"
 #include "tests/support/runs.h"
 
 namespace needlework::test {
@@ -16,21 +17,16 @@ using audit::Kind;
 /// A run of the engine to the end of its scene.
 struct Whole {
   explicit Whole(const Scene& its_scene) : scene(its_scene) {
-    Simulation simulation(scene);
-    initial = simulation.copy();
-    epoch_length = simulation.epoch_length();
-    simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
-    stop = simulation.advance(scene.until);
-    end = simulation.time();
+    Followed run(scene);
+    initial = run->copy();
+    epoch_length = run->epoch_length();
+    stop = run->advance(scene.until);
+    end = run->time();
+    collisions = run.collisions;
   }
 
   audit::Setup setup() const {
-    const auto& c = scene.collisions;
-    return {.epoch_length = epoch_length,
-            .rule = {c.epsilon, c.beta, scene.needles.k},
-            .tc = c.tc,
-            .tc_relative = c.tc_relative,
-            .share = 0};  // no flights of pairs
+    return audit_setup(scene, epoch_length, 0);  // no flights of pairs
   }
   std::uint64_t count(Kind kind) const {
     audit::Audit audit(initial, setup());
@@ -156,7 +152,8 @@ TEST(AuditEnd, IsAtTheFirstConditionThatIsMet) {
   };
   const auto drop_last = [](Whole& w) { w.collisions.pop_back(); };
   {
-    const Whole run = run_to({.time = 3, .collisions_per_needle = 1e6});
+    const Whole run =
+        run_to({.time = 3, .collisions_per_needle = 1e6, .energy_ratio = {}, .wall_s = {}});
     ASSERT_EQ(run.stop, time);
     EXPECT_EQ(run.count(Kind::wrong_end), 0u);
     EXPECT_EQ(altered(run, [](Whole& w) { w.end *= 1 + 1e-9; }), 1u);
@@ -166,7 +163,8 @@ TEST(AuditEnd, IsAtTheFirstConditionThatIsMet) {
     EXPECT_EQ(altered(run, [](Whole& w) { w.scene.until.collisions_per_needle = 1; }), 1u);
   }
   {
-    const Whole run = run_to({.time = 1e6, .collisions_per_needle = 20});
+    const Whole run =
+        run_to({.time = 1e6, .collisions_per_needle = 20, .energy_ratio = {}, .wall_s = {}});
     ASSERT_EQ(run.stop, Stop::collisions);
     EXPECT_EQ(run.count(Kind::wrong_end), 0u);
     EXPECT_EQ(altered(run, drop_last), 1u);
@@ -174,7 +172,8 @@ TEST(AuditEnd, IsAtTheFirstConditionThatIsMet) {
     EXPECT_EQ(altered(run, [](Whole& w) { w.end *= 1.01; }), 1u);
   }
   {
-    const Whole run = run_to({.energy_ratio = 0.3});
+    const Whole run =
+        run_to({.time = {}, .collisions_per_needle = {}, .energy_ratio = 0.3, .wall_s = {}});
     ASSERT_EQ(run.stop, energy);
     EXPECT_EQ(run.count(Kind::wrong_end), 0u);
     EXPECT_EQ(altered(run, [](Whole& w) { *w.scene.until.energy_ratio *= 0.99; }), 1u);

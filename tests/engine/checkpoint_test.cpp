@@ -37,25 +37,6 @@ std::vector<NamedScene> scenes() {
   return out;
 }
 
-// A run from its beginning or from a checkpoint, and its collisions.
-struct Part {
-  template <class... Start>
-  explicit Part(const Scene& scene, const Start&... start) : simulation(scene, start...) {
-    simulation.on_collision([this](const Collision& c) { record.collisions.push_back(c); });
-  }
-  void advance_to_collision(double n) {
-    simulation.advance(test::until_collisions(2 * n / static_cast<double>(simulation.needles())));
-  }
-  const test::Recorded& end() {
-    record.end = simulation.copy();
-    record.totals = simulation.totals();
-    record.hash = simulation.trajectory_hash();
-    return record;
-  }
-  Simulation simulation;
-  test::Recorded record;
-};
-
 void expect_same_end(const test::Recorded& truth, const test::Recorded& other) {
   ASSERT_NO_FATAL_FAILURE(test::expect_same(truth, other));
   EXPECT_EQ(truth.end.image, other.end.image);
@@ -90,18 +71,18 @@ void choose_parts(Scene& scene, std::size_t n) {
 TEST(Checkpoint, ContinuesWithTheSameCollisions) {
   for (const NamedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
-    Part whole(named.scene);
+    test::Followed whole(named.scene);
     whole.advance_to_collision(collisions);
     for (const double share : {0.0, 0.3, 0.7, 1.0}) {
-      Part first(named.scene);
+      test::Followed first(named.scene);
       first.advance_to_collision(std::floor(share * collisions));
       const Checkpoint saved = first.simulation.checkpoint();
-      Part second(named.scene, saved);
+      test::Followed second(named.scene, saved);
       EXPECT_EQ(second.simulation.initial_energy(), first.simulation.initial_energy());
       EXPECT_EQ(second.simulation.trajectory_hash(), first.simulation.trajectory_hash());
-      second.record.collisions = first.record.collisions;
+      second.collisions = first.collisions;
       second.advance_to_collision(collisions);
-      ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.end(), second.end())) << share;
+      ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.recorded(), second.recorded())) << share;
     }
   }
 }
@@ -110,7 +91,7 @@ TEST(Checkpoint, ContinuesWithTheSameCollisions) {
 TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
   for (const NamedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
-    Part whole(named.scene);
+    test::Followed whole(named.scene);
     whole.advance_to_collision(collisions);
     Scene scene = named.scene;
     std::vector<Collision> seen;
@@ -119,14 +100,14 @@ TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
     for (std::size_t n = 1; n <= parts; ++n) {
       choose_parts(scene, n);
       SCOPED_TRACE(scene.engine.search + ", " + scene.engine.queue + ", " + scene.engine.isa);
-      Part part(scene, saved);
-      part.record.collisions = seen;
+      test::Followed part(scene, saved);
+      part.collisions = seen;
       part.advance_to_collision(std::floor(collisions * static_cast<double>(n) / parts));
       saved = part.simulation.checkpoint();
       if (n == parts) {
-        ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.end(), part.end()));
+        ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.recorded(), part.recorded()));
       }
-      seen = part.record.collisions;
+      seen = part.collisions;
     }
   }
 }
@@ -135,17 +116,17 @@ TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
 TEST(Checkpoint, ContinuesFromAnyTime) {
   for (const NamedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
-    Part whole(named.scene);
+    test::Followed whole(named.scene);
     const double window = whole.simulation.epoch_length(), end = 7.3 * window;
     whole.simulation.advance(test::until_time(end));
     for (const double time : {0.1, 1.0, 2.0, 3.7}) {
-      Part first(named.scene);
+      test::Followed first(named.scene);
       first.simulation.advance(test::until_time(time * window));
-      Part second(named.scene, first.simulation.checkpoint());
+      test::Followed second(named.scene, first.simulation.checkpoint());
       EXPECT_EQ(second.simulation.time(), time * window);
-      second.record.collisions = first.record.collisions;
+      second.collisions = first.collisions;
       second.simulation.advance(test::until_time(end));
-      ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.end(), second.end())) << time;
+      ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.recorded(), second.recorded())) << time;
     }
   }
 }
@@ -155,24 +136,24 @@ TEST(Checkpoint, ContinuesFromAnyTime) {
 TEST(Checkpoint, KeepsTouches) {
   for (int n = 1; n < 60; ++n) {
     const Scene scene = test::scene_of(60, 3, 4);
-    const auto start = [&](Part& run) {
+    const auto start = [&](test::Followed& run) {
       run.advance_to_collision(n);
       test::reverse(run.simulation);
     };
-    Part whole(scene), first(scene);
+    test::Followed whole(scene), first(scene);
     start(whole);
     whole.advance_to_collision(3 * n);
     start(first);
-    Part second(scene, first.simulation.checkpoint());
-    second.record.collisions = first.record.collisions;
+    test::Followed second(scene, first.simulation.checkpoint());
+    second.collisions = first.collisions;
     second.advance_to_collision(3 * n);
-    ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.end(), second.end())) << n;
+    ASSERT_NO_FATAL_FAILURE(expect_same_end(whole.recorded(), second.recorded())) << n;
   }
 }
 
 TEST(Checkpoint, OfARestoredRunIsThatOfTheRun) {
   const Scene scene = scenes()[1].scene;
-  Part run(scene);
+  test::Followed run(scene);
   run.advance_to_collision(500);
   const Checkpoint saved = run.simulation.checkpoint();
   EXPECT_EQ(Simulation(scene, saved).counters().events, run.simulation.counters().events);

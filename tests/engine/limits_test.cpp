@@ -66,24 +66,20 @@ SavedGas middle() {
 }
 
 std::vector<Collision> second_half(const Engine& engine, SavedGas from) {
-  std::vector<Collision> out;
-  Simulation simulation(with(cooling(), engine), from.checkpoint());
-  simulation.on_collision([&](const Collision& c) { out.push_back(c); });
+  test::Followed run(with(cooling(), engine), from.checkpoint());
   const auto wanted = static_cast<std::size_t>(end - half_way);
-  while (out.size() < wanted) {
-    simulation.advance(test::until_time(simulation.time() + 0.2 * simulation.epoch_length()));
+  while (run.collisions.size() < wanted) {
+    run->advance(test::until_time(run->time() + 0.2 * run->epoch_length()));
   }
-  out.resize(wanted);
-  return out;
+  run.collisions.resize(wanted);
+  return run.collisions;
 }
 
 // In a number of collisions, as times of so long a run have no digits for the small steps.
 std::vector<Collision> second_half_by_collisions(const Engine& engine, SavedGas from) {
-  std::vector<Collision> out;
-  Simulation simulation(with(cooling(), engine), from.checkpoint());
-  simulation.on_collision([&](const Collision& c) { out.push_back(c); });
-  advance_to(simulation, end);
-  return out;
+  test::Followed run(with(cooling(), engine), from.checkpoint());
+  advance_to(*run, end);
+  return run.collisions;
 }
 
 void expect_same(const std::vector<Collision>& a, const std::vector<Collision>& b,

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -93,29 +92,6 @@ inline void expect_same_with_all_parts(const Scene& scene,
     ASSERT_NO_FATAL_FAILURE(expect_same(truth, run(other.of(scene))));
   }
 }
-
-/// Follows a simulation; both end together.
-struct Followed {
-  explicit Followed(const Scene& scene) : simulation(std::make_unique<Simulation>(scene)) {
-    follow();
-  }
-  Followed(const Scene& scene, const State& state)
-      : simulation(std::make_unique<Simulation>(scene, state)) {
-    follow();
-  }
-  void follow() {
-    simulation->on_collision([this](const Collision& c) { collisions.push_back(c); });
-  }
-  Recorded recorded() const {
-    return {collisions, simulation->copy(), simulation->totals(), simulation->trajectory_hash(),
-            simulation->epoch_length()};
-  }
-  Simulation* operator->() { return simulation.get(); }
-  Simulation& operator*() { return *simulation; }
-
-  std::unique_ptr<Simulation> simulation;
-  std::vector<Collision> collisions;
-};
 
 /// The last `count` collisions of a run happen again in the reverse order, seen from `turned`, when
 /// all velocities are reversed. The first may be at that very time.

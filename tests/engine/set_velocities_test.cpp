@@ -14,6 +14,7 @@
 
 #include "needlework/error.h"
 #include "src/audit/audit.h"
+#include "tests/support/audit_setup.h"
 #include "tests/support/same_run.h"
 
 namespace needlework {
@@ -37,10 +38,7 @@ using test::until_time;
 /// Collisions of a run that was restarted at `start`, a multiple of the epoch, audited from there.
 void expect_clean(const Scene& scene, const State& state, std::int64_t start_epoch,
                   const Followed& run, double end) {
-  audit::Setup setup;
-  setup.epoch_length = run.simulation->epoch_length();
-  setup.rule = {scene.collisions.epsilon, scene.collisions.beta, scene.needles.k};
-  setup.tc_relative = scene.collisions.tc_relative;
+  const audit::Setup setup = test::audit_setup(scene, run->epoch_length());
   audit::Audit audit(state, setup);
   for (Collision c : run.collisions) {
     c.epoch -= start_epoch;

@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "tests/hard_cases/collapsing_pairs.h"
+#include "tests/support/by_build.h"
 #include "tests/support/parameter_name.h"
 #include "tests/support/quad_gas.h"
 #include "tests/support/runs.h"
@@ -16,11 +17,7 @@
 namespace needlework::test {
 namespace {
 
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 5;
-#endif
+constexpr int thin = test::by_build(1, 5);
 
 QuadRule rule_of(const Scene& scene, bool rounded = false) {
   const auto& c = scene.collisions;
@@ -44,16 +41,16 @@ struct EngineRun {
   std::string failure;
 
   EngineRun(const Scene& scene, const State& state, double until) {
-    Simulation simulation(scene, state);
-    initial = simulation.copy();
-    epoch_length = simulation.epoch_length();
-    simulation.on_collision([&](const Collision& c) { collisions.push_back(c); });
+    Followed run(scene, state);
+    initial = run->copy();
+    epoch_length = run->epoch_length();
     try {
-      simulation.advance(until_time(until));
+      run->advance(until_time(until));
     } catch (const InvalidStateError& error) {
       failure = error.what();
     }
-    end = simulation.copy();
+    end = run->copy();
+    collisions = run.collisions;
   }
 
   Real time_of(const Collision& c) const {

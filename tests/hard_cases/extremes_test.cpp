@@ -7,16 +7,13 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "tests/hard_cases/hard_scene.h"
+#include "tests/support/by_build.h"
 #include "tests/support/random.h"
 
 namespace needlework::test {
 namespace {
 
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 using Three = std::array<double, 3>;
 

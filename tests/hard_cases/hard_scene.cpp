@@ -7,6 +7,7 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
+#include "tests/support/audit_setup.h"
 #include "tests/support/searches.h"
 
 namespace needlework::test {
@@ -77,17 +78,6 @@ class Chronicle {
   double epoch_, end_, energy_ = 0;
   std::pair<std::int64_t, double> last_{0, 0};
 };
-
-audit::Setup audit_setup(const Scene& scene, double epoch_length, double share) {
-  const auto& c = scene.collisions;
-  audit::Setup setup;
-  setup.epoch_length = epoch_length;
-  setup.rule = {c.epsilon, c.beta, scene.needles.k};
-  setup.tc = c.tc;
-  setup.tc_relative = c.tc_relative;
-  setup.share = share;
-  return setup;
-}
 
 HardRun run_once(const Scene& scene, const State& state, const Scene::Until& until,
                  const Watch* watch) {

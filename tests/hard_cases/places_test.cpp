@@ -8,17 +8,14 @@
 
 #include "needlework/error.h"
 #include "tests/hard_cases/hard_scene.h"
+#include "tests/support/by_build.h"
 #include "tests/support/random.h"
 #include "tests/support/sides.h"
 
 namespace needlework::test {
 namespace {
 
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 using Three = std::array<double, 3>;
 

@@ -9,6 +9,7 @@
 
 #include "kernels/first_contact.h"
 #include "tests/kernels/precise_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pairs_csv.h"
 
@@ -19,11 +20,7 @@ using test::KernelPair;
 using test::NeedlePair;
 using test::Quad;
 
-#ifdef NDEBUG
-constexpr std::size_t count = 3000;
-#else
-constexpr std::size_t count = 100;
-#endif
+constexpr std::size_t count = test::by_build<std::size_t>(3000, 100);
 
 KernelPair held_pair(const NeedlePair& drawn) {
   KernelPair pair = test::kernel_pair(drawn);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/kernels/exposed_simd.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 #include "tests/support/segments.h"
@@ -18,11 +19,7 @@ using test::Random;
 using test::vec3;
 
 constexpr std::uint64_t seed = 1010;
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 20;
-#endif
+constexpr int thin = test::by_build(1, 20);
 
 struct Segments {
   Vec3d r, u1, u2;  ///< first centre less the second

@@ -10,6 +10,7 @@
 #include "kernels/first_contact.h"
 #include "kernels/near_needles.h"
 #include "tests/kernels/simd_pairs.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
@@ -28,11 +29,7 @@ using test::unit_of;
 /// Of the random numbers of the tests.
 inline constexpr std::uint64_t seed = 909;
 /// Builds without optimisation draw so many times fewer pairs.
-#ifdef NDEBUG
-inline constexpr std::size_t thin = 1;
-#else
-inline constexpr std::size_t thin = 20;
-#endif
+inline constexpr std::size_t thin = test::by_build<std::size_t>(1, 20);
 
 /// Half lengths of two needles, in units of length.
 struct Halves {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernels/first_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
@@ -18,11 +19,7 @@ using test::Random;
 using test::vec3;
 
 constexpr std::uint64_t seed = 606;
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 /// Evaluations that a search may take on top of `per_interval` for each half unit of scaled time
 /// that it covers, for any degenerate pair.

@@ -7,6 +7,7 @@
 
 #include "kernels/first_contact.h"
 #include "tests/kernels/sampled_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 
@@ -19,11 +20,7 @@ using test::Random;
 using test::vec3;
 
 constexpr std::uint64_t seed = 707;
-#ifdef NDEBUG
-constexpr int count = 600;
-#else
-constexpr int count = 30;
-#endif
+constexpr int count = test::by_build(600, 30);
 
 struct Answer {
   Contact contact;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/kernels/precise_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pair_families.h"
 #include "tests/support/random.h"
@@ -27,11 +28,7 @@ using test::vec3;
 using test::Wide;
 
 constexpr std::uint64_t seed = 404;
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;  // unoptimised: the same on fewer pairs
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 Contact find(const KernelPair& pair, double from, double until) {
   EvaluationCounters counters;

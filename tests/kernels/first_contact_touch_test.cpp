@@ -8,6 +8,7 @@
 #include "kernels/first_contact.h"
 #include "tests/kernels/precise_contact.h"
 #include "tests/kernels/sampled_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 
@@ -24,11 +25,7 @@ using test::vec3;
 using Wide = boost::multiprecision::cpp_bin_float_50;
 
 constexpr std::uint64_t seed = 505;
-#ifdef NDEBUG
-constexpr int count = 300;
-#else
-constexpr int count = 60;
-#endif
+constexpr int count = test::by_build(300, 60);
 
 Contact find(const KernelPair& pair, double until) {
   EvaluationCounters counters;

@@ -9,6 +9,7 @@
 
 #include "kernels/first_contact.h"
 #include "tests/kernels/precise_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/oracle.h"
 #include "tests/support/pair_families.h"
@@ -32,11 +33,7 @@ using test::operator+;
 using test::operator-;
 
 constexpr std::uint64_t seed = 2020;
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 Contact find(const KernelPair& pair, double until, const Accuracy& accuracy = standard_accuracy) {
   EvaluationCounters counters;

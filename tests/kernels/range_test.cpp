@@ -8,6 +8,7 @@
 
 #include "kernels/contact_function.h"
 #include "tests/kernels/precise_contact.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 
@@ -16,11 +17,7 @@ namespace {
 
 using test::Quad;
 
-#ifdef NDEBUG
-constexpr int count = 200000;
-#else
-constexpr int count = 5000;
-#endif
+constexpr int count = test::by_build(200000, 5000);
 
 bool encloses(const Range& range, const Quad& value) {
   return Quad(range.lo) <= value && value <= Quad(range.hi);

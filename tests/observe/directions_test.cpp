@@ -8,7 +8,7 @@
 namespace needlework::observe {
 namespace {
 
-const Vector box{5, 5, 5};
+const Vector directions_box{5, 5, 5};
 constexpr std::size_t q_bins = 60;
 
 Scene random_gas(const std::string& observable) {
@@ -18,11 +18,11 @@ Scene random_gas(const std::string& observable) {
 }
 
 TEST(Alignment, OfParallelNeedlesIsComplete) {
-  State state = resting(10, box);  // along z
+  State state = resting(10, directions_box);  // along z
   for (Vector& v : state.velocity) v = {0, 0, -3};
   state.velocity[0] = {1, 0, 0};
   state.velocity[1] = {0, 0, 0};
-  Values values = Observed(scene_with("alignment", 10, box)).sample(state);
+  Values values = Observed(scene_with("alignment", 10, directions_box)).sample(state);
   std::vector<double> across(q_bins), along(q_bins);
   across.front() = 10;
   along.back() = 10;
@@ -57,11 +57,11 @@ TEST(Alignment, OfRandomNeedlesFollowsTheLaw) {
 }
 
 TEST(Distributions, CountWhatLiesInEachBin) {
-  State state = resting(4, box);
+  State state = resting(4, directions_box);
   state.position = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {4, 1, 1}};
   for (Vector& v : state.velocity) v = {2, 0, 0};  // T_tr = 4/3, energy 1.5 T_tr, v = sqrt(3)
   for (Vector& w : state.angular_velocity) w = {0, 1, 0};
-  Values values = Observed(scene_with("distributions", 4, box, {2, 2, 1})).sample(state);
+  Values values = Observed(scene_with("distributions", 4, directions_box, {2, 2, 1})).sample(state);
   ASSERT_EQ(values["needles_in_cell"].size(), 21u);
   EXPECT_EQ(values["needles_in_cell"][0], 2);
   EXPECT_EQ(values["needles_in_cell"][1], 1);
@@ -101,33 +101,35 @@ TEST(Distributions, OfADrawnGasAreGaussian) {
 }
 
 TEST(Distributions, WithoutMotionAreEmpty) {
-  Values values = Observed(scene_with("distributions", 4, box)).sample(resting(4, box));
+  Values values =
+      Observed(scene_with("distributions", 4, directions_box)).sample(resting(4, directions_box));
   EXPECT_EQ(sum(values["velocity"]) + sum(values["energy_tr"]) + sum(values["energy_rot"]), 0);
 }
 
 TEST(VelocityMoments, OfEqualSpeedsAreThoseOfAShell) {
-  State state = resting(6, box);
+  State state = resting(6, directions_box);
   for (std::size_t i = 0; i < 6; ++i) {
     state.velocity[i] = {0, 0, i % 2 ? 2.0 : -2.0};  // along the needles
     state.angular_velocity[i] = {3, 0, 0};
   }
-  Values values = Observed(scene_with("velocity_moments", 6, box)).sample(state);
+  Values values = Observed(scene_with("velocity_moments", 6, directions_box)).sample(state);
   EXPECT_DOUBLE_EQ(values["cumulant_v"][0], -0.4);
   EXPECT_DOUBLE_EQ(values["cumulant_w"][0], -0.5);
   EXPECT_DOUBLE_EQ(values["speeds"][0], 0);
   EXPECT_DOUBLE_EQ(values["velocity_spin"][0], -0.5);
   EXPECT_DOUBLE_EQ(values["velocity_director"][0], 1);
   for (Vector& v : state.velocity) v = {1, 0, 0};  // along the angular velocity
-  values = Observed(scene_with("velocity_moments", 6, box)).sample(state);
+  values = Observed(scene_with("velocity_moments", 6, directions_box)).sample(state);
   EXPECT_DOUBLE_EQ(values["velocity_spin"][0], 1);
   EXPECT_DOUBLE_EQ(values["velocity_director"][0], -0.5);
 }
 
 TEST(VelocityMoments, SeeThatFastNeedlesRotateFast) {
-  State state = resting(2, box);
+  State state = resting(2, directions_box);
   state.velocity = {{1, 0, 0}, {0, 0, 0}};
   state.angular_velocity = {{1, 0, 0}, {0, 0, 0}};
-  EXPECT_DOUBLE_EQ(Observed(scene_with("velocity_moments", 2, box)).sample(state)["speeds"][0], 1);
+  EXPECT_DOUBLE_EQ(
+      Observed(scene_with("velocity_moments", 2, directions_box)).sample(state)["speeds"][0], 1);
 }
 
 // Standard errors over 16 gases, each of which estimates the five numbers.

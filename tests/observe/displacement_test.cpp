@@ -7,11 +7,11 @@
 namespace needlework::observe {
 namespace {
 
-const Vector box{5, 5, 5};
+const Vector displacement_box{5, 5, 5};
 
 // Needles along z that fly with (3, 0, 4) and rotate about y with 0.5, across the boundaries.
 State at(double time) {
-  State state = resting(4, box);
+  State state = resting(4, displacement_box);
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector way{3 * time + double(i), 1, 4 * time};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -26,7 +26,7 @@ State at(double time) {
 }
 
 TEST(Displacement, OfFreeFlightIsBallistic) {
-  Observed observed(scene_with("displacement", 4, box));
+  Observed observed(scene_with("displacement", 4, displacement_box));
   observed.sample(at(0), 0.0);
   Values values = observed.sample(at(7), 7.0);
   // From time 0, when the needles are along z, and from now.
@@ -43,7 +43,7 @@ TEST(Displacement, OfFreeFlightIsBallistic) {
 }
 
 TEST(Displacement, KeepsFewReferencesSpreadOverTheRun) {
-  Observed observed(scene_with("displacement", 4, box));
+  Observed observed(scene_with("displacement", 4, displacement_box));
   std::set<double> seen;
   for (int sample = 0; sample < 1000; ++sample) {
     std::vector<double> lags = observed.sample(at(sample), double(sample))["lag"];

@@ -4,11 +4,11 @@
 namespace needlework::observe {
 namespace {
 
-const Vector box{4, 3, 3};
+const Vector fields_box{4, 3, 3};
 
 // Two needles in the half of low x, one in the other.
 State three_needles() {
-  State state = resting(3, box);
+  State state = resting(3, fields_box);
   state.position = {{0.5, 1, 1}, {1.5, 2, 2}, {3, 1, 2}};
   state.velocity = {{1, 0, 0}, {3, 2, 0}, {0, -5, 0}};
   state.angular_velocity = {{4, 0, 0}, {0, 0, 0}, {1, 1, 0}};
@@ -16,7 +16,7 @@ State three_needles() {
 }
 
 TEST(Fields, AreTheMeansOfEachCell) {
-  Observed observed(scene_with("fields", 3, box, {2, 1, 1}));
+  Observed observed(scene_with("fields", 3, fields_box, {2, 1, 1}));
   Values values = observed.sample(three_needles());
   EXPECT_EQ(values["density"], (std::vector{2 / 18.0, 1 / 18.0}));
   EXPECT_EQ(values["flow"], (std::vector<double>{2, 1, 0, 0, -5, 0}));
@@ -27,8 +27,8 @@ TEST(Fields, AreTheMeansOfEachCell) {
 }
 
 TEST(Fields, OfEmptyCellsAreZero) {
-  Observed observed(scene_with("fields", 1, box, {1, 1, 2}));
-  State state = resting(1, box);
+  Observed observed(scene_with("fields", 1, fields_box, {1, 1, 2}));
+  State state = resting(1, fields_box);
   state.velocity[0] = {7, 0, 0};
   Values values = observed.sample(state);
   EXPECT_EQ(values["density"], (std::vector{1 / 18.0, 0.0}));
@@ -37,7 +37,7 @@ TEST(Fields, OfEmptyCellsAreZero) {
 }
 
 TEST(Fields, FollowMassAndLengthOfTheSpecies) {
-  Scene scene = scene_with("fields", 3, box, {2, 1, 1});
+  Scene scene = scene_with("fields", 3, fields_box, {2, 1, 1});
   scene.species = {{.name = "a", .count = 3, .length = 0.5, .mass = 3, .k = 2}};
   Values values = Observed(scene).sample(three_needles());
   EXPECT_EQ(values["thermal_tr"][0], 3);
@@ -45,7 +45,7 @@ TEST(Fields, FollowMassAndLengthOfTheSpecies) {
 }
 
 TEST(Profiles, AreTheMeansOfEachSlabAcrossEachAxis) {
-  Observed observed(scene_with("profiles", 3, box, {2, 1, 1}));
+  Observed observed(scene_with("profiles", 3, fields_box, {2, 1, 1}));
   Values values = observed.sample(three_needles());
   EXPECT_EQ(values["position"], (std::vector<double>{1, 3, 0.75, 2.25, 0.75, 2.25}));
   EXPECT_EQ(values["density"],

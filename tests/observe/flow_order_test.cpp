@@ -7,11 +7,11 @@
 namespace needlework::observe {
 namespace {
 
-const Vector box{4, 4, 4};
+const Vector flow_box{4, 4, 4};
 
 // One needle in the middle of each of 2 x 2 x 2 cells.
 State lattice() {
-  State state = resting(8, box);
+  State state = resting(8, flow_box);
   for (std::size_t i = 0; i < 8; ++i) {
     state.position[i] = {i & 1 ? 3.0 : 1.0, i & 2 ? 3.0 : 1.0, i & 4 ? 3.0 : 1.0};
   }
@@ -21,7 +21,7 @@ State lattice() {
 TEST(FlowOrder, IsInfiniteForAUniformFlow) {
   State state = lattice();
   std::fill(state.velocity.begin(), state.velocity.end(), Vector{1, 0, 0});
-  Values values = Observed(scene_with("flow_order", 8, box)).sample(state);
+  Values values = Observed(scene_with("flow_order", 8, flow_box)).sample(state);
   EXPECT_EQ(values["translational"][0], std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isnan(values["rotational"][0])) << "nothing rotates";
   EXPECT_EQ(values["second_moment"][0], 0);
@@ -33,11 +33,11 @@ TEST(FlowOrder, IsInfiniteForARigidRotation) {
     state.velocity[i] = {-(state.position[i][1] - 2), state.position[i][0] - 2, 0};
     state.angular_velocity[i] = {0.5, 0, 0};
   }
-  Values values = Observed(scene_with("flow_order", 8, box, {2, 2, 2})).sample(state);
+  Values values = Observed(scene_with("flow_order", 8, flow_box, {2, 2, 2})).sample(state);
   EXPECT_EQ(values["translational"][0], std::numeric_limits<double>::infinity());
   EXPECT_EQ(values["rotational"][0], std::numeric_limits<double>::infinity());
   // The same rotation is no flow in one cell.
-  EXPECT_EQ(Observed(scene_with("flow_order", 8, box)).sample(state)["translational"][0], 0);
+  EXPECT_EQ(Observed(scene_with("flow_order", 8, flow_box)).sample(state)["translational"][0], 0);
 }
 
 TEST(FlowOrder, ComparesFlowWithThermalMotion) {
@@ -46,7 +46,7 @@ TEST(FlowOrder, ComparesFlowWithThermalMotion) {
     state.velocity[i] = {i & 4 ? 0.0 : 2.0, i & 1 ? 1.0 : -1.0, 0};
     state.angular_velocity[i] = {i & 4 ? 3.0 : 1.0, i & 1 ? 1.0 : -1.0, 0};
   }
-  Values values = Observed(scene_with("flow_order", 8, box, {1, 1, 2})).sample(state);
+  Values values = Observed(scene_with("flow_order", 8, flow_box, {1, 1, 2})).sample(state);
   EXPECT_EQ(values["translational"][0], 2.0);  // <U^2> = 4 / 2, <|v - U|^2> = 1
   EXPECT_EQ(values["rotational"][0], 5.0);
 }
@@ -54,7 +54,7 @@ TEST(FlowOrder, ComparesFlowWithThermalMotion) {
 TEST(FlowOrder, MeasuresTheVarianceOfTheDensity) {
   State state = lattice();
   state.position[0] = state.position[7];  // 0, 2, and six times 1
-  Values values = Observed(scene_with("flow_order", 8, box, {2, 2, 2})).sample(state);
+  Values values = Observed(scene_with("flow_order", 8, flow_box, {2, 2, 2})).sample(state);
   EXPECT_EQ(values["second_moment"][0], 0.25);
 }
 
@@ -79,7 +79,7 @@ TEST(TemperatureByAxis, IsThatOfTheComponents) {
     state.velocity[i] = {0, 1, 2};
     state.angular_velocity[i] = {6, 0, 0};
   }
-  Values values = Observed(scene_with("temperature_by_axis", 8, box)).sample(state);
+  Values values = Observed(scene_with("temperature_by_axis", 8, flow_box)).sample(state);
   EXPECT_EQ(values["t_tr"], (std::vector<double>{0, 1, 4}));
   EXPECT_EQ(values["t_rot"], (std::vector{1.5 * (1 / 12.0) * 36, 0.0, 0.0}));
   EXPECT_DOUBLE_EQ(sum(values["t_rot"]) / 3, totals_of(state, 1 / 12.0).t_rot);

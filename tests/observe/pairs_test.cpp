@@ -7,14 +7,14 @@
 namespace needlework::observe {
 namespace {
 
-const Vector box{8, 9, 10};
+const Vector pairs_box{8, 9, 10};
 constexpr std::size_t bins = 60;
 
 TEST(PairCorrelation, OfTwoNeedlesIsAtTheirDistance) {
-  State state = resting(2, box);
+  State state = resting(2, pairs_box);
   state.position = {{0.5, 1, 1}, {7.5, 1, 2.01}};  // sqrt(1 + 1.01^2) across the border
   state.orientation[1] = {0, 0.6, 0.8};
-  Values values = Observed(scene_with("pair_correlation", 2, box)).sample(state);
+  Values values = Observed(scene_with("pair_correlation", 2, pairs_box)).sample(state);
   const auto& borders = values["borders"];
   EXPECT_DOUBLE_EQ(borders.back(), 3);
   const auto bin = static_cast<std::size_t>(std::hypot(1, 1.01) / 3 * bins);
@@ -31,7 +31,8 @@ TEST(PairCorrelation, OfTwoNeedlesIsAtTheirDistance) {
 }
 
 TEST(PairCorrelation, EndsAtHalfTheShortestEdge) {
-  Values values = Observed(scene_with("pair_correlation", 0, {5, 4, 9})).sample(resting(0, box));
+  Values values =
+      Observed(scene_with("pair_correlation", 0, {5, 4, 9})).sample(resting(0, pairs_box));
   EXPECT_DOUBLE_EQ(values["borders"].back(), 2);
 }
 
@@ -75,12 +76,12 @@ TEST(PairCorrelation, OfParallelNeedlesHasFullOrder) {
 }
 
 TEST(StructureFactor, OfADensityWaveIsAPeak) {
-  State state = resting(40, box);
+  State state = resting(40, pairs_box);
   for (std::size_t i = 0; i < 40; ++i) {
     // Four planes across x, ten positions along y, one plane across z.
     state.position[i] = {2.0 * double(i % 4), 0.9 * double(i / 4), 5};
   }
-  Values values = Observed(scene_with("structure_factor", 40, box)).sample(state);
+  Values values = Observed(scene_with("structure_factor", 40, pairs_box)).sample(state);
   for (std::size_t n = 1; n <= 16; ++n) {
     EXPECT_NEAR(values["s"][n - 1], n % 4 == 0 ? 40 : 0, 1e-10) << n;
     EXPECT_NEAR(values["s"][16 + n - 1], n % 10 == 0 ? 40 : 0, 1e-10) << n;

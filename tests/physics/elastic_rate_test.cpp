@@ -15,6 +15,7 @@
 #include <string>
 
 #include "needlework/theory.h"
+#include "tests/support/by_build.h"
 #include "tests/support/parameter_name.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
@@ -25,11 +26,8 @@ namespace {
 using test::Mean;
 using test::Measured;
 
-#ifdef NDEBUG
-constexpr double collisions = 5e5, largest_error = 0.003;
-#else
-constexpr double collisions = 1.5e5, largest_error = 0.005;
-#endif
+constexpr double collisions = test::by_build(5e5, 1.5e5);
+constexpr double largest_error = test::by_build(0.003, 0.005);
 constexpr int runs = 40;
 
 // Collisions per needle and unit time over the exact rate, from `runs` runs of about `collisions`

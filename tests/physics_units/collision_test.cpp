@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/random.h"
 
@@ -23,11 +24,7 @@ using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
 constexpr std::uint64_t seed = 909;
-#ifdef NDEBUG
-constexpr int count = 3000;
-#else
-constexpr int count = 300;
-#endif
+constexpr int count = test::by_build(3000, 300);
 
 struct Encounter {
   Flight first, second;

@@ -10,16 +10,12 @@
 #include "src/runs/checkpoint.h"
 #include "src/runs/prepared_run.h"
 #include "src/runs/replay.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 class Bundle : public testing::Test {
  protected:

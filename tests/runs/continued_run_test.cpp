@@ -9,17 +9,13 @@
 #include "src/machine/stop_request.h"
 #include "src/runs/prepared_run.h"
 #include "src/trajectory/saved_totals.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/saved_gas.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 class ContinuedRun : public testing::Test {
  protected:

@@ -7,16 +7,12 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 Scene cooling_scene(const std::string& file) {
   Scene scene = test::scene_of(60, 5);

@@ -12,16 +12,12 @@
 #include "needlework/initial_state.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 class Series : public testing::Test {
  protected:
@@ -61,14 +57,14 @@ TEST_F(Series, BeginsWhenAGasAtRestIsSetInMotion) {
     resting.initial.t_tr = resting.initial.t_rot = 0;
     resting.output = output;
     auto run = std::make_unique<PreparedRun>(complete_scene(resting), true);
-    run->advance({.time = 3}, monitor);
+    run->advance(test::until_time(3), monitor);
     run->simulation().set_velocities(moving.velocity, moving.angular_velocity);
     if (continued) {
       run->save_checkpoint();
       run.reset();
       run = std::make_unique<PreparedRun>(load_checkpoint(path).checkpoint);
     }
-    run->advance({.time = 11}, monitor);
+    run->advance(test::until_time(11), monitor);
     run->close();
     std::vector<double> times;
     for (const Totals& sample : io::read_run(path).series) times.push_back(sample.time);

@@ -13,16 +13,12 @@
 #include "src/machine/descriptors.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 bool all_are_closed() {
   for (int descriptor = 0; descriptor < 3; ++descriptor) {

@@ -9,16 +9,12 @@
 #include "src/io/contents.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
 #include "tests/support/runs.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::runs {
 namespace {
-
-struct Silent : RunMonitor {
-  bool is_due(double) const override { return false; }
-  void show(const Progress&) override {}
-};
 
 Scene sampled_scene(const std::string& file) {
   Scene scene = test::scene_of(60, 5);

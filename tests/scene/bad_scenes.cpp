@@ -9,19 +9,12 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/calendar/names.h"
+#include "tests/scene/message.h"
 
 namespace needlework {
 namespace {
 
-// The message of the InputError that a scene gives, or "no error".
-std::string message(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse_scene(text, "s.toml", overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
+using test::message;
 
 struct BadLine {
   std::string section, line, message;  // the message behind the value

@@ -9,19 +9,13 @@
 #include "needlework/parse.h"
 #include "src/scene/printable.h"
 #include "src/scene/toml_guard.h"
+#include "tests/scene/message.h"
 #include "tests/support/cpu_seconds.h"
 
 namespace needlework {
 namespace {
 
-std::string message(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse_scene(text, "s.toml", overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
+using test::message;
 
 std::string repeated(const std::string& piece, std::size_t times) {
   std::string text;

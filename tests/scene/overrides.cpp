@@ -6,19 +6,20 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "tests/scene/message.h"
 
 namespace needlework {
 namespace {
 
-using Overrides = std::vector<std::string>;
+using test::Overrides;
 
-const std::string least = "needles.count = 10\nneedles.box = 4\nuntil.time = 5\n";
+const std::string least_scene = "needles.count = 10\nneedles.box = 4\nuntil.time = 5\n";
 
 Scene parse(const Overrides& overrides, const std::string& more = "") {
-  return parse_scene(least + more, "s.toml", overrides);
+  return parse_scene(least_scene + more, "s.toml", overrides);
 }
 
-std::string message(const Overrides& overrides, const std::string& more = "") {
+std::string message_of_overrides(const Overrides& overrides, const std::string& more = "") {
   try {
     parse(overrides, more);
   } catch (const InputError& error) {
@@ -77,43 +78,43 @@ TEST(Override, RemovesAnEnd) {
   const Scene scene = parse({"until.energy_ratio=none"}, "until.energy_ratio = 0.5");
   EXPECT_FALSE(scene.until.energy_ratio);
   EXPECT_EQ(parse({"until.energy_ratio=none", "until.energy_ratio=0.2"}).until.energy_ratio, 0.2);
-  EXPECT_EQ(message({"until.end=none"}).substr(0, 47),
+  EXPECT_EQ(message_of_overrides({"until.end=none"}).substr(0, 47),
             "--set until.end=none: expected one of time, col");
-  EXPECT_EQ(message({"collisions.tc=none"}, "collisions.tc = 1").substr(0, 40),
+  EXPECT_EQ(message_of_overrides({"collisions.tc=none"}, "collisions.tc = 1").substr(0, 40),
             "--set collisions.tc=none: expected a tim");
 }
 
 TEST(Override, CannotChooseBothAlternatives) {
-  EXPECT_EQ(message({"collisions.tc=0.1", "collisions.tc_relative=1"}),
+  EXPECT_EQ(message_of_overrides({"collisions.tc=0.1", "collisions.tc_relative=1"}),
             "--set collisions.tc_relative=1: expected either tc or tc_relative, not both");
-  EXPECT_EQ(message({}, "output.series_every = 1\noutput.series_per_decade = 2"),
+  EXPECT_EQ(message_of_overrides({}, "output.series_every = 1\noutput.series_per_decade = 2"),
             "s.toml: line 5: output.series_per_decade = 2: expected either series_per_decade or "
             "series_every, not both");
-  EXPECT_EQ(message({"initial.t_tr=1"}, "initial.file = 'a.h5'"),
+  EXPECT_EQ(message_of_overrides({"initial.t_tr=1"}, "initial.file = 'a.h5'"),
             "--set initial.t_tr=1: expected either file or temperatures to draw, not both");
-  EXPECT_EQ(message({"initial.file=a.h5", "initial.t_rot=1"}),
+  EXPECT_EQ(message_of_overrides({"initial.file=a.h5", "initial.t_rot=1"}),
             "--set initial.t_rot=1: expected either file or temperatures to draw, not both");
 }
 
 TEST(Override, IsNamedInItsError) {
   const std::string count = "expected a whole number in digits, from 0 to 4294967294";
-  EXPECT_EQ(message({"needles.count=-1"}), "--set needles.count=-1: " + count);
-  EXPECT_EQ(message({"needles.count= 10k "}), "--set needles.count=10k: " + count);
-  EXPECT_EQ(message({"needles.count="}), "--set needles.count=: " + count);
-  EXPECT_EQ(message({"needles.count=99999999999999999999"}),
+  EXPECT_EQ(message_of_overrides({"needles.count=-1"}), "--set needles.count=-1: " + count);
+  EXPECT_EQ(message_of_overrides({"needles.count= 10k "}), "--set needles.count=10k: " + count);
+  EXPECT_EQ(message_of_overrides({"needles.count="}), "--set needles.count=: " + count);
+  EXPECT_EQ(message_of_overrides({"needles.count=99999999999999999999"}),
             "--set needles.count=99999999999999999999: " + count);
-  EXPECT_EQ(message({"needles.cuont=5"}),
+  EXPECT_EQ(message_of_overrides({"needles.cuont=5"}),
             "--set needles.cuont=5: expected one of count, box, k, seed, did you mean count?");
   EXPECT_EQ(
-      message({"neddles.count=5"}),
+      message_of_overrides({"neddles.count=5"}),
       "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "
       "pairs, engine, until, output, did you mean needles?");
 }
 
 TEST(Override, ErrorsOfTheFileComeFirst) {
-  EXPECT_EQ(message({"needles.count=-1"}, "needles.k ="),
+  EXPECT_EQ(message_of_overrides({"needles.count=-1"}, "needles.k ="),
             "s.toml: line 4: bad key-value pair: encountered end-of-file");
-  EXPECT_EQ(message({"needles.count=-1"}, "collisions.beta = 3"),
+  EXPECT_EQ(message_of_overrides({"needles.count=-1"}, "collisions.beta = 3"),
             "s.toml: line 4: collisions.beta = 3: expected a number from -1 (smooth) to 1 "
             "(perfectly rough)");
 }
@@ -122,20 +123,21 @@ TEST(Override, WithoutSectionKeyAndValueIsRefused) {
   for (const std::string bad :
        {"", "needles", "needles.count", "=5", ".=5", "needles.=5", ".count=5", "a.b.c=5",
         "need les.count=5", "needles.\"count\"=5", "my title=5"})
-    EXPECT_EQ(message({bad}), "--set " + bad + ": expected section.key=value");
+    EXPECT_EQ(message_of_overrides({bad}), "--set " + bad + ": expected section.key=value");
 }
 
 TEST(Override, OfTheTitleNeedsNoSection) {
   EXPECT_EQ(parse({"title=x"}).title, "x");
   EXPECT_EQ(parse({"title = Ten needles, \"hard\""}).title, "Ten needles, \"hard\"");
   EXPECT_EQ(parse({"title='quoted'"}).title, "quoted");
-  const Scene replaced = parse_scene("title = 'a'\n" + least, "s.toml", Overrides{"title=b"});
+  const Scene replaced = parse_scene("title = 'a'\n" + least_scene, "s.toml", Overrides{"title=b"});
   EXPECT_EQ(replaced.title, "b");
-  EXPECT_EQ(message({"title=5"}), "--set title=5: expected a string without control characters");
+  EXPECT_EQ(message_of_overrides({"title=5"}),
+            "--set title=5: expected a string without control characters");
   EXPECT_EQ(
-      message({"count=5"}),
+      message_of_overrides({"count=5"}),
       "--set count=5: expected a section or title, did you mean needles.count or species.count?");
-  EXPECT_EQ(message({"needles=5"}), "--set needles=5: expected a section [needles]");
+  EXPECT_EQ(message_of_overrides({"needles=5"}), "--set needles=5: expected a section [needles]");
 }
 
 TEST(Override, ChangesWhereAKeyIsSaidToBeGiven) {
@@ -147,24 +149,24 @@ TEST(Override, ChangesWhereAKeyIsSaidToBeGiven) {
 }
 
 TEST(Override, CannotSmuggleInMoreThanOneValue) {
-  EXPECT_EQ(message({"needles.k=5\nseed=7"}),
+  EXPECT_EQ(message_of_overrides({"needles.k=5\nseed=7"}),
             "--set needles.k=5\\nseed=7: expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform "
             "rod)");
-  EXPECT_EQ(message({"needles.k=5\n[engine]\nthreads=2"}),
+  EXPECT_EQ(message_of_overrides({"needles.k=5\n[engine]\nthreads=2"}),
             "--set needles.k=5\\n[engine]\\nthreads=2: expected a number > 0 (from 1e-9 to 1e9; 6 "
             "is a uniform rod)");
-  EXPECT_EQ(message({"output.file=a\x1b[31m"}),
+  EXPECT_EQ(message_of_overrides({"output.file=a\x1b[31m"}),
             "--set output.file=a\\x1b[31m: expected the path of a file to write, or \"\" for none");
-  EXPECT_EQ(message({"output.file=\xff.h5"}),
+  EXPECT_EQ(message_of_overrides({"output.file=\xff.h5"}),
             "--set output.file=\\xff.h5: expected the path of a file to write, or \"\" for none");
 }
 
 TEST(Override, IsKeptInTheTextAsAComment) {
-  EXPECT_EQ(parse({}).text, least);
+  EXPECT_EQ(parse({}).text, least_scene);
   EXPECT_EQ(parse({"needles.k=2", "needles.box=[3,\n3,3]"}, "# end").text,
-            least + "# end\n# --set needles.k=2\n# --set needles.box=[3,\\n3,3]\n");
+            least_scene + "# end\n# --set needles.k=2\n# --set needles.box=[3,\\n3,3]\n");
   const Scene scene = parse({"needles.k=2"});
-  EXPECT_EQ(scene.text, least + "# --set needles.k=2\n");
+  EXPECT_EQ(scene.text, least_scene + "# --set needles.k=2\n");
   EXPECT_EQ(parse_scene(scene.text, "s.toml").needles.k, 6) << "a comment changes nothing";
 }
 

@@ -7,14 +7,16 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "tests/scene/message.h"
 
 namespace needlework {
 namespace {
 
-using Overrides = std::vector<std::string>;
+using test::message;
+using test::Overrides;
 
 // Lines 1 to 6, so that more begins at line 7.
-const std::string least = R"(needles.box = 12
+const std::string least_species = R"(needles.box = 12
 until.time = 5
 [[species]]
 name = "rods"
@@ -25,17 +27,8 @@ const std::string not_both =
     "expected either [[species]] or needles.count, needles.k and the temperatures of [initial], "
     "not both";
 
-std::string message(const std::string& text, const Overrides& overrides = {}) {
-  try {
-    parse_scene(text, "s.toml", overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Species, HasDefaults) {
-  const Scene scene = parse_scene(least, "s.toml");
+  const Scene scene = parse_scene(least_species, "s.toml");
   ASSERT_EQ(scene.species.size(), 1u);
   const Scene::Species& species = scene.species.front();
   EXPECT_EQ(species.name, "rods");
@@ -50,7 +43,8 @@ TEST(Species, HasDefaults) {
 // Code that ignores species finds count, k and temperatures in the same members as before.
 TEST(Species, StandsForNeedlesAndInitial) {
   const Scene scene = parse_scene(
-      least + "length = 2.5\nmass = 0.5\nk = 2\nt_tr = 3\nt_rot = 0\n[initial]\n", "s.toml");
+      least_species + "length = 2.5\nmass = 0.5\nk = 2\nt_tr = 3\nt_rot = 0\n[initial]\n",
+      "s.toml");
   const Scene::Species& species = scene.species.at(0);
   EXPECT_EQ(species.length, 2.5);
   EXPECT_EQ(species.mass, 0.5);
@@ -81,14 +75,15 @@ TEST(Species, MayStartFromAFile) {
 }
 
 TEST(Species, CanBeOverridden) {
-  const Scene scene = parse_scene(least, "s.toml", Overrides{"species.count=7", "species.mass=4"});
+  const Scene scene =
+      parse_scene(least_species, "s.toml", Overrides{"species.count=7", "species.mass=4"});
   EXPECT_EQ(scene.species.at(0).count, 7u);
   EXPECT_EQ(scene.needles.count, 7u);
   EXPECT_EQ(scene.species.at(0).mass, 4);
   EXPECT_EQ(scene.places.at("needles.count"), "--set species.count=7");
   // A file in place of temperatures, as for [initial].
   const Scene restart =
-      parse_scene(least + "t_tr = 2\nt_rot = 3", "s.toml", Overrides{"initial.file=a.h5"});
+      parse_scene(least_species + "t_tr = 2\nt_rot = 3", "s.toml", Overrides{"initial.file=a.h5"});
   EXPECT_EQ(restart.initial.file, "a.h5");
   EXPECT_EQ(restart.species.at(0).t_tr, 1);
 }
@@ -109,25 +104,26 @@ TEST(BadSpecies, IsNamedWithItsLine) {
   };
   const std::string head = "needles.box = 12\nuntil.time = 5\n[[species]]\n";
   const std::vector<std::pair<std::string, std::string>> table = {
-      {least + "[[species]]\nname = 'rods'\ncount = 5",
+      {least_species + "[[species]]\nname = 'rods'\ncount = 5",
        "s.toml: line 8: species.name = 'rods': expected a name that no other species has"},
-      {least + "[[species]]\nname = 'long'",
+      {least_species + "[[species]]\nname = 'long'",
        "s.toml: species.count of the entry 2 is missing: " + count},
-      {least + "[[species]]\nname = 'long'\ncount = 5\nlength = 7",
+      {least_species + "[[species]]\nname = 'long'\ncount = 5\nlength = 7",
        "s.toml: line 1: needles.box = 12: expected edges of at least 14.07 (2.01 needle "
        "lengths), of the longest species"},
-      {least + "[[pairs]]\nbetween = ['rods', 'rod']",
+      {least_species + "[[pairs]]\nbetween = ['rods', 'rod']",
        "s.toml: line 8: pairs.between = ['rods', 'rod']: expected names of two [[species]], among "
        "rods"},
-      {least + "[[pairs]]\nbetween = ['rods', 'rods']\n[[pairs]]\nbetween = ['rods', 'rods']",
+      {least_species +
+           "[[pairs]]\nbetween = ['rods', 'rods']\n[[pairs]]\nbetween = ['rods', 'rods']",
        "s.toml: line 10: pairs.between = ['rods', 'rods']: expected each two species once"},
-      {least + "[[pairs]]\nepsilon = 1",
+      {least_species + "[[pairs]]\nepsilon = 1",
        "s.toml: pairs.between is missing: expected an array of the names of two species"},
-      {least + "[[pairs]]\nbetween = ['rods']",
+      {least_species + "[[pairs]]\nbetween = ['rods']",
        "s.toml: line 8: pairs.between = ['rods']: expected an array of the names of two species"},
-      {least + "[[pairs]]\nbetween = ['rods', 'rods']\nepsilon = 2",
+      {least_species + "[[pairs]]\nbetween = ['rods', 'rods']\nepsilon = 2",
        "s.toml: line 9: pairs.epsilon = 2: expected a number from 0 to 1"},
-      {least + "[pairs]\nepsilon = 1",
+      {least_species + "[pairs]\nepsilon = 1",
        "s.toml: line 7: [pairs]: expected [[pairs]], in double brackets"},
       {"needles.box = 12\nuntil.time = 5\n[species]\nname = 'rods'\ncount = 5",
        "s.toml: line 3: [species]: expected [[species]], in double brackets"},
@@ -138,8 +134,8 @@ TEST(BadSpecies, IsNamedWithItsLine) {
        "collisions, pairs, engine, until, output, did you mean species?"},
       {least_of("needles.count = 5"), "s.toml: line 7: needles.count = 5: " + not_both},
       {least_of("needles.k = 6"), "s.toml: line 7: needles.k = 6: " + not_both},
-      {least + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
-      {least + "[initial]\nt_rot = 1", "s.toml: line 8: initial.t_rot = 1: " + not_both},
+      {least_species + "[initial]\nt_tr = 1", "s.toml: line 8: initial.t_tr = 1: " + not_both},
+      {least_species + "[initial]\nt_rot = 1", "s.toml: line 8: initial.t_rot = 1: " + not_both},
       {"[needles]\ncount = 5\nbox = 12\n[[species]]\nname = 'rods'\n",
        "s.toml: line 5: species.name = 'rods': " + not_both},
       {head + "name = 'rods'", "s.toml: species.count is missing: " + count},
@@ -152,18 +148,18 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {head + "name = 5", "s.toml: line 4: species.name = 5: " + name},
       {head + "count = -1", "s.toml: line 4: species.count = -1: " + count},
       {head + "count = 1.5", "s.toml: line 4: species.count = 1.5: " + count},
-      {least + "length = 0", "s.toml: line 7: species.length = 0: " + length},
-      {least + "length = nan", "s.toml: line 7: species.length = nan: " + length},
-      {least + "length = 2e6", "s.toml: line 7: species.length = 2e6: " + length},
-      {least + "mass = -1", "s.toml: line 7: species.mass = -1: " + mass},
-      {least + "mass = inf", "s.toml: line 7: species.mass = inf: " + mass},
-      {least + "k = 0", "s.toml: line 7: species.k = 0: " + k},
-      {least + "t_tr = -1", "s.toml: line 7: species.t_tr = -1: " + temperature},
-      {least + "t_rot = 1e300", "s.toml: line 7: species.t_rot = 1e300: " + temperature},
-      {least + "lenght = 2",
+      {least_species + "length = 0", "s.toml: line 7: species.length = 0: " + length},
+      {least_species + "length = nan", "s.toml: line 7: species.length = nan: " + length},
+      {least_species + "length = 2e6", "s.toml: line 7: species.length = 2e6: " + length},
+      {least_species + "mass = -1", "s.toml: line 7: species.mass = -1: " + mass},
+      {least_species + "mass = inf", "s.toml: line 7: species.mass = inf: " + mass},
+      {least_species + "k = 0", "s.toml: line 7: species.k = 0: " + k},
+      {least_species + "t_tr = -1", "s.toml: line 7: species.t_tr = -1: " + temperature},
+      {least_species + "t_rot = 1e300", "s.toml: line 7: species.t_rot = 1e300: " + temperature},
+      {least_species + "lenght = 2",
        "s.toml: line 7: species.lenght = 2: " + keys + ", did you mean length?"},
-      {least + "xyzzy = 2", "s.toml: line 7: species.xyzzy = 2: " + keys},
-      {least + "t_tr = 1\n[initial]\nfile = 'a.h5'",
+      {least_species + "xyzzy = 2", "s.toml: line 7: species.xyzzy = 2: " + keys},
+      {least_species + "t_tr = 1\n[initial]\nfile = 'a.h5'",
        "s.toml: line 9: initial.file = 'a.h5': " + either},
       {"initial.file = 'a.h5'\nuntil.time = 1\n[[species]]\nname = 'rods'\nt_rot = 1",
        "s.toml: line 5: species.t_rot = 1: " + either},
@@ -173,9 +169,9 @@ TEST(BadSpecies, IsNamedWithItsLine) {
 
 TEST(BadSpecies, NeedsABoxOfTwiceItsLength) {
   const std::string line = "s.toml: line 1: needles.box = ";
-  EXPECT_EQ(message(least + "length = 6"),
+  EXPECT_EQ(message(least_species + "length = 6"),
             line + "12: expected edges of at least 12.06 (2.01 needle lengths)");
-  EXPECT_EQ(message(least + "length = 5.9"), "no error");
+  EXPECT_EQ(message(least_species + "length = 5.9"), "no error");
   const auto in_box = [](const std::string& box, const std::string& length) {
     return message("needles.box = " + box + "\nuntil.time = 5\n[[species]]\nname = 'rods'\n" +
                    "count = 10\nlength = " + length);
@@ -188,13 +184,13 @@ TEST(BadSpecies, NeedsABoxOfTwiceItsLength) {
             line + "0.5: expected edges of at least 0.5025 (2.01 needle lengths)");
   EXPECT_EQ(in_box("2", "1"),
             line + "2: expected an edge from 2.01 to 1e9, or an array of three edges");
-  EXPECT_EQ(message(least, {"species.length=100"}),
+  EXPECT_EQ(message(least_species, {"species.length=100"}),
             line + "12: expected edges of at least 201 (2.01 needle lengths)");
-  EXPECT_EQ(message(least + "length = 5", {"needles.box=10"}),
+  EXPECT_EQ(message(least_species + "length = 5", {"needles.box=10"}),
             "--set needles.box=10: expected edges of at least 10.05 (2.01 needle lengths)");
 }
 
-const std::string mixture = least +
+const std::string mixture = least_species +
                             "[[species]]\nname = 'long rods'\ncount = 4\nlength = 3\nmass = 5\n"
                             "t_tr = 0.5\n[[pairs]]\nbetween = ['long rods', 'rods']\nbeta = 0.5\n"
                             "[[pairs]]\nbetween = ['rods', 'rods']\nepsilon = 0.7\n";
@@ -247,12 +243,12 @@ TEST(BadSpecies, CannotBeMadeByOverrides) {
   const std::string plain = "needles.count = 3\nneedles.box = 12\nuntil.time = 5\n";
   EXPECT_EQ(message(plain, {"species.length=2"}),
             "--set species.length=2: expected a scene with an entry [[species]]");
-  EXPECT_EQ(message(least, {"species.length=2"}), "no error");
-  EXPECT_EQ(message(least, {"species.length=-2"}),
+  EXPECT_EQ(message(least_species, {"species.length=2"}), "no error");
+  EXPECT_EQ(message(least_species, {"species.length=-2"}),
             "--set species.length=-2: expected a number > 0 (from 1e-6 to 1e6)");
-  EXPECT_EQ(message(least, {"needles.count=5"}), "--set needles.count=5: " + not_both);
-  EXPECT_EQ(message(least, {"initial.t_tr=5"}), "--set initial.t_tr=5: " + not_both);
-  EXPECT_EQ(message(least, {"species.lenght=5"}),
+  EXPECT_EQ(message(least_species, {"needles.count=5"}), "--set needles.count=5: " + not_both);
+  EXPECT_EQ(message(least_species, {"initial.t_tr=5"}), "--set initial.t_tr=5: " + not_both);
+  EXPECT_EQ(message(least_species, {"species.lenght=5"}),
             "--set species.lenght=5: expected one of name, count, length, mass, k, t_tr, t_rot, "
             "did you mean length?");
 }

@@ -13,6 +13,7 @@
 #include "kernels/closest_approach.h"
 #include "src/search/near_search.h"
 #include "tests/search/gas_drive.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 
 namespace needlework::test {
@@ -24,11 +25,7 @@ using needlework::operator+;
 namespace {
 
 constexpr std::uint64_t seed = 77;
-#ifdef NDEBUG
-constexpr int steps = 400;
-#else
-constexpr int steps = 100;
-#endif
+constexpr int steps = test::by_build(400, 100);
 
 struct Setting {
   const char* name;

@@ -12,6 +12,7 @@
 
 #include "src/search/linked_lists.h"
 #include "tests/search/gas_drive.h"
+#include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 
 namespace needlework {
@@ -25,11 +26,7 @@ using test::Speeds;
 using test::vec3;
 
 constexpr std::uint64_t seed = 1515;
-#ifdef NDEBUG
-constexpr int thin = 1;
-#else
-constexpr int thin = 10;
-#endif
+constexpr int thin = test::by_build(1, 10);
 
 Needle any_needle(Random& random, const Gas& gas) {
   return Needle(random.below(static_cast<int>(gas.size())));

@@ -31,9 +31,9 @@ struct Next {
   bool is_return = false;
 };
 
-class Gas {
+class ReferenceGas {
  public:
-  Gas(const Scene& scene, const Fault& fault) : scene_(scene), fault_(fault) {
+  ReferenceGas(const Scene& scene, const Fault& fault) : scene_(scene), fault_(fault) {
     run_.initial = Simulation(scene).copy();
     const State& state = run_.initial;
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -212,7 +212,7 @@ class Gas {
 }  // namespace
 
 ReferenceRun run_reference(const Scene& scene, int collisions, const Fault& fault) {
-  return Gas(scene, fault).run(collisions);
+  return ReferenceGas(scene, fault).run(collisions);
 }
 
 }  // namespace needlework::test

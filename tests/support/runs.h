@@ -63,17 +63,36 @@ struct Recorded {
   double epoch_length;
 };
 
+/// A simulation from its start, a state or a checkpoint, and its collisions.
+struct Followed {
+  template <class... Start>
+  explicit Followed(const Scene& scene, const Start&... start) : simulation(scene, start...) {
+    simulation.on_collision([this](const Collision& c) { collisions.push_back(c); });
+  }
+  Followed(const Followed&) = delete;
+  Followed& operator=(const Followed&) = delete;
+
+  /// Until the run has had so many collisions in all.
+  void advance_to_collision(double n) {
+    simulation.advance(until_collisions(2 * n / static_cast<double>(simulation.needles())));
+  }
+  Recorded recorded() const {
+    return {collisions, simulation.copy(), simulation.totals(), simulation.trajectory_hash(),
+            simulation.epoch_length()};
+  }
+  Simulation* operator->() { return &simulation; }
+  const Simulation* operator->() const { return &simulation; }
+  Simulation& operator*() { return simulation; }
+
+  Simulation simulation;
+  std::vector<Collision> collisions;
+};
+
 /// Runs for `count` collisions from a state, recording each.
 inline Recorded record(const Scene& scene, const State& initial, double count) {
-  Simulation simulation(scene, initial);
-  Recorded out;
-  simulation.on_collision([&](const Collision& c) { out.collisions.push_back(c); });
-  simulation.advance(until_collisions(2 * count / static_cast<double>(initial.size())));
-  out.end = simulation.copy();
-  out.totals = simulation.totals();
-  out.hash = simulation.trajectory_hash();
-  out.epoch_length = simulation.epoch_length();
-  return out;
+  Followed run(scene, initial);
+  run.advance_to_collision(count);
+  return run.recorded();
 }
 
 inline Recorded record(const Scene& scene, double count) {

@@ -3,16 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/by_build.h"
 #include "tests/support/runs.h"
 
 namespace needlework::test {
 
 /// Factor by which runs are shortened where checks make them slow.
-#ifdef NDEBUG
-inline constexpr double thin = 1;
-#else
-inline constexpr double thin = 10;
-#endif
+inline constexpr double thin = test::by_build<double>(1, 10);
 
 inline void expect_same(const Recorded& truth, const Recorded& other) {
   ASSERT_EQ(truth.collisions.size(), other.collisions.size());

@@ -1,0 +1,20 @@
+// What the audit has to know of a scene.
+#pragma once
+
+#include "needlework/scene.h"
+#include "src/audit/audit.h"
+
+namespace needlework::test {
+
+inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double share = 1) {
+  const auto& c = scene.collisions;
+  audit::Setup setup;
+  setup.epoch_length = epoch_length;
+  setup.rule = {c.epsilon, c.beta, scene.needles.k};
+  setup.tc = c.tc;
+  setup.tc_relative = c.tc_relative;
+  setup.share = share;
+  return setup;
+}
+
+}  // namespace needlework::test
