@@ -23,3 +23,16 @@ set_tests_properties(
   # the other tests of SearchEquivalence
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   PROPERTIES LABELS long)
+# PredictOracle.AgreesOnEveryPair: the first tenth of these pairs
+foreach(family thermal_k6 thermal_k2 parallel tip grazing just_collided fast_spin still slow planar
+               mixed_scales parallel_to_rounding tip_to_rounding back_to_rounding tip_to_tip
+               grazing_to_rounding)
+  set_tests_properties(Families/PredictOracle.AgreesOnEveryPairOfMany/${family} PROPERTIES LABELS long)
+endforeach()
+# ElasticRate at other densities and k
+foreach(gas Smooth:k2_n0p1 Smooth:k2_n0p72 Smooth:k2_n3 Smooth:k6_n0p1 Smooth:k6_n3 Smooth:k6_n20
+            Smooth:k6_n50 Smooth:k6_n100 Smooth:k20_n0p1 Smooth:k20_n0p72 Smooth:k20_n20
+            OfLengthAndMass:k6_n0p72 Rough:k6_n0p72)
+  string(REPLACE ":" "/ElasticRate.IsExactInEquilibrium/" test ${gas})
+  set_tests_properties(${test} PROPERTIES LABELS long)
+endforeach()
