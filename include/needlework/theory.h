@@ -98,6 +98,10 @@ struct MixtureRates {
   std::vector<Temperatures> temperatures;  ///< derivatives of the temperatures of each species
 };
 
+/// Of mixtures with more species the rates of all pairs are too many to be worth their time:
+/// callers should leave theory out.
+inline constexpr std::size_t most_species_of_theory = 8;
+
 /// Rates of a mixture in this volume [L^3] whose species have Gaussian velocities with temperatures
 /// of their own, and positions and directors without correlation: exact then at every density, for
 /// any lengths, masses, k and restitution of each two species, in the limit of many needles (a
@@ -105,11 +109,48 @@ struct MixtureRates {
 MixtureRates mixture_rates(const Composition& composition, double volume,
                            std::span<const Temperatures> now);
 
+/// Collisions of each two species per unit time in elastic equilibrium, by Composition::pair_index,
+/// of needles with zero momentum and this energy of all in a volume: the rates at the temperature
+/// T = 2 E / (5 N - 3) of all of them, times the factor of equilibrium_rate(). At least two
+/// needles.
+std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
+                                              double total_energy);
+
+/// The temperatures of all needles together.
+Temperatures mean_of_species(const Composition& composition, std::span<const Temperatures> each);
+
 /// The temperatures of each species at each of the times (finite, >= 0, any order), from those
 /// given at time 0, of a mixture that stays Gaussian and homogeneous. Relative accuracy about 1e-8.
+/// NaN where ratios of temperatures have not relaxed after 5000 collisions per needle.
 std::vector<std::vector<Temperatures>> mixture_cooling(const Composition& composition,
                                                        double volume,
                                                        std::span<const Temperatures> initial,
                                                        std::span<const double> times);
+
+/// The same course, followed step by step: cheap where times become known one after the other.
+class MixtureCurve {
+ public:
+  MixtureCurve(const Composition& composition, double volume,
+               std::span<const Temperatures> initial);
+  MixtureCurve(MixtureCurve&&) noexcept;
+  MixtureCurve& operator=(MixtureCurve&&) noexcept;
+  ~MixtureCurve();
+
+  /// The temperatures at a time (finite, >= 0) that must not be before that of the last call.
+  std::vector<Temperatures> at(double time);
+
+  /// Where the curve has come to: what another curve of the same mixture needs to give the same
+  /// next values, to the last bit.
+  std::vector<double> place() const;
+  /// Throws InputError for a place that no curve can have come to.
+  void go_to(std::span<const double> place);
+
+  /// Collisions per needle between time 0 and the time of the last call.
+  double collisions_per_needle() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace needlework::theory

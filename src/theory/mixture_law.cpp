@@ -52,15 +52,22 @@ constexpr int angles = 48;
 
 }  // namespace
 
-MixtureLaw::MixtureLaw(const Composition& composition, double volume)
+MixtureLaw::MixtureLaw(const Composition& composition, double volume, WithoutPairs)
     : composition_(composition), volume_(volume) {
   require_positive("volume", volume);
+}
+
+MixtureLaw::MixtureLaw(const Composition& composition, double volume)
+    : MixtureLaw(composition, volume, WithoutPairs{}) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
-    for (std::size_t b = a; b < composition.size(); ++b) {
-      pairs_.push_back({.first = a, .second = b, .contacts = {}});
-      tabulate(pairs_.back());
-    }
+    for (std::size_t b = a; b < composition.size(); ++b) pairs_.push_back(tabulated(a, b));
   }
+}
+
+MixtureLaw::Pair MixtureLaw::tabulated(std::size_t first, std::size_t second) const {
+  Pair out{.first = first, .second = second, .contacts = {}};
+  tabulate(out);
+  return out;
 }
 
 void MixtureLaw::tabulate(Pair& pair) const {
@@ -150,13 +157,28 @@ void MixtureLaw::add(const Pair& pair, std::span<const Temperatures> now, Mixtur
 }
 
 MixtureRates MixtureLaw::rates(std::span<const Temperatures> now) const {
+  MixtureRates out = no_rates(now);
+  for (const Pair& pair : pairs_) add(pair, now, out);
+  return out;
+}
+
+MixtureRates MixtureLaw::rates_once(const Composition& composition, double volume,
+                                    std::span<const Temperatures> now) {
+  const MixtureLaw law(composition, volume, WithoutPairs{});
+  MixtureRates out = law.no_rates(now);
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) law.add(law.tabulated(a, b), now, out);
+  }
+  return out;
+}
+
+MixtureRates MixtureLaw::no_rates(std::span<const Temperatures> now) const {
   require(now.size() == composition_.size(), "temperatures", static_cast<double>(now.size()),
           "those of each species");
   for (const Temperatures& each : now) require_valid(each);
   MixtureRates out;
   out.collisions.resize(composition_.pairs());
   out.temperatures.assign(composition_.size(), {.t_tr = 0, .t_rot = 0});
-  for (const Pair& pair : pairs_) add(pair, now, out);
   return out;
 }
 

@@ -17,6 +17,9 @@ class MixtureLaw {
   MixtureLaw(const Composition& composition, double volume);
 
   MixtureRates rates(std::span<const Temperatures> now) const;
+  /// The same once, without memory for all pairs at the same time.
+  static MixtureRates rates_once(const Composition& composition, double volume,
+                                 std::span<const Temperatures> now);
   const Composition& composition() const { return composition_; }
 
  private:
@@ -35,6 +38,10 @@ class MixtureLaw {
     std::vector<Contact> contacts;
   };
 
+  struct WithoutPairs {};
+  MixtureLaw(const Composition& composition, double volume, WithoutPairs);
+  Pair tabulated(std::size_t first, std::size_t second) const;
+  MixtureRates no_rates(std::span<const Temperatures> now) const;
   void tabulate(Pair& pair) const;
   void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
 

@@ -37,18 +37,40 @@ double collision_rate(double density, Temperatures temperatures, double k) {
   return density * half_root_pi * flux(temperatures, k);
 }
 
-double equilibrium_rate(double count, double volume, double total_energy, double k) {
+namespace {
+
+// The temperature of needles with zero momentum and a fixed energy, and their mean speed relative
+// to that at this temperature, as velocities lie on a sphere in 5 N - 3 dimensions.
+struct Equilibrium {
+  double temperature, speed;
+};
+
+Equilibrium equilibrium_of(double count, double volume, double total_energy) {
   require(std::isfinite(count) && count >= 2.0, "count", count, "a finite number, 2 or more");
   require_positive("volume", volume);
   require_not_negative("total_energy", total_energy);
   const double degrees = 5.0 * count - 3.0;
-  const double temperature = 2.0 * total_energy / degrees;
-  // The mean speed relative to its canonical value, if velocities lie on a sphere in `degrees`
-  // dimensions.
-  const double microcanonical =
-      std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5);
-  return microcanonical *
+  return {2.0 * total_energy / degrees,
+          std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5)};
+}
+
+}  // namespace
+
+double equilibrium_rate(double count, double volume, double total_energy, double k) {
+  const auto [temperature, speed] = equilibrium_of(count, volume, total_energy);
+  return speed *
          collision_rate((count - 1.0) / volume, {.t_tr = temperature, .t_rot = temperature}, k);
+}
+
+// Momentum correlates velocities of two needles just so that their relative one has T/m + T/m'.
+std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
+                                              double total_energy) {
+  const double count = static_cast<double>(composition.count());
+  const Equilibrium gas = equilibrium_of(count, volume, total_energy);
+  const std::vector<Temperatures> now(composition.size(), {gas.temperature, gas.temperature});
+  std::vector<double> out = mixture_rates(composition, volume, now).collisions;
+  for (double& rate : out) rate *= gas.speed;
+  return out;
 }
 
 Temperatures cooling_rates(const Gas& gas, Temperatures now) {

@@ -44,10 +44,10 @@ LAYERS = [
           ["base", "memory", "machine", "archive", "composition", "kernels", "trajectory", "scene",
            "physics", "effects", "search", "calendar"]),
     Layer("observe", ["src/observe"], [],
-          ["archive", "scene"], ["base", "theory", "trajectory", "engine"]),
+          ["archive", "composition", "scene"], ["base", "theory", "trajectory", "engine"]),
     Layer("io", ["src/io"], ["h5md.h"], ["machine", "archive", "trajectory"],
           ["base", "scene", "engine"]),
-    Layer("audit", ["src/audit"], [], [], ["base", "trajectory", "scene", "engine"]),
+    Layer("audit", ["src/audit"], [], [], ["base", "composition", "trajectory", "scene", "engine"]),
     Layer("runs", ["src/runs"], [],
           ["base", "machine", "archive", "kernels", "trajectory", "scene", "search", "calendar",
            "observe", "io"],
@@ -55,14 +55,15 @@ LAYERS = [
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
     # Front ends for other programs: C, Python, a pipe.
     Layer("bindings", ["src/c", "src/python", "src/serve"], ["needlework.h"],
-          ["base", "machine", "kernels", "scene", "runs"],
+          ["base", "machine", "composition", "kernels", "scene", "runs"],
           ["theory", "trajectory", "physics", "engine", "io"]),
     # Pages for browsers; their arrays are in base64, as those over a pipe are.
-    Layer("report", ["src/report"], [], ["base", "scene", "io", "picture", "bindings"], ["theory"]),
+    Layer("report", ["src/report"], [],
+          ["base", "composition", "scene", "io", "picture", "bindings"], ["theory"]),
     # `needlework bench` is a command of the program, and measures the engine from within.
     Layer("program", ["src/cli", "bench/strategies"], [],
-          ["base", "machine", "scene", "search", "calendar", "observe", "io", "audit", "runs",
-           "picture", "bindings", "report"],
+          ["base", "machine", "composition", "scene", "search", "calendar", "observe", "io", "audit",
+           "runs", "picture", "bindings", "report"],
           ["kernels", "theory", "trajectory", "physics", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
+#include "needlework/error.h"
 #include "needlework/theory.h"
 
 namespace needlework {
@@ -120,6 +123,91 @@ TEST(MixtureCooling, BeginsWithItsRates) {
     EXPECT_NEAR((later[n].t_rot - initial[n].t_rot) / times[0] / rates.temperatures[n].t_rot, 1,
                 1e-4);
   }
+}
+
+// Once the ratios of the temperatures have relaxed, all fall as t^-2, however long.
+TEST(MixtureCooling, FollowsHaffsLawInTheEnd) {
+  const Composition composition = two_species({0.7, 0.2});
+  const std::array<Temperatures, 2> initial = {Temperatures{1, 0.4}, Temperatures{0.5, 1.7}};
+  const std::array times = {1e6, 1e12, 1e18};
+  const auto found = theory::mixture_cooling(composition, 10, initial, times);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_NEAR(found[1][n].t_tr / found[0][n].t_tr, 1e-12, 1e-18);
+    EXPECT_NEAR(found[2][n].t_rot / found[1][n].t_rot, 1e-12, 1e-18);
+    EXPECT_NEAR(found[2][n].t_tr / found[2][n].t_rot / (found[0][n].t_tr / found[0][n].t_rot), 1,
+                1e-7);
+  }
+}
+
+TEST(MixtureCooling, EndsInEquipartitionWhereNothingIsLost) {
+  const Composition composition = two_species({1, -1});
+  const std::array<Temperatures, 2> initial = {Temperatures{1, 0.4}, Temperatures{0.5, 1.7}};
+  const std::array times = {1e9};
+  const auto found = theory::mixture_cooling(composition, 10, initial, times)[0];
+  const double energy = theory::mean_of_species(composition, initial).energy();
+  for (const Temperatures& each : found) {
+    EXPECT_NEAR(each.t_tr, energy / 2.5, 1e-7);
+    EXPECT_NEAR(each.t_rot, energy / 2.5, 1e-7);
+  }
+}
+
+// Ratios that take more collisions than can be followed.
+TEST(MixtureCooling, IsGivenUpWhereMassesDifferByManyOrders) {
+  const Composition composition({{.name = "a", .count = 1000, .length = 1, .mass = 1, .k = 6},
+                                 {.name = "b", .count = 10, .length = 1, .mass = 1e9, .k = 6}},
+                                {1, -1});
+  const std::array<Temperatures, 2> initial = {Temperatures{1, 1}, Temperatures{2, 2}};
+  const std::array times = {1e-3, 1e9};
+  const auto found = theory::mixture_cooling(composition, 1000, initial, times);
+  EXPECT_NEAR(found[0][1].t_tr, 2, 1e-6);
+  EXPECT_TRUE(std::isnan(found[1][0].t_tr));
+}
+
+TEST(MixtureCurve, GoesOnFromItsPlaceToTheLastBit) {
+  const Composition composition = two_species({0.7, 0.2});
+  const std::array<Temperatures, 2> initial = {Temperatures{1, 0.4}, Temperatures{0.5, 1.7}};
+  theory::MixtureCurve first(composition, 10, initial), second(composition, 10, initial);
+  first.at(0.01);
+  first.at(0.5);
+  second.go_to(first.place());
+  for (const double time : {0.6, 7.0, 1e5}) {
+    const auto a = first.at(time), b = second.at(time);
+    for (std::size_t n = 0; n < 2; ++n) {
+      EXPECT_EQ(a[n].t_tr, b[n].t_tr);
+      EXPECT_EQ(a[n].t_rot, b[n].t_rot);
+    }
+    EXPECT_EQ(first.collisions_per_needle(), second.collisions_per_needle());
+  }
+  std::vector<double> wrong = first.place();
+  wrong.pop_back();
+  EXPECT_THROW(second.go_to(wrong), InputError);
+  wrong = first.place();
+  wrong[0] = std::nan("");
+  EXPECT_THROW(second.go_to(wrong), InputError);
+}
+
+TEST(MixtureCurve, CountsCollisionsAsOneSpeciesDoes) {
+  const std::uint64_t many = std::uint64_t{1} << 40;
+  const Composition composition({{.name = "a", .count = many}, {.name = "b", .count = many}},
+                                {0.8, -1});
+  const double density = 0.7, volume = 2 * static_cast<double>(many) / density;
+  const double gamma = 2.0 / 3 * std::sqrt(std::numbers::pi) * density;
+  const std::array<Temperatures, 2> initial = {Temperatures{1, 0}, Temperatures{1, 0}};
+  theory::MixtureCurve curve(composition, volume, initial);
+  for (const double tau : {0.1, 10.0, 1e6}) {
+    curve.at(tau / gamma);
+    const double expected =
+        theory::collisions_per_needle({.k = 6, .epsilon = 0.8}, initial[0], std::span(&tau, 1))[0];
+    EXPECT_NEAR(curve.collisions_per_needle() / expected, 1, 1e-6) << tau;
+  }
+}
+
+TEST(MixtureEquilibrium, OfOneSpeciesTwiceHasTheRateOfOne) {
+  const Composition composition(
+      {{.name = "a", .count = 30, .k = 3}, {.name = "b", .count = 50, .k = 3}}, {1, -1});
+  const auto rates = theory::mixture_equilibrium_rates(composition, 100, 200);
+  const double all = rates[0] + rates[1] + rates[2];
+  EXPECT_NEAR(2 * all / 80 / theory::equilibrium_rate(80, 100, 200, 3), 1, 1e-9);
 }
 
 }  // namespace
