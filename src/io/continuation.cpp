@@ -153,7 +153,9 @@ void Comparison::values(const std::string& path, hid_t found, hid_t expected) co
   const std::string place = source_.place(path);
   const Handle type(H5Dget_type(expected), H5Tclose, place);
   if (H5Tget_class(type.get()) == H5T_STRING) {
-    const auto texts_of = [&](hid_t dataset) { return hdf5::read_strings(dataset, place).at(0); };
+    const auto texts_of = [&](hid_t dataset) {
+      return fmt::format("{}", fmt::join(hdf5::read_strings(dataset, place), "\n"));
+    };
     texts(path, texts_of(found), texts_of(expected));
   } else if (H5Tget_class(type.get()) == H5T_FLOAT) {
     numbers<double>(path, found, expected);

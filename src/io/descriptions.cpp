@@ -190,6 +190,20 @@ std::vector<Description> run_file_descriptions() {
   return list;
 }
 
+std::vector<Description> mixture_descriptions() {
+  const std::string each = "[species]", pairs = "[species][species]";
+  return {
+      {"/parameters/species", "Name of each species", none, each},
+      {"/parameters/counts", "Number of needles of each species", none, each},
+      {"/parameters/length", "Length of a needle of each species", length, each},
+      {"/parameters/mass", "Mass of a needle of each species", "mass", each},
+      {"/parameters/k", "Shape of the needles of each species, k = m L^2 / (2 I)", none, each},
+      {"/parameters/epsilon", "Coefficient of normal restitution of each two species", none, pairs},
+      {"/parameters/beta", "Coefficient of tangential restitution of each two species", none,
+       pairs},
+  };
+}
+
 std::vector<Description> series_descriptions(const std::vector<SeriesGroup>& groups) {
   std::vector<Description> list;
   for (const SeriesGroup& group : groups) {

@@ -25,7 +25,8 @@ struct Description {
 std::string sentence(const Description& description);
 
 std::vector<Description> run_file_descriptions();  ///< files of a Writer
-std::vector<Description> series_descriptions(      ///< and their groups in /series
+std::vector<Description> mixture_descriptions();
+std::vector<Description> series_descriptions(  ///< and their groups in /series
     const std::vector<SeriesGroup>& groups);
 std::vector<Description> sweep_summary_descriptions();  ///< files of sweep::write_summary
 std::vector<Description> vtkhdf_descriptions();         ///< files of write_vtkhdf

@@ -168,6 +168,34 @@ void make_metadata(hid_t file, const std::string& place) {
   hdf5::write_attribute(creator.get(), "version", std::string(NEEDLEWORK_VERSION), place);
 }
 
+// What single numbers say of one species: arrays [species], and of each two [species][species].
+void make_species(hid_t parameters, const Composition& composition, const std::string& place) {
+  const auto size = composition.size();
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> counts;
+  for (const Species& each : composition.species()) {
+    names.push_back(each.name);
+    counts.push_back(each.count);
+  }
+  hdf5::write_array(parameters, "species", names, place);
+  hdf5::write_array<std::uint64_t>(parameters, "counts", {size}, counts, place);
+  const auto write_each = [&](const char* name, double Species::*member) {
+    std::vector<double> values;
+    for (const Species& each : composition.species()) values.push_back(each.*member);
+    hdf5::write_array<double>(parameters, name, {size}, values, place);
+  };
+  write_each("length", &Species::length);
+  write_each("mass", &Species::mass);
+  write_each("k", &Species::k);
+  const auto write_pairs = [&](const char* name, double Restitution::*member) {
+    std::vector<double> values;
+    for (const Restitution& rule : composition.rules()) values.push_back(rule.*member);
+    hdf5::write_array<double>(parameters, name, {size, size}, values, place);
+  };
+  write_pairs("epsilon", &Restitution::epsilon);
+  write_pairs("beta", &Restitution::beta);
+}
+
 void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const std::string& place) {
   const Handle parameters = create_group(file, "parameters", place);
   const auto write = [&](const char* name, const auto& value) {
@@ -182,17 +210,12 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("threads", static_cast<std::int32_t>(run.threads));
   write("epoch_length", run.epoch_length);
   const Composition composition = scene.composition();
-  const auto write_species = [&](const char* name, double Species::*member) {
-    if (!composition.is_mixture()) return write(name, composition[0].*member);
-    std::vector<double> values;
-    for (const Species& each : composition.species()) values.push_back(each.*member);
-    hdf5::write_array<double>(parameters.get(), name, {values.size()}, values, place);
-  };
-  write_species("k", &Species::k);
-  write_species("length", &Species::length);
-  write_species("mass", &Species::mass);
-  write("epsilon", scene.collisions.epsilon);
-  write("beta", scene.collisions.beta);
+  if (composition.is_mixture()) return make_species(parameters.get(), composition, place);
+  write("k", composition[0].k);
+  write("length", composition[0].length);
+  write("mass", composition[0].mass);
+  write("epsilon", composition.restitution(0, 0).epsilon);
+  write("beta", composition.restitution(0, 0).beta);
 }
 
 }  // namespace
@@ -211,6 +234,9 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_velocities_set(create_group(file, "velocities_set", place).get(), place);
   make_user_data(create_group(file, "user_data", place).get(), place);
   if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
+  if (scene.composition().is_mixture()) {
+    write_descriptions(file, mixture_descriptions(), place);  // an object keeps its first
+  }
   write_descriptions(file, run_file_descriptions(), place);
   write_descriptions(file, series_descriptions(run.series), place);
 }

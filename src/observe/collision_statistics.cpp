@@ -5,19 +5,21 @@
 //   chains           finished chains by length. A chain is a sequence of collisions of one pair
 //                    between which neither needle collides with another; it is finished when one
 //                    does. Longer ones are in the last bin.
-//   arms             s / L of both needles: where the contact lies along the needle
+//   arms             s / L of both needles, each in its own length: where the contact lies
 //   angle            angle between the directors, from 0 to pi; in equilibrium its density is
 //                    (2 / pi) sin^2
 //   normal_velocity  |V_n| in units of sigma, sigma^2 = 2 T_tr / m + T_rot (s12^2 + s21^2) / I with
-//                    the temperatures of the sample before; in equilibrium its density is
-//                    x exp(-x^2 / 2)
+//                    the temperatures of the sample before (for two species T_tr / m + T_rot s^2 /
+//                    I of each); in equilibrium its density is x exp(-x^2 / 2)
 //
-// Values outside the borders are left out.
+// With several species each is counted for each two of them; a collision with a needle of any
+// species ends a chain. Values outside the borders are left out.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 #include "src/observe/histogram.h"
 #include "src/observe/registry.h"
@@ -35,12 +37,29 @@ struct Chain {
 
 void transfer(Archive& archive, Chain& chain) { archive(chain.partner, chain.length); }
 
+/// What is counted of the collisions of two species.
+struct Counts {
+  double collisions = 0, repeats = 0;
+  std::vector<double> chains = std::vector<double>(longest_chain);
+  Histogram arms{-0.5, 0.5, 50}, angle{0, std::numbers::pi, 45}, normal_velocity{0, 6, 60};
+
+  void transfer(Archive& archive) {
+    arms.transfer(archive);
+    angle.transfer(archive);
+    normal_velocity.transfer(archive);
+    archive(collisions, repeats, chains);
+    archive.require(chains.size() == longest_chain);
+  }
+};
+
 class CollisionStatistics : public Observable {
  public:
-  explicit CollisionStatistics(const GasSetting& gas) : gas_(gas) {}
+  explicit CollisionStatistics(const GasSetting& gas)
+      : gas_(gas), counts_(gas.composition.pairs()), last_(gas.composition.size()) {}
 
   std::vector<SeriesField> fields() const override {
     using enum SeriesField::Kind;
+    const Counts& one = counts_.front();
     const auto borders = [](std::string name, const Histogram& of, const char* extent,
                             const char* unit) {
       return SeriesField{name + "_borders",
@@ -50,39 +69,31 @@ class CollisionStatistics : public Observable {
                          constant,
                          of.borders()};
     };
+    const auto shape = [&](std::vector<SeriesField::Extent> values) {
+      return by_pair(gas_.composition, std::move(values));
+    };
     return {
-        {"collisions", "Number of collisions since the sample before", unit::none, {}, count},
-        {"repeats",
-         "Number of these that repeat the last collision of both needles",
-         unit::none,
-         {},
+        {"collisions", "Number of collisions since the sample before", unit::none, shape({}),
          count},
+        {"repeats", "Number of these that repeat the last collision of both needles", unit::none,
+         shape({}), count},
         {"chains",
          "Number of chains of collisions of one pair that ended since the sample before, by "
          "length from 1 on",
-         unit::none,
-         {{"chain lengths", longest_chain}},
-         count},
+         unit::none, shape({{"chain lengths", longest_chain}}), count},
         {"arms",
          "Number of contacts by distance from the needle's centre along its orientation, in "
          "needle lengths",
-         unit::none,
-         {{"arm bins", arms_.counts().size()}},
-         count},
-        {"angle",
-         "Number of collisions by angle between the orientations",
-         unit::none,
-         {{"angle bins", angle_.counts().size()}},
-         count},
+         unit::none, shape({{"arm bins", one.arms.counts().size()}}), count},
+        {"angle", "Number of collisions by angle between the orientations", unit::none,
+         shape({{"angle bins", one.angle.counts().size()}}), count},
         {"normal_velocity",
          "Number of collisions by normal relative velocity of the contact points, in units of "
          "the thermal one of such points",
-         unit::none,
-         {{"normal velocity bins", normal_velocity_.counts().size()}},
-         count},
-        borders("arms", arms_, "arm bins", unit::none),
-        borders("angle", angle_, "angle bins", unit::angle),
-        borders("normal_velocity", normal_velocity_, "normal velocity bins", unit::none),
+         unit::none, shape({{"normal velocity bins", one.normal_velocity.counts().size()}}), count},
+        borders("arms", one.arms, "arm bins", unit::none),
+        borders("angle", one.angle, "angle bins", unit::angle),
+        borders("normal_velocity", one.normal_velocity, "normal velocity bins", unit::none),
     };
   }
 
@@ -90,48 +101,53 @@ class CollisionStatistics : public Observable {
   bool reads_collisions() const override { return true; }
 
   void collision(const Collision& c) override {
-    ++collisions_;
-    follow_chains(c.first, c.second);
-    arms_.add(c.arm_first / gas_.length);
-    arms_.add(c.arm_second / gas_.length);
-    angle_.add(std::atan2(c.sin_angle, dot(c.after[0].orientation, c.after[1].orientation)));
-    const double squares = c.arm_first * c.arm_first + c.arm_second * c.arm_second;
-    const double sigma = std::sqrt(2 * t_tr_ / gas_.mass + t_rot_ * squares / gas_.inertia);
-    normal_velocity_.add(std::abs(c.normal_velocity) / sigma);
+    const std::size_t a = gas_.species_by_id(c.first), b = gas_.species_by_id(c.second);
+    const Species &first = gas_.composition[a], &second = gas_.composition[b];
+    Counts& counts = counts_[gas_.composition.pair_index(a, b)];
+    ++counts.collisions;
+    follow_chains(c.first, c.second, counts);
+    counts.arms.add(c.arm_first / first.length);
+    counts.arms.add(c.arm_second / second.length);
+    counts.angle.add(std::atan2(c.sin_angle, dot(c.after[0].orientation, c.after[1].orientation)));
+    const double squares = last_[a].t_tr / first.mass + last_[b].t_tr / second.mass +
+                           last_[a].t_rot * c.arm_first * c.arm_first / first.inertia() +
+                           last_[b].t_rot * c.arm_second * c.arm_second / second.inertia();
+    counts.normal_velocity.add(std::abs(c.normal_velocity) / std::sqrt(squares));
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    row.put(collisions_);
-    row.put(repeats_);
-    row.put_all(chains_);
-    row.put_all(arms_.counts());
-    row.put_all(angle_.counts());
-    row.put_all(normal_velocity_.counts());
-    collisions_ = repeats_ = 0;
-    chains_.assign(longest_chain, 0.0);
-    arms_.clear();
-    angle_.clear();
-    normal_velocity_.clear();
-    t_tr_ = now.totals.t_tr;
-    t_rot_ = now.totals.t_rot;
+    for (const Counts& each : counts_) row.put(each.collisions);
+    for (const Counts& each : counts_) row.put(each.repeats);
+    for (const Counts& each : counts_) row.put_all(each.chains);
+    for (const Counts& each : counts_) row.put_all(each.arms.counts());
+    for (const Counts& each : counts_) row.put_all(each.angle.counts());
+    for (const Counts& each : counts_) row.put_all(each.normal_velocity.counts());
+    counts_.assign(counts_.size(), {});
+    for (std::size_t n = 0; n < last_.size(); ++n) {
+      last_[n] = {now.species.totals[n].t_tr, now.species.totals[n].t_rot};
+    }
   }
 
   void transfer(Archive& archive) override {
-    arms_.transfer(archive);
-    angle_.transfer(archive);
-    normal_velocity_.transfer(archive);
+    for (Counts& each : counts_) each.transfer(archive);
+    for (Temperatures& each : last_) archive(each.t_tr, each.t_rot);
     std::map<std::uint32_t, Chain> open(open_.begin(), open_.end());
-    archive(collisions_, repeats_, t_tr_, t_rot_, chains_, open);
+    archive(open);
     open_ = {open.begin(), open.end()};
-    archive.require(chains_.size() == longest_chain && open_.size() <= gas_.count);
+    archive.require(open_.size() <= gas_.count);
   }
 
  private:
-  void follow_chains(std::uint32_t first, std::uint32_t second) {
+  /// Of a species, at the sample before.
+  struct Temperatures {
+    double t_tr = 0, t_rot = 0;
+  };
+
+  void follow_chains(std::uint32_t first, std::uint32_t second, Counts& counts) {
     const Chain& chain = open_[first];
     const std::size_t before = chain.length > 0 && chain.partner == second ? chain.length : 0;
     if (before > 0) {
-      ++repeats_;
+      ++counts.repeats;
     } else {
       finish_chain_of(first);
       finish_chain_of(second);
@@ -143,16 +159,16 @@ class CollisionStatistics : public Observable {
   void finish_chain_of(std::uint32_t needle) {
     Chain& chain = open_[needle];
     if (chain.length == 0) return;
-    ++chains_[std::min(chain.length, longest_chain) - 1];
+    const std::size_t pair =
+        gas_.composition.pair_index(gas_.species_by_id(needle), gas_.species_by_id(chain.partner));
+    ++counts_[pair].chains[std::min(chain.length, longest_chain) - 1];
     open_[chain.partner].length = 0;
     chain.length = 0;
   }
 
   GasSetting gas_;
-  double collisions_ = 0, repeats_ = 0;
-  double t_tr_ = 0, t_rot_ = 0;
-  std::vector<double> chains_ = std::vector<double>(longest_chain);
-  Histogram arms_{-0.5, 0.5, 50}, angle_{0, std::numbers::pi, 45}, normal_velocity_{0, 6, 60};
+  std::vector<Counts> counts_;      ///< by pair of species
+  std::vector<Temperatures> last_;  ///< by species
   std::unordered_map<std::uint32_t, Chain> open_;
 };
 

@@ -7,8 +7,8 @@
 //                    density is 2 sqrt(e / pi) exp(-e)
 //   energy_rot       I w^2 / 2 of each needle, in units of T_rot; for Gaussian ones exp(-e)
 //
-// T_tr and T_rot are those of the whole gas at this time. Values outside the borders are left out,
-// and so are all values where the unit is 0.
+// T_tr and T_rot are those of the whole gas, or species, at this time. Values outside the borders
+// are left out, and so are all values where the unit is 0.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ class Distributions : public Observable {
   explicit Distributions(const GasSetting& gas)
       : gas_(gas),
         occupations_(static_cast<std::size_t>(
-            std::ceil(10 * std::max(2.0, static_cast<double>(gas.count) /
+            std::ceil(10 * std::max(2.0, static_cast<double>(gas.all) /
                                              static_cast<double>(gas.grid().size()))) +
             1)) {}
 

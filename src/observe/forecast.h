@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "needlework/scene.h"
 #include "needlework/stop.h"
@@ -20,6 +21,11 @@ struct Forecast {
 
 /// Ratio tau / t = (2/3) sqrt(pi) n between the theory's time and the engine's.
 double theory_time_scale(double density);
+
+/// The same of a mixture of at most theory::most_species_of_theory species in a volume.
+std::optional<Forecast> forecast(const Composition& composition, double volume,
+                                 const std::vector<theory::Temperatures>& initial,
+                                 const Scene::Until& until);
 
 /// The forecast from these temperatures; empty if no condition but wall_s is ever met.
 std::optional<Forecast> forecast(const theory::Gas& gas, theory::Temperatures initial,

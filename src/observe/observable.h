@@ -1,13 +1,17 @@
 // What an observable is: values at the times of the series, which a scene calls for by name.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "needlework/collision.h"
+#include "needlework/composition.h"
 #include "needlework/scene.h"
 #include "needlework/series.h"
 #include "needlework/state.h"
@@ -32,32 +36,70 @@ inline constexpr const char* energy = "energy";
 inline constexpr const char* angle = "radians";
 }  // namespace unit
 
-/// What is known of a gas before it is sampled.
+/// Which species each needle is of, by its id.
+class SpeciesById {
+ public:
+  SpeciesById() = default;
+  /// Of needles in order of id; no species: all are of the first.
+  SpeciesById(std::vector<std::uint32_t> ids, std::vector<SpeciesIndex> species)
+      : ids_(std::move(ids)), species_(std::move(species)) {}
+
+  /// 0 for an id that is none.
+  std::size_t operator()(std::uint32_t id) const {
+    if (species_.empty()) return 0;
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+    const bool is_there = found != ids_.end() && *found == id;
+    return is_there ? species_[static_cast<std::size_t>(found - ids_.begin())] : 0;
+  }
+
+ private:
+  std::vector<std::uint32_t> ids_;
+  std::vector<SpeciesIndex> species_;
+};
+
+/// What is known of a gas before it is sampled. An observable of single needles is made for each
+/// species, with a setting that tells of its needles alone.
 struct GasSetting {
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< of the needles that the observable is given
+  std::size_t all = 0;    ///< of all species
   Vector box{};
-  double length = 1, mass = 1;
-  double inertia = 1;  ///< I = m L^2 / (2 k)
+  double length = 1, mass = 1;  ///< of several species the longest length, and no mass
+  double inertia = 1;           ///< I = m L^2 / (2 k)
   std::array<int, 3> cells{1, 1, 1};
+  Composition composition;
+  SpeciesById species_by_id;
 
   double volume() const { return box[0] * box[1] * box[2]; }
   Grid grid() const { return {box, cells}; }
+  GasSetting of_species(std::size_t index) const;
 };
 
 /// Of a scene that is complete. Cells are those of output.grid, or the default.
 GasSetting setting_of(const Scene& scene);
+
+/// Shape of a field with such values for each two species; the values' own if there is one species.
+std::vector<SeriesField::Extent> by_pair(const Composition& composition,
+                                         std::vector<SeriesField::Extent> shape);
+
+/// Sums by species at one instant, and collisions of each two by Composition::pair_index.
+struct SpeciesSums {
+  std::vector<SpeciesTotals> totals;
+  std::vector<std::uint64_t> collisions;
+};
 
 /// The gas at one instant. Holds references.
 class Snapshot {
  public:
   /// The state in order of id, with positions in the box; may be without needles if no observable
   /// reads it.
-  Snapshot(const GasSetting& gas, const State& state, const Totals& totals)
-      : gas(gas), state(state), totals(totals) {}
+  Snapshot(const GasSetting& gas, const State& state, const Totals& totals,
+           const SpeciesSums& species)
+      : gas(gas), state(state), totals(totals), species(species) {}
 
   const GasSetting& gas;
   const State& state;
   const Totals& totals;
+  const SpeciesSums& species;
 
   /// The means in the cells of the grid, computed once for all observables.
   const CellMeans& cells() const {

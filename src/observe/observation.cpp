@@ -1,33 +1,54 @@
 #include "src/observe/observation.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
-
-#include "needlework/error.h"
-#include "src/observe/registry.h"
 
 namespace needlework::observe {
 
 GasSetting setting_of(const Scene& scene) {
-  const Composition composition = scene.composition();
-  const Species& species = composition[0];
   GasSetting gas;
-  gas.count = scene.needles.count;
+  gas.count = gas.all = scene.needles.count;
   gas.box = scene.needles.box;
-  gas.length = species.length;
-  gas.mass = species.mass;
-  gas.inertia = species.mass * species.length * species.length / (2 * species.k);
   gas.cells = scene.output.grid.value_or(default_cells(gas.box, gas.count));
+  gas.composition = scene.composition();
+  if (!gas.composition.is_mixture()) {
+    gas.composition.set_count(0, gas.count);
+    return gas.of_species(0);
+  }
+  gas.length = gas.composition.longest();
+  gas.mass = gas.inertia = std::numeric_limits<double>::quiet_NaN();
   return gas;
 }
 
-Observation::Observation(const Scene& scene, ObservablePointer cooling) : gas_(setting_of(scene)) {
+GasSetting GasSetting::of_species(std::size_t index) const {
+  GasSetting out = *this;
+  const Species& species = composition[index];
+  out.count = species.count;
+  out.length = species.length;
+  out.mass = species.mass;
+  out.inertia = species.mass * species.length * species.length / (2 * species.k);
+  out.composition = Composition({species}, composition.restitution(index, index));
+  out.species_by_id = {};
+  return out;
+}
+
+std::vector<SeriesField::Extent> by_pair(const Composition& composition,
+                                         std::vector<SeriesField::Extent> shape) {
+  if (composition.is_mixture()) {
+    shape.insert(shape.begin(), {"pairs of species", composition.pairs()});
+  }
+  return shape;
+}
+
+Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesById species)
+    : gas_(setting_of(scene)), parts_(gas_) {
+  gas_.species_by_id = std::move(species);
   const auto& names = scene.output.observables;
-  if (scene.species.size() > 1 && !names.empty()) {
-    throw InputError(
-        "output.observables: expected none for several species: observables are of one "
-        "species, for now");
+  if (gas_.composition.is_mixture()) {
+    members_.push_back(
+        {"species", "Sums by species and by pairs of them", make_species_sums(gas_.composition)});
   }
   if (cooling) {
     members_.push_back({"theory",
@@ -37,7 +58,7 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling) : gas_(s
   }
   for (const Entry& entry : registry()) {
     if (std::ranges::find(names, entry.name) == names.end()) continue;
-    members_.push_back({std::string(entry.name), std::string(entry.meaning), entry.make(gas_)});
+    members_.push_back({std::string(entry.name), std::string(entry.meaning), make(entry)});
   }
   for (const Member& member : members_) {
     if (member.observable->reads_collisions()) readers_.push_back(member.observable.get());
@@ -45,6 +66,11 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling) : gas_(s
       if (field.kind != SeriesField::Kind::constant) width_ += field.width();
     }
   }
+}
+
+ObservablePointer Observation::make(const Entry& entry) const {
+  if (entry.knows_species || !gas_.composition.is_mixture()) return entry.make(gas_);
+  return std::make_unique<BySpecies>(gas_, entry.make, parts_);
 }
 
 std::vector<SeriesGroup> Observation::groups() const {
@@ -62,9 +88,13 @@ bool Observation::reads_state() const {
 
 bool Observation::reads_collisions() const { return !readers_.empty(); }
 
-std::span<const double> Observation::sample(const State& state, const Totals& totals) {
+std::span<const double> Observation::sample(const State& state, const Totals& totals,
+                                            const SpeciesSums& species) {
   row_.clear();
-  const Snapshot now(gas_, state, totals);
+  const bool is_mixture = gas_.composition.is_mixture();
+  const SpeciesSums of_all{{{gas_.count, totals.t_tr, totals.t_rot}}, {totals.collisions}};
+  const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
+  if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);
   if (row_.values().size() != width_) {
     throw std::logic_error("an observable's row does not have the size of its fields");

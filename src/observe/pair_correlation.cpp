@@ -5,8 +5,11 @@
 //   p2  mean of P2(u_i . u_j) = (3 (u_i . u_j)^2 - 1) / 2 over these pairs; 0 for independent
 //       directors, 1 for parallel ones, NaN where there are no pairs
 //
-// r goes up to 3 needle lengths, or to half the shortest edge of the box if that is less. Pairs
-// come from a list of cells at least that wide, in an order that follows from the state alone.
+// With several species, of the pairs of each two of them: N_a N_b pairs of needles of a and b.
+//
+// r goes up to 3 lengths of the longest needles, or to half the shortest edge of the box if that is
+// less. Pairs come from a list of cells at least that wide, in an order that follows from the state
+// alone.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,6 +28,7 @@ double largest_distance(const GasSetting& gas) {
 
 struct Needle {
   Vector position, director;
+  std::size_t species;
 };
 using Cell = std::vector<Needle>;
 
@@ -36,14 +40,10 @@ class PairCorrelation : public Observable {
     std::vector<double> borders;
     for (std::size_t n = 0; n <= bins; ++n) borders.push_back(reach_ * double(n) / bins);
     return {
-        {"g",
-         "Number of pairs by distance, divided by that of independent positions",
-         unit::none,
-         {{"distance bins", bins}}},
-        {"p2",
-         "Mean of (3 cos^2 - 1) / 2 of the angle between the needles of these pairs",
-         unit::none,
-         {{"distance bins", bins}}},
+        {"g", "Number of pairs by distance, divided by that of independent positions", unit::none,
+         by_pair(gas_.composition, {{"distance bins", bins}})},
+        {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between the needles of these pairs",
+         unit::none, by_pair(gas_.composition, {{"distance bins", bins}})},
         {"borders",
          "Borders of the bins of distance",
          unit::length,
@@ -54,21 +54,30 @@ class PairCorrelation : public Observable {
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    pairs_.assign(bins, 0.0);
-    p2_.assign(bins, 0.0);
+    const Composition& composition = gas_.composition;
+    pairs_.assign(composition.pairs() * bins, 0.0);
+    p2_.assign(composition.pairs() * bins, 0.0);
     visit_near_pairs(now.state);
-    const double count = static_cast<double>(now.state.size());
-    const double all_pairs = count * (count - 1) / 2;
+    for (std::size_t a = 0; a < composition.size(); ++a) {
+      for (std::size_t b = a; b < composition.size(); ++b) {
+        const double first = static_cast<double>(composition[a].count);
+        const double second = static_cast<double>(composition[b].count);
+        put_g(composition.pair_index(a, b), a == b ? first * (first - 1) / 2 : first * second, row);
+      }
+    }
+    for (std::size_t n = 0; n < pairs_.size(); ++n) row.put(p2_[n] / pairs_[n]);
+  }
+
+ private:
+  void put_g(std::size_t pair, double all_pairs, Row& row) const {
     for (std::size_t n = 0; n < bins; ++n) {
       const double low = double(n) / bins, high = double(n + 1) / bins;
       const double shell = 4 * std::numbers::pi / 3 * reach_ * reach_ * reach_ *
                            (high * high * high - low * low * low);
-      row.put(pairs_[n] / (all_pairs * (shell / gas_.volume())));
+      row.put(pairs_[pair * bins + n] / (all_pairs * (shell / gas_.volume())));
     }
-    for (std::size_t n = 0; n < bins; ++n) row.put(p2_[n] / pairs_[n]);
   }
 
- private:
   void add(const Needle& one, const Needle& other) {
     double square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -80,8 +89,9 @@ class PairCorrelation : public Observable {
     if (!(square < reach_ * reach_)) return;
     const auto bin = static_cast<std::size_t>(std::sqrt(square) / reach_ * bins);
     if (bin >= bins) return;
-    ++pairs_[bin];
-    p2_[bin] += second_legendre(dot(one.director, other.director));
+    const std::size_t place = gas_.composition.pair_index(one.species, other.species) * bins + bin;
+    ++pairs_[place];
+    p2_[place] += second_legendre(dot(one.director, other.director));
   }
 
   void add_pairs_within(const Cell& cell) {
@@ -99,7 +109,9 @@ class PairCorrelation : public Observable {
     const Grid grid(gas_.box, extent);
     std::vector<Cell> cells(grid.size());
     for (std::size_t i = 0; i < state.size(); ++i) {
-      cells[grid.cell_of(state.position[i])].push_back({state.position[i], state.orientation[i]});
+      const std::size_t species = gas_.composition.is_mixture() ? state.species[i] : 0;
+      cells[grid.cell_of(state.position[i])].push_back(
+          {state.position[i], state.orientation[i], species});
     }
     for (const Cell& cell : cells) add_pairs_within(cell);
     if (cells.size() == 1) return;
@@ -129,7 +141,7 @@ class PairCorrelation : public Observable {
 
   GasSetting gas_;
   double reach_;
-  std::vector<double> pairs_, p2_;
+  std::vector<double> pairs_, p2_;  ///< by pair of species, then bin
 };
 
 }  // namespace

@@ -21,13 +21,13 @@ constexpr Entry entries[] = {
     {"temperature_by_axis", "Temperatures of the motion along and about each axis",
      make_temperature_by_axis},
     {"pair_correlation", "Correlation of positions and orientations over the distance of a pair",
-     make_pair_correlation},
+     make_pair_correlation, true},
     {"structure_factor", "Density fluctuations by wave vector, along each axis",
-     make_structure_factor},
+     make_structure_factor, true},
     {"displacement",
      "Displacement and rotation since reference times, of which a bounded number is kept",
      make_displacement},
-    {"collision_statistics", "Collisions since the sample before", make_collision_statistics},
+    {"collision_statistics", "Collisions since the sample before", make_collision_statistics, true},
 };
 
 static_assert(std::ranges::equal(entries, observable_names, {}, &Entry::name),

@@ -12,6 +12,8 @@ struct Entry {
   std::string_view name;     ///< in output.observables, and of the group in /series
   std::string_view meaning;  ///< of that group: a sentence without its full stop
   ObservablePointer (*make)(const GasSetting& gas);
+  /// Whether it reads the species of needles, as pairs of them need; others are made for each.
+  bool knows_species = false;
 };
 
 /// In the order of observable_names.

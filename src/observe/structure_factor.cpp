@@ -1,7 +1,8 @@
 // The structure factor S(k) = |sum over needles of exp(i k . r)|^2 / N for the wave vectors
 // k = 2 pi n / edge, n = 1 to 16, along each axis of the box. For independent positions it is
 // exponentially distributed with mean 1. An n-fold density wave along an axis is a peak of the
-// order of N there.
+// order of N there. With several species, of each two of them S_ab(k) = Re(rho_a rho_b*) /
+// sqrt(N_a N_b), rho_a the sum over the needles of a; independent species have mean 0 for a and b.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -24,10 +25,8 @@ class StructureFactor : public Observable {
         wave_numbers.push_back(2 * std::numbers::pi * double(n) / edge);
       }
     return {
-        {"s",
-         "Structure factor at wave vectors along each axis",
-         unit::none,
-         {{"3", 3}, {"waves", waves}}},
+        {"s", "Structure factor at wave vectors along each axis", unit::none,
+         by_pair(gas_.composition, {{"3", 3}, {"waves", waves}})},
         {"k",
          "Wave numbers along each axis",
          unit::wave_number,
@@ -39,8 +38,12 @@ class StructureFactor : public Observable {
 
   void sample(const Snapshot& now, Row& row) override {
     using Complex = std::complex<double>;
-    std::array<std::array<Complex, waves>, 3> sums{};
-    for (const Vector& r : now.state.position) {
+    using Sums = std::array<std::array<Complex, waves>, 3>;
+    const Composition& composition = gas_.composition;
+    std::vector<Sums> by_species(composition.size());
+    for (std::size_t i = 0; i < now.state.size(); ++i) {
+      const Vector& r = now.state.position[i];
+      Sums& sums = by_species[composition.is_mixture() ? now.state.species[i] : 0];
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double phase = 2 * std::numbers::pi * (r[axis] / gas_.box[axis]);
         const Complex first(std::cos(phase), std::sin(phase));
@@ -53,9 +56,20 @@ class StructureFactor : public Observable {
         }
       }
     }
-    const double count = static_cast<double>(now.state.size());
-    for (const auto& axis : sums)
-      for (const Complex& sum : axis) row.put(std::norm(sum) / count);
+    for (std::size_t a = 0; a < composition.size(); ++a) {
+      for (std::size_t b = a; b < composition.size(); ++b) {
+        const double first = static_cast<double>(composition[a].count);
+        const double count =
+            a == b ? first : std::sqrt(first * static_cast<double>(composition[b].count));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          for (std::size_t n = 0; n < waves; ++n) {
+            const Complex& one = by_species[a][axis][n];
+            const Complex& other = by_species[b][axis][n];
+            row.put((one.real() * other.real() + one.imag() * other.imag()) / count);
+          }
+        }
+      }
+    }
   }
 
  private:

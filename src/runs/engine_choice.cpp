@@ -125,7 +125,7 @@ int threads_on_offer() { return std::getenv("OMP_NUM_THREADS") ? omp_get_max_thr
 std::vector<std::string> all_warnings(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   std::vector<std::string> all = warnings(scene);
-  if (const Scene::Collisions& c = scene.collisions; c.tc && !keep_energy(c)) {
+  if (const Scene::Collisions& c = scene.collisions; c.tc && scene.composition().is_inelastic()) {
     const double rate = initial_collision_rate(loaded);
     if (*c.tc * rate >= long_contact) {
       all.push_back(fmt::format("{}: is {:.3g} mean free times at the start: {}",

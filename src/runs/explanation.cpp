@@ -20,18 +20,37 @@ double collisions_of(const std::optional<Forecast>& expected, const Scene& scene
   return 0.5 * expected->collisions_per_needle * static_cast<double>(scene.needles.count);
 }
 
+// Of one species, or of a mixture that theory follows.
+std::optional<Forecast> expected_of(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  const Composition composition = scene.composition();
+  if (!composition.is_mixture()) {
+    const Restitution& rule = composition.restitution(0, 0);
+    return forecast({composition[0].k, rule.epsilon, rule.beta}, initial_temperatures(loaded),
+                    theory_density_of(scene), scene.until);
+  }
+  if (!has_mixture_theory(composition)) return std::nullopt;
+  return forecast(composition, volume_of(scene), temperatures_by_species(loaded), scene.until);
+}
+
+std::vector<double> rates_of(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  if (!has_mixture_theory(composition)) return {};
+  return theory::mixture_rates(composition, volume_of(loaded.scene),
+                               temperatures_by_species(loaded))
+      .collisions;
+}
+
 }  // namespace
 
 Explanation::Explanation(const LoadedScene& loaded)
     : scene(loaded.scene),
       density(density_of(scene)),
       initial(initial_temperatures(loaded)),
+      by_species(temperatures_by_species(loaded)),
       mean_free_time(1 / initial_collision_rate(loaded)),
-      // The cooling of a mixture is not forecast.
-      expected(scene.species.size() > 1
-                   ? std::nullopt
-                   : forecast({scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},
-                              initial, theory_density_of(scene), scene.until)),
+      rates(rates_of(loaded)),
+      expected(expected_of(loaded)),
       collisions(collisions_of(expected, scene)),
       seconds(expected && std::isfinite(expected->time)
                   ? estimated_setup_seconds(scene, density) +

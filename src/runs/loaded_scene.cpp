@@ -102,6 +102,10 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
   return out;
 }
 
+bool has_mixture_theory(const Composition& composition) {
+  return composition.is_mixture() && composition.size() <= theory::most_species_of_theory;
+}
+
 double initial_collision_rate(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
@@ -109,9 +113,8 @@ double initial_collision_rate(const LoadedScene& loaded) {
     return theory::collision_rate(theory_density_of(scene), initial_temperatures(loaded),
                                   composition[0].k);
   }
-  const auto& box = scene.needles.box;
   const auto rates =
-      theory::mixture_rates(composition, box[0] * box[1] * box[2], temperatures_by_species(loaded));
+      theory::mixture_rates(composition, volume_of(scene), temperatures_by_species(loaded));
   const double all = std::accumulate(rates.collisions.begin(), rates.collisions.end(), 0.0);
   return 2 * all / static_cast<double>(composition.count());
 }
@@ -125,11 +128,14 @@ bool starts_in_equilibrium(const Scene& scene) {
          composition.count() >= 2;
 }
 
-double density_of(const Scene& scene) {
+double volume_of(const Scene& scene) {
   const auto& box = scene.needles.box;
+  return box[0] * box[1] * box[2];
+}
+
+double density_of(const Scene& scene) {
   const double length = scene.composition().longest();
-  return static_cast<double>(scene.needles.count) * (length * length * length) /
-         (box[0] * box[1] * box[2]);
+  return static_cast<double>(scene.needles.count) * (length * length * length) / volume_of(scene);
 }
 
 double theory_density_of(const Scene& scene) {

@@ -34,6 +34,9 @@ theory::Temperatures initial_temperatures(const LoadedScene& loaded);
 /// The same for each species. Those of one without needles are not numbers.
 std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loaded);
 
+/// Whether kinetic theory follows this mixture: it has not too many species.
+bool has_mixture_theory(const Composition& composition);
+
 /// Collisions that a needle takes part in per time at the start, on average over all needles, by
 /// kinetic theory. [1 / time]
 double initial_collision_rate(const LoadedScene& loaded);
@@ -41,6 +44,7 @@ double initial_collision_rate(const LoadedScene& loaded);
 /// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
 bool starts_in_equilibrium(const Scene& scene);
 
+double volume_of(const Scene& scene);  ///< of the box [L^3]
 /// Needles per volume of the box, in cubes of the needle length [1].
 double density_of(const Scene& scene);
 /// The density at which needles of length 1 and mass 1 collide as often at equal temperatures,

@@ -35,7 +35,7 @@ void require_events(const LoadedScene& loaded, const std::string& path) {
 void require_reachable_end(const Scene& scene) {
   const Scene::Until& until = scene.until;
   if (!until.time && until.energy_ratio && *until.energy_ratio < 1 &&
-      keep_energy(scene.collisions) && !until.collisions_per_needle && !until.wall_s) {
+      !scene.composition().is_inelastic() && !until.collisions_per_needle && !until.wall_s) {
     throw InputError(
         fmt::format("{}: is never met, as collisions keep the energy: expected another end, or "
                     "collisions.epsilon < 1",
@@ -58,11 +58,22 @@ LoadedScene with_events(LoadedScene loaded, const std::string& path) {
   return loaded;
 }
 
-// Where kinetic theory has something to say: of a drawn gas of one species that moves.
-observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial, bool drawn) {
-  if (!drawn || !(initial.energy > 0) || scene.species.size() > 1) return nullptr;
+// Where kinetic theory has something to say: of a drawn gas that moves. One that is continued goes
+// to its place by itself.
+observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial,
+                                          const Simulation& simulation, bool drawn) {
+  if (!drawn || !(initial.energy > 0)) return nullptr;
+  const Composition composition = scene.composition();
+  if (composition.is_mixture()) {
+    if (!has_mixture_theory(composition)) return nullptr;
+    std::vector<theory::Temperatures> now;
+    for (const SpeciesTotals& each : simulation.species_totals()) {
+      now.push_back({each.count > 0 ? each.t_tr : 0, each.count > 0 ? each.t_rot : 0});
+    }
+    return observe::make_mixture_theory(composition, volume_of(scene), now);
+  }
   return observe::make_cooling_theory(
-      {scene.needles.k, scene.collisions.epsilon, scene.collisions.beta},
+      {composition[0].k, composition.restitution(0, 0).epsilon, composition.restitution(0, 0).beta},
       {initial.t_tr, initial.t_rot}, theory_density_of(scene));
 }
 
@@ -86,7 +97,15 @@ void PreparedRun::open_output(Open&& open) {
 }
 
 void PreparedRun::observe() {
-  if (!observation_) observation_.emplace(scene_, cooling_theory(scene_, initial_, drawn_));
+  if (observation_) return;
+  observe::SpeciesById species;
+  const auto& names = scene_.output.observables;
+  if (simulation_.composition().is_mixture() && !names.empty()) {
+    State state = simulation_.copy();
+    species = {std::move(state.id), std::move(state.species)};
+  }
+  observation_.emplace(scene_, cooling_theory(scene_, initial_, simulation_, drawn_),
+                       std::move(species));
 }
 
 Output PreparedRun::output() {

@@ -273,7 +273,11 @@ void RunDriver::sample(bool series, bool frame) {
   if (series) {
     if (keeps_course_) course_.samples.push_back(totals);
     if (observation) {
-      const auto values = observation->sample(state, totals);
+      observe::SpeciesSums species;
+      if (simulation_.composition().is_mixture()) {
+        species = {simulation_.species_totals(), simulation_.collisions_by_pair()};
+      }
+      const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }
     last_sample_ = totals;

@@ -7,34 +7,67 @@
 #include <cmath>
 
 #include "needlework/error.h"
+#include "src/composition/pair_name.h"
+#include "src/scene/printable.h"
 
 namespace needlework {
 
-bool keep_energy(const Scene::Collisions& c) { return c.epsilon == 1 && std::abs(c.beta) == 1; }
-
 namespace {
 
-std::vector<std::string> collision_warnings(const Scene::Collisions& c) {
+// The rules by which needles of some pair of species collide, each once, with its key.
+struct Rule {
+  std::string epsilon;  ///< as messages name it
+  Restitution restitution;
+};
+
+std::vector<Rule> rules_of(const Scene& scene, const Composition& composition) {
+  const Restitution usual{scene.collisions.epsilon, scene.collisions.beta};
+  std::vector<Rule> out;
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const Restitution& rule = composition.restitution(a, b);
+      const bool is_known =
+          std::ranges::any_of(out, [&](const Rule& other) { return other.restitution == rule; });
+      if (is_known) continue;
+      out.push_back({rule == usual ? fmt::format("collisions.epsilon = {}", rule.epsilon)
+                                   : fmt::format("pairs.epsilon = {} of {}", rule.epsilon,
+                                                 printable(pair_name(composition, a, b), 200)),
+                     rule});
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> collision_warnings(const Scene& scene) {
   std::vector<std::string> list;
+  const Scene::Collisions& c = scene.collisions;
+  const Composition composition = scene.composition();
   const double tc = c.tc.value_or(c.tc_relative.value_or(0));
   const char* tc_key = c.tc ? "tc" : "tc_relative";
-  if (c.epsilon < 1 && tc == 0)
+  const std::vector<Rule> rules = rules_of(scene, composition);
+  const auto any = [&](auto&& holds) {
+    return std::ranges::any_of(rules, [&](const Rule& rule) { return holds(rule.restitution); });
+  };
+  const bool bounces = any([](const Restitution& rule) { return rule.epsilon < 1; });
+  for (const Rule& rule : rules) {
+    if (!(rule.restitution.epsilon < 1 && tc == 0)) continue;
     list.push_back(fmt::format(
-        "collisions.epsilon = {}: inelastic needles can collide infinitely often in a finite time, "
-        "which ends a run; set collisions.tc_relative, such as 1e-3, to prevent it",
-        c.epsilon));
-  if (c.epsilon == 0 && tc > 0)
+        "{}: inelastic needles can collide infinitely often in a finite time, which ends a run; "
+        "set collisions.tc_relative, such as 1e-3, to prevent it",
+        rule.epsilon));
+  }
+  if (any([](const Restitution& rule) { return rule.epsilon == 0; }) && tc > 0)
     list.push_back(fmt::format(
         "collisions.{} = {}: cannot prevent collapse at epsilon = 0, where needles do not rebound",
         tc_key, tc));
-  if (c.epsilon < 1 && c.tc_relative && tc > 0 && tc < 1e-7)
+  if (bounces && c.tc_relative && tc > 0 && tc < 1e-7)
     list.push_back(fmt::format(
         "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
         "collapse is not prevented",
         tc));
-  if (c.tc_relative && tc >= long_contact && !keep_energy(c))
+  if (c.tc_relative && tc >= long_contact && composition.is_inelastic())
     list.push_back(fmt::format("collisions.tc_relative = {}: {}", tc, effect_of_long_contact));
-  if (c.epsilon == 1 && c.beta == -1 && tc > 0)
+  if (!bounces && !composition.is_rough() && tc > 0)
     list.push_back(
         fmt::format("collisions.{} = {}: has no effect on elastic smooth needles", tc_key, tc));
   return list;
@@ -45,7 +78,7 @@ std::vector<std::string> until_warnings(const Scene& scene) {
   const auto ratio = scene.until.energy_ratio;
   if (ratio && *ratio >= 1)
     list.push_back(fmt::format("until.energy_ratio = {}: is met from the start", *ratio));
-  if (ratio && *ratio < 1 && keep_energy(scene.collisions))
+  if (ratio && *ratio < 1 && !scene.composition().is_inelastic())
     list.push_back(fmt::format(
         "until.energy_ratio = {}: is never met, as collisions keep the energy", *ratio));
   return list;
@@ -112,13 +145,21 @@ std::vector<std::string> warnings(const Scene& scene) {
   const auto add = [&](std::vector<std::string> more) {
     list.insert(list.end(), more.begin(), more.end());
   };
-  if (scene.needles.k < 2)
-    list.push_back(fmt::format(
-        "needles.k = {}: below 2, where all mass sits at the tips, mass lies beyond them",
-        scene.needles.k));
-  if (scene.initial.file.empty() && scene.initial.t_tr == 0 && scene.initial.t_rot == 0)
+  const Composition composition = scene.composition();
+  for (const Species& species : composition.species()) {
+    if (species.k >= 2) continue;
+    list.push_back(
+        fmt::format("{} = {}{}: below 2, where all mass sits at the tips, mass lies beyond them",
+                    composition.is_mixture() ? "species.k" : "needles.k", species.k,
+                    composition.is_mixture() ? " of " + printable(species.name) : ""));
+  }
+  const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
+    return species.t_tr == 0 && species.t_rot == 0;
+  });
+  if (scene.initial.file.empty() && at_rest) {
     list.push_back("initial.t_tr, initial.t_rot = 0: nothing moves");
-  add(collision_warnings(scene.collisions));
+  }
+  add(collision_warnings(scene));
   add(until_warnings(scene));
   add(output_warnings(scene));
   add(size_warnings(scene.engine));

@@ -24,9 +24,6 @@ inline constexpr const char* effect_of_long_contact =
 /// The warnings about accuracy: keys that have no effect together with the others.
 std::vector<std::string> accuracy_warnings(const Scene::Engine& engine);
 
-/// Whether no collision changes the energy.
-bool keep_energy(const Scene::Collisions& collisions);
-
 /// How messages name a key of the scene: the place where it was given, or "KEY = VALUE" if the
 /// place is unknown.
 std::string place_of(const Scene& scene, std::string_view key, std::string_view value);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "needlework/error.h"
+#include "src/composition/pair_name.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/derived_numbers.h"
 #include "src/scene/document.h"
@@ -242,6 +243,23 @@ void require_what_is_needed(const Scene& scene, const Document& document,
                            "wall_s");
 }
 
+// What is told of each two species names them "a-b", which must not stand for two pairs.
+void require_names_of_pairs(const Scene& scene, const Document& document,
+                            std::span<const Entry> entries) {
+  const Composition composition = scene.composition();
+  std::set<std::string> pairs;
+  for (const Entry& entry : entries) {
+    if (entry.section != "species") continue;
+    for (std::size_t other = 0; other <= entry.number; ++other) {
+      std::string name = pair_name(composition, other, entry.number);
+      if (pairs.insert(name).second) continue;
+      throw document.error(
+          entry, fmt::format("expected a name with which only one pair of species is called {}",
+                             printable(name, 200)));
+    }
+  }
+}
+
 // Species have different names, and pairs the names of species, each pair once.
 void require_names(const Scene& scene, const Document& document, std::span<const Entry> entries) {
   const auto is_name = [&](const std::string& name) {
@@ -259,6 +277,7 @@ void require_names(const Scene& scene, const Document& document, std::span<const
         throw document.error(entries[n], "expected a name that no other species has");
     }
   }
+  require_names_of_pairs(scene, document, entries);
   for (const Entry& entry : entries) {
     if (full_name(entry) != "pairs.between") continue;
     const Scene::Pair& pair = scene.pairs[entry.number];

@@ -26,6 +26,23 @@ box = 5
 time = 1
 """
 
+MIXTURE = """
+needles.box = 6
+collisions.epsilon = 0.9
+until.time = 1
+[[species]]
+name = "a"
+count = 30
+[[species]]
+name = "b"
+count = 20
+length = 2
+[[species]]
+name = "c"
+count = 10
+mass = 3
+"""
+
 
 class Row:
     def __init__(self, line):
@@ -184,10 +201,14 @@ def main(program, source):
             file.write(SWEEP)
         run(["./needlework", "sweep", "grid.toml", "--out", "sweep", "--threads", "1", "--quiet"],
             folder)
+        with open(os.path.join(folder, "mixture.toml"), "w", encoding="utf-8") as file:
+            file.write(MIXTURE)
+        run(["./needlework", "run", "mixture.toml", "--out", "mixture.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
+                ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
                 ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:

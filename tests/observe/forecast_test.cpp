@@ -120,5 +120,35 @@ TEST(Forecast, OfAGasAtRestIsItsEndTime) {
   EXPECT_EQ(result->collisions_per_needle, 0);
 }
 
+// One species, told as two, is forecast to end where that one does.
+TEST(Forecast, OfAMixtureIsThatOfItsSpecies) {
+  const std::uint64_t many = std::uint64_t{1} << 40;
+  const Composition composition({{.name = "a", .count = many}, {.name = "b", .count = 2 * many}},
+                                {0.8, -1});
+  const double density = 0.7, volume = 3 * static_cast<double>(many) / density;
+  const std::vector<theory::Temperatures> initial(2, {1, 0.5});
+  Scene::Until time, collisions, both;
+  time.time = 40;
+  collisions.collisions_per_needle = 400;
+  both = until_energy(1e-3);
+  both.time = 1e9;
+  Scene::Until never;
+  never.wall_s = 1;
+  for (const Scene::Until& until :
+       {time, collisions, until_energy(1e-11), until_energy(1e-60), both}) {
+    const auto found = forecast(composition, volume, initial, until);
+    const auto expected = forecast(cooling, {1, 0.5}, density, until);
+    ASSERT_TRUE(found && expected);
+    EXPECT_EQ(found->stop, expected->stop);
+    EXPECT_NEAR(found->time / expected->time, 1, 1e-3);
+    EXPECT_NEAR(found->collisions_per_needle / expected->collisions_per_needle, 1, 1e-4);
+    EXPECT_NEAR(std::log(found->energy_ratio) / std::log(expected->energy_ratio), 1, 1e-4);
+  }
+  EXPECT_FALSE(forecast(Composition(composition.species(), {1, -1}), volume, initial, never));
+  const std::vector<theory::Temperatures> rest(2, {0, 0});
+  EXPECT_FALSE(forecast(composition, volume, rest, until_energy(0.5)));
+  EXPECT_EQ(forecast(composition, volume, rest, time)->time, 40);
+}
+
 }  // namespace
 }  // namespace needlework

@@ -52,6 +52,28 @@ TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc = 0.1"), Keys{"collisions.tc"});
 }
 
+// What [[pairs]] change counts, and every species.
+TEST(Warning, LooksAtAllSpeciesAndPairs) {
+  const auto of = [](const std::string& begin, const std::string& end) {
+    std::vector<std::string> keys;
+    for (const std::string& w : warnings(parse_scene(
+             begin +
+                 "\nneedles.box = 4\n[[species]]\nname = 'a'\ncount = 5\n[[species]]\nname = "
+                 "'b'\ncount = 5\n" +
+                 end,
+             "s.toml"))) {
+      keys.push_back(w.substr(0, w.find(':')));
+    }
+    return keys;
+  };
+  const std::string pair = "[[pairs]]\nbetween = ['a', 'b']\nepsilon = 0.5\n";
+  EXPECT_EQ(of("until.energy_ratio = 0.5\ncollisions.tc_relative = 1e-3", pair), Keys{});
+  EXPECT_EQ(of("until.time = 1", pair), Keys{"pairs.epsilon = 0.5 of a-b"});
+  EXPECT_EQ(of("until.time = 1\ncollisions.epsilon = 0.8", pair),
+            (Keys{"collisions.epsilon = 0.8", "pairs.epsilon = 0.5 of a-b"}));
+  EXPECT_EQ(of("until.time = 1", "k = 1\nt_tr = 0\nt_rot = 0\n"), Keys{"species.k = 1 of b"});
+}
+
 TEST(Warning, IsGivenForEndsThatAreNeverOrAtOnceMet) {
   EXPECT_EQ(warned_of("until.energy_ratio = 0.5"), Keys{"until.energy_ratio"});
   EXPECT_EQ(warned_of("until.energy_ratio = 0.5\ncollisions.beta = 1"), Keys{"until.energy_ratio"});
