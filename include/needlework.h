@@ -128,6 +128,12 @@ NEEDLEWORK_API needlework_simulation* needlework_create_from(const char* scene,
 NEEDLEWORK_API needlework_simulation* needlework_create_with_images(
     const char* scene, const needlework_initial* initial, const int32_t* image, unsigned flags,
     needlework_error* error);
+/* The same for needles of several species: species[initial->count], by the rows of `initial`, has
+ * indices from 0 into the scene's [[species]], whose counts, where given, must agree. NULL: ids go
+ * through the species in the order of the scene, as many of each as it counts. [any] */
+NEEDLEWORK_API needlework_simulation* needlework_create_with_species(
+    const char* scene, const needlework_initial* initial, const int32_t* image,
+    const uint8_t* species, unsigned flags, needlework_error* error);
 
 /* Makes a simulation that continues the run of an output file from its last checkpoint, beside it:
  * the same collisions, to the last bit, as if the run had never ended, and the same file goes on.
@@ -273,6 +279,36 @@ NEEDLEWORK_API int needlework_set_velocities(needlework_simulation* simulation,
 /* Adds a sample of the present state to the output file, and a frame if `frame` is not 0, unless
  * the file has just got them. NEEDLEWORK_USAGE without an open output file. [handle] */
 NEEDLEWORK_API int needlework_sample(needlework_simulation* simulation, int frame);
+
+/* ---- Species --------------------------------------------------------------------------------- */
+
+/* One species of needles, by index from 0 in the order of the scene. A gas of a scene without
+ * [[species]] has one. */
+typedef struct needlework_species {
+  uint64_t count;
+  double length, mass, k;
+  double t_tr, t_rot; /* at the present time: (2/3) <m v^2 / 2> and <I w^2 / 2> of its needles */
+} needlework_species;
+
+/* How needles of two species collide, and how often they have since the start. */
+typedef struct needlework_species_pair {
+  double epsilon, beta;
+  uint64_t collisions;
+} needlework_species_pair;
+
+/* The name of a species, "" in a scene without [[species]]; NULL behind the last. Valid as long as
+ * the simulation. [handle] */
+NEEDLEWORK_API const char* needlework_species_name(needlework_simulation* simulation, size_t index);
+/* Properties and temperatures of a species. [handle] */
+NEEDLEWORK_API int needlework_get_species(needlework_simulation* simulation, size_t index,
+                                          needlework_species* species);
+/* Two species, in any order, or one of them twice. [handle] */
+NEEDLEWORK_API int needlework_get_species_pair(needlework_simulation* simulation, size_t first,
+                                               size_t second, needlework_species_pair* pair);
+/* Copies the species of each needle, by increasing id, to an array of needlework_count() indices.
+ * [handle] */
+NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simulation,
+                                                     uint8_t* species);
 
 /* ---- Data of your own ------------------------------------------------------------------------ */
 

@@ -50,6 +50,16 @@ module needlework
     real(c_double) :: mean_free_time, epoch_length
   end type
 
+  type, bind(c) :: needlework_species
+    integer(c_int64_t) :: count
+    real(c_double) :: length, mass, k, t_tr, t_rot
+  end type
+
+  type, bind(c) :: needlework_species_pair
+    real(c_double) :: epsilon, beta
+    integer(c_int64_t) :: collisions
+  end type
+
   ! `horizon` is c_loc() of an array, so is `skip` where it is given (of integer(c_int8_t)), and
   ! `accuracy` that of a text which ends with c_null_char.
   type, bind(c) :: needlework_pairs
@@ -126,6 +136,18 @@ module needlework
       character(kind=c_char), intent(in) :: scene(*)
       type(needlework_initial), intent(in) :: initial
       integer(c_int32_t), intent(in) :: image(3, *)
+      integer(c_int), value :: flags
+      type(needlework_error), intent(out), optional :: error
+    end function
+
+    ! `species` has one number for each needle, from 0. Without images they count from 0.
+    type(c_ptr) function needlework_create_with_species(scene, initial, image, species, flags, &
+        error) bind(c)
+      import :: c_ptr, c_char, c_int, c_int8_t, c_int32_t, needlework_error, needlework_initial
+      character(kind=c_char), intent(in) :: scene(*)
+      type(needlework_initial), intent(in) :: initial
+      integer(c_int32_t), intent(in), optional :: image(3, *)
+      integer(c_int8_t), intent(in), optional :: species(*)
       integer(c_int), value :: flags
       type(needlework_error), intent(out), optional :: error
     end function
@@ -222,6 +244,34 @@ module needlework
       import :: c_ptr, c_int
       type(c_ptr), value :: simulation
       integer(c_int), value :: frame
+    end function
+
+    ! `index` counts from 0; a null pointer behind the last. See needlework_text().
+    type(c_ptr) function needlework_species_name(simulation, index) bind(c)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: index
+    end function
+
+    ! Indices of species count from 0.
+    integer(c_int) function needlework_get_species(simulation, index, species) bind(c)
+      import :: c_ptr, c_int, c_size_t, needlework_species
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: index
+      type(needlework_species), intent(inout) :: species
+    end function
+
+    integer(c_int) function needlework_get_species_pair(simulation, first, second, pair) bind(c)
+      import :: c_ptr, c_int, c_size_t, needlework_species_pair
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: first, second
+      type(needlework_species_pair), intent(inout) :: pair
+    end function
+
+    integer(c_int) function needlework_get_species_of_needles(simulation, species) bind(c)
+      import :: c_ptr, c_int, c_int8_t
+      type(c_ptr), value :: simulation
+      integer(c_int8_t), intent(inout) :: species(*)
     end function
 
     ! `name` ends with c_null_char. `data` is c_loc() of `size` bytes, or c_null_ptr.

@@ -20,11 +20,12 @@ from .errors import Error, InputError, InvalidStateError, IoError
 from .frames import Frame, Frames
 from .gsd_file import to_gsd
 from .reading import Events, Recording, Series, VelocitiesSet, read
-from .simulation import Counters, SceneWarning, Simulation, Totals
+from .simulation import Counters, SceneWarning, Simulation, SpeciesTotals, Totals
 from .state import State
 from .values import Table, Values
 
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "Error", "Events",
            "FirstContacts", "Frame", "Frames", "InputError", "InvalidStateError", "IoError",
-           "Recording", "SceneWarning", "Series", "Simulation", "State", "Table", "Totals",
-           "Values", "VelocitiesSet", "plot", "predict", "read", "theory", "to_gsd", "__version__"]
+           "Recording", "SceneWarning", "Series", "Simulation", "SpeciesTotals", "State", "Table",
+           "Totals", "Values", "VelocitiesSet", "plot", "predict", "read", "theory", "to_gsd",
+           "__version__"]

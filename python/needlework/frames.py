@@ -89,8 +89,8 @@ class Frame(NotPickled):
 
     @property
     def state(self) -> State:
-        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
-        id by name, from which ``Simulation(scene, **state)`` starts."""
+        """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
+        species by name, from which ``Simulation(scene, **state)`` starts."""
         return State.of(getattr(self, name) for name in ARRAYS)
 
     def __repr__(self) -> str:

@@ -34,9 +34,9 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     Returns the number of frames written. GSD holds numbers in single precision. Centres are shifted
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
-    that OVITO draws needles. The species of a mixture are its types; of a mixture the source must be
-    a file. GSD has no angular velocity: it is in
-    ``log["particles/angular_velocity"]``, in double precision, and the time is in ``log["time"]``.
+    that OVITO draws needles. The species of a mixture are its types. GSD has no angular velocity: it
+    is in ``log["particles/angular_velocity"]``, in double precision, and the time is in
+    ``log["time"]``.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
     import gsd.hoomd
@@ -48,7 +48,7 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
         with read(source) as run:
             return to_gsd(run, path, frames, force)
     chosen, gas = _frames_of(source, frames), source.gas
-    names = _names_of(source, np.size(gas.length))
+    names = list(gas.get("species", ["needle"]))
     unfinished = path + ".part"  # the file appears under its name when it is complete
     try:
         with _core.StandardDescriptors():
@@ -72,17 +72,6 @@ def _frames_of(source: Any, frames: Any) -> list[Any]:
         return [source]
     chosen = source.frames[slice(None) if frames is None else frames]
     return chosen if isinstance(chosen, list) else [chosen]
-
-
-def _names_of(source: Any, count: int) -> list[str]:
-    """The names of the types: those of the species, if there are several."""
-    if count == 1:
-        return ["needle"]
-    import tomllib
-
-    species = tomllib.loads(source.parameters.scene).get("species", [])
-    names = [str(each.get("name")) for each in species]
-    return names if len(set(names)) == count else [f"needle {i + 1}" for i in range(count)]
 
 
 def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:

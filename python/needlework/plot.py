@@ -31,10 +31,10 @@ _THEORY = {"color": "#1d3557", "linewidth": 1.6, "label": "kinetic theory"}
 def cooling(source: Source, gas: Values | None = None,
             axes: Axes | None = None) -> Axes:
     """The energy over its first value against time, beside kinetic theory."""
-    series, gas = _series_and_gas(source, gas)
+    series, gas, by_species = _series_and_gas(source, gas)
     axes = axes or _new_axes()
     later, start = series.time > 0, series.energy[0]
-    times, curve = _theory(series, gas)
+    times, curve = _theory(series, gas, by_species)
     axes.loglog(times, curve.energy / start, **_THEORY)
     axes.loglog(series.time[later], series.energy[later] / start, **_MEASURED,
                 label=f"{gas.count} needles")
@@ -44,10 +44,10 @@ def cooling(source: Source, gas: Values | None = None,
 def temperature_ratio(source: Source, gas: Values | None = None,
                       axes: Axes | None = None) -> Axes:
     """The ratio of translational and rotational temperature against time, beside theory."""
-    series, gas = _series_and_gas(source, gas)
+    series, gas, by_species = _series_and_gas(source, gas)
     axes = axes or _new_axes()
     later = (series.time > 0) & (series.t_rot > 0)
-    times, curve = _theory(series, gas)
+    times, curve = _theory(series, gas, by_species)
     axes.loglog(times, curve.t_tr / curve.t_rot, **_THEORY)
     axes.loglog(series.time[later], series.t_tr[later] / series.t_rot[later], **_MEASURED,
                 label=f"{gas.count} needles")
@@ -77,22 +77,32 @@ def needles(state: Any, axes: Axes | None = None, *, length: float = 1.0,
     return axes
 
 
-def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values]:
+def _series_and_gas(source: Source, gas: Values | None) -> tuple[Series, Values, Values | None]:
+    """With the series by species of a mixture, whose theory starts from each of them."""
     if isinstance(source, Series):
+        if gas is not None and "species" in gas:
+            raise InputError("source: a Series of a mixture: expected the file of its run, which "
+                             "has the temperatures of each species")
         if gas is None:
             raise InputError("gas is missing: expected that of the simulation, as in "
                              "plot.cooling(series, gas=sim.gas)")
-        return source, gas
+        return source, gas, None
     if not isinstance(source, Recording):
         with Recording(source) as recording:
-            return recording.series, recording.gas
-    return source.series, source.gas
+            return _series_and_gas(recording, gas)
+    return (source.series, source.gas,
+            source.observable("species") if "species" in source.gas else None)
 
 
-def _theory(series: Series, gas: Values) -> tuple[np.ndarray, theory.CoolingCurve]:
+def _theory(series: Series, gas: Values, by_species: Values | None) -> tuple[np.ndarray, Values]:
     """At the times of the series but 0, as long as the gas was left to itself."""
     last = gas.get("undisturbed_until", np.inf)
     times = series.time[(series.time > 0) & (series.time <= last)]
+    if by_species is not None:
+        curve = theory.mixture_cooling(gas, by_species.t_tr[0], by_species.t_rot[0], times)
+        share = gas.counts / gas.count
+        return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ share,
+                              "t_rot": curve.t_rot @ share})
     # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
     # density n L^2 / sqrt(m).
     density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)

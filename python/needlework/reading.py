@@ -213,22 +213,22 @@ class Recording(NotPickled):
 
     @cached_property
     def gas(self) -> Values:
-        """What theory has to know: count, box, k, epsilon, beta, length and mass, and
-        undisturbed_until, when a caller first replaced the velocities, or inf."""
-        given = self.parameters
-        first = self.frames[0]
-        masses = self._needles["mass"][:] if "mass" in self._needles else np.empty(0)
-        if not len(masses):
-            mass = 1.0
-        elif np.size(given.get("length", 1.0)) == 1:
-            mass = float(masses[0])
-        else:
-            ones = [np.flatnonzero(first.species == index)[:1] for index in range(len(given.length))]
-            mass = np.array([masses[one].sum() for one in ones])  # 0 of a species without needles
-        return Values({"count": len(first.id), "box": first.box, "k": given.k,
-                       "epsilon": given.epsilon, "beta": given.beta,
+        """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
+        species the arrays species (their names), counts, k, length and mass, [species], and
+        epsilon and beta of each two, [species, species]; and undisturbed_until, when a caller
+        first replaced the velocities, or inf."""
+        given, first = self.parameters, self.frames[0]
+        facts = {"count": len(first.id), "box": first.box}
+        if "species" in given:
+            facts |= {"species": tuple(name.decode() for name in given.species),
+                      "counts": given.counts}
+        if "mass" in given:
+            facts["mass"] = given.mass
+        else:  # of an older version, or of another program
+            masses = self._needles["mass"][:1] if "mass" in self._needles else ()
+            facts["mass"] = float(masses[0]) if len(masses) else 1.0
+        return Values({**facts, "k": given.k, "epsilon": given.epsilon, "beta": given.beta,
                        "length": given.get("length", 1.0),
-                       "mass": given.get("mass", mass),
                        "undisturbed_until": min(self.velocities_set.time, default=np.inf)})
 
     def close(self) -> None:

@@ -48,6 +48,17 @@ class Totals(Values):
     """How many of them were elastic by the t_c rule."""
 
 
+class SpeciesTotals(Values):
+    """Sums over the needles of one species at one instant."""
+
+    count: int
+    """Number of needles."""
+    t_tr: float
+    """Translational temperature, two thirds of the mean energy of translation."""
+    t_rot: float
+    """Rotational temperature, the mean energy of rotation."""
+
+
 class Counters(Values):
     """Counters of the work done, such as events, candidates and predicted. No trajectory depends
     on them."""
@@ -68,6 +79,10 @@ class Simulation(NotPickled):
         to the directors counts [1 / time]. Positions and directors need each other; velocities are
         0 if they are not given. The scene then needs no needles.count, and temperatures in it are
         an error.
+    species : array [N] of whole numbers, optional
+        Which of the scene's species each needle is of, from 0 in their order. Counts of the
+        scene, where given, must agree. If it is not given, ids go through the species in their
+        order.
     image : array [N, 3] of whole numbers, optional
         Boxes crossed by these needles before, from which their images go on; 0 if not given.
     id : array [N] of whole numbers, optional
@@ -99,10 +114,11 @@ class Simulation(NotPickled):
     def __init__(self, scene: SceneLike, *, position: ArrayLike | None = None,
                  velocity: ArrayLike | None = None, orientation: ArrayLike | None = None,
                  angular_velocity: ArrayLike | None = None, image: ArrayLike | None = None,
-                 id: ArrayLike | None = None, force: bool = False) -> None:
+                 id: ArrayLike | None = None, species: ArrayLike | None = None,
+                 force: bool = False) -> None:
         text, name, has_lines = scene_text(scene)
         state = _state({"position": position, "velocity": velocity, "orientation": orientation,
-                        "angular_velocity": angular_velocity}, image, id)
+                        "angular_velocity": angular_velocity}, image, id, species)
         self._run = _core.Run(text, os.fsencode(name), has_lines, state, bool(force))
         for message in self._run.warnings():
             warnings.warn(message, SceneWarning, stacklevel=2)
@@ -282,8 +298,8 @@ class Simulation(NotPickled):
 
     @property
     def state(self) -> State:
-        """All needles: the six arrays position, velocity, orientation, angular_velocity, image and
-        id by name, from which ``Simulation(scene, **state)`` starts."""
+        """All needles: the arrays position, velocity, orientation, angular_velocity, image, id and
+        species by name, from which ``Simulation(scene, **state)`` starts."""
         if self._copy is None:
             self._copy = State.of(self._run.state())
         return self._copy
@@ -320,6 +336,11 @@ class Simulation(NotPickled):
         return self.state.id
 
     @property
+    def species(self) -> np.ndarray:
+        """Index of the species of each needle, from 0 in the order of the scene, [N]."""
+        return self.state.species
+
+    @property
     def time(self) -> float:
         """Since the start of the run [time]."""
         return self._run.time()
@@ -330,6 +351,18 @@ class Simulation(NotPickled):
         if self._totals is None:
             self._totals = Totals(self._run.totals())
         return self._totals
+
+    @property
+    def species_totals(self) -> dict[str, SpeciesTotals]:
+        """Count, t_tr and t_rot of each species by its name, in the order of the scene. The name
+        is "" in a scene without species."""
+        return {name: SpeciesTotals(totals) for name, totals in self._run.species_totals()}
+
+    @property
+    def collisions_by_pair(self) -> dict[str, int]:
+        """Number of collisions since the start between needles of each two species, by their names
+        in the order of the scene, such as "a-a", "a-b" and "b-b"."""
+        return self._run.collisions_by_pair()
 
     @property
     def counters(self) -> Counters:
@@ -359,9 +392,12 @@ class Simulation(NotPickled):
 
     @property
     def gas(self) -> Values:
-        """What theory has to know: count, box, k, epsilon, beta, length and mass, and
-        undisturbed_until, the time of the first set_velocities(), or inf."""
-        names = ("count", "box", "k", "epsilon", "beta", "length", "mass")
+        """What theory has to know: count, box, k, epsilon, beta, length and mass; of several
+        species the arrays species (their names), counts, k, length and mass, [species], and
+        epsilon and beta of each two, [species, species]; and undisturbed_until, the time of the
+        first set_velocities(), or inf."""
+        names = [name for name in ("count", "box", "species", "counts", "k", "epsilon", "beta",
+                                   "length", "mass") if name in self._facts]
         return Values({**{name: self._facts[name] for name in names},
                        "undisturbed_until": self._undisturbed_until})
 
@@ -437,11 +473,11 @@ def _callback_of(simulation: Simulation) -> Callback:
     return call
 
 
-def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
-           ids: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
-    """The six arrays of an initial state, or None if there are none."""
+def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None, ids: ArrayLike | None,
+           species: ArrayLike | None) -> tuple[np.ndarray | None, ...] | None:
+    """The arrays of an initial state, or None if there are none."""
     given = {name: values for name, values in arrays.items() if values is not None}
-    if not given and image is None and ids is None:
+    if not given and image is None and ids is None and species is None:
         return None
     for name in ("position", "orientation"):
         if name not in given:
@@ -454,7 +490,9 @@ def _state(arrays: dict[str, ArrayLike | None], image: ArrayLike | None,
             None if image is None else
             whole_numbers("image", image, (count, 3), -most, most).astype(np.int32),
             None if ids is None else
-            whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32))
+            whole_numbers("id", ids, (count,), 0, 2**32 - 1).astype(np.uint32),
+            None if species is None else
+            whole_numbers("species", species, (count,), 0, 254).astype(np.uint8))
 
 
 def _number(name: str, value: float | None) -> float | None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from .values import Table
 
-ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id")
+ARRAYS = ("position", "velocity", "orientation", "angular_velocity", "image", "id", "species")
 
 
 class State(Table):
@@ -26,6 +26,8 @@ class State(Table):
     """Number of box edges to add to each centre to follow its path, [N, 3]."""
     id: np.ndarray
     """Ids of the needles, [N]."""
+    species: np.ndarray
+    """Index of the species of each needle, from 0 in the order of the scene, [N]."""
 
     @classmethod
     def of(cls, arrays: Iterable[np.ndarray]) -> State:

@@ -1,4 +1,4 @@
-"""Kinetic theory of the homogeneous needle gas, for needles of length 1 and mass 1.
+"""Kinetic theory of the homogeneous needle gas, for needles of length 1 and mass 1, and of mixtures.
 
 Rates are exact for Gaussian velocities. The cooling curve assumes that the gas stays Gaussian and
 homogeneous (Huthmann, Aspelmeier, Zippelius, Phys. Rev. E 60, 654). Numbers out of range raise
@@ -7,16 +7,19 @@ InputError.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from .arrays import numbers
+from .arrays import numbers, whole_numbers
 from .errors import InputError
-from .values import Table
+from .values import Table, Values
 
-__all__ = ["CoolingCurve", "collision_rate", "cooling", "equilibrium_rate", "equipartition_k",
-           "ratio", "tau"]
+__all__ = ["CoolingCurve", "MixtureCurve", "MixtureRates", "collision_rate", "cooling",
+           "equilibrium_rate", "equipartition_k", "mixture_cooling", "mixture_rates", "ratio", "tau"]
 
 
 class CoolingCurve(Table):
@@ -95,9 +98,107 @@ def cooling(epsilon: float, k: float, beta: float = -1.0, t_rot0: float = 1.0,
     return CoolingCurve({name: column.reshape(taus.shape) for name, column in columns.items()})
 
 
+class MixtureRates(Values):
+    """What happens in a mixture at one instant."""
+
+    collisions: np.ndarray
+    """Of needles of each two species per unit of time, [species, species], symmetric [1 / time]."""
+    t_tr: np.ndarray
+    """Derivative of the translational temperature of each species, [species] [energy / time]."""
+    t_rot: np.ndarray
+    """Derivative of the rotational temperature of each species, [species] [energy / time]."""
+
+
+class MixtureCurve(Table):
+    """Temperatures of each species of a mixture, arrays [M, species]."""
+
+    time: np.ndarray
+    """Times, [M]."""
+    t_tr: np.ndarray
+    """Translational temperature of each species, [M, species]."""
+    t_rot: np.ndarray
+    """Rotational temperature of each species, [M, species]."""
+    energy: np.ndarray
+    """Energy per needle of all species together, [M]."""
+
+
+def mixture_rates(gas: Mapping[str, Any], t_tr: ArrayLike, t_rot: ArrayLike) -> MixtureRates:
+    """Rates of a mixture of these temperatures, [species] each, in the units of the mixture.
+
+    Exact for Gaussian velocities, at every density.
+
+    Parameters
+    ----------
+    gas : what ``Simulation.gas`` has, or a dictionary with box ([3]) and, by species, counts,
+        length, mass and k ([species]); epsilon and beta of each two ([species, species]). One
+        number stands for all, and length = 1, mass = 1, k = 6, epsilon = 1 and beta = -1 for what
+        is not given.
+    """
+    given, size = _mixture(gas)
+    collisions, d_tr, d_rot = _core.mixture_rates(*given, _each("t_tr", t_tr, size),
+                                                  _each("t_rot", t_rot, size))
+    return MixtureRates({"collisions": collisions, "t_tr": d_tr, "t_rot": d_rot})
+
+
+def mixture_cooling(gas: Mapping[str, Any], t_tr0: ArrayLike, t_rot0: ArrayLike,
+                    time: ArrayLike) -> MixtureCurve:
+    """Temperatures of each species of a mixture at these times, from those at time 0.
+
+    Assumes that the mixture stays homogeneous and Gaussian. ``gas`` is that of mixture_rates(),
+    ``time`` an array [M], finite and not negative, in any order.
+    """
+    given, size = _mixture(gas)
+    times = np.atleast_1d(numbers("time", time)).reshape(-1)
+    t_tr, t_rot = _core.mixture_cooling(*given, _each("t_tr0", t_tr0, size),
+                                        _each("t_rot0", t_rot0, size), times)
+    share = given[0] / max(given[0].sum(), 1)
+    return MixtureCurve({"time": times, "t_tr": t_tr, "t_rot": t_rot,
+                         "energy": (1.5 * t_tr + t_rot) @ share})
+
+
 def equipartition_k() -> float:
     """The k at which both temperatures of a smooth cooling gas become equal, for every epsilon."""
     return _core.equipartition_k()
+
+
+def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
+    """What _core takes of a mixture, up to its volume, and the number of species."""
+    counts = np.atleast_1d(numbers("counts", gas["counts"] if "counts" in gas else gas["count"]))
+    size = counts.size
+    if counts.ndim != 1 or size == 0:
+        raise InputError(f"counts: shape {counts.shape}: expected one number for each species")
+    counts = whole_numbers("counts", counts, (size,), 0, 2**32 - 2).astype(float)
+    length, mass, k = (_each(name, gas.get(name, usual), size, positive=True)
+                       for name, usual in (("length", 1.0), ("mass", 1.0), ("k", 6.0)))
+    epsilon, beta = (_each_two(name, gas.get(name, usual), size, least)
+                     for name, usual, least in (("epsilon", 1.0, 0.0), ("beta", -1.0, -1.0)))
+    box = numbers("box", gas["box"])
+    if box.shape not in ((), (3,)) or not np.all(np.isfinite(box) & (box > 0)):
+        raise InputError(f"box = {box}: expected one or three edges > 0")
+    volume = float(np.prod(np.broadcast_to(box, 3)))
+    return (counts, length, mass, k, epsilon, beta, volume), size
+
+
+def _each(name: str, values: ArrayLike, size: int, positive: bool = False) -> np.ndarray:
+    """One number for each species."""
+    array = _not_negative(name, values)
+    if array.shape not in ((), (size,)):
+        raise InputError(f"{name}: shape {array.shape}: expected ({size},), by species")
+    if positive and not np.all(array > 0):
+        raise InputError(f"{name} = {array.min():g}: expected numbers > 0")
+    return np.array(np.broadcast_to(array, size))
+
+
+def _each_two(name: str, values: ArrayLike, size: int, least: float) -> np.ndarray:
+    """One number for each two species, whatever their order."""
+    array = numbers(name, values)
+    if array.shape not in ((), (size, size)) or not np.array_equal(array, array.T):
+        raise InputError(f"{name}: shape {array.shape}: expected a number, or a symmetric array "
+                         f"({size}, {size})")
+    wrong = array[~((array >= least) & (array <= 1))]
+    if wrong.size:
+        raise InputError(f"{name} = {wrong[0]:g}: expected a number from {least:g} to 1")
+    return np.array(np.broadcast_to(array, (size, size)))
 
 
 def _not_negative(name: str, values: ArrayLike) -> np.ndarray:

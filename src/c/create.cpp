@@ -34,7 +34,7 @@ void require_possible(const needlework_initial& initial, const Scene& scene) {
   runs::require_memory(sized);
 }
 
-State state_of(const needlework_initial& initial, const int32_t* image,
+State state_of(const needlework_initial& initial, const int32_t* image, const uint8_t* species,
                const std::array<double, 3>& box_of_scene) {
   constexpr std::array<double, 3> not_given{};
   const std::size_t count = initial.count;
@@ -49,6 +49,7 @@ State state_of(const needlework_initial& initial, const int32_t* image,
   state.orientation = rows_of(initial.orientation, count);
   state.angular_velocity = rows_of(initial.angular_velocity, count);
   if (initial.id) state.id.assign(initial.id, initial.id + count);
+  if (species) state.species.assign(species, species + count);
   if (image) {
     state.image.resize(count);
     for (std::size_t n = 0; n < count; ++n) std::copy_n(image + 3 * n, 3, state.image[n].begin());
@@ -101,12 +102,19 @@ needlework_simulation* needlework_create_with_images(const char* scene,
                                                      const needlework_initial* initial,
                                                      const int32_t* image, unsigned flags,
                                                      needlework_error* error) {
+  return needlework_create_with_species(scene, initial, image, nullptr, flags, error);
+}
+
+needlework_simulation* needlework_create_with_species(const char* scene,
+                                                      const needlework_initial* initial,
+                                                      const int32_t* image, const uint8_t* species,
+                                                      unsigned flags, needlework_error* error) {
   return c::create(flags, error, [&] {
     c::require(scene, "scene");
     c::require(initial, "initial");
     Scene parsed = parse_scene(scene, c::scene_name, {}, {.state = true, .end = true});
     c::require_possible(*initial, parsed);
-    State state = c::state_of(*initial, image, parsed.needles.box);
+    State state = c::state_of(*initial, image, species, parsed.needles.box);
     return runs::complete_scene(std::move(parsed), std::move(state));
   });
 }

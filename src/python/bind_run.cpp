@@ -16,11 +16,12 @@ namespace py = pybind11;
 using namespace pybind11::literals;
 using OptionalNumber = std::optional<double>;
 
-/// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], and ids, [N],
-/// which may be absent.
+/// Position, velocity, orientation and angular velocity, [N][3] each; images, [N][3], ids and
+/// species, [N], which may be absent.
 using Images = std::optional<py::array_t<std::int32_t, py::array::c_style>>;
 using Ids = std::optional<py::array_t<std::uint32_t, py::array::c_style>>;
-using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids>;
+using SpeciesIndices = std::optional<py::array_t<std::uint8_t, py::array::c_style>>;
+using Arrays = std::tuple<Rows, Rows, Rows, Rows, Images, Ids, SpeciesIndices>;
 
 State state_of(const Arrays& arrays) {
   State state;
@@ -30,6 +31,9 @@ State state_of(const Arrays& arrays) {
   state.angular_velocity = vectors(std::get<3>(arrays));
   if (const Images& image = std::get<4>(arrays)) state.image = vectors(*image);
   if (const Ids& id = std::get<5>(arrays)) state.id.assign(id->data(), id->data() + id->size());
+  if (const SpeciesIndices& species = std::get<6>(arrays)) {
+    state.species.assign(species->data(), species->data() + species->size());
+  }
   return state;
 }
 
@@ -78,6 +82,8 @@ void add_run(py::module_& module) {
       .def("close", &Run::close)
       .def("state", &Run::state)
       .def("totals", &Run::totals)
+      .def("species_totals", &Run::species_totals)
+      .def("collisions_by_pair", &Run::collisions_by_pair)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

@@ -9,6 +9,7 @@
 
 #include "needlework/counters.h"
 #include "needlework/error.h"
+#include "src/composition/pair_name.h"
 #include "src/machine/stop_request.h"
 #include "src/python/arrays.h"
 #include "src/python/collision_rows.h"
@@ -51,6 +52,34 @@ void set_up(const std::function<void()>& function) {
   } catch (const StoppedEarly&) {
     std::rethrow_exception(of_handler);
   }
+}
+
+/// Properties of several species: arrays [species], and of each two [species][species].
+void add_species(py::dict& out, const Composition& composition) {
+  const auto size = static_cast<py::ssize_t>(composition.size());
+  const auto each = [&](double Species::*member) {
+    std::vector<double> values;
+    for (const Species& one : composition.species()) values.push_back(one.*member);
+    return read_only(values);
+  };
+  const auto pairs = [&](double Restitution::*member) {
+    std::vector<double> values;
+    for (const Restitution& rule : composition.rules()) values.push_back(rule.*member);
+    return read_only(values.data(), {size, size});
+  };
+  py::tuple names(composition.size());
+  std::vector<std::uint64_t> counts;
+  for (std::size_t index = 0; index < composition.size(); ++index) {
+    names[index] = text(composition[index].name);
+    counts.push_back(composition[index].count);
+  }
+  out["species"] = names;
+  out["counts"] = read_only(counts);
+  out["k"] = each(&Species::k);
+  out["length"] = each(&Species::length);
+  out["mass"] = each(&Species::mass);
+  out["epsilon"] = pairs(&Restitution::epsilon);
+  out["beta"] = pairs(&Restitution::beta);
 }
 
 runs::Limits of_scene(const Scene::Until& until) {
@@ -218,10 +247,13 @@ void Run::close() {
 
 py::tuple Run::state() {
   State state;
-  work([&] { run_->simulation().copy(state); });
+  work([&] {
+    run_->simulation().copy(state);
+    state.species.resize(state.size());  // of one species all are 0
+  });
   return py::make_tuple(read_only(state.position), read_only(state.velocity),
                         read_only(state.orientation), read_only(state.angular_velocity),
-                        read_only(state.image), read_only(state.id));
+                        read_only(state.image), read_only(state.id), read_only(state.species));
 }
 
 py::dict Run::totals() {
@@ -238,6 +270,34 @@ py::dict Run::totals() {
   return out;
 }
 
+py::list Run::species_totals() {
+  std::vector<SpeciesTotals> totals;
+  work([&] { totals = run_->simulation().species_totals(); });
+  const Composition& composition = run_->simulation().composition();
+  py::list out;
+  for (std::size_t index = 0; index < totals.size(); ++index) {
+    py::dict sums;
+    sums["count"] = totals[index].count;
+    sums["t_tr"] = totals[index].t_tr;
+    sums["t_rot"] = totals[index].t_rot;
+    out.append(py::make_tuple(text(composition[index].name), sums));
+  }
+  return out;
+}
+
+py::dict Run::collisions_by_pair() {
+  require_idle();
+  const Composition& composition = run_->simulation().composition();
+  const std::vector<std::uint64_t> counts = run_->simulation().collisions_by_pair();
+  py::dict out;
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      out[text(pair_name(composition, a, b))] = counts[composition.pair_index(a, b)];
+    }
+  }
+  return out;
+}
+
 py::dict Run::counters() {
   require_idle();
   const Counters& counters = run_->simulation().counters();
@@ -250,18 +310,22 @@ py::dict Run::facts() {
   require_idle();
   const Scene& scene = run_->scene();
   const Simulation& simulation = run_->simulation();
-  const Species species = scene.composition()[0];
+  const Composition& composition = simulation.composition();
   py::dict out;
   out["title"] = text(scene.title);
   out["text"] = text(scene.text);
   out["file"] = text(scene.output.file);
   out["count"] = scene.needles.count;
   out["box"] = Column(3, scene.needles.box.data());
-  out["k"] = species.k;
-  out["epsilon"] = scene.collisions.epsilon;
-  out["beta"] = scene.collisions.beta;
-  out["length"] = species.length;
-  out["mass"] = species.mass;
+  if (composition.is_mixture()) {
+    add_species(out, composition);
+  } else {
+    out["k"] = composition[0].k;
+    out["epsilon"] = composition.restitution(0, 0).epsilon;
+    out["beta"] = composition.restitution(0, 0).beta;
+    out["length"] = composition[0].length;
+    out["mass"] = composition[0].mass;
+  }
   out["search"] = simulation.search();
   out["queue"] = simulation.queue();
   out["isa"] = simulation.isa();

@@ -56,9 +56,13 @@ class Run {
   void close();
 
   /// A copy of the present state: read-only arrays position, velocity, orientation,
-  /// angular_velocity, image and id.
+  /// angular_velocity, image, id and species.
   pybind11::tuple state();
   pybind11::dict totals();
+  /// Pairs of a name and sums, in the order of the scene.
+  pybind11::list species_totals();
+  /// By names such as "a-b".
+  pybind11::dict collisions_by_pair();
   pybind11::dict counters();
   /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();

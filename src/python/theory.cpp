@@ -3,7 +3,9 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "src/python/arrays.h"
@@ -47,6 +49,75 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
   return py::make_tuple(t_tr, t_rot, Column(taus.size(), collisions.data()));
 }
 
+// Arrays [species], and of each two [species][species]; the Python side has checked the shapes.
+Composition composition_of(const Column& counts, const Column& lengths, const Column& masses,
+                           const Column& ks, const Column& epsilons, const Column& betas) {
+  const auto size = static_cast<std::size_t>(counts.size());
+  std::vector<Species> species(size);
+  for (std::size_t n = 0; n < size; ++n) {
+    species[n].count = static_cast<std::uint64_t>(counts.data()[n]);
+    species[n].length = lengths.data()[n];
+    species[n].mass = masses.data()[n];
+    species[n].k = ks.data()[n];
+  }
+  Composition out(std::move(species), {});
+  for (std::size_t a = 0; a < size; ++a) {
+    for (std::size_t b = a; b < size; ++b) {
+      out.set_restitution(a, b, {epsilons.data()[a * size + b], betas.data()[a * size + b]});
+    }
+  }
+  return out;
+}
+
+std::vector<theory::Temperatures> temperatures_of(const Column& t_tr, const Column& t_rot) {
+  std::vector<theory::Temperatures> out;
+  for (py::ssize_t n = 0; n < t_tr.size(); ++n) out.push_back({t_tr.data()[n], t_rot.data()[n]});
+  return out;
+}
+
+// Collisions per unit of time of each two species, [species][species], and the derivatives of the
+// temperatures of each.
+py::tuple mixture_rates(const Column& counts, const Column& lengths, const Column& masses,
+                        const Column& ks, const Column& epsilons, const Column& betas,
+                        double volume, const Column& t_tr, const Column& t_rot) {
+  const Composition composition = composition_of(counts, lengths, masses, ks, epsilons, betas);
+  const auto now = temperatures_of(t_tr, t_rot);
+  const theory::MixtureRates rates = theory::mixture_rates(composition, volume, now);
+  const auto size = static_cast<py::ssize_t>(composition.size());
+  Column collisions({size, size}), d_tr(size), d_rot(size);
+  for (py::ssize_t a = 0; a < size; ++a) {
+    for (py::ssize_t b = 0; b < size; ++b) {
+      collisions.mutable_at(a, b) = rates.collisions[composition.pair_index(a, b)];
+    }
+    d_tr.mutable_at(a) = rates.temperatures[a].t_tr;
+    d_rot.mutable_at(a) = rates.temperatures[a].t_rot;
+  }
+  return py::make_tuple(collisions, d_tr, d_rot);
+}
+
+// Temperatures of each species at each time, [times][species].
+py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Column& masses,
+                          const Column& ks, const Column& epsilons, const Column& betas,
+                          double volume, const Column& t_tr0, const Column& t_rot0,
+                          const Column& times) {
+  const Composition composition = composition_of(counts, lengths, masses, ks, epsilons, betas);
+  const auto initial = temperatures_of(t_tr0, t_rot0);
+  std::vector<std::vector<theory::Temperatures>> curve;
+  without_lock([&] {
+    curve =
+        theory::mixture_cooling(composition, volume, initial,
+                                std::span(times.data(), static_cast<std::size_t>(times.size())));
+  });
+  Column t_tr({times.size(), counts.size()}), t_rot({times.size(), counts.size()});
+  for (py::ssize_t i = 0; i < times.size(); ++i) {
+    for (py::ssize_t n = 0; n < counts.size(); ++n) {
+      t_tr.mutable_at(i, n) = curve[i][n].t_tr;
+      t_rot.mutable_at(i, n) = curve[i][n].t_rot;
+    }
+  }
+  return py::make_tuple(t_tr, t_rot);
+}
+
 }  // namespace
 
 void add_theory(py::module_& module) {
@@ -54,6 +125,8 @@ void add_theory(py::module_& module) {
   module.def("equilibrium_rate", py::vectorize(equilibrium_rate));
   module.def("ratio", py::vectorize(ratio));
   module.def("cooling", cooling);
+  module.def("mixture_rates", mixture_rates);
+  module.def("mixture_cooling", mixture_cooling);
   module.def("equipartition_k", theory::equipartition_k);
 }
 

@@ -111,6 +111,10 @@ std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char
   return rows_in<std::uint32_t>(request, field, "one whole number of 4 bytes");
 }
 
+std::optional<std::vector<std::uint8_t>> species_in(const Json& request, const char* field) {
+  return rows_in<std::uint8_t>(request, field, "one byte");
+}
+
 void require_only(const Json& request, std::initializer_list<const char*> fields) {
   for (const auto& [name, value] : request.items()) {
     if (name == "do" || name == "id") continue;

@@ -30,6 +30,7 @@ std::optional<std::vector<std::array<double, 3>>> vectors_in(const Json& request
 std::optional<std::vector<std::array<std::int32_t, 3>>> images_in(const Json& request,
                                                                   const char* field);
 std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char* field);
+std::optional<std::vector<std::uint8_t>> species_in(const Json& request, const char* field);
 
 /// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
 void require_only(const Json& request, std::initializer_list<const char*> fields);

@@ -21,6 +21,7 @@
 #include "src/serve/collisions.h"
 #include "src/serve/fields.h"
 #include "src/serve/shallow_json.h"
+#include "src/serve/species_json.h"
 
 namespace needlework::serve {
 namespace {
@@ -35,13 +36,15 @@ Json numbers(const std::array<double, 3>& values) {
 Json summary_of(const runs::PreparedRun& run) {
   const Simulation& simulation = run.simulation();
   const Totals totals = simulation.totals();
-  return {{"time", totals.time},
-          {"collisions", totals.collisions},
-          {"energy", number(totals.energy)},
-          {"t_tr", number(totals.t_tr)},
-          {"t_rot", number(totals.t_rot)},
-          {"momentum", numbers(totals.momentum)},
-          {"trajectory_hash", simulation.trajectory_hash()}};
+  Json answer{{"time", totals.time},
+              {"collisions", totals.collisions},
+              {"energy", number(totals.energy)},
+              {"t_tr", number(totals.t_tr)},
+              {"t_rot", number(totals.t_rot)},
+              {"momentum", numbers(totals.momentum)},
+              {"trajectory_hash", simulation.trajectory_hash()}};
+  if (!run.scene().species.empty()) add_species(answer, simulation);
+  return answer;
 }
 
 /// The state that the request carries; none if it carries no array.
@@ -58,7 +61,8 @@ std::optional<State> state_in(const Json& request) {
       read(vectors_in(request, "angular_velocity"), state.angular_velocity);
   const bool image = read(images_in(request, "image"), state.image);
   const bool id = read(ids_in(request, "needle_id"), state.id);
-  if (!(position || orientation || velocity || angular_velocity || image || id)) {
+  const bool species = read(species_in(request, "species"), state.species);
+  if (!(position || orientation || velocity || angular_velocity || image || id || species)) {
     return std::nullopt;
   }
   if (!position || !orientation) {
@@ -67,8 +71,9 @@ std::optional<State> state_in(const Json& request) {
   if (!velocity) state.velocity.resize(state.size());
   if (!angular_velocity) state.angular_velocity.resize(state.size());
   // A state takes no rows of these for absent ones.
-  for (const auto& [field, given, rows] :
-       {std::tuple("image", image, state.image.size()), {"needle_id", id, state.id.size()}}) {
+  for (const auto& [field, given, rows] : {std::tuple("image", image, state.image.size()),
+                                           {"needle_id", id, state.id.size()},
+                                           {"species", species, state.species.size()}}) {
     if (!given || rows == state.size()) continue;
     throw RequestError(fmt::format("{}: {} rows: expected {}", field, rows, state.size()));
   }
@@ -215,7 +220,7 @@ runs::PreparedRun& Requests::run_of(const Json& request) {
 
 Json Requests::create(const Json& request, const Connection&) {
   require_only(request, {"scene", "path", "force", "position", "orientation", "velocity",
-                         "angular_velocity", "image", "needle_id"});
+                         "angular_velocity", "image", "needle_id", "species"});
   const bool force = flag_in(request, "force");
   runs::LoadedScene loaded = scene_in(request);
   runs::require_writable_output(loaded.scene, force, text_in(request, "path").value_or(""),
@@ -279,10 +284,11 @@ Json Requests::state(const Json& request, const Connection&) {
     runs::write_state(run.simulation(), run.scene(), run.data(), *file, flag_in(request, "force"));
     return {{"file", *file}};
   }
-  static constexpr std::array<std::string_view, 6> arrays{
-      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id"};
+  static constexpr std::array<std::string_view, 7> arrays{
+      "position", "velocity", "orientation", "angular_velocity", "image", "needle_id", "species"};
   const auto wanted = names_in(request, "arrays", arrays);
-  const State state = run.simulation().copy();
+  State state = run.simulation().copy();
+  state.species.resize(state.size());  // of one species all are 0
   Json answer{{"time", run.simulation().time()}, {"needles", state.size()}};
   const auto add = [&](std::string_view name, const auto& rows) {
     if (wanted && std::ranges::find(*wanted, name) == wanted->end()) return;
@@ -294,6 +300,7 @@ Json Requests::state(const Json& request, const Connection&) {
   add("angular_velocity", state.angular_velocity);
   add("image", state.image);
   add("needle_id", state.id);
+  add("species", state.species);
   return answer;
 }
 

@@ -40,6 +40,15 @@ first contact 2.0000 0.2500
 theory T  1.0  0.0T
 """
 
+# What fortran/mixture.f90 prints: the long needle, of four times the mass, gives the short one 8/5 of
+# its velocity and keeps 3/5, as both are hit in their centres.
+MIXTURE = """\
+species short 1  0.50  1.00  0.8533
+species long 2  1.00  4.00  0.2400
+long with short: 1  1.0 -1.0
+species of the needles 1 0 1
+"""
+
 
 def skip_without(*programs):
     for program in programs:
@@ -114,6 +123,10 @@ def in_fortran(installed, root):
     out = installed.build_and_run(compiler, folder / "needlework.f90",
                                   root / "tests/consumer/fortran/all.f90")
     check("all.f90", out == ALL, out + "expected:\n" + ALL)
+
+    out = installed.build_and_run(compiler, folder / "needlework.f90",
+                                  root / "tests/consumer/fortran/mixture.f90")
+    check("mixture.f90", out == MIXTURE, out + "expected:\n" + MIXTURE)
 
     # The module has all functions of the header.
     declared = set(re.findall(r"NEEDLEWORK_API[^;]*?\b(needlework_\w+)\(",

@@ -107,6 +107,47 @@ TEST(Serve, GoesOnFromAStateThatItHasGiven) {
   EXPECT_NE(second[4]["position"], state["position"]);
 }
 
+TEST(Serve, KnowsSpecies) {
+  const std::string species =
+      "[[species]]\nname = 'short'\nlength = 0.5\n[[species]]\nname = 'rod'\nmass = 4\n";
+  const std::string counted =
+      "needles.box = 5\n[[species]]\nname = 'short'\nlength = 0.5\ncount = 40\n"
+      "[[species]]\nname = 'rod'\nmass = 4\ncount = 20\n";
+  auto first = answers_to({{{"do", "create"}, {"scene", counted}},
+                           {{"do", "advance"}, {"simulation", 1}, {"collisions", 100}},
+                           {{"do", "state"}, {"simulation", 1}}});
+  EXPECT_EQ(first[0]["needles"], 60) << first[0];
+  EXPECT_EQ(first[1]["species"][1]["name"], "rod");
+  EXPECT_EQ(first[1]["species"][1]["count"], 20);
+  const auto& by_pair = first[1]["collisions_by_pair"];
+  EXPECT_EQ(by_pair["short-short"].get<int>() + by_pair["short-rod"].get<int>() +
+                by_pair["rod-rod"].get<int>(),
+            100);
+  std::vector<std::uint8_t> indices(60, 0);
+  std::fill(indices.begin() + 40, indices.end(), 1);
+  EXPECT_EQ(first[2]["species"], text_of(indices));
+
+  Json again{{"do", "create"}, {"scene", "needles.box = 5\n" + species}};
+  for (const char* name : {"position", "velocity", "orientation", "angular_velocity", "species"}) {
+    again[name] = first[2][name];
+  }
+  Json short_one = again;
+  short_one["species"] = text_of(std::vector<std::uint8_t>(3));
+  auto second = answers_to({again,
+                            {{"do", "totals"}, {"simulation", 1}},
+                            {{"do", "state"}, {"simulation", 1}, {"arrays", {"species"}}},
+                            short_one});
+  EXPECT_NEAR(second[1]["species"][0]["t_tr"].get<double>(),
+              first[1]["species"][0]["t_tr"].get<double>(), 1e-14);
+  EXPECT_EQ(second[2]["species"], text_of(indices));
+  EXPECT_EQ(second[3]["message"], "species: 3 rows: expected 60");
+  // A scene without [[species]] says nothing of them, but that all needles are of one.
+  auto one = answers_to(
+      {create(), {{"do", "totals"}, {"simulation", 1}}, {{"do", "state"}, {"simulation", 1}}});
+  EXPECT_FALSE(one[1].contains("species"));
+  EXPECT_EQ(one[2]["species"], text_of(std::vector<std::uint8_t>(60)));
+}
+
 TEST(Serve, ReplacesVelocities) {
   const std::vector<std::array<double, 3>> ones(60, {1, 0, 0}), zeros(60);
   auto answers = answers_to({create(),

@@ -1,0 +1,14 @@
+// What programs are told of the species of a simulation, by a pipe and by `run --json`.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "needlework/simulation.h"
+
+namespace needlework::serve {
+
+/// Adds "species", [{name, count, t_tr, t_rot}] at the present time, and "collisions_by_pair",
+/// {"a-b": n} since the start, both in the order of the scene.
+void add_species(nlohmann::ordered_json& json, const Simulation& simulation);
+
+}  // namespace needlework::serve
