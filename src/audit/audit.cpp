@@ -29,34 +29,59 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// The collision with times in epochs.
-Collision in_epochs(Collision collision, double epoch_length) {
+// The collision with times in epochs and lengths in this unit.
+Collision in_units(Collision collision, double epoch_length, double unit) {
+  const double speed = epoch_length / unit;
   collision.offset /= epoch_length;
-  collision.normal_velocity *= epoch_length;
-  collision.energy_change *= epoch_length * epoch_length;
-  for (double& p : collision.impulse) p *= epoch_length;
+  collision.arm_first /= unit;
+  collision.arm_second /= unit;
+  collision.normal_velocity *= speed;
+  collision.energy_change *= speed * speed;
+  for (double& p : collision.impulse) p *= speed;
   for (StateAfterCollision& needle : collision.after) {
-    for (double& v : needle.velocity) v *= epoch_length;
+    for (double& r : needle.position) r /= unit;
+    for (double& v : needle.velocity) v *= speed;
     for (double& w : needle.angular_velocity) w *= epoch_length;
   }
   return collision;
 }
 
-std::vector<Needle> needles_of(const State& initial, double epoch_length) {
+// The least power of two that no needle is longer than, so that nothing is rounded by it.
+double unit_of(const Composition& composition) {
+  int exponent = 0;
+  const double mantissa = std::frexp(composition.longest(), &exponent);
+  return std::ldexp(1.0, mantissa == 0.5 ? exponent - 1 : exponent);
+}
+
+std::vector<Body> bodies_of(const Composition& composition, double unit) {
+  std::vector<Body> out;
+  for (const Species& each : composition.species()) {
+    out.push_back(
+        {.species = out.size(), .length = each.length / unit, .mass = each.mass, .k = each.k});
+  }
+  return out;
+}
+
+Space space_of(const State& state, const Composition& composition, double unit) {
+  Space out{.box = state.box, .longest = composition.longest() / unit};
+  for (double& edge : out.box) edge /= unit;
+  return out;
+}
+
+std::vector<Needle> needles_of(const State& initial, const std::vector<Body>& bodies,
+                               double epoch_length, double unit) {
   std::vector<Needle> needles;
   needles.reserve(initial.size());
   for (std::size_t i = 0; i < initial.size(); ++i) {
+    const std::size_t species = bodies.size() > 1 ? initial.species.at(i) : 0;
     needles.emplace_back(Record{{},
-                                vector(initial.position[i]),
-                                vector(initial.velocity[i]) * epoch_length,
+                                vector(initial.position[i]) * (1 / unit),
+                                vector(initial.velocity[i]) * (epoch_length / unit),
                                 vector(initial.orientation[i]),
-                                vector(initial.angular_velocity[i]) * epoch_length});
+                                vector(initial.angular_velocity[i]) * epoch_length},
+                         bodies.at(species));
   }
   return needles;
-}
-
-double density_of(const State& state) {
-  return static_cast<double>(state.size()) / (state.box[0] * state.box[1] * state.box[2]);
 }
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return std::uint64_t{i} << 32 | j; }
@@ -80,14 +105,13 @@ double Findings::bound95(Kind kind) const {
 
 Audit::Audit(const State& initial, const Setup& setup)
     : setup_(setup),
-      space_{initial.box},
+      unit_(unit_of(setup.composition)),
+      bodies_(bodies_of(setup.composition, unit_)),
+      space_(space_of(initial, setup.composition, unit_)),
       ids_(initial.id),
-      needles_(needles_of(initial, setup.epoch_length)),
-      windows_(needles_, density_of(initial), setup.rule.k) {
-  if (!needles_.empty()) {
-    initial_energy_ =
-        static_cast<double>(needles_.size()) * temperatures_of(needles_, setup.rule.k).energy();
-  }
+      needles_(needles_of(initial, bodies_, setup.epoch_length, unit_)),
+      windows_(needles_, bodies_, space_.box[0] * space_.box[1] * space_.box[2]),
+      initial_energy_(energy_of(needles_)) {
   if (setup_.tc) *setup_.tc /= setup.epoch_length;
   has_collided_.assign(initial.size(), false);
 }
@@ -140,7 +164,7 @@ void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) 
 }
 
 void Audit::add(const Collision& reported) {
-  const Collision collision = in_epochs(reported, setup_.epoch_length);
+  const Collision collision = in_units(reported, setup_.epoch_length, unit_);
   const Instant now{collision.epoch, collision.offset};
   const Index a = index_of(collision.first), b = index_of(collision.second);
   for (const std::uint64_t word :
@@ -184,7 +208,8 @@ void Audit::follow(Index a, Index b, const Instant& now, const Collision& collis
     const Index index = i == 0 ? a : b;
     const StateAfterCollision& after = collision.after[i];
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
-                                    vector(after.orientation), vector(after.angular_velocity)});
+                                    vector(after.orientation), vector(after.angular_velocity)},
+                             needles_[index].body);
     has_collided_[index] = true;
   }
   last_ = {now,
@@ -236,8 +261,10 @@ void Audit::check_order(const Instant& now, const Collision& collision) {
 }
 
 void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& collision) {
-  const double excess =
-      excess_over_rule(needles_[a], needles_[b], now, collision, setup_.rule, space_);
+  const Restitution& of_pair =
+      setup_.composition.restitution(needles_[a].body.species, needles_[b].body.species);
+  const double excess = excess_over_rule(needles_[a], needles_[b], now, collision,
+                                         {of_pair.epsilon, of_pair.beta}, space_);
   const bool by_contact_time = collision.contact_time_rule;
   const double time = since_start(now) * setup_.epoch_length;
   if (excess > 1 || by_contact_time != contact_time_is_due(a, b, now, by_contact_time) ||
@@ -294,7 +321,8 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   const Approach approach = approach_of(i, j);
   std::optional<Continuation> continuation;
   if (!continuations_.empty()) continuation = take_continuation(i, j);
-  for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
+  const double reach = reach_of(needles_[i].body, needles_[j].body);
+  for_each_encounter(approach, reach, duration, space_.box, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
                  start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
   });
@@ -322,8 +350,9 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
     nearest[axis] = static_cast<std::int32_t>(std::round(r[axis] / space_.box[axis]));
   }
   const std::optional<Continuation> continuation = take_continuation(a, b);
+  const double reach = reach_of(needles_[a].body, needles_[b].body);
   bool met = false;
-  for_each_encounter(approach, duration, space_.box, [&](const Encounter& encounter) {
+  for_each_encounter(approach, reach, duration, space_.box, [&](const Encounter& encounter) {
     const Flown flown{
         a,        b,
         approach, encounter,

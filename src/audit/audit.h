@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "needlework/composition.h"
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
@@ -74,8 +75,8 @@ struct Checkpoint {
 };
 
 struct Setup {
-  double epoch_length = 1;  ///< unit of the collisions' times, a power of two
-  Rule rule;
+  double epoch_length = 1;            ///< unit of the collisions' times, a power of two
+  Composition composition;            ///< with the counts of the state
   std::optional<double> tc;           ///< absolute contact time
   std::optional<double> tc_relative;  ///< the same in present mean free times
   double share = 1;                   ///< fraction of all pairs that are checked
@@ -147,12 +148,14 @@ class Audit {
   void follow(Index a, Index b, const Instant& now, const Collision& collision);
 
   Setup setup_;
+  double unit_;               ///< of lengths: a power of two that no needle is longer than
+  std::vector<Body> bodies_;  ///< by species
   Space space_;
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
   std::vector<bool> has_collided_;
   Windows windows_;
-  double initial_energy_ = 0;      ///< of all needles, speeds per epoch
+  double initial_energy_;          ///< of all needles, in the units of the audit
   double last_energy_change_ = 0;  ///< in the last collision
   std::unordered_map<std::uint64_t, Continuation> continuations_;
   std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;

@@ -29,11 +29,11 @@ bool ContactFinder::is_free(const Sample& e, double s, double half) const {
       ((std::abs(e.df) + e.df_error) + 0.5 * bend(e, s, half) * half) * half * enlarged;
   if (std::abs(e.f) > e.f_error + change + 2 * pair_.limit(e, s, half)) return true;
   const double reach = e.distance + pair_.speed() * half;
-  const double half_sine = 0.5 * (e.sine + pair_.spin() * half);
+  const double sine = e.sine + pair_.spin() * half;
   const double blur = 0x1p-46 * (1 + pair_.limit(e, s, half) * 0x1p53);
   for (int i = 0; i < 2; ++i) {
     const double nearest = e.moment_least[i] - pair_.moment_rate(i, reach) * half * enlarged;
-    if (nearest > half_sine * enlarged + blur) return true;
+    if (nearest > pair_.half_length(i) * sine * enlarged + blur) return true;
   }
   return false;
 }

@@ -28,13 +28,16 @@ struct Encounter {
   double begin, end;
 };
 
-/// Needles can touch when their centres are within 1; includes a margin for rounding. [L]
-inline constexpr double reach = 1 + 0x1p-20;
+/// Needles can touch when their centres are within the mean of their lengths; includes a margin for
+/// rounding. [L]
+inline double reach_of(const Body& first, const Body& second) {
+  return first.length / 2 + second.length / 2 + 0x1p-20;
+}
 
 /// Calls `found` for each encounter in [0, duration].
 template <class Found>
-void for_each_encounter(const Approach& approach, double duration, const std::array<double, 3>& box,
-                        Found&& found) {
+void for_each_encounter(const Approach& approach, double reach, double duration,
+                        const std::array<double, 3>& box, Found&& found) {
   const double flown = norm(approach.v) * duration;
   const double pieces = std::max(1.0, std::ceil(flown));
   std::vector<Shift> seen;  // images found in more than one piece of the flight

@@ -38,23 +38,33 @@ bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i)
   const double epoch = setup_.epoch_length;
   const Vector<double> director = vector(given.orientation[i]);
   const Vector<double> u = director * (1 / norm(director));
-  const Vector<double> v = vector(given.velocity[i]) * epoch;
+  const Vector<double> v = vector(given.velocity[i]) * (epoch / unit_);
   const Vector<double> spin = vector(given.angular_velocity[i]) * epoch;
   const Vector<double> w = spin - u * dot(u, spin);
   for (int axis = 0; axis < 3; ++axis) {
-    const double boxes = (given.position[i][axis] - record.r[axis]) / space_.box[axis];
-    const double size = std::abs(given.position[i][axis]) / space_.box[axis] + 1;
+    const double position = given.position[i][axis] / unit_;
+    const double boxes = (position - record.r[axis]) / space_.box[axis];
+    const double size = std::abs(position) / space_.box[axis] + 1;
     if (!(std::abs(boxes - std::round(boxes)) <= rounding * size)) return false;
   }
-  return near(record.u, u, 1) && near(record.v, v, norm(v)) && near(record.w, w, norm(spin));
+  const bool of_species =
+      given.species.empty() || bodies_.size() == 1 || given.species[i] == needle.body.species;
+  return of_species && near(record.u, u, 1) && near(record.v, v, norm(v)) &&
+         near(record.w, w, norm(spin));
 }
 
 void Audit::check_start(const Scene& scene, const State* given) {
   if (resumed_) return;
-  const Species species = scene.composition()[0];
-  bool right = needles_.size() == species.count &&
-               std::ranges::all_of(needles_, [&](const Needle& n) { return is_proper(n); });
-  for (int axis = 0; axis < 3; ++axis) right &= space_.box[axis] == scene.needles.box[axis];
+  const Composition composition = scene.composition();
+  bool right = std::ranges::all_of(needles_, [&](const Needle& n) { return is_proper(n); });
+  for (std::size_t index = 0; index < bodies_.size(); ++index) {
+    const auto count = std::ranges::count_if(
+        needles_, [&](const Needle& needle) { return needle.body.species == index; });
+    right &= static_cast<std::uint64_t>(count) == composition[index].count;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    right &= space_.box[axis] == scene.needles.box[axis] / unit_;
+  }
   if (right && given) {
     std::vector<std::size_t> order(given->size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -64,14 +74,28 @@ void Audit::check_start(const Scene& scene, const State* given) {
       right = is_as_given(needles_[i], *given, order[i]);
     }
   } else if (right && !needles_.empty()) {
-    const Temperatures found = temperatures_of(needles_, setup_.rule.k);
-    const double scale = setup_.epoch_length * setup_.epoch_length;
+    // Each species is drawn with temperatures of its own, around which it scatters; the needles
+    // together have exactly the energies of all of them.
+    const double speed = setup_.epoch_length / unit_, scale = speed * speed;
+    double t_tr = 0, t_rot = 0, found_tr = 0, found_rot = 0;
+    const auto found = temperatures_of(needles_, bodies_);
+    for (std::size_t index = 0; index < bodies_.size(); ++index) {
+      const Species& species = composition[index];
+      const double count = static_cast<double>(species.count);
+      if (count == 0) continue;
+      t_tr += count * species.t_tr * scale;
+      t_rot += count * species.t_rot * scale;
+      found_tr += count * found[index].t_tr;
+      found_rot += count * found[index].t_rot;
+    }
     Vector<double> momentum{};
-    for (const Needle& needle : needles_) momentum = momentum + needle.record.v;
-    const double count = static_cast<double>(needles_.size());
-    right = near(found.t_tr, species.t_tr * scale, sums) &&
-            near(found.t_rot, species.t_rot * scale, sums) &&
-            (needles_.size() < 2 || norm(momentum) <= sums * count * std::sqrt(3 * found.t_tr));
+    double most = 0;
+    for (const Needle& needle : needles_) {
+      momentum = momentum + needle.record.v * needle.body.mass;
+      most += needle.body.mass * norm(needle.record.v);
+    }
+    right = near(found_tr, t_tr, sums) && near(found_rot, t_rot, sums) &&
+            (needles_.size() < 2 || norm(momentum) <= sums * most);
   }
   const double free = windows_.mean_free_time();
   if (std::isfinite(free)) right &= free > 1 - Windows::tolerance && free < 2 + Windows::tolerance;
@@ -86,8 +110,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   const double latest = until.time.value_or(infinity);
   const double most = until.collisions_per_needle.value_or(infinity) * count / 2;
   const double least_energy = until.energy_ratio.value_or(-1) * initial_energy_;
-  const double energy =
-      needles_.empty() ? 0 : count * temperatures_of(needles_, setup_.rule.k).energy();
+  const double energy = energy_of(needles_);
   const double before = energy - last_energy_change_;
   const double last = last_ ? since_start(last_->first) * setup_.epoch_length : 0;
   const double slack = sums * initial_energy_ * std::min(1.0, until.energy_ratio.value_or(0));

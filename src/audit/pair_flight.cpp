@@ -24,7 +24,8 @@ Vector<Number> separation(const Flight<Number>& first, const Flight<Number>& sec
 template <class Real>
 Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& second,
                 const std::array<Ball<Real>, 2>& delay, const Vector<double>& shift,
-                const std::array<double, 3>& box, double offset, double slope, double s) {
+                const std::array<double, 3>& box, const std::array<double, 2>& half_lengths,
+                double offset, double slope, double s) {
   using Number = Ball<Real>;
   const Number t1 = delay[0] + Number(s), t2 = delay[1] + Number(s);
   const Pose<Number> a = first.at(t1), b = second.at(t2);
@@ -48,7 +49,7 @@ Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& secon
     out.moment_least[i] = lower(moment);
     out.moment_most[i] = upper(moment);
     const Number along = dot(moments[i], x);
-    const Number margin = xx * Number(0.5) - (along.middle < 0 ? -along : along);
+    const Number margin = xx * Number(half_lengths[i]) - (along.middle < 0 ? -along : along);
     out.margin[i] = static_cast<double>(margin.middle);
     out.margin_error[i] = margin.radius + half_unit * std::abs(out.margin[i]);
   }
@@ -63,7 +64,8 @@ PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& s
       second_(second),
       shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
       space_(space),
-      start_(start) {
+      start_(start),
+      half_lengths_{first.body.length / 2, second.body.length / 2} {
   const Instant begin = std::max(first.record.time, second.record.time);
   delay_ = {elapsed<double>(first.record.time, begin), elapsed<double>(second.record.time, begin)};
   omega_ = {upper(first.flight.omega), upper(second.flight.omega)};
@@ -77,7 +79,7 @@ PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& s
     // Centres close to each other lose digits of their separation vector in new records, which
     // changes f'.
     const double rounding =
-        space.rounding() * rate() + 4 * half_unit * (velocity_[0] + velocity_[1]);
+        space.rounding() * (speed_ + spin_) + 4 * half_unit * (velocity_[0] + velocity_[1]);
     if (e.df * start.side < 0 && std::abs(e.df) <= rounding) slope_ = e.df;
   } else if (start.gap) {
     offset_ = precise(0).f - *start.gap;
@@ -85,7 +87,8 @@ PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& s
 }
 
 Sample PairFlight::sample(double s) const {
-  return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, offset_, slope_, s);
+  return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, half_lengths_, offset_,
+                  slope_, s);
 }
 
 const PairFlight::Precise& PairFlight::in_quad() {
@@ -101,7 +104,7 @@ const PairFlight::Precise& PairFlight::in_quad() {
 
 Sample PairFlight::precise(double s) {
   const auto& [first, second, delay] = in_quad();
-  return evaluate(first, second, delay, shift_, space_.box, offset_, slope_, s);
+  return evaluate(first, second, delay, shift_, space_.box, half_lengths_, offset_, slope_, s);
 }
 
 // f is the sum of (r12(0) + v12 s) . (a x b) c1(s) c2(s). If c1 is the cosine of the first
@@ -153,7 +156,8 @@ PairFlight::Uncertainty PairFlight::uncertainty(double s) const {
     const double delay = upper(delay_[i]), age = delay + std::abs(s);
     out.lengths += velocity_[i] * delay;
     out.directors[i] = half_unit * (2 + omega_[i] * age);
-    renewed = renewed || velocity_[i] * age > longest_record || omega_[i] * age > longest_record;
+    const double lengths = velocity_[i] * age / (2 * half_lengths_[i]);
+    renewed = renewed || lengths > longest_record || omega_[i] * age > longest_record;
   }
   out.distance = half_unit * (out.lengths + speed_ * std::abs(s));
   if (renewed) out.distance += space_.rounding();
@@ -178,7 +182,7 @@ double PairFlight::limit(const Sample& sample, double s, double half) const {
 
 bool PairFlight::is_near_contact(double s) const {
   const Sample e = sample(s);
-  const double least = -beside * e.sine;
+  const double least = -beside * size() * e.sine;
   return std::abs(e.f) <= space_.continued() && e.margin[0] >= least && e.margin[1] >= least;
 }
 

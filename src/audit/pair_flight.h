@@ -13,11 +13,19 @@ namespace needlework::audit {
 /// Number of boxes added to the second needle's centre.
 using Shift = std::array<std::int32_t, 3>;
 
+/// What a needle is made of. Lengths of an audit are in a unit that no needle is longer than.
+struct Body {
+  std::size_t species = 0;  ///< index
+  double length = 1, mass = 1, k = 6;
+};
+
 /// A needle's record, and its flight prepared for double.
 struct Needle {
-  explicit Needle(const Record& given) : record(given), flight(given) {}
+  explicit Needle(const Record& given, const Body& made_of = {})
+      : record(given), flight(given), body(made_of) {}
   Record record;
   Flight<Ball<double>> flight;
+  Body body;
 };
 
 /// The start of a pair's flight: apart, or touching with a side known from previous flights.
@@ -38,19 +46,22 @@ struct Start {
 /// The gas that the pairs belong to.
 struct Space {
   std::array<double, 3> box{};
+  double longest = 1;  ///< length of the longest needle
 
   /// Largest change of a contact function by rounding a new record. [L]
   double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2]); }
   /// If |f| is below this and contact points are on the needles or within `beside` of them, f is
   /// continued from one flight to the next. This is the engine's rule, so that sequences of
   /// bounces are followed to their end. [L]
-  double continued() const { return 0x1p-44 * (1 + box[0] + box[1] + box[2]); }
+  double continued() const { return 0x1p-44 * (longest + box[0] + box[1] + box[2]); }
 };
 
-/// After this many lengths or radians of flight the engine may have renewed and rounded a record.
+/// After this many of a needle's lengths, or radians, of flight the engine may have renewed and
+/// rounded its record.
 inline constexpr double longest_record = 0x1p9;
 
-/// Largest distance of a contact point beyond a tip at which it counts as near the needle. [L]
+/// Largest distance of a contact point beyond a tip at which it counts as near the needle, in mean
+/// lengths of the two needles.
 inline constexpr double beside = 0x1p-18;
 
 /// Times are multiples of this or finer. [epochs]
@@ -64,8 +75,8 @@ struct Sample {
   double sine;          ///< lower bound on |u1 x u2|
   /// Bounds on |u2 x r12| and |u1 x r12|; at a contact these are |s12| and |s21| times the sine.
   std::array<double, 2> moment_least, moment_most;
-  /// sine^2 / 2 - |(u2 x r12).(u1 x u2)|, and the same for u1; positive if the contact points are
-  /// on the needles.
+  /// sine^2 L / 2 - |(u2 x r12).(u1 x u2)|, L the length of the first needle, and the same for the
+  /// second one and u1; positive if the contact points are on the needles.
   std::array<double, 2> margin, margin_error;
 };
 
@@ -82,7 +93,10 @@ class PairFlight {
 
   double speed() const { return speed_; }  ///< lower bound on |v12|.
   double spin() const { return spin_; }    ///< lower bound on |w1| + |w2|.
-  double rate() const { return speed_ + spin_; }
+  /// Of changes of the pair. [1 / time]
+  double rate() const { return speed_ / size() + spin_; }
+  double half_length(int i) const { return half_lengths_[i]; }         ///< of either needle [L]
+  double size() const { return half_lengths_[0] + half_lengths_[1]; }  ///< mean length [L]
   /// Bound on |f''| from `begin` to `end`, where |r12| is at most `distance`. [L / time^2]
   double bend(double begin, double end, double distance) const;
   /// Improves that bound for needles that are nearly in one plane; uses 113 bits.
@@ -121,7 +135,7 @@ class PairFlight {
   Space space_;
   Start start_;
   std::array<Ball<double>, 2> delay_;  ///< time from each record to s = 0
-  std::array<double, 2> omega_, velocity_;
+  std::array<double, 2> omega_, velocity_, half_lengths_;
   double speed_ = 0, spin_ = 0;
   double distance_ = 0;  ///< lower bound on |r12| at s = 0
   double offset_ = 0;    ///< correction of f(0) to its value in the previous flight

@@ -6,10 +6,9 @@
 
 namespace needlework::audit {
 
-/// Parameters of the collision rule; m = L = 1.
+/// Parameters of the collision rule.
 struct Rule {
   double epsilon = 1, beta = -1;
-  double k = 6;
 };
 
 /// Largest difference of a reported collision and of the records after it from the rule, in units

@@ -4,22 +4,30 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "src/audit/pair_flight.h"
 
 namespace needlework::audit {
 
-/// Temperatures of needles of length and mass 1, in units of time in which their speeds are given.
+/// Temperatures of the needles of one species, in the units in which their speeds are given.
 struct Temperatures {
+  double count = 0;  ///< of needles
   double t_tr = 0, t_rot = 0;
-  double energy() const { return 1.5 * t_tr + t_rot; }  ///< per needle
 };
-Temperatures temperatures_of(std::span<const Needle> needles, double k);
+/// By species; 0 of one without needles.
+std::vector<Temperatures> temperatures_of(std::span<const Needle> needles,
+                                          std::span<const Body> bodies);
+/// Of all needles.
+double energy_of(std::span<const Needle> needles);
 
-/// Mean time between two collisions of a needle at these temperatures, by the kinetic theory of
-/// hard needles: 1 / (n (sqrt(pi) / 2) integral over the unit square of sqrt(T_tr + T_rot k r^2)).
-/// Infinite if nothing moves.
-double mean_free_time(const Temperatures& gas, double density, double k);
+/// Mean time between two collisions of a needle at these temperatures, over all needles, by the
+/// kinetic theory of hard needles: needles of species a and b collide n_a n_b sqrt(pi / 8) L_a L_b
+/// <sigma> times per volume and time, sigma^2 = T_a / m_a + T_b / m_b + T_rot,a s^2 / I_a + T_rot,b
+/// s'^2 / I_b averaged over the needles; half as often if a is b. In a mixture a needle is no
+/// partner of its own, as the engine counts. Infinite if nothing moves.
+double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
+                      double volume);
 
 /// Follows the ends of windows. A window begins with the run or at the end of the one before, and
 /// lasts for the power of two at or below the mean free time at its start. Times are in epochs.
@@ -28,8 +36,8 @@ class Windows {
   /// Relative error of the mean free time of the engine, which uses a coarse quadrature.
   static constexpr double tolerance = 4e-6;
 
-  /// Opens the first window at time 0; `density` is a number per volume.
-  Windows(std::span<const Needle> needles, double density, double k);
+  /// Opens the first window at time 0.
+  Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume);
 
   /// Opens windows until the present one ends after `now`. The needles move as given until then.
   void advance(const Instant& now, std::span<const Needle> needles);
@@ -43,7 +51,8 @@ class Windows {
  private:
   void open(const Instant& now, std::span<const Needle> needles);
 
-  double density_, k_;
+  std::vector<Body> bodies_;
+  double volume_;
   double mean_free_time_ = 0;
   Instant end_;
   bool certain_ = true;

@@ -44,7 +44,7 @@ struct Outcome {
 audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, double epoch_length) {
   const Scene::Collisions& collisions = scene.collisions;
   return {.epoch_length = epoch_length,
-          .rule = {collisions.epsilon, collisions.beta, scene.needles.k},
+          .composition = scene.composition(),
           .tc = collisions.tc,
           .tc_relative = collisions.tc_relative,
           .share = arguments.share,
@@ -150,21 +150,6 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
   return text;
 }
 
-// The audit has physics of its own, for needles of length and mass 1.
-void require_unit_needles(const Scene& scene) {
-  const Composition composition = scene.composition();
-  const Species& species = composition[0];
-  if (composition.is_mixture())
-    throw InputError("the audit checks needles of one species only, for now");
-  const auto require = [&](const char* key, double value) {
-    if (value == 1) return;
-    throw InputError(place_of(scene, std::string("species.") + key, fmt::format("{}", value)) +
-                     ": expected 1, as the audit checks needles of length and mass 1 only");
-  };
-  require("length", species.length);
-  require("mass", species.mass);
-}
-
 int exit_code_of(const audit::Findings& findings, const Outcome& outcome,
                  const std::optional<std::string>& state) {
   if (outcome.failure) {
@@ -190,7 +175,6 @@ int run(const AuditArguments& arguments) {
   }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
-  require_unit_needles(scene);
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);

@@ -97,6 +97,70 @@ TEST(Audit, FindsNothingWrongWithTheEngine) {
   }
 }
 
+// --- Mixtures.
+
+Scene mixture() {
+  Scene scene = scene_of(0, 5);
+  scene.species = {{.name = "short", .count = 100, .length = 0.6, .mass = 0.5, .k = 4},
+                   {.name = "long", .count = 12, .length = 2.2, .mass = 7, .k = 6, .t_tr = 0.3},
+                   {.name = "middle", .count = 40, .length = 1, .mass = 1, .k = 2, .t_rot = 2}};
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.tc_relative = 1e-3;
+  scene.pairs = {{.between = {"short", "long"}, .epsilon = 0.6, .beta = 0.2},
+                 {.between = {"middle", "middle"}, .epsilon = 1, .beta = {}}};
+  return scene;
+}
+
+TEST(Audit, FindsNothingWrongWithMixtures) {
+  std::vector<Scene> scenes = {mixture()};
+  // The same in other units of length, mass and energy.
+  Scene& small = scenes.emplace_back(mixture());
+  for (double& edge : small.needles.box) edge *= 3e-5;
+  for (Species& each : small.species) {
+    each.length *= 3e-5;
+    each.mass *= 1e20;
+    each.t_tr *= 1e-30;
+    each.t_rot *= 1e-30;
+  }
+  // Lengths 1 to 20, masses 1 to 1e6, elastic.
+  Scene& unequal = scenes.emplace_back(scene_of(0, 2.5));
+  unequal.species = {{.name = "dust", .count = 120, .length = 0.05, .mass = 1e-6},
+                     {.name = "rod", .count = 20, .length = 1, .mass = 1}};
+  Scene& one = scenes.emplace_back(scene_of(0, 20));
+  one.species = {{.name = "rod", .count = 60, .length = 6, .mass = 0.1, .k = 3}};
+  one.collisions.epsilon = 0.8;
+  one.collisions.tc_relative = 1e-3;
+  for (const Scene& scene : scenes) {
+    const EngineRun run(scene, 20);
+    expect_clean(run.audited(), name_of(scene));
+  }
+}
+
+// A run of other needles than those of the scene.
+TEST(Audit, SeesOtherNeedlesThanThoseOfTheMixture) {
+  const EngineRun run(mixture(), 20);
+  const auto found = [&](Kind kind, auto&& alter) {
+    std::vector<Species> species = run.setup.composition.species();
+    alter(species);
+    EngineRun other = run;
+    other.setup.composition = Composition(species, {});
+    for (std::size_t a = 0; a < species.size(); ++a) {
+      for (std::size_t b = a; b < species.size(); ++b) {
+        other.setup.composition.set_restitution(a, b, run.setup.composition.restitution(a, b));
+      }
+    }
+    return other.audited().count(kind);
+  };
+  EXPECT_EQ(found(Kind::wrong_rule, [](auto&) {}), 0u);
+  EXPECT_GT(found(Kind::wrong_rule, [](auto& all) { all[1].mass *= 1 + 1e-9; }), 0u);
+  EXPECT_GT(found(Kind::wrong_rule, [](auto& all) { all[0].k *= 1 + 1e-9; }), 0u);
+  EXPECT_GT(found(Kind::missed, [](auto& all) { all[0].length *= 1.05; }), 0u);
+  EXPECT_GT(found(Kind::spurious, [](auto& all) { all[1].length *= 0.95; }), 0u);
+  EngineRun other = run;
+  other.setup.composition.set_restitution(1, 2, {0.9 + 1e-9, -1});
+  EXPECT_GT(other.audited().count(Kind::wrong_rule), 0u);
+}
+
 TEST(Audit, FollowsBouncesDownToTheContactTime) {
   Scene scene = gas(60, 2);
   scene.collisions.epsilon = 0.5;

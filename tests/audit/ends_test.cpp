@@ -63,11 +63,65 @@ TEST(AuditWindows, HaveTheMeanFreeTimeOfTheEngine) {
       scene.needles.k = k;
       scene.initial.t_tr = t_tr;
       scene.initial.t_rot = t_rot;
-      const double ours = audit::mean_free_time({t_tr, t_rot}, 50 / 125.0, k);
+      const audit::Temperatures gas{50, t_tr, t_rot};
+      const audit::Body body{.k = k};
+      const double ours = audit::mean_free_time({&gas, 1}, {&body, 1}, 125);
       EXPECT_NEAR(ours / Simulation(scene).mean_free_time(), 1, audit::Windows::tolerance / 2)
           << k << ", " << t_tr << ", " << t_rot;
     }
   }
+}
+
+TEST(AuditWindows, HaveTheMeanFreeTimeOfTheEngineForMixtures) {
+  for (const auto& [t_tr, t_rot] :
+       {std::pair(1.0, 1.0), std::pair(1.0, 0.0), std::pair(0.2, 3.0)}) {
+    Scene scene = scene_of(0, 25);
+    scene.species = {
+        {.name = "a", .count = 50, .length = 0.5, .mass = 3, .k = 2, .t_tr = t_tr, .t_rot = t_rot},
+        {.name = "b", .count = 30, .length = 10, .mass = 9, .k = 40, .t_tr = 0.1, .t_rot = 0.01},
+        {.name = "c", .count = 1, .length = 2, .mass = 1e-3, .k = 6, .t_tr = 1, .t_rot = 1}};
+    const Simulation simulation(scene);
+    std::vector<audit::Temperatures> gas;
+    std::vector<audit::Body> bodies;
+    const auto totals = simulation.species_totals();
+    for (std::size_t n = 0; n < 3; ++n) {
+      const Species& each = scene.species[n];
+      gas.push_back({static_cast<double>(each.count), totals[n].t_tr, totals[n].t_rot});
+      bodies.push_back({n, each.length, each.mass, each.k});
+    }
+    EXPECT_NEAR(audit::mean_free_time(gas, bodies, 25 * 25 * 25) / simulation.mean_free_time(), 1,
+                audit::Windows::tolerance / 2)
+        << t_tr << ", " << t_rot;
+  }
+}
+
+TEST(AuditEnds, OfAMixtureAreThoseOfItsScene) {
+  Scene scene = scene_of(0, 5);
+  scene.species = {{.name = "a", .count = 50, .length = 0.5, .mass = 3, .k = 2, .t_tr = 2},
+                   {.name = "b", .count = 20, .length = 1.5, .mass = 1, .k = 6, .t_rot = 0.5}};
+  scene.collisions.epsilon = 0.7;
+  scene.collisions.tc_relative = 0.02;
+  scene.until.energy_ratio = 0.5;
+  const Whole run(scene);
+  EXPECT_EQ(run.stop, Stop::energy);
+  EXPECT_EQ(run.count(Kind::wrong_start), 0u);
+  EXPECT_EQ(run.count(Kind::wrong_end), 0u);
+  EXPECT_EQ(run.count(Kind::wrong_rule), 0u);
+
+  Whole hotter = run;
+  hotter.scene.species[0].t_tr = 2.0001;
+  EXPECT_EQ(hotter.count(Kind::wrong_start), 1u);
+  Whole swapped = run;
+  std::swap(swapped.scene.species[0].count, swapped.scene.species[1].count);
+  EXPECT_EQ(swapped.count(Kind::wrong_start), 1u);
+  Whole given = run;
+  given.given = run.initial;
+  EXPECT_EQ(given.count(Kind::wrong_start), 0u);
+  std::swap(given.given->species.front(), given.given->species.back());
+  EXPECT_EQ(given.count(Kind::wrong_start), 1u);
+  Whole later = run;
+  later.scene.until.energy_ratio = 0.6;
+  EXPECT_EQ(later.count(Kind::wrong_end), 1u);
 }
 
 TEST(AuditWindows, DecideWhenARelativeContactTimeApplies) {

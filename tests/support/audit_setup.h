@@ -10,7 +10,7 @@ inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double 
   const auto& c = scene.collisions;
   audit::Setup setup;
   setup.epoch_length = epoch_length;
-  setup.rule = {c.epsilon, c.beta, scene.needles.k};
+  setup.composition = scene.composition();
   setup.tc = c.tc;
   setup.tc_relative = c.tc_relative;
   setup.share = share;
