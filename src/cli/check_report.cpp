@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/json.h"
+#include "src/composition/pair_name.h"
 #include "src/machine/available_cores.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
@@ -44,6 +45,50 @@ std::string shape_text(double k) {
   return fmt::format("k = {:g}", k);
 }
 
+// Of a needle of this species at the start. Both needles of a collision count it.
+double mean_free_time_of(const runs::Explanation& e, const Composition& composition,
+                         std::size_t species) {
+  double collisions = 0;
+  for (std::size_t other = 0; other < composition.size(); ++other) {
+    const double rate = e.rates[composition.pair_index(species, other)];
+    collisions += species == other ? 2 * rate : rate;
+  }
+  return static_cast<double>(composition[species].count) / collisions;
+}
+
+Json species_json(const runs::Explanation& e, const Composition& composition) {
+  Json out = Json::array();
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    const Species& each = composition[n];
+    out.push_back({{"name", each.name},
+                   {"count", each.count},
+                   {"length", each.length},
+                   {"mass", each.mass},
+                   {"k", each.k},
+                   {"t_tr", number(e.by_species[n].t_tr)},
+                   {"t_rot", number(e.by_species[n].t_rot)}});
+    if (!composition.is_mixture()) continue;
+    out.back()["mean_free_time"] =
+        e.rates.empty() ? Json() : number(mean_free_time_of(e, composition, n));
+  }
+  return out;
+}
+
+Json pairs_json(const runs::Explanation& e, const Composition& composition) {
+  Json out = Json::object();
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const std::size_t pair = composition.pair_index(a, b);
+      const Restitution& rule = composition.restitution(a, b);
+      out[pair_name(composition, a, b)] = {
+          {"epsilon", rule.epsilon},
+          {"beta", rule.beta},
+          {"collisions_per_time", e.rates.empty() ? Json() : number(e.rates[pair])}};
+    }
+  }
+  return out;
+}
+
 std::string start_text(const runs::Explanation& e) {
   const Scene::Initial& initial = e.scene.initial;
   const std::string from = initial.file.empty()
@@ -53,13 +98,48 @@ std::string start_text(const runs::Explanation& e) {
                      e.initial.t_tr, e.initial.t_rot, e.initial.energy());
 }
 
-std::string collision_text(const Scene::Collisions& c) {
+std::string collision_text(const Restitution& c) {
   const std::string normal = c.epsilon < 1 ? "inelastic" : "elastic";
   const std::string tangential = c.beta == -1  ? "smooth"
                                  : c.beta == 1 ? "perfectly rough"
                                                : "rough";
   return fmt::format("{} (epsilon = {:g}), {} (beta = {:g})", normal, c.epsilon, tangential,
                      c.beta);
+}
+
+// Properties and temperatures of each species, and how often they collide at the start.
+std::string species_lines(const runs::Explanation& e, const Composition& composition) {
+  std::string text;
+  const char* title = "needles";
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    const Species& species = composition[n];
+    text += line(title,
+                 fmt::format("{}, {}, species \"{}\" of length {:g} and mass {:g}", species.count,
+                             shape_text(species.k), species.name, species.length, species.mass));
+    title = "";
+    if (!composition.is_mixture()) continue;
+    text += line("", fmt::format("at T_tr = {:.6g}, T_rot = {:.6g}{}", e.by_species[n].t_tr,
+                                 e.by_species[n].t_rot,
+                                 e.rates.empty() || species.count == 0
+                                     ? ""
+                                     : fmt::format(", mean free time {:.4g}",
+                                                   mean_free_time_of(e, composition, n))));
+  }
+  return text;
+}
+
+// The rule of [collisions], then those of pairs of species that differ from it.
+std::string collision_lines(const Scene& scene, const Composition& composition) {
+  const Restitution usual{scene.collisions.epsilon, scene.collisions.beta};
+  std::string text = line("collisions", collision_text(usual));
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const Restitution& rule = composition.restitution(a, b);
+      if (rule == usual) continue;
+      text += line("", fmt::format("{}: {}", pair_name(composition, a, b), collision_text(rule)));
+    }
+  }
+  return text;
 }
 
 std::string contact_time_text(const Scene::Collisions& c) {
@@ -131,19 +211,25 @@ std::string output_text(const Scene::Output& output) {
 
 std::string json_of(const runs::Explanation& e) {
   const Scene& scene = e.scene;
+  const Composition composition = scene.composition();
+  // Of several species those of no single one.
+  const bool one = !composition.is_mixture();
+  const auto of_one = [&](double value) { return one ? Json(value) : Json(); };
   Json json;
   json["title"] = scene.title;
   json["needles"] = scene.needles.count;
   json["box"] = scene.needles.box;
   json["density"] = e.density;
-  json["k"] = scene.needles.k;
+  json["k"] = of_one(composition[0].k);
   json["seed"] = scene.needles.seed;
   json["t_tr"] = e.initial.t_tr;
   json["t_rot"] = e.initial.t_rot;
   json["energy"] = e.initial.energy();
   json["mean_free_time"] = number(e.mean_free_time);
-  json["epsilon"] = scene.collisions.epsilon;
-  json["beta"] = scene.collisions.beta;
+  json["epsilon"] = of_one(composition.restitution(0, 0).epsilon);
+  json["beta"] = of_one(composition.restitution(0, 0).beta);
+  if (!scene.species.empty()) json["species"] = species_json(e, composition);
+  if (!one) json["pairs"] = pairs_json(e, composition);
   json["tc"] = optional_number(scene.collisions.tc);
   json["tc_relative"] = optional_number(scene.collisions.tc_relative);
   json["until"] = {{"time", optional_number(scene.until.time)},
@@ -180,13 +266,7 @@ std::string text_of(const runs::Explanation& e) {
     text +=
         line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
   }
-  const char* title = "needles";
-  for (const Species& species : scene.species) {
-    text += line(title,
-                 fmt::format("{}, {}, species \"{}\" of length {:g} and mass {:g}", species.count,
-                             shape_text(species.k), species.name, species.length, species.mass));
-    title = "";
-  }
+  if (!scene.species.empty()) text += species_lines(e, composition);
   const char* volume = composition.longest() == 1 ? "unit of volume"
                        : composition.is_mixture() ? "cube of the longest length"
                                                   : "cube of their length";
@@ -194,7 +274,7 @@ std::string text_of(const runs::Explanation& e) {
                                   box[2], e.density, volume));
   text += line("start", start_text(e));
   text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
-  text += line("collisions", collision_text(scene.collisions));
+  text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));

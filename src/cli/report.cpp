@@ -1,15 +1,20 @@
 #include "src/cli/report.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <span>
+#include <utility>
 
+#include "needlework/initial_state.h"
 #include "src/cli/json.h"
 #include "src/observe/forecast.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/resources.h"
 #include "src/scene/accuracy.h"
+#include "src/serve/species_json.h"
 
 namespace needlework::cli {
 namespace {
@@ -31,25 +36,6 @@ Json stats_of(const Counters& counters) {
   return stats;
 }
 
-// By species and by pairs of species, in the order of the scene.
-void add_species(Json& json, const Simulation& simulation) {
-  const Composition& composition = simulation.composition();
-  const auto totals = simulation.species_totals();
-  const auto collisions = simulation.collisions_by_pair();
-  json["species"] = Json::array();
-  Json& by_pair = json["collisions_by_pair"] = Json::object();
-  for (std::size_t a = 0; a < composition.size(); ++a) {
-    json["species"].push_back({{"name", composition[a].name},
-                               {"count", totals[a].count},
-                               {"t_tr", number(totals[a].t_tr)},
-                               {"t_rot", number(totals[a].t_rot)}});
-    for (std::size_t b = a; b < composition.size(); ++b) {
-      by_pair[composition[a].name + "-" + composition[b].name] =
-          collisions[composition.pair_index(a, b)];
-    }
-  }
-}
-
 }  // namespace
 
 double Report::collision_rate() const { return ratio(collisions_per_needle(), course.last.time); }
@@ -63,7 +49,10 @@ double Report::collision_rate_exact() const {
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
   const Composition composition = scene.composition();
-  if (composition.is_mixture()) return undefined;
+  if (composition.is_mixture()) {
+    const std::vector<double> rates = pair_rates_exact();
+    return 2 * std::accumulate(rates.begin(), rates.end(), 0.0) / count;
+  }
   const Species& species = composition[0];
   const double cube = species.length * species.length * species.length;
   return theory::equilibrium_rate(count, box[0] * box[1] * box[2] / cube,
@@ -80,12 +69,73 @@ double Report::us_per_collision() const {
   return ratio(1e6 * course.loop.cpu(), static_cast<double>(course.collisions));
 }
 
+std::vector<double> Report::pair_rates_exact() const {
+  const Composition composition = scene.composition();
+  if (!composition.is_mixture() || !runs::starts_in_equilibrium(scene) || !course.theory_holds) {
+    return {};
+  }
+  const double energy = static_cast<double>(scene.needles.count) * course.initial.energy;
+  return theory::mixture_equilibrium_rates(composition, runs::volume_of(scene), energy);
+}
+
+MixtureTheory::MixtureTheory(const Composition& composition, double volume,
+                             std::vector<theory::Temperatures> initial)
+    : composition_(composition), volume_(volume), initial_(std::move(initial)), curve_(begin()) {}
+
+const std::vector<theory::Temperatures>& MixtureTheory::at(double time) {
+  const auto [place, is_new] = known_.try_emplace(time);
+  if (!is_new) return place->second;
+  if (time < time_) curve_ = begin();
+  time_ = time;
+  return place->second = curve_.at(time);
+}
+
+namespace {
+
+// Species scatter around the temperatures they are drawn with, which many needles do little.
+std::vector<theory::Temperatures> drawn_temperatures(const Scene& scene) {
+  constexpr std::uint64_t many = 1000000;
+  runs::LoadedScene drawn{.scene = scene, .initial = {}};
+  if (scene.needles.count <= many) drawn.initial = draw_initial_state(scene);
+  return runs::temperatures_by_species(drawn);
+}
+
+}  // namespace
+
+std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
+    const Totals& sample) const {
+  const Composition composition = scene.composition();
+  if (!runs::has_mixture_theory(composition) || !scene.initial.file.empty() ||
+      !(course.initial.energy > 0) || !course.theory_holds) {
+    return std::nullopt;
+  }
+  if (!mixture_theory) {
+    mixture_theory.emplace(composition, runs::volume_of(scene), drawn_temperatures(scene));
+  }
+  const auto& found = mixture_theory->at(sample.time);
+  if (!std::isfinite(theory::mean_of_species(composition, found).energy())) return std::nullopt;
+  return found;
+}
+
+double Report::initial_collision_rate() const {
+  if (!scene.composition().is_mixture()) {
+    return theory::collision_rate(runs::theory_density_of(scene),
+                                  {course.initial.t_tr, course.initial.t_rot}, scene.needles.k);
+  }
+  return runs::initial_collision_rate({.scene = scene, .initial = {}});
+}
+
 std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) const {
+  if (const auto each = species_theory_at(sample)) {
+    return theory::mean_of_species(scene.composition(), *each);
+  }
   if (scene.composition().is_mixture() || !scene.initial.file.empty() ||
       !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }
-  const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
+  const Composition composition = scene.composition();
+  const Restitution& rule = composition.restitution(0, 0);
+  const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double tau = theory_time_scale(runs::theory_density_of(scene)) * sample.time;
   return theory::cooling_curve(gas, {course.initial.t_tr, course.initial.t_rot}, std::span(&tau, 1))
       .front();
@@ -115,12 +165,20 @@ std::string json_of(const Report& report) {
   json["t_tr"] = number(last.t_tr);
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
-  if (!scene.species.empty()) add_species(json, simulation);
+  if (!scene.species.empty()) serve::add_species(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},
                       {"t_tr", number(theory->t_tr)},
                       {"t_rot", number(theory->t_rot)}};
+  }
+  if (const auto each = report.species_theory_at(last)) {
+    Json& species = json["theory"]["species"] = Json::array();
+    for (std::size_t n = 0; n < each->size(); ++n) {
+      species.push_back({{"name", simulation.composition()[n].name},
+                         {"t_tr", number((*each)[n].t_tr)},
+                         {"t_rot", number((*each)[n].t_rot)}});
+    }
   }
   json["setup_s"] = report.setup_s;
   json["wall_s"] = loop.wall();

@@ -1,8 +1,10 @@
 // The result of a run, as printed when it is over.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "needlework/scene.h"
 #include "needlework/simulation.h"
@@ -10,6 +12,25 @@
 #include "src/runs/run_driver.h"
 
 namespace needlework::cli {
+
+/// Kinetic theory of a mixture at the times that are asked for.
+class MixtureTheory {
+ public:
+  MixtureTheory(const Composition& composition, double volume,
+                std::vector<theory::Temperatures> initial);
+  /// Of each species. Quick for times in ascending order, and for those that were asked for before.
+  const std::vector<theory::Temperatures>& at(double time);
+
+ private:
+  theory::MixtureCurve begin() const { return {composition_, volume_, initial_}; }
+
+  Composition composition_;
+  double volume_;
+  std::vector<theory::Temperatures> initial_;
+  theory::MixtureCurve curve_;
+  double time_ = 0;  ///< of the curve
+  std::map<double, std::vector<theory::Temperatures>> known_;
+};
 
 /// The facts of a run, for people and for programs. Borrows what it is about.
 struct Report {
@@ -28,8 +49,17 @@ struct Report {
   double collisions_per_needle() const;
   /// CPU time of the event loop, by this process; NaN without collisions.
   double us_per_collision() const;
+  /// Collisions of each two species per unit time in equilibrium, by Composition::pair_index; empty
+  /// for other gases.
+  std::vector<double> pair_rates_exact() const;
   /// What the cooling curve has for a sample; none for a state read from a file or at rest.
   std::optional<theory::Temperatures> theory_at(const Totals& sample) const;
+  /// The same of each species of a mixture.
+  std::optional<std::vector<theory::Temperatures>> species_theory_at(const Totals& sample) const;
+  /// Collisions of a needle per time at the start, by theory.
+  double initial_collision_rate() const;
+
+  mutable std::optional<MixtureTheory> mixture_theory = {};  ///< made when it is asked for
 };
 
 /// One word for why the run stopped.

@@ -233,6 +233,10 @@ cooling curve is the same for every density. c is the ratio T_tr / T_rot that
 a gas tends to as it cools, and k_star the k at which c = 1 for every epsilon
 (smooth needles).
 
+Of a scene of several species it prints how often each two of them collide at
+the start, how fast their temperatures change, and the temperatures of each.
+Of the options only --time, --set and --json go with such a scene.
+
 Examples:
   needlework theory profiles/quickstart.toml
   needlework theory --epsilon 0.8 --k 6 --density 0.72 --time 10 --time 100)");

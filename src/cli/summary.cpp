@@ -6,6 +6,7 @@
 
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
+#include "src/composition/pair_name.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/loaded_scene.h"
@@ -90,6 +91,40 @@ std::string energy_lines(const Report& report) {
   return text;
 }
 
+// Temperatures of each species, and collisions of each two: their number, or how their rate in
+// equilibrium compares.
+std::string species_lines(const Report& report) {
+  const Simulation& simulation = report.simulation;
+  const Composition& composition = simulation.composition();
+  if (!composition.is_mixture()) return {};
+  const auto totals = simulation.species_totals();
+  const auto theory = report.species_theory_at(report.course.last);
+  std::string text;
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    text += line(n == 0 ? "species" : "", "{}: {} needles, T_tr = {:.4g}, T_rot = {:.4g}",
+                 composition[n].name, totals[n].count, totals[n].t_tr, totals[n].t_rot);
+    if (!theory) continue;
+    text.pop_back();
+    text += fmt::format(", theory {:.4g}, {:.4g}\n", (*theory)[n].t_tr, (*theory)[n].t_rot);
+  }
+  const auto collisions = simulation.collisions_by_pair();
+  const std::vector<double> exact = report.pair_rates_exact();
+  const double time = report.course.last.time;
+  const char* title = "pairs";
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const std::size_t pair = composition.pair_index(a, b);
+      text += line(title, "{}: {} collisions", pair_name(composition, a, b), collisions[pair]);
+      title = "";
+      if (exact.empty() || !(exact[pair] * time > 0)) continue;
+      text.pop_back();
+      text += fmt::format(", ratio to the exact rate {:.4f}\n",
+                          static_cast<double>(collisions[pair]) / (exact[pair] * time));
+    }
+  }
+  return text;
+}
+
 // The sample next to a time, if there is one within a twentieth of it.
 const Totals* sample_at(const runs::Course& course, double time) {
   const Totals* found = nullptr;
@@ -105,9 +140,7 @@ const Totals* sample_at(const runs::Course& course, double time) {
 std::string curve_lines(const Report& report) {
   constexpr int most_rows = 8;
   const Totals& first = report.course.initial;
-  const double mean_free_time =
-      1 / theory::collision_rate(runs::theory_density_of(report.scene), {first.t_tr, first.t_rot},
-                                 report.scene.needles.k);
+  const double mean_free_time = 1 / report.initial_collision_rate();
   const double begin = std::ceil(std::log10(0.5 * mean_free_time));
   const double end = std::floor(std::log10(report.course.last.time));
   const double stride = std::max(1.0, std::ceil((end - begin + 1) / most_rows));
@@ -170,6 +203,7 @@ std::string summary_of(const Report& report) {
                box[1], box[2], report.simulation.effects());
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
+  text += species_lines(report);
   if (runs::starts_in_equilibrium(scene) && last.time > 0) text += rate_line(report);
   if (!runs::starts_in_equilibrium(scene) && last.collisions > 0) text += curve_lines(report);
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,

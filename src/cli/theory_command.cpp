@@ -12,15 +12,18 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "needlework/theory.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
+#include "src/cli/mixture_theory.h"
 #include "src/cli/scene_arguments.h"
 #include "src/observe/forecast.h"
 #include "src/runs/exit_codes.h"
 #include "src/runs/explanation.h"
+#include "src/runs/loaded_scene.h"
 
 namespace needlework::cli {
 
@@ -88,18 +91,16 @@ double choose(const NumberOption& option, const std::optional<std::string>& text
 }
 
 // By decades, from a tenth of the mean free time to the end that is expected, or five decades on.
-std::vector<double> usual_taus(const runs::Explanation& scene) {
-  const double scale = theory_time_scale(scene.density);
+std::vector<double> usual_times(const runs::Explanation& scene) {
   if (!std::isfinite(scene.mean_free_time)) return {};
   const double first = std::floor(std::log10(scene.mean_free_time));
   double last = first + 5;
   if (scene.expected && std::isfinite(scene.expected->time) && scene.expected->time > 0) {
     last = std::max(first, std::ceil(std::log10(scene.expected->time)));
   }
-  std::vector<double> taus{0};
-  for (double decade = first; decade <= last; ++decade)
-    taus.push_back(scale * std::pow(10, decade));
-  return taus;
+  std::vector<double> times{0};
+  for (double decade = first; decade <= last; ++decade) times.push_back(std::pow(10, decade));
+  return times;
 }
 
 // Takes out of the values of an option what is a scene: these options take all that follows them.
@@ -109,23 +110,23 @@ void take_scene(std::vector<std::string>& values, std::string& scene) {
   values.pop_back();
 }
 
-Question question_of(TheoryArguments arguments) {
-  take_scene(arguments.taus, arguments.scene);
-  take_scene(arguments.times, arguments.scene);
+Question question_of(const TheoryArguments& arguments,
+                     const std::optional<runs::LoadedScene>& loaded) {
   Question question;
   std::optional<double> epsilon, k, beta = -1.0, t_tr = 1.0, t_rot = 1.0;
   std::vector<double> usual;
-  if (!arguments.scene.empty()) {
-    const runs::LoadedScene loaded =
-        load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
-    const runs::Explanation scene(loaded);
-    epsilon = loaded.scene.collisions.epsilon;
-    beta = loaded.scene.collisions.beta;
-    k = loaded.scene.needles.k;
+  if (loaded) {
+    const runs::Explanation scene(*loaded);
+    const Composition composition = loaded->scene.composition();
+    epsilon = composition.restitution(0, 0).epsilon;
+    beta = composition.restitution(0, 0).beta;
+    k = composition[0].k;
     t_tr = scene.initial.t_tr;
     t_rot = scene.initial.t_rot;
-    question.density = scene.density;
-    usual = usual_taus(scene);
+    question.density = runs::theory_density_of(loaded->scene);
+    for (const double time : usual_times(scene)) {
+      usual.push_back(theory_time_scale(*question.density) * time);
+    }
   } else if (!arguments.overrides.empty()) {
     throw std::invalid_argument(
         fmt::format("--set {}: expected a scene that it changes", arguments.overrides[0]));
@@ -150,8 +151,9 @@ Question question_of(TheoryArguments arguments) {
   return question;
 }
 
-Predictions predictions_of(const TheoryArguments& arguments) {
-  Predictions result{question_of(arguments), not_computed, not_computed, {}, {}};
+Predictions predictions_of(const TheoryArguments& arguments,
+                           const std::optional<runs::LoadedScene>& loaded) {
+  Predictions result{question_of(arguments, loaded), not_computed, not_computed, {}, {}};
   result.ratio = theory::asymptotic_ratio(result.gas);
   if (result.gas.beta == -1.0) result.equipartition_k = theory::equipartition_k();
   result.curve = theory::cooling_curve(result.gas, result.initial, result.taus);
@@ -210,12 +212,43 @@ std::string table_text(const Predictions& predictions) {
   return text;
 }
 
+// Of a mixture: all but the times comes from the scene.
+std::string mixture_text(const TheoryArguments& arguments, const runs::LoadedScene& loaded) {
+  const auto refuse = [](const char* option, const std::string& value) {
+    throw std::invalid_argument(
+        fmt::format("{} {}: expected none beside a scene of several species", option, value));
+  };
+  for (const auto& [option, value] : {std::pair(&epsilon_option, &arguments.epsilon),
+                                      {&beta_option, &arguments.beta},
+                                      {&k_option, &arguments.k},
+                                      {&t_rot0_option, &arguments.t_rot0},
+                                      {&density_option, &arguments.density}}) {
+    if (*value) refuse(option->name, **value);
+  }
+  if (!arguments.taus.empty()) refuse("--tau", arguments.taus.front());
+  std::vector<double> times;
+  for (const std::string& time : arguments.times) times.push_back(number_of(time_option, time));
+  if (times.empty()) times = usual_times(runs::Explanation(loaded));
+  return mixture_theory_of(loaded, times, arguments.json);
+}
+
+std::string text_of(TheoryArguments arguments) {
+  take_scene(arguments.taus, arguments.scene);
+  take_scene(arguments.times, arguments.scene);
+  std::optional<runs::LoadedScene> loaded;
+  if (!arguments.scene.empty()) {
+    loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
+    if (loaded->scene.composition().is_mixture()) return mixture_text(arguments, *loaded);
+  }
+  const Predictions predictions = predictions_of(arguments, loaded);
+  return arguments.json ? json_of(predictions) : table_text(predictions);
+}
+
 }  // namespace
 
 int run(const TheoryArguments& arguments) {
   try {
-    const Predictions predictions = predictions_of(arguments);
-    const std::string text = arguments.json ? json_of(predictions) : table_text(predictions);
+    const std::string text = text_of(arguments);
     std::fputs(text.c_str(), stdout);
     return ok;
   } catch (const std::invalid_argument& error) {

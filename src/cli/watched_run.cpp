@@ -41,10 +41,12 @@ picture::Panel panel(const char* title, const picture::Curve& measured,
 
 WatchedRun::WatchedRun(const Scene& scene, const Totals& initial, bool theory_holds)
     : initial_(initial), last_rate_(initial), needles_(static_cast<double>(scene.needles.count)) {
-  if (!theory_holds || scene.species.size() > 1 || !scene.initial.file.empty() ||
+  const Composition composition = scene.composition();
+  if (!theory_holds || composition.is_mixture() || !scene.initial.file.empty() ||
       !(initial.energy > 0))
     return;
-  const theory::Gas gas{scene.needles.k, scene.collisions.epsilon, scene.collisions.beta};
+  const Restitution& rule = composition.restitution(0, 0);
+  const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double density = runs::theory_density_of(scene);
   theory_.emplace(Theory{theory::CoolingCurve(gas, {initial.t_tr, initial.t_rot}),
                          density,

@@ -58,11 +58,24 @@ Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& a
           {"density", add(chosen_values("density", state, chosen))}};
 }
 
+std::vector<float> shares_of_length(const State& state, std::span<const std::size_t> chosen,
+                                    std::span<const double> lengths, double longest) {
+  std::vector<float> shares;
+  for (const std::size_t i : chosen) {
+    const std::size_t species = i < state.species.size() ? state.species[i] : 0;
+    shares.push_back(static_cast<float>(lengths[std::min(species, lengths.size() - 1)] / longest));
+  }
+  return shares;
+}
+
 }  // namespace
 
-Json frames_of(const std::string& path, double length, const Limits& limits, Arrays& arrays) {
+Json frames_of(const std::string& path, std::span<const double> lengths, const Limits& limits,
+               Arrays& arrays) {
   const io::FrameFile file(path);
-  const std::size_t needles = file.read(0).size();
+  const State first = file.read(0);
+  const std::size_t needles = first.size();
+  const double length = lengths.empty() ? 1 : *std::ranges::max_element(lengths);
   const auto chosen = evenly(needles, limits.needles);
   const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
   const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
@@ -71,6 +84,10 @@ Json frames_of(const std::string& path, double length, const Limits& limits, Arr
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
               {"frames", Json::array()}};
+  if (lengths.size() > 1) {
+    const auto shares = shares_of_length(first, chosen, lengths, length);
+    out["share_of_length"] = arrays.add(std::span<const float>(shares), {shares.size()});
+  }
   for (const std::size_t frame : frames) {
     Json one = {{"number", frame}, {"time", nullptr}};
     if (const auto time = file.time(frame)) one["time"] = *time;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 
 #include "src/report/arrays.h"
@@ -13,10 +14,11 @@ namespace needlework::report {
 /// shown, and for each frame its time with arrays of the needles shown [n]. `position` [n][3] is
 /// the centre wrapped into the box in units of edge / 65536, `orientation` [n][3] the director in
 /// units of 1 / 32767, `speed` |v|, `spin` |w|, and `alignment` and `density` are those of
-/// needlework view, see picture::values_of. `length` is that of a needle.
+/// needlework view, see picture::values_of. `lengths` are those of the species: of several,
+/// `share_of_length` [n] is the length of each needle shown over that of the longest.
 ///
 /// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
-nlohmann::ordered_json frames_of(const std::string& path, double length, const Limits& limits,
-                                 Arrays& arrays);
+nlohmann::ordered_json frames_of(const std::string& path, std::span<const double> lengths,
+                                 const Limits& limits, Arrays& arrays);
 
 }  // namespace needlework::report

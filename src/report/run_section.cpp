@@ -5,6 +5,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "src/report/frames.h"
 #include "src/report/scene_facts.h"
@@ -38,6 +40,11 @@ std::size_t product(const std::vector<std::size_t>& shape) {
   return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }
 
+/// Of values of each species, or each pair of them, which come first in a row, those of one.
+struct Part {
+  std::size_t index = 0, of = 1;
+};
+
 // A group of /series whose datasets have one row for each sample, or are constants.
 class Group {
  public:
@@ -54,7 +61,7 @@ class Group {
 
   bool empty() const { return datasets_.empty(); }
 
-  Json read(const Limits& limits, Arrays& arrays) const {
+  Json read(const Limits& limits, Arrays& arrays, const Part& part = {}) const {
     Json out = {{"description", contents_.description(path_)}};
     const std::size_t rows = timed_ ? contents_.shape(*timed_).at(0) : 0;
     const auto chosen = evenly(rows, std::min(limits.samples, affordable_rows(limits)));
@@ -66,7 +73,7 @@ class Group {
     }
     out["datasets"] = Json::object();
     for (const Dataset& dataset : datasets_) {
-      out["datasets"][dataset.name] = read(dataset, chosen, arrays);
+      out["datasets"][dataset.name] = read(dataset, chosen, arrays, part);
     }
     return out;
   }
@@ -92,11 +99,23 @@ class Group {
     return limits.group_bytes / std::max<std::size_t>(bytes, 1);
   }
 
-  Json read(const Dataset& dataset, std::span<const std::size_t> chosen, Arrays& arrays) const {
+  Json read(const Dataset& dataset, std::span<const std::size_t> chosen, Arrays& arrays,
+            const Part& part) const {
     std::vector<double> values =
         dataset.has_rows ? contents_.rows(dataset.path, chosen) : contents_.numbers(dataset.path);
     std::vector<std::size_t> shape = dataset.shape;
     if (dataset.has_rows) shape[0] = chosen.size();
+    if (dataset.has_rows && part.of > 1 && shape.size() > 1 && shape[1] == part.of) {
+      shape.erase(shape.begin() + 1);
+      const std::size_t width = dataset.row_size() / part.of;
+      std::vector<double> of_part;
+      for (std::size_t row = 0; row < chosen.size(); ++row) {
+        const auto begin =
+            values.begin() + static_cast<std::ptrdiff_t>((row * part.of + part.index) * width);
+        of_part.insert(of_part.end(), begin, begin + static_cast<std::ptrdiff_t>(width));
+      }
+      values = std::move(of_part);
+    }
     Json out = {{"description", contents_.description(dataset.path)},
                 {"has_rows", dataset.has_rows}};
     if (dataset.is_picture()) {
@@ -114,16 +133,55 @@ class Group {
   std::optional<std::string> timed_;
 };
 
-// The totals under "totals", and each group of /series under its name.
-Json groups_of(const io::Contents& contents, const Limits& limits, Arrays& arrays) {
+// The names of the species of a mixture; empty for one species.
+std::vector<std::string> species_of(const io::Contents& contents) {
+  if (!contents.has("/parameters/species")) return {};
+  return contents.texts("/parameters/species").value_or(std::vector<std::string>{});
+}
+
+// What the observables of a mixture are of: each species, or each two of them.
+enum class Of { all, species, pairs };
+Of what_of(const std::string& group) {
+  if (group == "totals" || group == "theory" || group == "species") return Of::all;
+  const bool of_pairs =
+      group == "pair_correlation" || group == "structure_factor" || group == "collision_statistics";
+  return of_pairs ? Of::pairs : Of::species;
+}
+
+// The totals under "totals", and each group of /series under its name. Of a mixture those that are
+// of this kind, and of each their part.
+Json groups_of(const io::Contents& contents, const Limits& limits, Arrays& arrays,
+               std::optional<Of> of = {}, const Part& part = {}) {
   Json out = Json::object();
   const auto add = [&](const std::string& name, const std::string& path) {
+    if (of && what_of(name) != *of) return;
     const Group group(contents, path);
-    if (!group.empty()) out[name] = group.read(limits, arrays);
+    if (!group.empty()) out[name] = group.read(limits, arrays, part);
   };
   add("totals", "/series");
   for (const std::string& name : contents.names("/series")) {
     if (!contents.is_dataset("/series/" + name)) add(name, "/series/" + name);
+  }
+  return out;
+}
+
+// The observables of each species and of each two of them, as those of a gas of one species.
+Json parts_of(const io::Contents& contents, const std::vector<std::string>& species,
+              const Limits& limits, Arrays& arrays) {
+  Json out = Json::array();
+  const auto add = [&](const std::string& name, Of of, const Part& part) {
+    Json groups = groups_of(contents, limits, arrays, of, part);
+    if (!groups.empty()) out.push_back({{"name", name}, {"groups", std::move(groups)}});
+  };
+  for (std::size_t n = 0; n < species.size(); ++n) {
+    add(species[n], Of::species, {n, species.size()});
+  }
+  std::size_t pair = 0;
+  for (std::size_t a = 0; a < species.size(); ++a) {
+    for (std::size_t b = a; b < species.size(); ++b) {
+      add(species[a] + "-" + species[b], Of::pairs,
+          {pair++, species.size() * (species.size() + 1) / 2});
+    }
   }
   return out;
 }
@@ -141,10 +199,16 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
   out["velocities_set"] =
       has_changes ? number(contents.numbers("/velocities_set/time").front()) : Json(nullptr);
   if (has_changes && out["scene"].is_object()) out["scene"]["ratio_of_theory"] = nullptr;
-  out["groups"] = groups_of(contents, limits, arrays);
-  const auto length = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
-                                                         : std::vector<double>{1.0};
-  out["frames"] = frames_of(path, length.size() == 1 ? length[0] : 1.0, limits, arrays);
+  const std::vector<std::string> species = species_of(contents);
+  if (species.empty()) {
+    out["groups"] = groups_of(contents, limits, arrays);
+  } else {
+    out["groups"] = groups_of(contents, limits, arrays, Of::all);
+    out["parts"] = parts_of(contents, species, limits, arrays);
+  }
+  const auto lengths = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
+                                                          : std::vector<double>{1.0};
+  out["frames"] = frames_of(path, lengths, limits, arrays);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "needlework/theory.h"
+#include "src/composition/pair_name.h"
 
 namespace needlework::report {
 
@@ -44,20 +45,62 @@ Json end_of(const Scene::Until& until) {
           {"wall_s", optional(until.wall_s)}};
 }
 
-// The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool.
-Json ratio_of_theory(const Scene& scene) {
-  const theory::Gas gas{scene.composition()[0].k, scene.collisions.epsilon, scene.collisions.beta};
+// The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool,
+// and for mixtures, whose species have each its own.
+Json ratio_of_theory(const Composition& composition) {
+  if (composition.is_mixture()) return nullptr;
+  const Restitution& rule = composition.restitution(0, 0);
+  const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double ratio = theory::asymptotic_ratio(gas);
   return std::isfinite(ratio) ? Json(ratio) : Json(nullptr);
 }
 
+Json species_of(const Composition& composition) {
+  Json out = Json::array();
+  for (const Species& each : composition.species()) {
+    out.push_back({{"name", each.name},
+                   {"count", each.count},
+                   {"length", each.length},
+                   {"mass", each.mass},
+                   {"k", each.k},
+                   {"t_tr", each.t_tr},
+                   {"t_rot", each.t_rot}});
+  }
+  return out;
+}
+
+// Those that differ from [collisions].
+Json pairs_of(const Composition& composition, const Restitution& usual) {
+  Json out = Json::array();
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const Restitution& rule = composition.restitution(a, b);
+      if (rule == usual) continue;
+      out.push_back(
+          {{"name", pair_name(composition, a, b)}, {"epsilon", rule.epsilon}, {"beta", rule.beta}});
+    }
+  }
+  return out;
+}
+
+// Of a mixture the longest length and the mean mass; what belongs to each species is with it.
 Json facts_of(const Scene& scene) {
-  const Species needle = scene.composition()[0];
-  return {{"k", needle.k},
-          {"length", needle.length},
-          {"mass", needle.mass},
-          {"t_tr", needle.t_tr},
-          {"t_rot", needle.t_rot},
+  const Composition composition = scene.composition();
+  const Species& needle = composition[0];
+  const bool one = !composition.is_mixture();
+  double mass = 0;
+  for (const Species& each : composition.species()) {
+    mass += each.mass *
+            (one ? 1 : static_cast<double>(each.count) / static_cast<double>(composition.count()));
+  }
+  const auto of_one = [&](double value) { return one ? Json(value) : Json(nullptr); };
+  return {{"species", one ? Json::array() : species_of(composition)},
+          {"pairs", pairs_of(composition, {scene.collisions.epsilon, scene.collisions.beta})},
+          {"k", of_one(needle.k)},
+          {"length", composition.longest()},
+          {"mass", mass},
+          {"t_tr", of_one(needle.t_tr)},
+          {"t_rot", of_one(needle.t_rot)},
           {"initial_file", scene.initial.file},
           {"epsilon", scene.collisions.epsilon},
           {"beta", scene.collisions.beta},
@@ -66,7 +109,7 @@ Json facts_of(const Scene& scene) {
           {"search", scene.engine.search},
           {"queue", scene.engine.queue},
           {"until", end_of(scene.until)},
-          {"ratio_of_theory", ratio_of_theory(scene)}};
+          {"ratio_of_theory", ratio_of_theory(composition)}};
 }
 
 }  // namespace

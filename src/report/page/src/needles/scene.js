@@ -1,6 +1,7 @@
 // The needles of one frame in three dimensions: one draw call for all of them, one for the box.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { numbers } from "../data.js";
 
 // A needle is a ribbon of four corners that faces the viewer. The GPU places it, so that another frame
 // or another colour is another array and nothing else. Each corner has the data of its needle: drawing
@@ -10,6 +11,7 @@ const vertexShader = `
   attribute vec3 centre;       // of the box, 0 to 1
   attribute vec3 orientation;
   attribute float value;
+  attribute float shareOfLength;  // of the longest needles
   uniform vec3 box;
   uniform float needleLength;
   uniform vec2 range;
@@ -24,7 +26,7 @@ const vertexShader = `
   varying float across;
   void main() {
     vec4 middle = viewMatrix * vec4((centre - 0.5) * box, 1.0);
-    vec3 along = mat3(viewMatrix) * orientation * needleLength;
+    vec3 along = mat3(viewMatrix) * orientation * (needleLength * shareOfLength);
     vec3 place = middle.xyz + corner.x * along;
     vec3 side = cross(along, place);
     float least = 1.1 * pixel * -place.z;
@@ -60,7 +62,8 @@ function drawnByCpu() {
 
 /** Draws on the canvas. Throws if there is no WebGL. */
 export class NeedleScene {
-  constructor(canvas, { length }) {
+  constructor(canvas, { length, share_of_length: shares }) {
+    this.shares = shares && numbers(shares);
     this.renderer = new three.WebGLRenderer({ canvas, antialias: !drawnByCpu(), powerPreference: "low-power" });
     this.camera = new three.PerspectiveCamera(35, 1, 0.1, 1000);
     this.camera.up.set(0, 0, 1);
@@ -113,6 +116,7 @@ export class NeedleScene {
     const corners = [0, 1, 2, 0, 2, 3];
     const index = Uint32Array.from({ length: 6 * count }, (_, n) => 4 * Math.floor(n / 6) + corners[n % 6]);
     this.geometry.setIndex(new three.BufferAttribute(index, 1));
+    this.setAttribute("shareOfLength", this.shares ?? new Float32Array(count).fill(1), 1, false);
   }
 
   // Gives the corners of each needle its numbers, in the array of the frame before where there is one.

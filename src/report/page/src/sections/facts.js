@@ -1,6 +1,6 @@
 // What was run, and what came out, as lists of facts.
 import { element } from "../dom.js";
-import { column, numbers } from "../data.js";
+import { column, numbers, rowOf } from "../data.js";
 import { numberText } from "../numbers.js";
 
 /** A list of [name, value, remark] as large figures or as lines. */
@@ -36,6 +36,38 @@ function contactTime({ tc, tc_relative }) {
   return tc_relative === null ? "none" : `t_c = ${numberText(tc_relative)} mean free times`;
 }
 
+function ofOneSpecies({ k, length, mass }) {
+  return [
+    ["Shape k", k],
+    ["Length, mass", length === 1 && mass === 1 ? null : `${numberText(length)}, ${numberText(mass)}`],
+  ];
+}
+
+function speciesFact({ name, count, length, mass, k, t_tr, t_rot }) {
+  const properties = { length, mass, k, "T_tr": t_tr, "T_rot": t_rot };
+  const text = Object.entries(properties).map(([key, value]) => `${key} ${numberText(value)}`);
+  return [`Species ${name}`, `${numberText(count)} needles: ${text.join(", ")}`];
+}
+
+// Temperatures of each species at the last sample, and collisions of each two.
+function resultsBySpecies({ groups, scene }) {
+  if (!groups.species || !scene?.species.length) return [];
+  const last = (dataset) => rowOf(dataset, dataset.shape[0] - 1);
+  const { t_tr, t_rot, collisions } = groups.species.datasets;
+  const theory = groups.theory?.datasets.species_t_tr;
+  const names = scene.species.map(({ name }) => name);
+  const temperatures = names.flatMap((name, n) => [
+    [`T_tr of ${name}`, last(t_tr)[n], theory ? `${numberText(last(t_tr)[n] / last(theory)[n])} × theory` : ""],
+    [`T_rot of ${name}`, last(t_rot)[n], theory ? `${numberText(last(t_rot)[n] / last(groups.theory.datasets.species_t_rot)[n])} × theory` : ""],
+  ]);
+  return [...temperatures, ...pairNames(names).map((name, n) => [`Collisions ${name}`, last(collisions)[n]])];
+}
+
+/** Of each two species, in the order in which they are counted. */
+export function pairNames(names) {
+  return names.flatMap((name, n) => names.slice(n).map((other) => `${name}-${other}`));
+}
+
 /** The scene and the settings of a run. */
 export function factsOfRun({ scene, parameters, frames }) {
   const value = (name) => parameters[name]?.value;
@@ -46,9 +78,9 @@ export function factsOfRun({ scene, parameters, frames }) {
       ["Box", frames.frames[0].box.map((edge) => numberText(edge)).join(" × ")],
       ["Density n L³", (frames.needles_in_file * scene.length ** 3) / volume],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
-      ["Shape k", scene.k],
-      ["Length, mass", scene.length === 1 && scene.mass === 1 ? null : `${numberText(scene.length)}, ${numberText(scene.mass)}`],
-      ["Initial state", scene.initial_file || `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`],
+      ...scene.pairs.map(({ name, epsilon, beta }) => [`Restitution of ${name}`, `${numberText(epsilon)}, ${numberText(beta)}`]),
+      ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
+      ["Initial state", scene.initial_file || (scene.species.length ? "drawn" : `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`)],
       ["Contact-time rule", contactTime(scene)],
       ["Started to run until", endText(scene.until)],
       ["Search, calendar", `${scene.search}, ${scene.queue}`],
@@ -65,7 +97,8 @@ export function factsOfRun({ scene, parameters, frames }) {
 }
 
 /** The last sample of a run. */
-export function resultsOfRun({ groups, scene, frames }) {
+export function resultsOfRun(run) {
+  const { groups, scene, frames } = run;
   if (!groups.totals) return [];
   const { datasets, time } = groups.totals;
   const last = (name) => column(datasets[name]).at(-1);
@@ -83,6 +116,7 @@ export function resultsOfRun({ groups, scene, frames }) {
     ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
     ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
     ["S", order],
+    ...resultsBySpecies(run),
   ];
 }
 

@@ -41,9 +41,11 @@ function atOneTime(run) {
     const figure = curvesChart({ ...chart, notes: notesOf(group), curves: curvesAt(group.rows - 1) });
     return { figure, group, show: (row) => figure.update(curvesAt(row)) };
   });
-  const { fields } = run.groups;
-  if (fields) {
-    const figure = fieldMap(fields, run.frames.frames[0].box, notesOf(fields));
+  for (const { groups, name } of [{ groups: run.groups }, ...(run.parts ?? [])]) {
+    const { fields } = groups;
+    if (!fields) continue;
+    const notes = name ? [`Of ${name}.`, ...notesOf(fields)] : notesOf(fields);
+    const figure = fieldMap(fields, run.frames.frames[0].box, notes);
     charts.push({ figure, group: fields, show: figure.show });
   }
   if (!charts.length) return [];

@@ -88,6 +88,16 @@ const snapshots = [
 
 /** The charts at one time that a run has: {chart, rows, curvesAt(row)}. */
 export function snapshotsOf(run) {
+  // Of a mixture each is of each species, or of each two.
+  const parts = (run.parts ?? []).flatMap((part) =>
+    snapshotsOf({ groups: part.groups }).map((one) => ({
+      ...one, chart: { ...one.chart, title: `${one.chart.title}: ${part.name}` },
+    })),
+  );
+  return [...snapshotsOfGroups(run), ...parts];
+}
+
+function snapshotsOfGroups(run) {
   return snapshots
     .filter(({ group, datasets }) => run.groups[group]?.datasets[datasets[0][0]])
     .map((spec) => {

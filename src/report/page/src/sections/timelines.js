@@ -1,5 +1,6 @@
 // Charts of a run over time, as a table: what each shows of which datasets.
 import { column, numbers } from "../data.js";
+import { pairNames } from "./facts.js";
 
 // Where a run has needles, each of these is a function of its groups. A chart is shown if the group
 // it is about is in the file.
@@ -113,6 +114,24 @@ function plain(group, fields) {
     }));
 }
 
+// One curve for each species, beside that of theory.
+function ofSpecies(name, text) {
+  return ({ groups, scene }) => {
+    const { datasets, time } = groups.species;
+    const theory = groups.theory?.datasets[`species_${name}`];
+    return (scene?.species ?? []).flatMap((species, n) => [
+      { name: `${text} of ${species.name}`, x: numbers(time), y: column(datasets[name], n), colour: n, points: true },
+      theory && { name: `${species.name}, theory`, x: numbers(groups.theory.time), y: column(theory, n), colour: n, dashed: true },
+    ]);
+  };
+}
+
+function ofPairs({ groups, scene }) {
+  const { datasets, time } = groups.species;
+  const names = pairNames((scene?.species ?? []).map(({ name }) => name));
+  return names.map((name, n) => ({ name, x: numbers(time), y: column(datasets.collisions, n), colour: n, points: true }));
+}
+
 function cellsOf({ groups, count }) {
   const shape = groups.fields?.datasets.density.shape;
   return shape ? { cells: shape[1] * shape[2] * shape[3], needles: count } : null;
@@ -146,16 +165,13 @@ function secondMoment(context) {
   ];
 }
 
-function byAxis(name, total) {
+function byAxis(name) {
   return ({ groups }) => {
     const { datasets, time } = groups.temperature_by_axis;
-    const of = totals(groups).of(total);
-    return ["x", "y", "z"].map((axis, n) => {
-      const values = column(datasets[name], n);
-      const x = numbers(time);
-      const y = values.length === of.length ? divided(values, of) : values;
-      return { name: axis, x, y, colour: n };
-    });
+    const values = [0, 1, 2].map((axis) => column(datasets[name], axis));
+    // Their mean is the temperature of the gas, or of the species.
+    const all = values[0].map((_, n) => (values[0][n] + values[1][n] + values[2][n]) / 3);
+    return ["x", "y", "z"].map((axis, n) => ({ name: axis, x: numbers(time), y: divided(values[n], all), colour: n }));
   };
 }
 
@@ -239,6 +255,18 @@ const timelines = [
     caption: "Change of the total momentum since the start, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
   },
   {
+    group: "species", title: "Translational temperature of each species", y: "energy", log: "xy",
+    curves: ofSpecies("t_tr", "T_tr"), caption: "Two thirds of the mean energy of translation, with kinetic theory.",
+  },
+  {
+    group: "species", title: "Rotational temperature of each species", y: "energy", log: "xy",
+    curves: ofSpecies("t_rot", "T_rot"), caption: "Mean energy of rotation, with kinetic theory.",
+  },
+  {
+    group: "species", title: "Collisions of each two species", y: "collisions", log: "xy",
+    curves: ofPairs, caption: "Since the start.",
+  },
+  {
     group: "flow_order", title: "Order of the flow, S", y: "S", log: "xy", curves: flowOrder,
     caption: "Energy of the flow of the cells, divided by that of the motion relative to it.",
   },
@@ -260,11 +288,11 @@ const timelines = [
   },
   {
     group: "temperature_by_axis", title: "T_tr by axis", y: "T_tr of the axis / T_tr", log: "x",
-    curves: byAxis("t_tr", "t_tr"), caption: "Translational temperature along each axis. 1 in an isotropic gas.",
+    curves: byAxis("t_tr"), caption: "Translational temperature along each axis. 1 in an isotropic gas.",
   },
   {
     group: "temperature_by_axis", title: "T_rot by axis", y: "T_rot of the axis / T_rot", log: "x",
-    curves: byAxis("t_rot", "t_rot"), caption: "Rotational temperature about each axis. 1 in an isotropic gas.",
+    curves: byAxis("t_rot"), caption: "Rotational temperature about each axis. 1 in an isotropic gas.",
   },
   {
     group: "alignment", title: "Nematic order", y: "order parameter", log: "x", curves: nematic,
@@ -288,12 +316,21 @@ const timelines = [
 
 /** The charts that a run has: descriptions for curvesChart, without a range of time. */
 export function timelinesOf(run) {
-  const { groups } = run;
-  const count = run.frames.needles_in_file;
-  const context = { ...run, count };
-  const overDecades = groups.totals ? spansDecades(numbers(groups.totals.time)) : false;
+  const whole = timelinesOfGroups(run, run.groups, run.frames.needles_in_file);
+  // Of a mixture each observable is of each species, or of each two.
+  const parts = (run.parts ?? []).flatMap(({ name, groups }) => {
+    const count = run.scene?.species.find((species) => species.name === name)?.count ?? NaN;
+    return timelinesOfGroups(run, groups, count).map((chart) => ({ ...chart, title: `${chart.title}: ${name}` }));
+  });
+  return [...whole, ...parts];
+}
+
+function timelinesOfGroups(run, groups, count) {
+  const context = { ...run, groups, count };
+  const samples = run.groups.totals;
+  const overDecades = samples ? spansDecades(numbers(samples.time)) : false;
   return timelines
-    .filter(({ group }) => groups[group] && (groups.totals || group === "displacement"))
+    .filter(({ group }) => groups[group] && (samples || group === "displacement"))
     .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
       title,
       caption,

@@ -1,0 +1,116 @@
+#include "src/cli/mixture_theory.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "needlework/error.h"
+#include "needlework/theory.h"
+#include "src/cli/json.h"
+#include "src/composition/pair_name.h"
+
+namespace needlework::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MixturePredictions {
+  Composition composition;
+  std::vector<theory::Temperatures> initial;
+  theory::MixtureRates rates;  ///< at the start
+  std::vector<double> times;
+  std::vector<std::vector<theory::Temperatures>> curve;  ///< by time, then species
+};
+
+template <class Value>
+Json by_species(const MixturePredictions& p, Value&& value) {
+  Json out = Json::object();
+  for (std::size_t n = 0; n < p.composition.size(); ++n) {
+    out[p.composition[n].name] = value(n);
+  }
+  return out;
+}
+
+// For each of `of`, such as those at each time, what value() makes of it.
+template <class All, class Value>
+Json each_of(const All& of, Value&& value) {
+  Json out = Json::array();
+  for (const auto& one : of) out.push_back(number(value(one)));
+  return out;
+}
+
+Json json_of(const MixturePredictions& p) {
+  Json rates = Json::object();
+  for (std::size_t a = 0; a < p.composition.size(); ++a) {
+    for (std::size_t b = a; b < p.composition.size(); ++b) {
+      rates[pair_name(p.composition, a, b)] =
+          number(p.rates.collisions[p.composition.pair_index(a, b)]);
+    }
+  }
+  const auto all = [&](const std::vector<theory::Temperatures>& each) {
+    return mean_of_species(p.composition, each);
+  };
+  return {{"collisions_per_time", rates},
+          {"t_tr_per_time",
+           by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_tr); })},
+          {"t_rot_per_time",
+           by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_rot); })},
+          {"time", p.times},
+          {"t_tr", each_of(p.curve, [&](const auto& each) { return all(each).t_tr; })},
+          {"t_rot", each_of(p.curve, [&](const auto& each) { return all(each).t_rot; })},
+          {"energy", each_of(p.curve, [&](const auto& each) { return all(each).energy(); })},
+          {"species", by_species(p, [&](std::size_t n) -> Json {
+             return {{"t_tr", each_of(p.curve, [&](const auto& each) { return each[n].t_tr; })},
+                     {"t_rot", each_of(p.curve, [&](const auto& each) { return each[n].t_rot; })}};
+           })}};
+}
+
+std::string mixture_table(const MixturePredictions& p) {
+  std::string text = "at the start\n";
+  for (std::size_t a = 0; a < p.composition.size(); ++a) {
+    for (std::size_t b = a; b < p.composition.size(); ++b) {
+      text += fmt::format("  {:<24}{:>14.8g} collisions per time\n", pair_name(p.composition, a, b),
+                          p.rates.collisions[p.composition.pair_index(a, b)]);
+    }
+  }
+  for (std::size_t n = 0; n < p.composition.size(); ++n) {
+    text +=
+        fmt::format("  {:<24}T_tr = {:.6g} changes by {:.6g} per time, T_rot = {:.6g} by {:.6g}\n",
+                    p.composition[n].name, p.initial[n].t_tr, p.rates.temperatures[n].t_tr,
+                    p.initial[n].t_rot, p.rates.temperatures[n].t_rot);
+  }
+  if (p.times.empty()) return text;
+  text += fmt::format("\n{:>12}  {:>16}", "time", "energy");
+  for (const Species& each : p.composition.species()) {
+    text += fmt::format("  {:>16}  {:>16}", "T_tr " + each.name, "T_rot " + each.name);
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < p.times.size(); ++i) {
+    text += fmt::format("{:>12.6g}  {:>16.10g}", p.times[i],
+                        mean_of_species(p.composition, p.curve[i]).energy());
+    for (const theory::Temperatures& each : p.curve[i]) {
+      text += fmt::format("  {:>16.10g}  {:>16.10g}", each.t_tr, each.t_rot);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string mixture_theory_of(const runs::LoadedScene& loaded, const std::vector<double>& times,
+                              bool json) {
+  const Composition composition = loaded.scene.composition();
+  if (!runs::has_mixture_theory(composition)) {
+    throw InputError(fmt::format("{} species: expected at most {}, which theory follows",
+                                 composition.size(), theory::most_species_of_theory));
+  }
+  const double volume = runs::volume_of(loaded.scene);
+  const auto initial = runs::temperatures_by_species(loaded);
+  const MixturePredictions predictions{
+      composition, initial, theory::mixture_rates(composition, volume, initial), times,
+      theory::mixture_cooling(composition, volume, initial, times)};
+  return json ? json_text(json_of(predictions)) + "\n" : mixture_table(predictions);
+}
+
+}  // namespace needlework::cli
