@@ -121,7 +121,7 @@ Temperatures mean_of_species(const Composition& composition, std::span<const Tem
 
 /// The temperatures of each species at each of the times (finite, >= 0, any order), from those
 /// given at time 0, of a mixture that stays Gaussian and homogeneous. Relative accuracy about 1e-8.
-/// NaN where ratios of temperatures have not relaxed after 5000 collisions per needle.
+/// NaN where ratios of temperatures have not relaxed after 1000 collisions per needle.
 std::vector<std::vector<Temperatures>> mixture_cooling(const Composition& composition,
                                                        double volume,
                                                        std::span<const Temperatures> initial,

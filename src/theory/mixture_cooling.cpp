@@ -78,9 +78,10 @@ struct MixtureCurve::Implementation {
   static constexpr double tolerance = 1e-10;
   static constexpr double longest_step = 1;  // of collisions per needle
   static constexpr double relaxed = 1e-9;    // of changes per collision
+  static constexpr double equal = 1e-7;      // of temperatures in equilibrium
   // As many collisions per needle at most. Ratios that take longer to relax, as with ratios of mass
   // of thousands, are not followed to their end, which would take for ever.
-  static constexpr int most_steps = 5000;
+  static constexpr int most_steps = 1000;
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   bool is_lost() const { return steps_ > most_steps; }
@@ -121,14 +122,21 @@ struct MixtureCurve::Implementation {
   // relaxed, and stay.
   std::optional<double> common_loss(const MixtureState& slope, double rate) const {
     double least = std::numeric_limits<double>::infinity(), most = -least;
+    double coldest = least, hottest = 0;
     for (std::size_t n = 0; n + 2 < state_.size(); ++n) {
       if (law_.composition()[n / 2].count == 0) continue;
       if (state_[n] == 0 && slope[n] == 0) continue;
       least = std::min(least, slope[n] / state_[n]);
       most = std::max(most, slope[n] / state_[n]);
+      coldest = std::min(coldest, state_[n]);
+      hottest = std::max(hottest, state_[n]);
     }
     if (!(most - least <= relaxed * rate)) return std::nullopt;
-    return law_.composition().is_inelastic() ? std::max(0.0, -(most + least) / 2) : 0;
+    if (law_.composition().is_inelastic()) return std::max(0.0, -(most + least) / 2);
+    // Where collisions keep the energy, temperatures that hardly change may still be unequal: heavy
+    // needles exchange energy with light ones that slowly.
+    if (!(hottest - coldest <= equal * hottest)) return std::nullopt;
+    return 0;
   }
 
   // dT/dt = -loss T for every temperature, with a loss that falls as sqrt(T).

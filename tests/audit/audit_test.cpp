@@ -138,7 +138,7 @@ TEST(Audit, FindsNothingWrongWithMixtures) {
 
 // A run of other needles than those of the scene.
 TEST(Audit, SeesOtherNeedlesThanThoseOfTheMixture) {
-  const EngineRun run(mixture(), 20);
+  const EngineRun run(mixture(), 8);
   const auto found = [&](Kind kind, auto&& alter) {
     std::vector<Species> species = run.setup.composition.species();
     alter(species);
