@@ -165,6 +165,9 @@ Json groups_of(const io::Contents& contents, const Limits& limits, Arrays& array
   return out;
 }
 
+// Of more species a page would have hundreds of charts.
+constexpr std::size_t most_in_parts = 8;
+
 // The observables of each species and of each two of them, as those of a gas of one species.
 Json parts_of(const io::Contents& contents, const std::vector<std::string>& species,
               const Limits& limits, Arrays& arrays) {
@@ -204,7 +207,9 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
     out["groups"] = groups_of(contents, limits, arrays);
   } else {
     out["groups"] = groups_of(contents, limits, arrays, Of::all);
-    out["parts"] = parts_of(contents, species, limits, arrays);
+    if (species.size() <= most_in_parts) {
+      out["parts"] = parts_of(contents, species, limits, arrays);
+    }
   }
   const auto lengths = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
                                                           : std::vector<double>{1.0};
