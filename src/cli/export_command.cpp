@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <memory>
+#include <utility>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -32,12 +33,27 @@ std::string endings(bool many) {
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
   io::Material material = io::read_material(path);
   if (!format.whole_material) return material;
+  if (material.species() > 1) {
+    throw InputError(fmt::format("{}: {} species: expected one, as in {}", path, material.species(),
+                                 format.what));
+  }
   io::require_complete(material, path);
-  if (material.beta && *material.beta != -1) {
-    print_warning(
-        fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path, *material.beta));
+  if (!material.beta.empty() && material.beta[0] != -1) {
+    print_warning(fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path,
+                              material.beta[0]));
   }
   return material;
+}
+
+// Where a file says nothing of its species, all needles are alike.
+void require_known_species(State& state, const io::Material& material, const std::string& path) {
+  const std::size_t count = material.species();
+  if (count == 1) state.species.clear();
+  for (const SpeciesIndex index : state.species) {
+    if (index < count) continue;
+    throw InputError(
+        fmt::format("{}: a needle of species {}: expected an index below {}", path, index, count));
+  }
 }
 
 void export_frames(const ExportArguments& arguments, const io::ExportFormat& format) {
@@ -49,7 +65,9 @@ void export_frames(const ExportArguments& arguments, const io::ExportFormat& for
   const io::Material material = read_material(arguments.from, format);
   const auto writer = format.open(arguments.to, arguments.force, material);
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    writer->add({i, file->time(i), file->read(i)});
+    State state = file->read(i);
+    require_known_species(state, material, arguments.from);
+    writer->add({i, file->time(i), std::move(state)});
   }
   writer->publish();
 }

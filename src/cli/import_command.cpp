@@ -52,11 +52,11 @@ std::string path_in_toml(const std::string& path) {
 void warn_of_what_is_assumed(const io::Material& material, const std::string& path) {
   const Scene::Species species;
   const Scene::Collisions collisions;
-  for (const auto& [name, value, assumed] :
-       {std::tuple("length", material.length, species.length),
-        std::tuple("mass", material.mass, species.mass), std::tuple("k", material.k, species.k),
-        std::tuple("epsilon", material.epsilon, collisions.epsilon)}) {
-    if (value) continue;
+  for (const auto& [name, values, assumed] :
+       {std::tuple("length", &material.length, species.length),
+        std::tuple("mass", &material.mass, species.mass), std::tuple("k", &material.k, species.k),
+        std::tuple("epsilon", &material.epsilon, collisions.epsilon)}) {
+    if (!values->empty()) continue;
     print_warning(
         fmt::format("{}: {} is not in the file: {} is assumed", printable(path), name, assumed));
   }
@@ -71,41 +71,79 @@ void warn_of_roundings(const io::Configuration& read, const std::string& path) {
                   printable(path), roundings.needles, read.state.size(), roundings.largest));
 }
 
+// The species with the counts of their needles.
+Composition counted(const io::Configuration& read, const std::string& from) {
+  Composition composition = io::composition_of(read.material, printable(from));
+  if (composition.size() > 1 && read.state.species.empty() && read.state.size() > 0) {
+    throw InputError(
+        fmt::format("{}: {} species: expected a column that says which needle is of "
+                    "which",
+                    printable(from), composition.size()));
+  }
+  std::vector<std::uint64_t> counts(composition.size());
+  for (std::size_t i = 0; i < read.state.size(); ++i) {
+    const std::size_t index = io::species_at(read.state, i);
+    if (index >= counts.size()) {
+      throw InputError(fmt::format("{}: a needle of species {}: expected an index below {}",
+                                   printable(from), index, counts.size()));
+    }
+    ++counts[index];
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) composition.set_count(i, counts[i]);
+  return composition;
+}
+
+std::string species_text(const Composition& composition) {
+  std::string text;
+  for (const Species& each : composition.species()) {
+    text += fmt::format("[[species]]\nname = {}\ncount = {}\nlength = {}\nmass = {}\nk = {}\n\n",
+                        toml(printable(each.name)), each.count, each.length, each.mass, each.k);
+  }
+  return text;
+}
+
+std::string rule_text(const Restitution& rule) {
+  const double smooth = Scene::Collisions{}.beta;
+  return fmt::format("epsilon = {}\n{}", rule.epsilon,
+                     rule.beta == smooth ? "" : fmt::format("beta = {}\n", rule.beta));
+}
+
+// What differs from the rule of the first species.
+std::string pairs_text(const Composition& composition) {
+  std::string text;
+  const Restitution first = composition.restitution(0, 0);
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      const Restitution rule = composition.restitution(a, b);
+      if (rule == first) continue;
+      text += fmt::format("[[pairs]]\nbetween = [{}, {}]\nepsilon = {}\nbeta = {}\n\n",
+                          toml(printable(composition[a].name)),
+                          toml(printable(composition[b].name)), rule.epsilon, rule.beta);
+    }
+  }
+  return text;
+}
+
 std::string scene_text(const io::Configuration& read, const std::string& from,
                        const std::string& state_file) {
-  const io::Material& material = read.material;
-  const Scene::Species species;
-  const Scene::Collisions collisions;
-  const double beta = material.beta.value_or(collisions.beta);
+  const Composition composition = counted(read, from);
   return fmt::format(R"(title = {}
 
 [needles]
 box = [{}]
 
-[[species]]
-name = {}
-count = {}
-length = {}
-mass = {}
-k = {}
-
-[initial]
+{}[initial]
 file = {}
 
 [collisions]
-epsilon = {}
 {}
-[until]
+{}[until]
 collisions_per_needle = {}  # not from the file: choose an end
 )",
                      toml(printable("Imported from " + fs::path(from).filename().string())),
-                     fmt::join(read.state.box, ", "),
-                     toml(material.name.empty() ? "needles" : printable(material.name)),
-                     read.state.size(), material.length.value_or(species.length),
-                     material.mass.value_or(species.mass), material.k.value_or(species.k),
-                     path_in_toml(state_file), material.epsilon.value_or(collisions.epsilon),
-                     beta == collisions.beta ? "" : fmt::format("beta = {}\n", beta),
-                     assumed_collisions_per_needle);
+                     fmt::join(read.state.box, ", "), species_text(composition),
+                     path_in_toml(state_file), rule_text(composition.restitution(0, 0)),
+                     pairs_text(composition), assumed_collisions_per_needle);
 }
 
 io::Configuration read_configuration(const std::string& path) {
@@ -128,6 +166,7 @@ Scene checked_scene(const std::string& text, const std::string& from) {
 void write_state(const std::string& file, bool force, const Scene& scene, const State& state) {
   io::RunInfo run;
   run.isa = "none";  // nothing was computed
+  run.species = state.species;
   io::Writer writer(file, force, scene, run);
   writer.write_frame(runs::totals_of(state, scene), state);
   writer.close();

@@ -38,12 +38,13 @@ void write_counter(hid_t group, const char* name, std::size_t value, const std::
   write_array<std::int64_t>(group, name, {1}, {&count, 1}, place);
 }
 
-void write_lines(hid_t group, const State& state, double length, const std::string& place) {
+void write_lines(hid_t group, const State& state, const std::vector<double>& lengths,
+                 const std::string& place) {
   const std::size_t count = state.size();
   write_counter(group, "NumberOfPoints", 2 * count, place);
   write_counter(group, "NumberOfCells", count, place);
   write_counter(group, "NumberOfConnectivityIds", 2 * count, place);
-  write_vectors(group, "Points", ends_of(state, length), place);
+  write_vectors(group, "Points", ends_of(state, lengths), place);
   std::vector<std::int64_t> points(2 * count);
   std::iota(points.begin(), points.end(), 0);
   write_array<std::int64_t>(group, "Connectivity", {points.size()}, points, place);
@@ -67,7 +68,8 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
 
 }  // namespace
 
-void write_vtkhdf(const std::string& path, bool force, const State& state, double length) {
+void write_vtkhdf(const std::string& path, bool force, const State& state,
+                  const std::vector<double>& lengths) {
   const hdf5::Session session;
   AtomicFile atomic(path, force);
   OutputFile file(atomic.temporary(), path, OutputFile::Use::in_one_go);
@@ -76,7 +78,7 @@ void write_vtkhdf(const std::string& path, bool force, const State& state, doubl
     const std::array<std::int32_t, 2> version{1, 0};
     hdf5::write_attribute(root.get(), "Version", version, {2}, path);
     hdf5::write_attribute(root.get(), "Type", std::string("UnstructuredGrid"), path);
-    write_lines(root.get(), state, length, path);
+    write_lines(root.get(), state, lengths, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
   write_descriptions(file.get(), vtkhdf_descriptions(), path);

@@ -15,6 +15,7 @@ namespace needlework::io {
 ///
 /// An existing file is replaced if `force` is true. The file appears under its name when it is
 /// complete. Throws IoError, "PATH: reason", if it cannot be written.
-void write_vtkhdf(const std::string& path, bool force, const State& state, double length = 1);
+void write_vtkhdf(const std::string& path, bool force, const State& state,
+                  const std::vector<double>& lengths = {1.0});
 
 }  // namespace needlework::io

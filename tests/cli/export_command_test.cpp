@@ -1,7 +1,11 @@
 // What `needlework export` does with files; tests/io/open_with_*.py read what it writes.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "needlework/h5md.h"
+#include "needlework/parse.h"
+#include "src/io/contents.h"
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -108,6 +112,52 @@ TEST_F(ExportCommand, AFileWithoutNeedlesKeepsItsSpecies) {
     }
     EXPECT_EQ(
         run(fmt::format("run {}-folder/scene.toml --quiet --set until.time=1", name)).exit_code, 0);
+  }
+}
+
+TEST_F(ExportCommand, MixturesComeBackWithTheirSpeciesAndRules) {
+  write("mixture.toml",
+        "needles.box = 9\nuntil.time = 0.5\ncollisions = { epsilon = 0.9, tc = 1e-3 }\n"
+        "[[species]]\nname = \"short, thin\"\ncount = 20\nlength = 0.5\nmass = 3\nk = 2.5\n"
+        "[[species]]\nname = \"long\"\ncount = 10\nlength = 2\n"
+        "[[pairs]]\nbetween = [\"long\", \"short, thin\"]\nepsilon = 0.7\nbeta = 0.5\n");
+  ASSERT_EQ(run("run mixture.toml --quiet --out a.h5").exit_code, 0);
+  const State wanted = io::read_last_frame(path("a.h5"));
+  for (const char* name : {"a.xyz", "a.data", "a.dump"}) {
+    ASSERT_EQ(run(fmt::format("export a.h5 {}", name)).exit_code, 0) << name;
+    const Outcome imported = run(fmt::format("import {} --out {}-folder", name, name));
+    EXPECT_EQ(imported.exit_code, 0) << imported.err;
+    const std::string scene_file = fmt::format("{}-folder/scene.toml", name);
+    const Scene scene = read_scene(path(scene_file));
+    ASSERT_EQ(scene.species.size(), 2u) << name;
+    const bool dump = name == std::string("a.dump");  // which has no names and rules
+    EXPECT_EQ(scene.species[0].name, dump ? "needles 1" : "short, thin");
+    EXPECT_EQ(scene.species[0].count, 20u);
+    EXPECT_EQ(scene.species[0].length, 0.5);
+    EXPECT_EQ(scene.species[0].mass, 3);
+    EXPECT_EQ(scene.species[0].k, 2.5);
+    EXPECT_EQ(scene.species[1].length, 2);
+    EXPECT_EQ(scene.composition().restitution(0, 0).epsilon, dump ? 1 : 0.9);
+    EXPECT_EQ(scene.composition().restitution(0, 1).epsilon, dump ? 1 : 0.7);
+    EXPECT_EQ(scene.composition().restitution(0, 1).beta, dump ? -1 : 0.5);
+    const State found = frame(fmt::format("{}-folder/state.h5", name), 0);
+    EXPECT_EQ(found.species, wanted.species);
+    EXPECT_EQ(found.position, wanted.position);
+    EXPECT_EQ(run("run " + scene_file + " --quiet --set until.time=0.1").exit_code, 0);
+  }
+  const Outcome refused = run("export a.h5 a.xml");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_TRUE(refused.complains("a.h5: 2 species: expected one, as in a configuration of DynamO"));
+  EXPECT_FALSE(exists("a.xml"));
+  for (const char* name : {"a.pvd", "a.vtkhdf"}) {
+    EXPECT_EQ(run(fmt::format("export a.h5 {}", name)).exit_code, 0) << name;
+  }
+  const std::vector<double> points = io::Contents(path("a.vtkhdf")).numbers("/VTKHDF/Points");
+  ASSERT_EQ(points.size(), 6u * 30);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const double* end = &points[6 * i];
+    EXPECT_NEAR(std::hypot(end[3] - end[0], end[4] - end[1], end[5] - end[2]), i < 20 ? 0.5 : 2,
+                1e-12);
   }
 }
 

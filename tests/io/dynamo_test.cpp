@@ -38,12 +38,12 @@ class Dynamo : public InFolder {
 
 TEST_F(Dynamo, ConfigurationIsReadWithoutRescaling) {
   const Configuration read = this->read(dynamo_text);
-  EXPECT_EQ(read.material.name, "Bulk");
-  EXPECT_EQ(read.material.length, 2);
-  EXPECT_EQ(read.material.mass, 2);
-  EXPECT_EQ(read.material.k, 6);  // m L^2 / (2 I) = 2 * 4 / (2 * 2/3)
-  EXPECT_EQ(read.material.epsilon, 0.9);
-  EXPECT_EQ(read.material.beta, -1);
+  EXPECT_EQ(read.material.names, std::vector<std::string>{"Bulk"});
+  EXPECT_EQ(read.material.length, std::vector<double>{2});
+  EXPECT_EQ(read.material.mass, std::vector<double>{2});
+  EXPECT_EQ(read.material.k, std::vector<double>{6});  // m L^2 / (2 I) = 2 * 4 / (2 * 2/3)
+  EXPECT_EQ(read.material.epsilon, std::vector<double>{0.9});
+  EXPECT_EQ(read.material.beta, std::vector<double>{-1});
   EXPECT_EQ(read.state.box, (std::array<double, 3>{8, 9, 10.5}));
   EXPECT_EQ(read.state.position, (Vectors{{-3.9, 0.1, 5.249999999999999}, {1, 2, -3}}));
   EXPECT_EQ(read.state.velocity, (Vectors{{0.1, -2, 0.001}, {0.3, 0.2, -0.1}}));
@@ -103,7 +103,7 @@ TEST_F(Dynamo, FilesOfEarlierProgramsAreRead) {
   text = replaced(text, " w=\"7.07106781186547573e-01\"", "");
   text = replaced(text, "<O x=\"0\" y=\"1.5\" z=\"0\"/>", "<O x=\"0\" y=\"0\" z=\"3\"/>");
   const Configuration read = this->read(text);
-  EXPECT_EQ(read.material.k, 6);
+  EXPECT_EQ(read.material.k, std::vector<double>{6});
   EXPECT_EQ(read.state.orientation, (Vectors{{0, 1, 0}, {0, 0, 1}}));
 }
 
@@ -281,10 +281,10 @@ TEST_F(Dynamo, WhatIsWrittenIsReadBitForBit) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.5, 2);
   for (int i = 0; i < 100; ++i) {
-    material.length = uniform(random);
-    material.mass = uniform(random);
-    material.k = uniform(random) * std::pow(10, i % 9 - 4);
-    material.epsilon = uniform(random) / 2;
+    material.length = {uniform(random)};
+    material.mass = {uniform(random)};
+    material.k = {uniform(random) * std::pow(10, i % 9 - 4)};
+    material.epsilon = {uniform(random) / 2};
     if (i > 0) frame.state.resize(2);
     const std::string name = i % 2 ? "a.xml" : "a.xml.bz2";
     const auto writer = write_dynamo(file(name), true, material);

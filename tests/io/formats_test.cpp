@@ -20,7 +20,7 @@
 namespace needlework::io {
 namespace {
 
-const Material material{"needles", 1.7, 2.5, 3.3, 0.9, -0.25};
+const Material material{{"needles"}, {1.7}, {2.5}, {3.3}, {0.9}, {-0.25}};
 
 class Formats : public InFolder {
  protected:
@@ -70,7 +70,7 @@ TEST_F(Formats, LastFrameIsReadBackBitForBit) {
     expect_same(dump.state, completed(last, true));
     EXPECT_EQ(dump.material.length, material.length);
     EXPECT_EQ(dump.material.mass, material.mass);
-    EXPECT_EQ(dump.material.k, std::nullopt);
+    EXPECT_TRUE(dump.material.k.empty());
     const Configuration data = read_configuration(put("a.data", {last}));
     expect_same(data.state, completed(last, !last.image.empty()));
     EXPECT_EQ(text_of(data.material), text_of(material));
@@ -162,6 +162,54 @@ TEST_F(Formats, LinesThatDoNotFitABlockAreRefused) {
     EXPECT_EQ(complaint(text.substr(0, second) + spaces + text.substr(second)),
               "line 2: more than 1048576 bytes: expected a shorter line");
   }
+}
+
+TEST_F(Formats, MixturesAreReadBack) {
+  const Material mixture{{"a b,c", "long%", "none"},
+                         {1.1, 1.7, 3},
+                         {2.5, 1, 4},
+                         {6, 3.3, 2},
+                         {0.9, 0.8, 1, 0.8, 0.7, 1, 1, 1, 1},
+                         {-1, 0.5, -1, 0.5, 0, -1, -1, -1, -1}};
+  State state = make_state(20);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state.species.push_back(static_cast<SpeciesIndex>(i * i % 2));  // none of the third
+  }
+  for (const char* name : {"a.xyz", "a.dump", "a.data"}) {
+    const Configuration read = read_configuration(put(name, {state}, mixture));
+    expect_same(read.state, completed(state, name != std::string("a.xyz")));
+    EXPECT_EQ(read.state.species, state.species) << name;
+    if (name != std::string("a.dump")) {
+      EXPECT_EQ(text_of(read.material), text_of(mixture)) << name;
+      EXPECT_EQ(read.material.names, mixture.names);
+      continue;
+    }
+    EXPECT_EQ(read.material.length, (std::vector{1.1, 1.7}));
+    EXPECT_EQ(read.material.mass, (std::vector{2.5, 1.0}));
+    EXPECT_EQ(read.material.k, (std::vector{6, 3.3}));
+  }
+}
+
+TEST_F(Formats, TypesOfDumpsAreSpecies) {
+  const auto read = [&](const char* rows) {
+    std::ofstream(file("a.dump"))
+        << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n0 "
+           "8\nITEM: ATOMS type diameter x y z vx vy vz mux muy muz omegax omegay omegaz\n"
+        << rows;
+    return read_configuration(file("a.dump"));
+  };
+  const std::string rest = " 1 2 3 4 5 6 1 0 0 0 7 8\n";
+  const Configuration two = read(("2 1.5" + rest + "7 1" + rest + "2 1.5" + rest).c_str());
+  EXPECT_EQ(two.state.species, (std::vector<SpeciesIndex>{0, 1, 0}));
+  EXPECT_EQ(two.material.length, (std::vector{1.5, 1.0}));
+  const Configuration one = read(("3 2" + rest + "3 2" + rest + "3 2" + rest).c_str());
+  EXPECT_TRUE(one.state.species.empty());
+  EXPECT_EQ(one.material.length, (std::vector{2.0}));
+  EXPECT_EQ(
+      message_of<InputError>([&] { read(("2 1.5" + rest + "7 1" + rest + "2 1" + rest).c_str()); }),
+      file("a.dump") +
+          ": line 12: length = 1: expected 1.5, as of the needles before: those of a species "
+          "are equal");
 }
 
 // As OVITO draws them: an ellipsoid along z, turned by a quaternion.
@@ -296,7 +344,7 @@ TEST_F(Formats, BadDumpsAreNamed) {
   const Configuration read = read_lammps_dump(file("a.dump"));
   EXPECT_EQ(read.state.box, (std::array<double, 3>{8, 9, 10}));
   EXPECT_EQ(read.state.position[0], (std::array<double, 3>{1, 2, 3}));
-  EXPECT_EQ(read.material.mass, 2);
+  EXPECT_EQ(read.material.mass, std::vector<double>{2});
   expect_complaints(
       text,
       {{"ITEM: TIMESTEP", "ITEM: STEP", "cut short after line 15: expected ITEM: TIMESTEP"},

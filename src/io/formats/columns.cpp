@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -51,19 +53,23 @@ double rounding_along(const Row& row, const VectorColumns& columns, const Vector
   return 1.01 * half * (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2]));
 }
 
+// `common` has 0 for a species of which nothing is known yet.
 void read_common(const Row& row, std::optional<std::size_t> column, const char* name,
-                 std::optional<double>& common) {
+                 std::size_t species, std::vector<double>& common) {
   if (!column) return;
   const double value = row.read(*column, name);
   if (!(value > 0)) row.reject(fmt::format("{} = {}: expected a number > 0", name, value));
-  if (common && *common != value) {
-    row.reject(fmt::format("{} = {}: expected {}, as of the needles before: all are equal", name,
-                           value, *common));
+  if (common.size() <= species) common.resize(species + 1);
+  if (common[species] != 0 && common[species] != value) {
+    row.reject(
+        fmt::format("{} = {}: expected {}, as of the needles before: those of a species are "
+                    "equal",
+                    name, value, common[species]));
   }
-  common = value;
+  common[species] = value;
 }
 
-std::pair<const char*, std::optional<double> Material::*> const materials[] = {
+std::pair<const char*, std::vector<double> Material::*> const materials[] = {
     {"length", &Material::length},
     {"mass", &Material::mass},
     {"k", &Material::k},
@@ -109,8 +115,19 @@ void NeedleReader::read(const Row& row) {
     state.id.push_back(static_cast<std::uint32_t>(
         row.read_whole(*columns_.id, "id", columns_.first_id, most) - columns_.first_id));
   }
-  read_common(row, columns_.length, "length", configuration_.material.length);
-  read_common(row, columns_.mass, "mass", configuration_.material.mass);
+  std::size_t species = 0;
+  if (columns_.species) {
+    const std::int64_t first = columns_.first_species;
+    species = static_cast<std::size_t>(
+        row.read_whole(*columns_.species, "species", first,
+                       first + static_cast<std::int64_t>(most_species) - 1) -
+        first);
+    state.species.push_back(static_cast<SpeciesIndex>(species));
+  }
+  Material& material = configuration_.material;
+  read_common(row, columns_.length, "length", species, material.length);
+  read_common(row, columns_.mass, "mass", species, material.mass);
+  read_common(row, columns_.k, "k", species, material.k);
 }
 
 void NeedleReader::read_position(const Row& row) {
@@ -183,6 +200,7 @@ void NeedleReader::read_rotation(const Row& row) {
 
 void NeedleReader::finish(const std::string& path) {
   require_distinct_ids(path);
+  leave_out_unknown_species();
   if (slow_.empty()) return;
   const auto& all = configuration_.state.angular_velocity;
   double size = 0;  // of the vector of all components, without overflow
@@ -200,6 +218,32 @@ void NeedleReader::finish(const std::string& path) {
   }
 }
 
+// Species are numbered by what needles say. Numbers that no needle has, in a file that does not
+// name its species, are those of no species.
+void NeedleReader::leave_out_unknown_species() {
+  Material& material = configuration_.material;
+  std::vector<SpeciesIndex>& species = configuration_.state.species;
+  if (species.empty() || !material.names.empty()) return;
+  std::vector<bool> present(most_species);
+  for (const SpeciesIndex index : species) present[index] = true;
+  std::vector<SpeciesIndex> renumbered(most_species);
+  SpeciesIndex count = 0;
+  for (std::size_t i = 0; i < most_species; ++i) {
+    renumbered[i] = count;
+    if (present[i]) ++count;
+  }
+  for (std::vector<double>* list : {&material.length, &material.mass, &material.k}) {
+    if (list->size() <= 1 && !(list->size() == 1 && list->at(0) == 0)) continue;  // of all
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < list->size() && i < most_species; ++i) {
+      if (present[i]) kept.push_back(list->at(i));
+    }
+    *list = std::move(kept);
+  }
+  for (SpeciesIndex& index : species) index = renumbered[index];
+  if (count <= 1) species.clear();
+}
+
 void NeedleReader::require_distinct_ids(const std::string& path) const {
   std::vector<std::uint32_t> ids = configuration_.state.id;
   std::sort(ids.begin(), ids.end());
@@ -209,25 +253,80 @@ void NeedleReader::require_distinct_ids(const std::string& path) const {
                                *twice + columns_.first_id));
 }
 
+namespace {
+
+// Names may hold anything. In a text they are a word without commas.
+std::string encoded(std::string_view name) {
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isalnum(byte) || c == '-' || c == '_' || c == '.';
+    out += plain ? std::string(1, c) : fmt::format("%{:02x}", byte);
+  }
+  return out;
+}
+
+std::string decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* digits = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() &&
+        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      out += static_cast<char>(byte);
+      i += 2;
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+std::vector<std::string_view> items_of(std::string_view list) {
+  std::vector<std::string_view> items;
+  for (std::size_t i = 0; i < list.size();) {
+    const std::size_t end = std::min(list.find_first_of(", ", i), list.size());
+    if (end > i) items.push_back(list.substr(i, end - i));
+    i = end + 1;
+  }
+  return items;
+}
+
+}  // namespace
+
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row) {
+  const auto require_first = [&](bool first) {
+    if (!first) row.reject(fmt::format("{} twice: expected it once", name));
+  };
+  if (name == "names") {
+    require_first(material.names.empty());
+    for (const std::string_view item : items_of(value)) material.names.push_back(decoded(item));
+  }
   for (const auto& [known, member] : materials) {
     if (name != known) continue;
-    if (material.*member) row.reject(fmt::format("{} twice: expected it once", name));
-    double number = 0;
-    if (read_decimal(value, number) != std::errc()) {
-      row.reject(fmt::format("{} = {}: expected a finite number", name, value));
+    std::vector<double>& numbers = material.*member;
+    require_first(numbers.empty());
+    for (const std::string_view item : items_of(value)) {
+      if (read_decimal(item, numbers.emplace_back()) == std::errc()) continue;
+      row.reject(fmt::format("{} = {}: expected a finite number", name, quotation(value)));
     }
-    material.*member = number;
+    if (numbers.empty()) row.reject(fmt::format("{} =: expected a number", name));
   }
 }
 
 std::string text_of(const Material& material) {
   std::string text;
+  const auto add = [&](const char* name, const auto& items) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, fmt::join(items, ","));
+  };
   for (const auto& [name, member] : materials) {
-    if (material.*member) {
-      text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, *(material.*member));
-    }
+    if (!(material.*member).empty()) add(name, material.*member);
+  }
+  if (material.species() > 1) {
+    std::vector<std::string> names;
+    for (const Species& each : species_of(material)) names.push_back(encoded(each.name));
+    add("names", names);
   }
   return text;
 }

@@ -22,7 +22,9 @@ struct Columns {
   std::optional<VectorColumns> position, velocity, orientation, angular_velocity, image;
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
-  std::optional<std::size_t> length, mass;
+  std::optional<std::size_t> length, mass, k;
+  std::optional<std::size_t> species;
+  std::int64_t first_species = 0;    ///< the number in the file of the species whose index is 0
   bool scaled = false;               ///< positions are multiples of the edges, from `lower`
   bool unwrapped = false;            ///< positions are not wrapped into the box: images follow from
                                      ///< them
@@ -69,6 +71,7 @@ class NeedleReader {
   void read_position(const Row& row);
   void read_rotation(const Row& row);
   void require_distinct_ids(const std::string& path) const;
+  void leave_out_unknown_species();
 
   Columns columns_;
   Configuration& configuration_;
@@ -76,12 +79,13 @@ class NeedleReader {
   std::vector<SlowRotation> slow_;
 };
 
-/// Sets a number of the material by its name: length, mass, k, epsilon or beta. Other names are
-/// left alone. Throws InputError for what is not a number, or is set already.
+/// Sets numbers of the material by their name: length, mass, k, epsilon, beta or names. Several are
+/// separated by commas or blanks. Other names are left alone. Throws InputError for what is not a
+/// number, or is set already.
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row);
-/// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", without those that are
-/// absent.
+/// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", or "length=1,1.5 ...
+/// names=short,long" for several species, without those that are absent.
 std::string text_of(const Material& material);
 
 }  // namespace needlework::io

@@ -80,9 +80,9 @@ long double read_species(const XmlElement& simulation, Material& material) {
   species.require_only({"Type", "Name", "IntName", "Mass", "InertiaConstant", "Range"},
                        {"IDRange"});
   require_all(species, "IDRange", "All");
-  material.name = species.text("Name");
-  material.mass = common_number(species, "Mass");
-  if (!(*material.mass > 0)) species.reject("Mass", "a number > 0");
+  material.names = {std::string(species.text("Name"))};
+  material.mass = {common_number(species, "Mass")};
+  if (!(material.mass[0] > 0)) species.reject("Mass", "a number > 0");
   positive_number(species, "InertiaConstant");
   return std::strtold(std::string(species.text("InertiaConstant")).c_str(), nullptr);
 }
@@ -98,10 +98,10 @@ void read_interaction(const XmlElement& simulation, Material& material) {
   lines.require_only({"Type", "Name", "Length", "Elasticity", "Range"},
                      {"IDPairRange", "CaptureMap"});
   require_all(lines, "IDPairRange", "2All");
-  material.length = common_number(lines, "Length");
-  if (!(*material.length > 0)) lines.reject("Length", "a number > 0");
-  material.epsilon = common_number(lines, "Elasticity");
-  if (!(*material.epsilon >= 0 && *material.epsilon <= 1)) {
+  material.length = {common_number(lines, "Length")};
+  if (!(material.length[0] > 0)) lines.reject("Length", "a number > 0");
+  material.epsilon = {common_number(lines, "Elasticity")};
+  if (!(material.epsilon[0] >= 0 && material.epsilon[0] <= 1)) {
     lines.reject("Elasticity", "a number from 0 to 1");
   }
 }
@@ -239,9 +239,9 @@ Configuration read_dynamo(const std::string& path) {
   Material& material = configuration.material;
   const long double inertia = read_species(simulation, material);
   read_interaction(simulation, material);
-  const long double length = *material.length;
-  material.k = static_cast<double>(length * length / (2 * inertia));
-  material.beta = -1;  // the impulse is normal to both lines
+  const long double length = material.length[0];
+  material.k = {static_cast<double>(length * length / (2 * inertia))};
+  material.beta = {-1};  // the impulse is normal to both lines
   configuration.state.box = read_box(simulation);
   read_particles(root, configuration);
   return configuration;

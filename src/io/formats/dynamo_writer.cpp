@@ -14,10 +14,10 @@ using Vector = std::array<double, 3>;
 class DynamoWriter : public FrameWriter {
  public:
   DynamoWriter(const std::string& path, bool force, const Material& material)
-      : length_(material.length.value()),
-        mass_(material.mass.value()),
-        k_(material.k.value()),
-        epsilon_(material.epsilon.value()),
+      : length_(material.length.at(0)),
+        mass_(material.mass.at(0)),
+        k_(material.k.at(0)),
+        epsilon_(material.epsilon.at(0)),
         file_(path, force) {}
 
   void add(const Frame& frame) override {

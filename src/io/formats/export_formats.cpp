@@ -14,20 +14,20 @@ namespace {
 
 class VtkhdfWriter : public FrameWriter {
  public:
-  VtkhdfWriter(std::string path, bool force, double length)
-      : path_(std::move(path)), force_(force), length_(length) {}
-  void add(const Frame& frame) override { write_vtkhdf(path_, force_, frame.state, length_); }
+  VtkhdfWriter(std::string path, bool force, std::vector<double> lengths)
+      : path_(std::move(path)), force_(force), lengths_(std::move(lengths)) {}
+  void add(const Frame& frame) override { write_vtkhdf(path_, force_, frame.state, lengths_); }
   void publish() override {}
 
  private:
   std::string path_;
   bool force_;
-  double length_;
+  std::vector<double> lengths_;
 };
 
 std::unique_ptr<FrameWriter> open_vtkhdf(const std::string& path, bool force,
                                          const Material& material) {
-  return std::make_unique<VtkhdfWriter>(path, force, material.length.value_or(1));
+  return std::make_unique<VtkhdfWriter>(path, force, lengths_of(material));
 }
 
 }  // namespace

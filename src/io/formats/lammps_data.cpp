@@ -29,6 +29,8 @@ Columns columns_of(bool with_images) {
   Columns columns;
   columns.count = v + velocity_columns - 1;
   columns.id = 0;
+  columns.species = 1;
+  columns.first_species = 1;
   columns.first_id = 1;
   columns.position = {2, 3, 4};
   columns.length = 5;
@@ -187,16 +189,13 @@ std::vector<Row> DataReader::read_rows(std::string_view section) {
 class DataWriter : public FrameWriter {
  public:
   DataWriter(const std::string& path, bool force, const Material& material)
-      : title_(text_of(material)),
-        length_(material.length.value_or(1)),
-        mass_(material.mass.value_or(1)),
-        file_(path, force) {}
+      : title_(text_of(material)), all_(species_of(material)), file_(path, force) {}
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
     file_.print("LAMMPS data file of needles: {}", title_);
     if (frame.time) file_.print(" time={}", *frame.time);
-    file_.print("\n\n{} atoms\n1 atom types\n\n", state.size());
+    file_.print("\n\n{} atoms\n{} atom types\n\n", state.size(), all_.size());
     for (std::size_t axis = 0; axis < 3; ++axis) {
       file_.print("0 {} {}lo {}hi\n", state.box[axis], "xyz"[axis], "xyz"[axis]);
     }
@@ -213,14 +212,18 @@ class DataWriter : public FrameWriter {
 
  private:
   void write_atoms(const State& state) {
-    // LAMMPS derives the mass from that of a sphere.
-    const double density = mass_ / (std::numbers::pi / 6 * length_ * length_ * length_);
+    std::vector<double> densities;  // LAMMPS derives the mass from that of a sphere
+    for (const Species& each : all_) {
+      const double volume = std::numbers::pi / 6 * each.length * each.length * each.length;
+      densities.push_back(each.mass / volume);
+    }
     file_.print("\nAtoms # {}\n\n", style);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& u = state.orientation[i];
-      file_.print("{} 1 {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1, r[0], r[1],
-                  r[2], length_, density, u[0], u[1], u[2]);
+      const std::size_t species = species_at(state, i);
+      file_.print("{} {} {} {} {} {} {} 0 {} {} {}", std::int64_t{id_of(state, i)} + 1, species + 1,
+                  r[0], r[1], r[2], all_.at(species).length, densities[species], u[0], u[1], u[2]);
       if (!state.image.empty()) {
         file_.print(" {} {} {}", state.image[i][0], state.image[i][1], state.image[i][2]);
       }
@@ -229,7 +232,7 @@ class DataWriter : public FrameWriter {
   }
 
   std::string title_;
-  double length_, mass_;
+  std::vector<Species> all_;
   TextFile file_;
 };
 

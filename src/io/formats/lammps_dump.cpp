@@ -92,6 +92,9 @@ Columns read_columns(const Lines& lines) {
   columns.angular_velocity = find_vector("omegax", "omegay", "omegaz");
   columns.length = find("diameter");
   columns.mass = find("mass");
+  columns.k = find("k");
+  columns.species = find("type");
+  columns.first_species = 1;
   require_all_vectors(columns, dump_names, lines.row());
   return columns;
 }
@@ -112,8 +115,21 @@ PartOfFile find_last_frame(InputText& file, const std::string& path) {
 
 class DumpWriter : public FrameWriter {
  public:
-  DumpWriter(const std::string& path, bool force, const Material& material)
-      : length_(material.length), mass_(material.mass), file_(path, force) {}
+  DumpWriter(const std::string& path, bool force, const Material& material) : file_(path, force) {
+    const std::vector<Species> all = species_of(material);
+    if (!material.length.empty()) names_ += " diameter";
+    if (!material.mass.empty()) names_ += " mass";
+    if (all.size() > 1) names_ += " k";
+    for (const Species& each : all) {
+      // Diameters of an ellipsoid, as LAMMPS has them.
+      const double width = 2 * drawn_radius * each.length;
+      std::string& ending =
+          endings_.emplace_back(fmt::format(" {} {} {}", width, width, each.length));
+      if (!material.length.empty()) ending += fmt::format(" {}", each.length);
+      if (!material.mass.empty()) ending += fmt::format(" {}", each.mass);
+      if (all.size() > 1) ending += fmt::format(" {}", each.k);
+    }
+  }
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
@@ -122,13 +138,8 @@ class DumpWriter : public FrameWriter {
                 state.box[1], state.box[2]);
     file_.print(
         "{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz quatw quati quatj "
-        "quatk shapex shapey shapez{}{}\n",
-        begin_of_atoms, length_ ? " diameter" : "", mass_ ? " mass" : "");
-    // Diameters of an ellipsoid, as LAMMPS has them.
-    const double length = length_.value_or(1), width = 2 * drawn_radius * length;
-    std::string common = fmt::format(" {} {} {}", width, width, length);
-    if (length_) common += fmt::format(" {}", *length_);
-    if (mass_) common += fmt::format(" {}", *mass_);
+        "quatk shapex shapey shapez{}\n",
+        begin_of_atoms, names_);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& v = state.velocity[i];
@@ -136,16 +147,18 @@ class DumpWriter : public FrameWriter {
       const auto& w = state.angular_velocity[i];
       const auto image = state.image.empty() ? std::array<std::int32_t, 3>{} : state.image[i];
       const auto q = quaternion_of(u);
-      file_.print("{} 1 {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n",
-                  std::int64_t{id_of(state, i)} + 1, r[0], r[1], r[2], image[0], image[1], image[2],
-                  v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[0], q[1], q[2], q[3],
-                  common);
+      const std::size_t species = species_at(state, i);
+      file_.print("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n",
+                  std::int64_t{id_of(state, i)} + 1, species + 1, r[0], r[1], r[2], image[0],
+                  image[1], image[2], v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[0],
+                  q[1], q[2], q[3], endings_.at(species));
     }
   }
   void publish() override { file_.publish(); }
 
  private:
-  std::optional<double> length_, mass_;
+  std::string names_;                 // of the columns in `endings_`, after the shape
+  std::vector<std::string> endings_;  // of a line, for each species
   TextFile file_;
 };
 

@@ -5,44 +5,92 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "needlework/error.h"
+#include "needlework/parse.h"
+#include "needlework/scene.h"
 #include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
 namespace needlework::io {
 namespace {
 
-std::optional<double> read_number(const Source& source, const std::string& path) {
-  const std::string place = source.place(path);
-  if (!hdf5::exists(source.get(), path, place)) return {};
-  const std::vector<double> values = Element(source, path).read<double>({});
-  if (values.empty()) return {};
-  const auto other = std::find_if(values.begin(), values.end(),
-                                  [&](double value) { return value != values.front(); });
-  if (other != values.end()) {
-    throw InputError(
-        fmt::format("{}[{}] = {}: expected {}, the value of the first: all needles are "
-                    "equal",
-                    place, other - values.begin(), *other, values.front()));
-  }
-  return values.front();
+std::vector<double> read_numbers(const Source& source, const std::string& path) {
+  if (!hdf5::exists(source.get(), path, source.place(path))) return {};
+  return Element(source, path).read<double>({});
 }
 
-std::optional<double> read_positive(const Source& source, const std::string& path) {
-  const std::optional<double> value = read_number(source, path);
-  if (value && !(*value > 0 && std::isfinite(*value))) {
-    throw InputError(fmt::format("{} = {}: expected a number > 0", source.place(path), *value));
+std::vector<double> read_positive(const Source& source, const std::string& path) {
+  std::vector<double> values = read_numbers(source, path);
+  for (const double value : values) {
+    if (value > 0 && std::isfinite(value)) continue;
+    throw InputError(fmt::format("{} = {}: expected a number > 0", source.place(path), value));
   }
-  return value;
+  return values;
+}
+
+// Of each species, where the file has the mass of each needle only.
+std::vector<double> read_masses_of_needles(const Source& source) {
+  const std::string group = find_particles(source);
+  const std::string path = group + "/mass";
+  const std::vector<double> masses = read_positive(source, path);
+  std::vector<double> indices = read_numbers(source, group + "/species");
+  indices.resize(masses.size());
+  std::vector<double> of_species;
+  for (std::size_t i = 0; i < masses.size(); ++i) {
+    if (!(indices[i] >= 0 && indices[i] < most_species)) {
+      throw InputError(fmt::format("{}[{}] = {}: expected an index below {}",
+                                   source.place(group + "/species"), i, indices[i], most_species));
+    }
+    const auto index = static_cast<std::size_t>(indices[i]);
+    if (of_species.size() <= index) of_species.resize(index + 1);
+    if (of_species[index] == 0) of_species[index] = masses[i];
+    if (of_species[index] == masses[i]) continue;
+    throw InputError(
+        fmt::format("{}[{}] = {}: expected {}, as of the needles before: those of a "
+                    "species are equal",
+                    source.place(path), i, masses[i], of_species[index]));
+  }
+  return of_species;
+}
+
+// What /parameters holds in the scene only. A scene that cannot be read, such as that of a later
+// version, says nothing.
+void read_rules(const Source& source, Material& material) {
+  const std::string path = "/parameters/scene";
+  if (!hdf5::is_dataset(source.get(), path, source.place(path))) return;
+  const auto texts = hdf5::read_strings(
+      hdf5::open_dataset(source.get(), path, source.place(path)).get(), source.place(path));
+  if (texts.empty()) return;
+  try {
+    const Composition composition = parse_scene(texts.front(), path).composition();
+    if (composition.size() != material.species()) return;
+    material.epsilon.clear();
+    material.beta.clear();
+    for (const Restitution& rule : composition.rules()) {
+      material.epsilon.push_back(rule.epsilon);
+      material.beta.push_back(rule.beta);
+    }
+    for (const Species& each : composition.species()) material.names.push_back(each.name);
+  } catch (const InputError&) {
+  }
+}
+
+// A single one is that of all.
+bool fits(const std::vector<double>& values, std::size_t count) {
+  return values.size() <= 1 || values.size() == count;
+}
+
+double value_at(const std::vector<double>& values, std::size_t i, double otherwise) {
+  if (values.empty()) return otherwise;
+  return values.size() == 1 ? values[0] : values.at(i);
 }
 
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
-  auto& [name, length, mass, k, epsilon, beta] = material;
-  archive(name, length, mass, k, epsilon, beta);
+  auto& [names, length, mass, k, epsilon, beta] = material;
+  archive(names, length, mass, k, epsilon, beta);
 }
 
 static Material read_material_here(const std::string& path) {
@@ -51,11 +99,69 @@ static Material read_material_here(const std::string& path) {
   material.length = read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
   material.mass = read_positive(source, "/parameters/mass");
-  if (!material.mass) material.mass = read_positive(source, find_particles(source) + "/mass");
+  if (material.mass.empty()) material.mass = read_masses_of_needles(source);
   material.k = read_positive(source, "/parameters/k");
-  material.epsilon = read_number(source, "/parameters/epsilon");
-  material.beta = read_number(source, "/parameters/beta");
+  material.epsilon = read_numbers(source, "/parameters/epsilon");
+  material.beta = read_numbers(source, "/parameters/beta");
+  if (material.species() > 1) read_rules(source, material);
+  composition_of(material, path);
   return material;
+}
+
+std::size_t Material::species() const {
+  return std::max({std::size_t{1}, names.size(), length.size(), mass.size(), k.size()});
+}
+
+std::vector<Species> species_of(const Material& material) {
+  std::vector<Species> all(material.species());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Species& each = all[i];
+    if (i < material.names.size()) each.name = material.names[i];
+    if (each.name.empty()) {
+      each.name = all.size() == 1 ? "needles" : fmt::format("needles {}", i + 1);
+    }
+    each.length = value_at(material.length, i, each.length);
+    each.mass = value_at(material.mass, i, each.mass);
+    each.k = value_at(material.k, i, each.k);
+  }
+  return all;
+}
+
+std::vector<double> lengths_of(const Material& material) {
+  std::vector<double> lengths;
+  for (const Species& each : species_of(material)) lengths.push_back(each.length);
+  return lengths;
+}
+
+Composition composition_of(const Material& material, const std::string& path) {
+  const std::size_t count = material.species();
+  if (count > most_species) {
+    throw InputError(fmt::format("{}: {} species: expected at most {}", path, count, most_species));
+  }
+  for (const auto& [name, values] :
+       {std::pair("length", &material.length), std::pair("mass", &material.mass),
+        std::pair("k", &material.k)}) {
+    if (fits(*values, count)) continue;
+    throw InputError(fmt::format("{}: {} numbers of {}: expected {}, one for each species", path,
+                                 values->size(), name, count));
+  }
+  for (const auto& [name, values] :
+       {std::pair("epsilon", &material.epsilon), std::pair("beta", &material.beta)}) {
+    if (fits(*values, count * count)) continue;
+    throw InputError(
+        fmt::format("{}: {} numbers of {}: expected one, or {}, one for each two "
+                    "species",
+                    path, values->size(), name, count * count));
+  }
+  Composition out(species_of(material), Restitution{});
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = a; b < count; ++b) {
+      out.set_restitution(a, b,
+                          {value_at(material.epsilon, a * count + b, 1),
+                           value_at(material.beta, a * count + b, -1)});
+    }
+  }
+  return out;
 }
 
 Material read_material(const std::string& path) {
@@ -63,10 +169,10 @@ Material read_material(const std::string& path) {
 }
 
 void require_complete(const Material& material, const std::string& path) {
-  for (const auto& [name, value] :
-       {std::pair("length", material.length), std::pair("mass", material.mass),
-        std::pair("k", material.k), std::pair("epsilon", material.epsilon)}) {
-    if (value) continue;
+  for (const auto& [name, values] :
+       {std::pair("length", &material.length), std::pair("mass", &material.mass),
+        std::pair("k", &material.k), std::pair("epsilon", &material.epsilon)}) {
+    if (!values->empty()) continue;
     throw InputError(
         fmt::format("{}: {} of the needles is missing: expected a file that needlework has written",
                     path, name));

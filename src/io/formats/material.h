@@ -1,24 +1,46 @@
-// What all needles of a file have in common, and the law of their collisions.
+// What the needles of a file have in common by species, and the law of their collisions.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
+#include <vector>
+
+#include "needlework/composition.h"
+#include "needlework/state.h"
 
 namespace needlework::io {
 
-/// One species of needles and its restitution. What a file does not say is absent.
+/// The species of needles and their restitution. What a file does not say is empty.
 struct Material {
-  std::string name = "needles";
-  std::optional<double> length;   ///< [L]
-  std::optional<double> mass;     ///< [m]
-  std::optional<double> k;        ///< m L^2 / (2 I) [1]
-  std::optional<double> epsilon;  ///< normal restitution [1]
-  std::optional<double> beta;     ///< tangential restitution [1]
+  std::vector<std::string> names = {};
+  std::vector<double> length = {};  ///< of each species [L]
+  std::vector<double> mass = {};    ///< of each species [m]
+  std::vector<double> k = {};       ///< m L^2 / (2 I) of each species [1]
+  /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
+  std::vector<double> epsilon = {}, beta = {};
+
+  std::size_t species() const;  ///< number of them, at least 1
 };
 
+/// The species of a material, in which what a file does not say has the value of the scene's
+/// default. Throws InputError, "PATH: ...", if there are not as many values of each kind as there
+/// are species, or of each two.
+Composition composition_of(const Material& material, const std::string& path);
+/// The same without counts and rules, for writers.
+std::vector<Species> species_of(const Material& material);
+
+/// The lengths of the species.
+std::vector<double> lengths_of(const Material& material);
+
+/// The index of the species of a needle.
+inline std::size_t species_at(const State& state, std::size_t i) {
+  return state.species.empty() ? 0 : state.species[i];
+}
+
 /// Reads the material of an H5MD file: the numbers in /parameters that a Writer writes or else, of
-/// the mass, those in the group of the needles. Throws IoError if the file cannot be read, and
-/// InputError if a number cannot be used or if the needles have several masses.
+/// the mass, those in the group of the needles; and of a mixture names and restitution in its
+/// scene. Throws IoError if the file cannot be read, and InputError if a number cannot be used or
+/// if the needles of a species have several masses.
 Material read_material(const std::string& path);
 
 /// Throws InputError if length, mass, k or epsilon is absent. `path` is the file that was read.

@@ -61,7 +61,7 @@ std::vector<Vector> outline(const Vector& box) {
 
 class PvdWriter : public FrameWriter {
  public:
-  PvdWriter(const std::string& path, bool force, double length);
+  PvdWriter(const std::string& path, bool force, std::vector<double> lengths);
   ~PvdWriter() override;
 
   void add(const Frame& frame) override;
@@ -74,7 +74,7 @@ class PvdWriter : public FrameWriter {
   std::string file_of(const std::string& name);
   void list(double time, int part, const std::string& name);
 
-  double length_;
+  std::vector<double> lengths_;
   bool force_;
   TextFile collection_;
   fs::path folder_;
@@ -84,8 +84,8 @@ class PvdWriter : public FrameWriter {
   std::string box_name_;
 };
 
-PvdWriter::PvdWriter(const std::string& path, bool force, double length)
-    : length_(length), force_(force), collection_(path, force), folder_(path) {
+PvdWriter::PvdWriter(const std::string& path, bool force, std::vector<double> lengths)
+    : lengths_(std::move(lengths)), force_(force), collection_(path, force), folder_(path) {
   folder_.replace_extension();
   if (folder_ == fs::path(path)) folder_ += "-frames";
   if (fs::exists(folder_)) {
@@ -158,19 +158,21 @@ void PvdWriter::add(const Frame& frame) {
 
 void PvdWriter::write_needles(const std::string& name, const State& state) {
   VtuFile file(file_of(name), force_);
-  add_lines(file, ends_of(state, length_));
+  add_lines(file, ends_of(state, lengths_));
   std::vector<std::int64_t> ids;
   std::vector<double> speeds, spins;
+  std::vector<std::uint8_t> species;
   for (std::size_t i = 0; i < 2 * state.size(); ++i) {
     ids.push_back(id_of(state, i / 2));
     speeds.push_back(length_of(state.velocity[i / 2]));
     spins.push_back(length_of(state.angular_velocity[i / 2]));
+    species.push_back(static_cast<std::uint8_t>(species_at(state, i / 2)));
   }
   file.begin("PointData");
   file.add("id", ids);
   file.add("speed", speeds, 1);
   file.add("spin", spins, 1);
-  file.add("species", std::vector<std::uint8_t>(2 * state.size(), 0));
+  file.add("species", species);
   file.begin("CellData");
   file.add("velocity", flat(state.velocity), 3);
   file.add("orientation", flat(state.orientation), 3);
@@ -196,7 +198,7 @@ void PvdWriter::publish() {
 
 std::unique_ptr<FrameWriter> write_pvd(const std::string& path, bool force,
                                        const Material& material) {
-  return std::make_unique<PvdWriter>(path, force, material.length.value_or(1));
+  return std::make_unique<PvdWriter>(path, force, lengths_of(material));
 }
 
 }  // namespace needlework::io

@@ -69,6 +69,7 @@ Columns read_properties(std::string_view text, const Lines& lines) {
     const VectorColumns vector{first, first + 1, first + 2};
     const bool is_vector = type == "R" && width == "3";
     if (name == "id" && type == "I" && width == "1") columns.id = first;
+    if (name == "needle_species" && type == "I" && width == "1") columns.species = first;
     if (!is_vector) continue;
     if (name == "pos") columns.position = vector;
     if (name == "velo" || name == "velocities") columns.velocity = vector;
@@ -134,19 +135,25 @@ PartOfFile find_last_frame(InputText& file, const std::string& path) {
 class XyzWriter : public FrameWriter {
  public:
   XyzWriter(const std::string& path, bool force, const Material& material)
-      : length_(material.length.value_or(1)), material_(text_of(material)), file_(path, force) {}
+      : material_(text_of(material)), file_(path, force) {
+    for (const double length : lengths_of(material)) {
+      // Semi-axes of an ellipsoid.
+      endings_.push_back(
+          fmt::format(" {} {} {}", drawn_radius * length, drawn_radius * length, 0.5 * length));
+    }
+    if (endings_.size() == 1) return;
+    for (std::size_t i = 0; i < endings_.size(); ++i) endings_[i] += fmt::format(" {}", i);
+  }
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
     file_.print(
         "{}\nLattice=\"{} 0 0 0 {} 0 0 0 {}\" Properties=species:S:1:pos:R:3:id:I:1:velo:R:3:"
-        "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3",
-        state.size(), state.box[0], state.box[1], state.box[2]);
+        "director:R:3:angular_velocity:R:3:orientation:R:4:aspherical_shape:R:3{}",
+        state.size(), state.box[0], state.box[1], state.box[2],
+        endings_.size() > 1 ? ":needle_species:I:1" : "");
     if (frame.time) file_.print(" Time={}", *frame.time);
     file_.print(" pbc=\"T T T\"{}{}\n", material_.empty() ? "" : " ", material_);
-    // Semi-axes of an ellipsoid.
-    const std::string shape =
-        fmt::format(" {} {} {}", drawn_radius * length_, drawn_radius * length_, 0.5 * length_);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& v = state.velocity[i];
@@ -155,14 +162,14 @@ class XyzWriter : public FrameWriter {
       const auto q = quaternion_of(u);
       file_.print("X {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}{}\n", r[0], r[1], r[2],
                   id_of(state, i), v[0], v[1], v[2], u[0], u[1], u[2], w[0], w[1], w[2], q[1], q[2],
-                  q[3], q[0], shape);
+                  q[3], q[0], endings_.at(species_at(state, i)));
     }
   }
   void publish() override { file_.publish(); }
 
  private:
-  double length_;
   std::string material_;
+  std::vector<std::string> endings_;  // of a line, for each species
   TextFile file_;
 };
 
