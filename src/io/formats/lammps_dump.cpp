@@ -99,7 +99,7 @@ Columns read_columns(const Lines& lines) {
   return columns;
 }
 
-PartOfFile find_last_frame(InputText& file, const std::string& path) {
+PartOfFile find_last_dump_frame(InputText& file, const std::string& path) {
   Lines lines(file, path);
   PartOfFile last;
   bool found = false;
@@ -171,7 +171,7 @@ bool is_lammps_dump(std::string_view beginning) {
 
 Configuration read_lammps_dump(const std::string& path) {
   InputText file(path);
-  const PartOfFile frame = find_last_frame(file, path);
+  const PartOfFile frame = find_last_dump_frame(file, path);
   Lines lines(file, path, frame.begin);
   lines.advance(begin_of_frame);
   Configuration configuration;

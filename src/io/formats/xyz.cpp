@@ -113,7 +113,7 @@ std::int64_t read_count(const Lines& lines) {
   return lines.row().read_whole(0, "number of needles", 0, most_needles);
 }
 
-PartOfFile find_last_frame(InputText& file, const std::string& path) {
+PartOfFile find_last_xyz_frame(InputText& file, const std::string& path) {
   Lines lines(file, path);
   PartOfFile last;
   bool more = lines.advance_to_text();
@@ -184,7 +184,7 @@ bool is_xyz(std::string_view beginning) {
 
 Configuration read_xyz(const std::string& path) {
   InputText file(path);
-  const PartOfFile frame = find_last_frame(file, path);
+  const PartOfFile frame = find_last_xyz_frame(file, path);
   Lines lines(file, path, frame.begin);
   lines.advance("the number of needles");
   const std::int64_t count = read_count(lines);
