@@ -63,7 +63,7 @@ int run(const ViewArguments& arguments) {
   picture::NeedlePicture settings = arguments.picture;
   settings.camera.orthographic = arguments.projection == "orthographic";
   settings.dark = arguments.background == "dark";
-  settings.needle_length = io::read_material(arguments.from).length.value_or(1);
+  settings.lengths = io::lengths_of(io::read_material(arguments.from));
   for (std::size_t i = range.begin; i < range.end; ++i) {
     settings.time = file->time(i);
     const picture::Drawing drawing = picture::drawing_of(file->read(i), settings);

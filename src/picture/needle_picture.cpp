@@ -1,6 +1,7 @@
 #include "src/picture/needle_picture.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ class Painter {
         settings_(settings),
         theme_(theme_of(settings.dark)),
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
-        camera_(state.box, settings.needle_length / 2, settings.camera, frame()) {}
+        camera_(state.box, std::ranges::max(settings.lengths) / 2, settings.camera, frame()) {}
 
   Drawing drawing() {
     const NeedleValues values = values_of(settings_.colour, state_, settings_.dark);
@@ -88,15 +89,15 @@ class Painter {
   }
 
   void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
+    const double length = settings_.lengths.at(state_.species.empty() ? 0 : state_.species[i]);
     std::array<Vector, 2> ends{in_box(state_.position[i]), in_box(state_.position[i])};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double half = settings_.needle_length / 2 * state_.orientation[i][axis];
+      const double half = length / 2 * state_.orientation[i][axis];
       ends[0][axis] -= half;
       ends[1][axis] += half;
     }
     // Nearness shows more in the thickness than perspective alone would make it.
-    const double full =
-        thickness * settings_.needle_length * middle.scale * (0.5 + middle.nearness);
+    const double full = thickness * length * middle.scale * (0.5 + middle.nearness);
     const double share = faintest + (1 - faintest) * std::clamp(middle.nearness, 0.0, 1.0);
     drawing_.strokes.push_back({camera_.see(ends[0]).place, camera_.see(ends[1]).place,
                                 std::max(full, thinnest * unit_),
@@ -143,8 +144,9 @@ class Painter {
   void describe(const NeedleValues& values) {
     drawing_.title = count_text(state_);
     drawing_.description = fmt::format(
-        "{} of length {:g} in a periodic box of {:g} by {:g} by {:g}", count_text(state_),
-        settings_.needle_length, state_.box[0], state_.box[1], state_.box[2]);
+        "{} of {} {:g} in a periodic box of {:g} by {:g} by {:g}", count_text(state_),
+        settings_.lengths.size() == 1 ? "length" : "lengths", fmt::join(settings_.lengths, ", "),
+        state_.box[0], state_.box[1], state_.box[2]);
     if (settings_.time) drawing_.description += fmt::format(" at time {:.6g}", *settings_.time);
     if (!values.label.empty()) {
       drawing_.description += fmt::format("; colours are {} from {:g} to {:g}", values.label,

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "needlework/state.h"
 #include "src/picture/camera.h"
@@ -15,8 +16,8 @@ struct NeedlePicture {
   std::string colour = "speed";   ///< one of quantities()
   bool dark = true;               ///< the ground
   CameraSettings camera;
-  double needle_length = 1;    ///< [L]
-  std::optional<double> time;  ///< shown if it is known
+  std::vector<double> lengths = {1.0};  ///< of needles of each species [L]
+  std::optional<double> time;           ///< shown if it is known
 };
 
 /// The needles, whose centres are moved into the box, and which are drawn whole, so that they reach

@@ -42,13 +42,26 @@ TEST(NeedlePictures, ShowEachNeedleAndTwelveEdges) {
 
 TEST(NeedlePictures, ShowNeedlesInTheirLength) {
   NeedlePicture settings = along_x();
-  settings.needle_length = 2;
+  settings.lengths = {2};
   // The frame, 832 pixels less two edges of 14, holds the box and half a needle on each side,
   // unless it is the height that limits it: 832 - 14 - 76.
   const double scale = (832 - 14 - 76) / 10.0;
   const std::vector<Stroke> drawn = needles(drawing_of(needles_at(8, {{4, 4, 4}}), settings));
   ASSERT_EQ(drawn.size(), 1);
   EXPECT_NEAR(length(drawn[0]), 2 * scale, 1e-9);
+}
+
+TEST(NeedlePictures, ShowEachSpeciesInItsLength) {
+  NeedlePicture settings = along_x();
+  settings.lengths = {1, 3};
+  State state = needles_at(8, {{4, 4, 4}, {4, 4, 5}});
+  state.species = {0, 1};
+  const Drawing drawing = drawing_of(state, settings);
+  const std::vector<Stroke> drawn = needles(drawing);
+  ASSERT_EQ(drawn.size(), 2);
+  const double first = length(drawn[0]), second = length(drawn[1]);
+  EXPECT_NEAR(std::max(first, second) / std::min(first, second), 3, 1e-9);
+  EXPECT_NE(drawing.description.find("of lengths 1, 3 in a"), std::string::npos);
 }
 
 TEST(NeedlePictures, ShowFarNeedlesFirstThinnerAndFainter) {
