@@ -40,10 +40,15 @@ namespace scalar {
 
 namespace {
 
-#define NEEDLEWORK_NEAR_KERNELS(isa, space, target)                    \
-  constexpr NearKernels isa##_kernels = {                              \
-      Isa::isa,           space::floats_at_once,   space::overlapping, \
-      space::approaching, space::contact_function, space::bracket};
+#define NEEDLEWORK_NEAR_KERNELS(isa, space, target)               \
+  constexpr NearKernels isa##_kernels = {Isa::isa,                \
+                                         space::floats_at_once,   \
+                                         space::overlapping,      \
+                                         space::approaching,      \
+                                         space::near_capsules,    \
+                                         space::near_paths,       \
+                                         space::contact_function, \
+                                         space::bracket};
 NEEDLEWORK_NEAR_KERNELS(scalar, scalar, )
 NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_NEAR_KERNELS)
 #undef NEEDLEWORK_NEAR_KERNELS

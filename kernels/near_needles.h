@@ -66,12 +66,13 @@ struct Found {
 /// The needle that searches.
 struct Seeker {
   Motion motion;         ///< at `now`
-  float r[3], u[3];      ///< centre and director of its capsule, as in its block
+  float r[3], u[3];      ///< centre and director of its capsule, as in its block; or of its path
   float now;             ///< present time
   float ahead;           ///< how far it searches
   float margin;          ///< margin_of_lengths(); does not cover words
   float longest_half;    ///< half the length of the longest needle, which each other one may have
   std::uint32_t needle;  ///< itself; not reported, nor its images
+  float axis_half = 0;   ///< half the length of the capsule's axis, or of the path
 };
 
 /// Pairs to be looked at more closely, in columns: the second needle as seen from the seeker.
@@ -139,6 +140,14 @@ struct NearKernels {
   /// its entry and its next placing no needle may move along an axis by more than the range of
   /// words.
   Scan (*approaching)(const Surroundings& around, const Seeker& seeker, const Found& found);
+  /// Needles whose capsules' axes come nearer than `distance` to the seeker's segment, which is the
+  /// axis of its capsule or the path of its centre.
+  Scan (*near_capsules)(const Surroundings& around, const Seeker& seeker, float distance,
+                        const Found& found);
+  /// Needles whose centres come nearer than `distance` to the axis of the seeker's capsule in the
+  /// time ahead. What is said of approaching() about how far they move is true here, too.
+  Scan (*near_paths)(const Surroundings& around, const Seeker& seeker, float distance,
+                     const Found& found);
   /// The contact function of the first n pairs at time s from now, as bracket() computes it.
   void (*contact_function)(const Seeker& seeker, const PairColumns& pairs, std::size_t n, float s,
                            const ContactColumns& out);

@@ -175,6 +175,57 @@ Scan approaching(const Surroundings& around, const Seeker& seeker, const Found& 
   return scan(around, seeker, found, test);
 }
 
+Scan near_capsules(const Surroundings& around, const Seeker& seeker, float distance,
+                   const Found& found) {
+  const Floats base(around.format.base);
+  const V3 r = on_scale_of_words(seeker.r, around.format), u = broadcast(seeker.u);
+  // As for overlapping(), but what rounding does to the gap grows with the seeker's segment.
+  const float near = distance + seeker.margin + 4 * static_cast<float>(around.format.step()) +
+                     (1 + seeker.axis_half) * 0x1p-17f;
+  const Floats near_squared(near * near);
+  const HalfLengths<Floats> half =
+      half_lengths(Floats(seeker.axis_half), Floats(seeker.longest_half));
+  const auto test = [&](const NeedleBlock& block, std::size_t lane,
+                        const float* offset) NEEDLEWORK_TARGET {
+    const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
+    const V3 words = load_words(block, lane);
+    const V3 d = from - places_of(words, base);
+    const V3 a = V3{signed_numbers(words.x), signed_numbers(words.y), signed_numbers(words.z)} *
+                 Floats(0x1p-31f);
+    const V3 x = cross(u, a);
+    return segment_distance_squared(d, u, a, x, dot(x, x), half) <= near_squared;
+  };
+  return scan(around, seeker, found, test);
+}
+
+Scan near_paths(const Surroundings& around, const Seeker& seeker, float distance,
+                const Found& found) {
+  const Floats base(around.format.base);
+  const V3 r = on_scale_of_words(seeker.r, around.format), u = broadcast(seeker.u);
+  const Floats now(seeker.now), ahead(seeker.ahead), half(0.5f), one(1.0f);
+  const auto step = static_cast<float>(around.format.step());
+  // By then each has been placed again. Longer paths would lose their digits.
+  const Floats farthest(2 * WordFormat::places * step);
+  // Places and velocities are off as for approaching(), up to where a needle is placed again. The
+  // errors of times, 2^-20, enter by the speed.
+  const Floats near_now(distance + seeker.margin + 10 * step + (1 + seeker.axis_half) * 0x1p-17f);
+  const auto test = [&](const NeedleBlock& block, std::size_t lane,
+                        const float* offset) NEEDLEWORK_TARGET {
+    const V3 from{r.x - Floats(offset[0]), r.y - Floats(offset[1]), r.z - Floats(offset[2])};
+    const V3 v = load_words(block, lane);
+    const Floats age = now - load_floats(block.time + lane);
+    const Floats speed = square_root(dot(v, v)),
+                 half_path = half * minimum(speed * ahead, farthest);
+    const V3 along = v * (one / speed);
+    const V3 middle = ((from - places_of(v, base)) - v * age) - along * half_path;
+    const V3 x = cross(u, along);
+    const Floats near = near_now + speed * Floats(0x1p-17f);
+    const HalfLengths<Floats> halves = half_lengths(Floats(seeker.axis_half), half_path);
+    return segment_distance_squared(middle, u, along, x, dot(x, x), halves) <= near * near;
+  };
+  return scan(around, seeker, found, test);
+}
+
 /// The contact function of pairs at one time each, with three derivatives; and the motion along the
 /// gap between the needles: projections on it of the relative centre and velocity, and of the
 /// directors and their rates times the half lengths.

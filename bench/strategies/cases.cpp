@@ -21,6 +21,7 @@ struct GasScene {
   double box;
   Scene::Collisions collisions = {};
   double k = 6;
+  std::vector<Species> species = {};
 };
 
 struct Parts {
@@ -49,6 +50,7 @@ Case make_case(const GasScene& gas, const Parts& parts) {
   out.scene.needles.count = gas.needles;
   out.scene.needles.box = {gas.box, gas.box, gas.box};
   out.scene.needles.k = gas.k;
+  out.scene.species = gas.species;
   out.scene.collisions = gas.collisions;
   out.scene.engine.search = parts.search;
   out.scene.engine.queue = parts.calendar;
@@ -193,6 +195,46 @@ std::vector<Case> by_cloud() {
   return out;
 }
 
+// Needles of length 1 and a share of long ones, at this many needles per cube of the mean length.
+GasScene mixture_of(std::uint64_t needles, double density, double length, double share) {
+  const auto long_ones =
+      static_cast<std::uint64_t>(std::llround(share * static_cast<double>(needles)));
+  const double mean = 1 + share * (length - 1);
+  GasScene out = gas_of(needles, density);
+  out.name = fmt::format("n={},1:{},{}%", density, length, 100 * share);
+  out.box *= mean;
+  out.species = {{.name = "short", .count = needles - long_ones, .length = 1},
+                 {.name = "long", .count = long_ones, .length = length}};
+  return out;
+}
+
+// Mixtures in one grid, with the sizes that the mean length asks for, and as chosen; before those
+// of a density, the gas of one length that collides as often.
+std::vector<Case> by_mixture() {
+  std::vector<Case> out;
+  for (const double density : {0.1, 1.0, 10.0}) {
+    std::vector<GasScene> gases{gas_of(100000, density), mixture_of(100000, density, 4, 0.5),
+                                mixture_of(100000, density, 20, 0.5)};
+    // Denser, the box would be too small for the long ones.
+    if (density <= 1) gases.push_back(mixture_of(100000, density, 20, 0.01));
+    for (const GasScene& gas : gases) {
+      Case chosen = make_case(gas, searched_by("auto"));
+      Case one_grid = chosen;
+      const double mean = gas.box / gas_of(gas.needles, density).box;
+      one_grid.scene.engine.search = chosen_search("auto", density, {});
+      if (one_grid.scene.engine.search == "linked-cells") {
+        one_grid.scene.engine.cell_side = mean * auto_cell_side(density);
+      } else {
+        one_grid.scene.engine.capsule_radius = mean * auto_capsule_radius(density);
+      }
+      one_grid.is_baseline = true;
+      out.push_back(one_grid);
+      out.push_back(chosen);
+    }
+  }
+  return out;
+}
+
 // Finishes at once, to try things out.
 std::vector<Case> by_smoke() { return product({gas_of(200, 1)}, {searched_by("auto")}); }
 
@@ -280,6 +322,11 @@ const std::vector<Subset>& subsets() {
       {"cloud", "8000 needles in a part of their box: cells for the whole box, and as chosen",
        by_cloud},
       {"effects", "10000 needles in a box of 24: what collisions may do", by_effects},
+      {"mixtures",
+       "100000 needles, and mixtures 1:4 and 1:20 in length that collide as often: in one grid, "
+       "and "
+       "as chosen; 10 minutes",
+       by_mixture},
       {"smoke", "200 needles, over at once", by_smoke}};
   return all;
 }

@@ -47,6 +47,7 @@ LoopChoice choice_of(const Scene& scene, const Run& run, double density) {
                     .density = density,
                     .cell_side = scene.engine.cell_side,
                     .capsule_radius = scene.engine.capsule_radius,
+                    .by_class = scene.engine.search == "auto",
                     .float_filter = accuracy_of(scene.engine).float_filter,
                     .count_multiples =
                         multiples_to_divide(run.gas.box, static_cast<std::uint32_t>(threads))},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/machine/stop_request.h"
+#include "src/search/choice.h"
 
 namespace needlework {
 namespace {
@@ -42,7 +43,8 @@ void sort_by(const std::vector<std::uint64_t>& keys, std::vector<Needle>& order)
 std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   // One scale for all axes, in steps of about half a needle length.
   const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
-  const double steps = std::min(2 * longest / gas.longest, 0x1p21 - 1);
+  const double length = mean_length(gas.composition) * gas.longest;
+  const double steps = std::min(2 * longest / length, 0x1p21 - 1);
   std::vector<std::uint64_t> keys;
   keys.reserve(gas.size());
   for (const Record& record : gas.records) {

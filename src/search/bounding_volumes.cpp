@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "kernels/in_parallel.h"
 #include "kernels/power_of_two.h"
@@ -23,25 +24,32 @@ constexpr double overlap_of_side = 0.2;
 // third of a kilobyte each.
 constexpr double cells_per_needle = 2;
 
-double chosen_density(const Gas& gas, const SearchSetup& setup) {
-  return density_by_mean(setup.density.value_or(reduced_density(gas)), gas.composition);
+// The grid that a class wishes for.
+CellGrid grid_for(const Gas& gas, const SearchSetup& setup, const SizeClass& one) {
+  if (setup.cell_side) return CellGrid(gas.box, one.cell_side, one.count);
+  return CellGrid(gas.box, one.cell_side, one.count, setup.count_multiples, cells_per_needle,
+                  one.kind == BoundingVolume::cell ? CellFit::at_least : CellFit::nearest);
 }
 
-CellGrid grid_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
-  if (setup.cell_side) return CellGrid(gas.box, *setup.cell_side, gas.size());
-  const double density = chosen_density(gas, setup);
-  const bool linked_cells = kind == BoundingVolume::cell;
-  const double side = linked_cells ? auto_cell_side(density) : auto_side_for_capsules(density);
-  return CellGrid(gas.box, side * mean_length(gas.composition) * gas.longest, gas.size(),
-                  setup.count_multiples, cells_per_needle,
-                  linked_cells ? CellFit::at_least : CellFit::nearest);
+// The grid whose cells can be divided into those of all classes.
+CellGrid coarsest(const std::vector<CellGrid>& grids, const std::array<double, 3>& box) {
+  std::array<std::int32_t, 3> counts = grids.front().counts();
+  for (const CellGrid& grid : grids) {
+    for (int axis = 0; axis < 3; ++axis) {
+      counts[axis] = std::min(counts[axis], grid.counts()[axis]);
+    }
+  }
+  return CellGrid::of_counts(box, counts);
 }
 
-double radius_for(const Gas& gas, const SearchSetup& setup, BoundingVolume kind) {
-  if (kind == BoundingVolume::cell) return 0;
-  if (setup.capsule_radius) return *setup.capsule_radius;
-  return auto_capsule_radius(chosen_density(gas, setup)) * mean_length(gas.composition) *
-         gas.longest;
+// The cells of a class: as near to what it wishes for as a division of the common grid can be.
+CellGrid division_near(const Gas& gas, const CellGrid& common, const CellGrid& wished) {
+  std::array<std::int32_t, 3> counts = common.counts();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double parts = static_cast<double>(wished.counts()[axis]) / counts[axis];
+    counts[axis] *= std::max(1, static_cast<std::int32_t>(parts + 0.5));
+  }
+  return CellGrid::of_counts(gas.box, counts);
 }
 
 void store(float (&to)[3], const Vec3d& a) {
@@ -52,16 +60,12 @@ void store(float (&to)[3], const Vec3d& a) {
 
 }  // namespace
 
-BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, BoundingVolume which)
-    : gas(all),
-      kind(which),
-      longest(all.longest),
-      per_length(1 / needlework::unit_of_length(all)),
-      radius(radius_for(all, setup, kind)),
-      grid(grid_for(all, setup, kind)),
-      places(all.size()),
-      motions(all.size()),
-      cells(grid.size(), all.size()) {
+ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length)
+    : kind(sizes.kind),
+      longest(sizes.longest),
+      radius(sizes.capsule_radius),
+      grid(its_grid),
+      cells(grid.size(), sizes.count) {
   const auto sides = grid.sides();
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
@@ -71,31 +75,55 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   margin = kernels::margin_of_lengths(widest * per_length);
 }
 
+BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, BoundingVolume kind)
+    : gas(all),
+      per_length(1 / needlework::unit_of_length(all)),
+      places(all.size()),
+      motions(all.size()) {
+  SizeClasses sizes = size_classes(gas, setup, kind);
+  class_of_species = std::move(sizes.of_species);
+  std::vector<CellGrid> wished;
+  for (const SizeClass& each : sizes.all) wished.push_back(grid_for(gas, setup, each));
+  const bool one = wished.size() == 1;
+  grid = one ? wished.front() : coarsest(wished, gas.box);
+  for (std::size_t c = 0; c < wished.size(); ++c) {
+    const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
+    classes.push_back(std::make_unique<ClassCells>(sizes.all[c], its_grid, per_length));
+    const ClassCells& made = *classes.back();
+    // What words round is far less than what Phase adds to the length of a needle, unless cells are
+    // very much longer than that.
+    const double rounding = one ? 0 : 8 * made.format.step() / per_length;
+    radius = std::max(radius, made.radius);
+    drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
+  }
+}
+
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now, 1);
   const Record& record = gas.records[i];
   const kernels::Flight& flight = record.flight;
   const double elapsed = gas.clock.difference(now, record.time);
+  ClassCells& own = class_of(i);
   Vec3d r = centre_after(flight, elapsed), a;
   double stay;
-  if (kind == BoundingVolume::cell) {
-    stay = grid.time_to_leave(grid.cell_of(r), r, flight.v, overlap);
+  if (own.kind == BoundingVolume::cell) {
+    stay = own.grid.time_to_leave(own.grid.cell_of(r), r, flight.v, own.overlap);
     a = flight.v * (per_length / per_time);
   } else {
     // The capsule is around where the needle will be in half of its time there, so that it may
     // move by the radius before that and after.
     const double speed = std::sqrt(dot(flight.v, flight.v)) + half_length * flight.omega;
-    const double half = radius / speed;
+    const double half = own.radius / speed;
     stay = 2 * half;
     const double middle = std::isfinite(half) ? elapsed + half : elapsed;
     r = centre_after(flight, middle);
     a = director_after(flight, middle);
   }
-  const bool crosses = enter(i, grid.cell_of(r));
+  const bool crosses = enter(own, i, own.grid.cell_of(r));
   places[i].next_event = gas.clock.add(now, stay);
   motions[i].half = static_cast<float>(half_length * per_length);
   assert(fits_words(i, r));
-  write_entry(i, r, a, now);
+  write_entry(own, i, r, a, now);
   set_motion(i, now);
   return crosses;
 }
@@ -113,7 +141,7 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   const std::vector<Needle> order = ranks_of(ranks);
   permute(places, order);
   permute(motions, order);
-  cells.renumber(ranks);
+  for (const auto& each : classes) each->cells.renumber(ranks);
 }
 
 // Chooses the unit of time and the origin of times in blocks and motions again, before times grow
@@ -131,12 +159,13 @@ void BoundingVolumes::rebase(Time now, int threads) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;
       set_motion(i, now);
-      if (kind == BoundingVolume::capsule) continue;
+      ClassCells& own = class_of(i);
+      if (own.kind == BoundingVolume::capsule) continue;
       const Record& record = gas.records[i];
       const double elapsed = gas.clock.difference(now, record.time);
       // The centre fits its words, except that of a needle that has just collided and was taken to
       // the other side of the box: it is placed again before any needle searches.
-      write_entry(i, centre_after(record.flight, elapsed),
+      write_entry(own, i, centre_after(record.flight, elapsed),
                   record.flight.v * (per_length / per_time), now);
     }
   });
@@ -150,7 +179,8 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
   const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
   const double unit_of_time = 1 / per_time;
   Motion& out = motions[i];
-  store(out.r, (centre_after(flight, elapsed) - grid.corner(places[i].cell)) * per_length);
+  const Vec3d corner = class_of(i).grid.corner(places[i].cell);
+  store(out.r, (centre_after(flight, elapsed) - corner) * per_length);
   store(out.v, flight.v * (per_length * unit_of_time));
   store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
@@ -161,41 +191,56 @@ void BoundingVolumes::set_motion(Needle i, Time now) {
 
 // Whether words can hold a centre in the needle's cell.
 bool BoundingVolumes::fits_words(Needle i, const Vec3d& centre) const {
-  const Vec3d r = (centre - grid.corner(places[i].cell)) * per_length;
+  const ClassCells& own = class_of(i);
+  const kernels::WordFormat& format = own.format;
+  const Vec3d r = (centre - own.grid.corner(places[i].cell)) * per_length;
   return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
 }
 
 // Writes the needle's entry, with its velocity or director, into its slot.
-void BoundingVolumes::write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now) {
+void BoundingVolumes::write_entry(ClassCells& own, Needle i, const Vec3d& centre,
+                                  const Vec3d& direction, Time now) {
   const Place& place = places[i];
-  NeedleBlock& block = cells[place.slot.block];
-  const Vec3d r = (centre - grid.corner(place.cell)) * per_length;
+  const bool velocities = own.kind == BoundingVolume::cell;
+  NeedleBlock& block = own.cells[place.slot.block];
+  const Vec3d r = (centre - own.grid.corner(place.cell)) * per_length;
   const double coordinate[3] = {r.x, r.y, r.z};
   const double component[3] = {direction.x, direction.y, direction.z};
   for (int axis = 0; axis < 3; ++axis) {
     block.word[axis][place.slot.lane] =
-        kind == BoundingVolume::cell ? format.with_velocity(coordinate[axis], component[axis])
-                                     : format.with_director(coordinate[axis], component[axis]);
+        velocities ? own.format.with_velocity(coordinate[axis], component[axis])
+                   : own.format.with_director(coordinate[axis], component[axis]);
   }
-  if (kind == BoundingVolume::cell) {
+  if (velocities) {
     block.time[place.slot.lane] = static_cast<float>(since_base(now));
   }
 }
 
-bool BoundingVolumes::enter(Needle i, const Cell& cell) {
+bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {
   Place& place = places[i];
   const bool entered = place.is_entered();
-  const auto index = static_cast<std::uint32_t>(grid.index_of(cell));
+  const auto index = static_cast<std::uint32_t>(own.grid.index_of(cell));
   if (entered) {
-    const auto old = static_cast<std::uint32_t>(grid.index_of(place.cell));
+    const auto old = static_cast<std::uint32_t>(own.grid.index_of(place.cell));
     place.cell = cell;
     if (old == index) return false;
-    const Needle moved = cells.leave(old, place.slot);
+    const Needle moved = own.cells.leave(old, place.slot);
     if (moved != i) places[moved].slot = place.slot;
   }
   place.cell = cell;
-  place.slot = cells.enter(index, i);
+  place.slot = own.cells.enter(index, i);
   return entered;
+}
+
+// What contains the needle's cell.
+Cell BoundingVolumes::cell_around(Needle i) const {
+  const std::array<std::int32_t, 3> all = class_of(i).grid.counts(), common = grid.counts();
+  Cell out = places[i].cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int32_t parts = all[axis] / common[axis];
+    out[axis] = (out[axis] - (out[axis] < 0 ? parts - 1 : 0)) / parts;
+  }
+  return out;
 }
 
 }  // namespace needlework

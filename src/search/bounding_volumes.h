@@ -7,9 +7,15 @@
 //
 //   cell     the bounding volume is the cell and a fifth of its side around it
 //   capsule  the bounding volume is a capsule of radius delta around the needle
+//
+// Needles of each size class (size_classes.h) have bounding volumes, and cells, of their own. The
+// cells of all classes are parts of the cells of one common grid, by which threads divide the box.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "kernels/near_needles.h"
 #include "src/memory/large_array.h"
@@ -17,8 +23,23 @@
 #include "src/search/cell_grid.h"
 #include "src/search/needle_cells.h"
 #include "src/search/setup.h"
+#include "src/search/size_classes.h"
 
 namespace needlework {
+
+/// The cells of one size class, and the needles in them.
+struct ClassCells {
+  ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length);
+
+  BoundingVolume kind;
+  double longest;  ///< length of the longest needle of the class [L]
+  double radius;   ///< of capsules; else 0 [L]
+  CellGrid grid;
+  double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
+  kernels::WordFormat format;  ///< of the words in blocks
+  float margin = 0;            ///< of lengths, see kernels::Seeker [unit of length]
+  NeedleCells cells;
+};
 
 /// Several threads may use it at once, as long as none reads what another writes: placing a needle
 /// writes to the cells that it leaves and enters, finding its neighbours reads cells within
@@ -55,28 +76,35 @@ struct BoundingVolumes {
 
   double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
 
+  ClassCells& class_of(Needle i) const {
+    return *classes[classes.size() == 1 ? 0 : class_of_species[gas.records[i].species]];
+  }
+  /// The cell of the common grid in which needle i has been placed, in the frame of its record.
+  Cell common_cell_of(Needle i) const {
+    return classes.size() == 1 ? places[i].cell : cell_around(i);
+  }
+
   const Gas& gas;
-  BoundingVolume kind;
-  double longest;     ///< length of the longest needle [L]
-  double per_length;  ///< 1 / unit of length
-  double radius;      ///< of capsules; else 0 [L]
-  CellGrid grid;
-  double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
-  kernels::WordFormat format;  ///< of the words in blocks
-  float margin = 0;            ///< of lengths, see kernels::Seeker [unit of length]
-  double per_time = 0;         ///< 1 / unit of time; 0 before the first needle
+  double per_length;                                 ///< 1 / unit of length
+  std::vector<std::unique_ptr<ClassCells>> classes;  ///< at least one
+  std::vector<std::uint8_t> class_of_species;        ///< index in `classes`
+  CellGrid grid;                                     ///< the common grid: of one class, its own
+  double radius = 0;    ///< how far from where a needle is it may be placed, at most [L]
+  double drift = 0;     ///< how far from its cell a needle may come, at most [L]
+  double per_time = 0;  ///< 1 / unit of time; 0 before the first needle
   Time base;
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
-  NeedleCells cells;
 
  private:
+  Cell cell_around(Needle i) const;
   float rounded_up(Time t) const { return static_cast<float>(since_base(t) * (1 + 0x1p-20)); }
   void rebase(Time now, int threads);
   void set_motion(Needle i, Time now);
   bool fits_words(Needle i, const Vec3d& centre) const;
-  void write_entry(Needle i, const Vec3d& centre, const Vec3d& direction, Time now);
-  bool enter(Needle i, const Cell& cell);
+  void write_entry(ClassCells& own, Needle i, const Vec3d& centre, const Vec3d& direction,
+                   Time now);
+  bool enter(ClassCells& own, Needle i, const Cell& cell);
 };
 
 }  // namespace needlework

@@ -45,6 +45,18 @@ class CellGrid {
     }
   }
 
+  /// So many cells along the edges of the box.
+  static CellGrid of_counts(const std::array<double, 3>& box,
+                            const std::array<std::int32_t, 3>& counts) {
+    CellGrid out;
+    for (int axis = 0; axis < 3; ++axis) {
+      out.count_[axis] = counts[axis];
+      out.side_[axis] = box[axis] / counts[axis];
+      out.reciprocal_[axis] = 1 / out.side_[axis];
+    }
+    return out;
+  }
+
   std::array<std::int32_t, 3> counts() const { return count_; }
   std::array<double, 3> sides() const { return side_; }
   std::size_t size() const {

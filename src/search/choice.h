@@ -53,9 +53,12 @@ inline double auto_capsule_radius(double density) {
 inline double auto_side_for_capsules(double density) { return std::cbrt(12 / density); }
 
 /// Side of linked cells [L], of about 8 needles. In a dilute gas it pays to look through more, as
-/// needles cross many cells from one collision to the next.
-inline double auto_cell_side(double density) {
-  return std::max(std::cbrt(8 / density), 1.9 / std::sqrt(density));
+/// needles cross many cells from one collision to the next. In a mixture, `own` is the density of
+/// the needles in these cells alone, and `crowd` that of a gas of one length in which needles
+/// collide as often as they do.
+inline double auto_cell_side(double own, double crowd) {
+  return std::max(std::cbrt(8 / own), 1.9 / std::sqrt(crowd));
 }
+inline double auto_cell_side(double density) { return auto_cell_side(density, density); }
 
 }  // namespace needlework

@@ -55,7 +55,7 @@ class NearSearch {
       ahead = visit(candidate.needle, candidate.shift, candidate.from);
     }
   }
-  const char* name() const { return name_of(volumes_->kind); }
+  const char* name() const { return name_of(kind_); }
   std::size_t cells() const { return grid().size(); }
   std::uint32_t cell_index(Needle i) const {
     return static_cast<std::uint32_t>(grid().index_of(cell_of(i)));
@@ -66,14 +66,13 @@ class NearSearch {
   }
 
   const BoundingVolumes& volumes() const { return *volumes_; }
+  /// The grid by which needles are found; of a mixture, the one that contains those of its classes.
   const CellGrid& grid() const { return volumes_->grid; }
-  /// The cell in which needle i has been placed, in the frame of its record.
-  const Cell& cell_of(Needle i) const { return volumes_->places[i].cell; }
-  /// How far from its cell a needle may come before it is placed again. [L]
-  double drift() const {
-    return volumes_->kind == BoundingVolume::cell ? volumes_->overlap : radius();
-  }
-  /// How far from where a needle is it may be placed. [L]
+  /// The cell of this grid in which needle i has been placed, in the frame of its record.
+  Cell cell_of(Needle i) const { return volumes_->common_cell_of(i); }
+  /// How far from its cell a needle may come before it is placed again, at most. [L]
+  double drift() const { return volumes_->drift; }
+  /// How far from where a needle is it may be placed, at most. [L]
   double radius() const { return volumes_->radius; }
   /// Makes times from now on fit for place(). Returns until when they are: up to then several
   /// threads may call place().
@@ -90,18 +89,38 @@ class NearSearch {
     Shift shift;
   };
 
+  // One size class, as one search looks at it.
+  struct Look {
+    const ClassCells* cells;
+    kernels::Seeker seeker;  ///< lengths count from the corner of `origin`
+    Cell origin;             ///< the cell that the needle is in
+    bool capsule;            ///< whether it is in a capsule
+    float low[3], high[3];   ///< the box around the axis of that, or around its path
+    float distance = 0;      ///< of centres from axes, or of axes, in contact or in overlap
+    float reach = 0;         ///< how far from that segment centres may be
+    std::size_t views = 0, first_view = 0;
+    std::size_t found = 0, first_found = 0;
+  };
+
+  class SegmentInCells;
+
   std::span<const Candidate> candidates(Needle i, const JustHit& just_hit, double ahead);
-  kernels::Seeker seeker_for(Needle i, double ahead) const;
-  void look_around(const kernels::Seeker& seeker, const Cell& cell, double ahead);
-  void follow(const kernels::Seeker& seeker, const JustHit& just_hit, const kernels::Found& found,
-              std::size_t count);
+  void begin_looks(Needle i, double ahead);
+  void make_seeker(Needle i, const ClassCells& own, double ahead, kernels::Seeker& seeker) const;
+  void seen_from(const ClassCells& own, Look& look) const;
+  void sweep(const ClassCells& own, double ahead, Look& look) const;
+  void look_around(Look& look);
+  kernels::Scan scan(const ClassCells& own, const Look& look, const kernels::Found& found) const;
+  void follow(const JustHit& just_hit, const kernels::Found& found, std::size_t count);
   void propose(const kernels::Found& found, std::size_t k, double from);
   Shift shift_of(Needle j, std::uint32_t view) const;
 
   std::shared_ptr<BoundingVolumes> volumes_;
+  BoundingVolume kind_;  ///< that the search is named by
   Counters& counters_;
   const kernels::NearKernels& kernels_;
-  bool follows_;  ///< whether pairs are followed by SIMD before they are proposed
+  bool follows_;             ///< whether pairs are followed by SIMD before they are proposed
+  std::vector<Look> looks_;  ///< the own class first
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
   std::size_t view_count_ = 0;

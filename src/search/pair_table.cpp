@@ -10,9 +10,23 @@ using kernels::CellView;
 using kernels::Motion;
 using kernels::PairColumns;
 
+PairColumns PairTable::columns_for(std::size_t count) {
+  // Kernels use up to two blocks more.
+  if (count + 2 * kernels::block_size > capacity_) {
+    capacity_ = 2 * count + 2 * kernels::block_size;
+    storage_.assign(capacity_ * PairColumns::columns, 0.0f);
+  }
+  PairColumns pairs;
+  for (int c = 0; c < PairColumns::columns; ++c) {
+    pairs.column[c] = storage_.data() + c * capacity_;
+  }
+  return pairs;
+}
+
 // Four pairs at once: most of the work is to turn the rows of motions into columns.
-PairColumns PairTable::fill(const kernels::Seeker& seeker, const Motion* motions,
-                            const CellView* cells, const kernels::Found& found, std::size_t count) {
+void PairTable::fill(const PairColumns& pairs, const kernels::Seeker& seeker, const Motion* motions,
+                     const CellView* cells, const kernels::Found& found, std::size_t begin,
+                     std::size_t end) {
   using C = PairColumns;
   using kernels::four, kernels::Four;
   static_assert(offsetof(Motion, r) == 0 && offsetof(Motion, v) == 12 &&
@@ -20,17 +34,10 @@ PairColumns PairTable::fill(const kernels::Seeker& seeker, const Motion* motions
                 offsetof(Motion, omega) == 48 && offsetof(Motion, time) == 52 &&
                 offsetof(Motion, until) == 56 && offsetof(Motion, half) == 60 &&
                 offsetof(CellView, offset) == 4);
-  // Kernels use up to two blocks more.
-  if (count + 2 * kernels::block_size > capacity_) {
-    capacity_ = 2 * count + 2 * kernels::block_size;
-    storage_.assign(capacity_ * C::columns, 0.0f);
-  }
-  C pairs;
-  for (int c = 0; c < C::columns; ++c) pairs.column[c] = storage_.data() + c * capacity_;
-  for (std::size_t k = 0; k < count; k += 4) {
+  for (std::size_t k = begin; k < end; k += 4) {
     Four part[4][4], offset[4];  // of the motions; of the cells, after their block
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t n = std::min(k + i, count - 1);
+      const std::size_t n = std::min(k + i, end - 1);
       const auto* row = reinterpret_cast<const char*>(&motions[found.needle[n]]);
       for (int quarter = 0; quarter < 4; ++quarter) {
         part[quarter][i] = kernels::load_four(row + 16 * quarter);
@@ -60,7 +67,6 @@ PairColumns PairTable::fill(const kernels::Seeker& seeker, const Motion* motions
     const Four until = (left > zero ? left : zero) + four(static_cast<float>(kernels::time_margin));
     put(C::until, until < four(seeker.ahead) ? until : four(seeker.ahead));
   }
-  return pairs;
 }
 
 }  // namespace needlework

@@ -11,11 +11,13 @@ namespace needlework {
 /// Columns for pairs, used again by each search of a thread.
 class PairTable {
  public:
-  /// Fills in the pairs of the seeker with the first `count` needles that it has found, all columns
-  /// but `from`. The columns last until the next call.
-  kernels::PairColumns fill(const kernels::Seeker& seeker, const kernels::Motion* motions,
-                            const kernels::CellView* cells, const kernels::Found& found,
-                            std::size_t count);
+  /// Columns for so many pairs. They last until the next call.
+  kernels::PairColumns columns_for(std::size_t count);
+  /// Fills in the pairs of the seeker with the needles from number `begin` on, up to `end`, that it
+  /// has found, all columns but `from`. May write to the columns of up to three pairs after these.
+  static void fill(const kernels::PairColumns& pairs, const kernels::Seeker& seeker,
+                   const kernels::Motion* motions, const kernels::CellView* cells,
+                   const kernels::Found& found, std::size_t begin, std::size_t end);
 
  private:
   std::vector<float> storage_;

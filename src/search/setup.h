@@ -20,7 +20,10 @@ struct SearchSetup {
   std::optional<double> density;
   std::optional<double> cell_side;       ///< least side of cells; absent: the search chooses [L]
   std::optional<double> capsule_radius;  ///< absent: the search chooses [L]
-  bool float_filter = true;              ///< see needlework/accuracy.h
+  /// Whether each size class of a mixture has the bounding volume that suits it, and not all the
+  /// same.
+  bool by_class = false;
+  bool float_filter = true;  ///< see needlework/accuracy.h
   /// Where the search chooses its cells, their counts along the axes are multiples of these if
   /// near.
   std::array<std::int32_t, 3> count_multiples = {1, 1, 1};

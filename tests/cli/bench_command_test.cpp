@@ -273,8 +273,9 @@ TEST_F(BenchCommand, ReadsAllCommittedResultsOfScenes) {
 TEST_F(BenchCommand, ListsItsSubsets) {
   const Outcome outcome = run("bench --list");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* subset : {"quick", "dilute", "dense", "searches", "queues", "isa", "steps",
-                             "density", "size", "storage", "matrix", "cloud", "effects", "hulls"}) {
+  for (const char* subset :
+       {"quick", "dilute", "dense", "searches", "queues", "isa", "steps", "density", "size",
+        "storage", "matrix", "cloud", "effects", "hulls", "mixtures"}) {
     EXPECT_NE(outcome.out.find(std::string(subset) + " "), std::string::npos) << subset << " in\n"
                                                                               << outcome.out;
   }

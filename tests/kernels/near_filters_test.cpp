@@ -243,6 +243,132 @@ TEST(Approaching, LosesNoSpheresThatMeetAndFindsFewOthers) {
   EXPECT_LT(found_apart, apart / 50);
 }
 
+// The path of the seeker beside capsules: it may be much longer than they are.
+TEST(NearCapsules, LosesNoneAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t near_ones = 0, apart = 0;
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double distance = random.log_uniform(1e-3, 3), h2 = random.uniform(0.01, 0.5);
+    const double h1 = random.below(8) == 0 ? 0 : random.log_uniform(1e-3, 6);
+    const Vec3d corner{9, 9, 9}, r = vec3(random.direction()) * random.uniform(0, 1.7);
+    const Vec3d u = vec3(random.direction()) * (h1 > 0 ? 1 : 0);
+    Seeker seeker = seeker_of({}, 1, h2);
+    const double farthest = h1 + distance + 3;
+    const WordFormat format = WordFormat::holding(9 - farthest, 9 + farthest);
+    for (int axis = 0; axis < 3; ++axis) {
+      seeker.r[axis] = static_cast<float>(component(corner + r, axis));
+      seeker.u[axis] = static_cast<float>(component(u, axis));
+    }
+    seeker.axis_half = static_cast<float>(h1);
+    seeker.margin += 0x1p-16f;
+    std::vector<BlockRow> rows(40);
+    std::vector<double> lengths;
+    for (BlockRow& row : rows) {
+      Vec3d a = vec3(random.direction());
+      if (random.below(4) == 0) a = normalised(u + a * random.log_uniform(1e-9, 1e-2));
+      Vec3d other = r + u * random.uniform(-h1, h1) +
+                    vec3(random.direction()) * random.uniform(0, distance + 1);
+      const auto gap_of = [&] { return test::nearest_points(r, u, other, a, h1, h2).gap; };
+      Vec3d gap = gap_of();
+      double length = std::sqrt(dot(gap, gap));
+      if (length > 1e-3 && random.below(4) > 0) {
+        const double wanted = distance + (random.coin() ? 1 : -1) * random.log_uniform(1e-8, 1e-3);
+        other = other + gap * ((length - wanted) / length);
+        gap = gap_of();
+        length = std::sqrt(dot(gap, gap));
+      }
+      lengths.push_back(length);
+      row = {corner + other, a, true};
+    }
+    const Neighbourhood near = fill(random, seeker, format, 0.1, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] :
+         near_capsules(near_kernels(Isa::scalar), near, static_cast<float>(distance))) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (lengths[k] <= distance) {
+        ++near_ones;
+        ASSERT_TRUE(found[k]) << "within by " << distance - lengths[k] << ", seed " << seed;
+      } else if (lengths[k] > distance + 1e-4 * (1 + h1) + 8 * format.step()) {
+        ++apart;
+        ASSERT_FALSE(found[k]) << "apart by " << lengths[k] - distance << ", seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(near_ones, 20000 / thin);
+  EXPECT_GT(apart, 5000 / thin);
+}
+
+// Paths of others beside the seeker's capsule.
+TEST(NearPaths, LosesNoneAndFindsFewOthers) {
+  Random random(seed);
+  std::size_t near_ones = 0, apart = 0;
+  const WordFormat format = WordFormat::holding(-2, 10);
+  const double range = WordFormat::places * format.step();
+  for (std::size_t n = 0; n < 2000 / thin; ++n) {
+    const double now = random.uniform(0, longest_time), ahead = random.log_uniform(1e-3, 4);
+    const double distance = random.log_uniform(1e-3, 2), half = random.uniform(0.01, 0.5);
+    const Vec3d corner{4, 4, 4}, u = vec3(random.direction());
+    const Vec3d r = vec3(random.direction()) * random.uniform(0, 2);
+    Seeker seeker = seeker_of({}, static_cast<float>(ahead) + test::simd_time_margin);
+    seeker.motion.time = seeker.now = static_cast<float>(now);
+    place(seeker, format, corner + r, u);
+    seeker.margin += static_cast<float>(format.step());
+    seeker.axis_half = static_cast<float>(half);
+    std::vector<BlockRow> rows(40);
+    std::vector<double> lengths(rows.size(), -1);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double age = random.below(3) == 0 ? 0 : random.uniform(0, now);
+      const int kind = random.below(8);
+      const Vec3d v = vec3(random.normal_vector(kind == 0   ? 0.0
+                                                : kind == 1 ? random.log_uniform(1e-6, 1e3)
+                                                            : 1.0));
+      const double speed = std::sqrt(dot(v, v)), half_path = 0.5 * speed * ahead;
+      const Vec3d along = speed > 0 ? v * (1 / speed) : Vec3d{};
+      Vec3d middle = r + vec3(random.direction()) * random.uniform(0, distance + 1);
+      const auto gap_of = [&] {
+        return test::nearest_points(r, u, middle, speed > 0 ? along : Vec3d{1, 0, 0}, half,
+                                    half_path)
+            .gap;
+      };
+      Vec3d gap = gap_of();
+      double length = std::sqrt(dot(gap, gap));
+      if (length > 1e-3 && random.below(4) > 0) {
+        const double wanted = distance + (random.coin() ? 1 : -1) * random.log_uniform(1e-8, 1e-2);
+        middle = middle + gap * ((length - wanted) / length);
+        gap = gap_of();
+        length = std::sqrt(dot(gap, gap));
+      }
+      const Vec3d then = corner + middle - along * half_path - v * age;
+      const auto fits = [&](double from, double speed_along) {
+        return from > -2 && from < 10 && std::abs(speed_along) * (age + ahead) < range;
+      };
+      if (!fits(then.x, v.x) || !fits(then.y, v.y) || !fits(then.z, v.z)) continue;
+      lengths[k] = length;
+      rows[k] = {then, v, false, static_cast<float>(now - age)};
+    }
+    const Neighbourhood near = fill(random, seeker, format, 0.5, rows);
+    std::vector<bool> found(rows.size());
+    for (const auto& [needle, cell] :
+         near_paths(near_kernels(Isa::scalar), near, static_cast<float>(distance))) {
+      found[needle - 1] = true;
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (lengths[k] < 0) continue;
+      if (lengths[k] <= distance) {
+        ++near_ones;
+        ASSERT_TRUE(found[k]) << "within by " << distance - lengths[k] << ", seed " << seed;
+      } else if (lengths[k] > distance + 0.01 + 20 * format.step()) {
+        ++apart;
+        ASSERT_FALSE(found[k]) << "apart by " << lengths[k] - distance << ", seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(near_ones, 10000 / thin);
+  EXPECT_GT(apart, 5000 / thin);
+}
+
 // Needles that fly nearly as far as they may, with words that make them seem late by nearly as much
 // as they can: they come up with the seeker just in time.
 TEST(Approaching, LosesNoSpheresWhoseWordsAreFarthestOff) {

@@ -131,7 +131,7 @@ TEST_P(OnEveryIsa, BracketsAnyNumbersToTheSameBits) {
 
 TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
   Random random(seed);
-  std::size_t overlaps = 0, approaches = 0, needles = 0;
+  std::size_t overlaps = 0, approaches = 0, beside = 0, passing = 0, needles = 0;
   for (std::size_t n = 0; n < 2000 / thin; ++n) {
     const bool wild = random.below(4) == 0;
     const auto draw = [&] {
@@ -177,6 +177,13 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
     const auto truth = overlapping(twin(), near, radius);
     EXPECT_EQ(overlapping(kernels(), near, radius), truth) << "seed " << seed;
     EXPECT_EQ(approaching(kernels(), near), approaching(twin(), near)) << "seed " << seed;
+    near.seeker.axis_half = static_cast<float>(random.uniform());
+    const auto capsules = near_capsules(twin(), near, radius),
+               paths = near_paths(twin(), near, radius);
+    EXPECT_EQ(near_capsules(kernels(), near, radius), capsules) << "seed " << seed;
+    EXPECT_EQ(near_paths(kernels(), near, radius), paths) << "seed " << seed;
+    beside += capsules.size();
+    passing += paths.size();
     for (const auto& [needle, cell] : truth) {
       ASSERT_TRUE(needle >= 1 && needle <= rows.size() && needle != near.seeker.needle);
     }
@@ -187,6 +194,10 @@ TEST_P(OnEveryIsa, FindsTheSameNeighbours) {
   }
   EXPECT_GT(overlaps, needles / 20);
   EXPECT_LT(overlaps, needles / 2);
+  EXPECT_GT(beside, needles / 40);
+  EXPECT_LT(beside, needles / 2);
+  EXPECT_GT(passing, needles / 40);
+  EXPECT_LT(passing, needles / 2);
   EXPECT_GT(approaches, needles / 20);
   EXPECT_LT(approaches, needles * 9 / 10);
 }

@@ -116,4 +116,19 @@ inline std::vector<std::pair<std::uint32_t, std::uint32_t>> approaching(const Ne
   });
 }
 
+inline std::vector<std::pair<std::uint32_t, std::uint32_t>> near_capsules(
+    const NearKernels& kernels, const Neighbourhood& near, float distance) {
+  return found_by(near, [&](const Found& found) {
+    return kernels.near_capsules(near.around(), near.seeker, distance, found);
+  });
+}
+
+inline std::vector<std::pair<std::uint32_t, std::uint32_t>> near_paths(const NearKernels& kernels,
+                                                                       const Neighbourhood& near,
+                                                                       float distance) {
+  return found_by(near, [&](const Found& found) {
+    return kernels.near_paths(near.around(), near.seeker, distance, found);
+  });
+}
+
 }  // namespace needlework::kernels

@@ -109,8 +109,8 @@ struct Moving {
   double left(Needle i) const { return std::min(gas.clock.difference(until[i], now), 1e3); }
 
   Segment axis(Needle i) const {
-    const BoundingVolumes& volumes = search.volumes();
-    const BoundingVolumes::Place& place = volumes.places[i];
+    const ClassCells& volumes = search.volumes().class_of(i);
+    const BoundingVolumes::Place& place = search.volumes().places[i];
     const kernels::NeedleBlock& block = volumes.cells[place.slot.block];
     EXPECT_EQ(block.needle[place.slot.lane], i);
     const auto coordinate = [&](int axis) {
@@ -167,12 +167,13 @@ double share_of_capsule(const Moving& moving, Needle i, Time t) {
   const Segment needle = needle_at(moving.gas, i, t), axis = moving.axis(i);
   const double off = std::max(distance(needle.r + needle.u * 0.5, axis),
                               distance(needle.r - needle.u * 0.5, axis));
-  const BoundingVolumes& volumes = moving.search.volumes();
+  const ClassCells& volumes = moving.search.volumes().class_of(i);
   return (off - volumes.margin - volumes.format.step()) / moving.search.radius();
 }
 double share_of_cell(const Moving& moving, Needle i, Time t) {
-  const BoundingVolumes& volumes = moving.search.volumes();
-  const Vec3d r = needle_at(moving.gas, i, t).r - volumes.grid.corner(volumes.places[i].cell);
+  const ClassCells& volumes = moving.search.volumes().class_of(i);
+  const Cell& cell = moving.search.volumes().places[i].cell;
+  const Vec3d r = needle_at(moving.gas, i, t).r - volumes.grid.corner(cell);
   const auto sides = volumes.grid.sides();
   double share = 0;
   const double at[3] = {r.x, r.y, r.z};
@@ -239,7 +240,7 @@ void expect_found(BoundingVolume volume, const Setting& setting) {
       const Nearness pair = nearness(moving, i, j, image, ahead);
       const bool proposed = found.contains({j, shift});
       near += pair.here < pair.within;
-      const BoundingVolumes& volumes = moving.search.volumes();
+      const ClassCells& volumes = moving.search.volumes().class_of(i);
       const double margin = 8 * volumes.margin + 4 * volumes.format.step();
       spare += proposed && pair.here > 1.01 * pair.within + margin;
       ASSERT_TRUE(proposed || pair.here >= pair.within)

@@ -51,13 +51,14 @@ std::string SearchChoice::name() const {
   if (uses_simd()) out += fmt::format("_{}", kernels::name_of(setup.isa));
   if (setup.cell_side) out += fmt::format("_side_{}", *setup.cell_side);
   if (setup.capsule_radius) out += fmt::format("_radius_{}", *setup.capsule_radius);
+  if (setup.by_class) out += "_by_class";
   std::replace(out.begin(), out.end(), '-', '_');
   std::replace(out.begin(), out.end(), '.', 'p');
   return out;
 }
 
 void SearchChoice::apply(Scene& scene) const {
-  scene.engine.search = search;
+  scene.engine.search = setup.by_class ? "auto" : search;
   scene.engine.isa = kernels::name_of(setup.isa);
   scene.engine.cell_side = setup.cell_side;
   scene.engine.capsule_radius = setup.capsule_radius;
@@ -85,6 +86,12 @@ std::vector<SearchChoice> search_choices() {
   for (const double radius : {0.01, 0.3, 1.5}) add(capsules, sets.back(), chosen, radius);
   add(capsules, sets.back(), 0.4, 0.1);
   add(capsules, sets.back(), 4.0, 0.1);
+  // In a mixture, capsules for the long needles and cells for the short ones.
+  for (const kernels::Isa isa : {sets.front(), sets.back()}) {
+    add(capsules, isa, chosen, chosen);
+    out.back().setup.density = 20;
+    out.back().setup.by_class = true;
+  }
   return out;
 }
 

@@ -1,0 +1,35 @@
+// Needles of similar length, for which one grid of cells will do.
+//
+// A search looks for partners as far away as the longest needle of a grid may reach. Among needles
+// of very different lengths that is far for the short ones, which are many to look through. So
+// species of similar length form a class with a grid of its own, and with a bounding volume and
+// sizes that suit it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/physics/gas.h"
+#include "src/search/setup.h"
+
+namespace needlework {
+
+/// One class of needles and what the search chooses for it.
+struct SizeClass {
+  double longest = 0;     ///< length of its longest species [L]
+  std::size_t count = 0;  ///< number of its needles
+  BoundingVolume kind = BoundingVolume::cell;
+  double cell_side = 0;       ///< wished for [L]
+  double capsule_radius = 0;  ///< 0 for cells [L]
+};
+
+struct SizeClasses {
+  std::vector<SizeClass> all;            ///< the longest first; at least one
+  std::vector<std::uint8_t> of_species;  ///< index of the class of each species
+};
+
+/// The classes of a gas. If the setup gives a size, all needles are in one class.
+SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
+
+}  // namespace needlework

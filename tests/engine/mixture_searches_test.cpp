@@ -1,0 +1,91 @@
+// Searches of mixtures: whatever the lengths, the trajectory is that of all pairs, on any number of
+// threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+/// Short needles of length 1, and long ones.
+struct Case {
+  const char* name;
+  std::uint64_t short_ones, long_ones;
+  double length;   ///< of the long ones
+  double density;  ///< needles per cube of the mean length
+  double collisions;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+Scene scene_of(const Case& c) {
+  const double count = static_cast<double>(c.short_ones + c.long_ones);
+  const double mean =
+      (static_cast<double>(c.short_ones) + static_cast<double>(c.long_ones) * c.length) / count;
+  const double box = std::cbrt(count / c.density) * mean;
+  Scene scene = test::scene_of(0, box, 11);
+  scene.needles.box = {box, 1.02 * box, box / 1.02};
+  scene.species = {{.name = "short", .count = c.short_ones, .length = 1, .mass = 1, .k = 6},
+                   {.name = "long", .count = c.long_ones, .length = c.length, .mass = 3, .k = 5}};
+  scene.collisions.epsilon = 0.95;
+  scene.collisions.tc_relative = 1e-3;
+  return scene;
+}
+
+class MixtureSearches : public testing::TestWithParam<Case> {};
+
+TEST_P(MixtureSearches, GiveOneTrajectory) {
+  const Case& c = GetParam();
+  Scene scene = scene_of(c);
+  const auto until = test::until_collisions(c.collisions);
+  // All pairs of many needles take too long.
+  const bool few = c.short_ones + c.long_ones < 2000;
+  scene.engine.search = few ? "all-pairs" : "linked-lists";
+  Simulation first(scene);
+  first.advance(until);
+  const auto expect_the_same = [&] {
+    Simulation simulation(scene);
+    simulation.advance(until);
+    EXPECT_EQ(simulation.trajectory_hash(), first.trajectory_hash())
+        << scene.engine.search << " on " << scene.engine.threads.value_or(1);
+    EXPECT_EQ(simulation.collisions_by_pair(), first.collisions_by_pair());
+    return simulation.counters().phases;
+  };
+  for (const char* search : {"linked-lists", "linked-cells", "capsules", "auto"}) {
+    scene.engine.search = search;
+    expect_the_same();
+  }
+  scene.engine.team = "all";
+  for (const char* search : {"linked-cells", "capsules", "auto"}) {
+    scene.engine.search = search;
+    for (const int threads : {2, 3}) {
+      scene.engine.threads = threads;
+      const std::uint64_t phases = expect_the_same();
+      // Rare collisions are left to one thread.
+      if (c.density >= 1) {
+        EXPECT_GT(phases, 0u);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MixtureSearches,
+                         testing::Values(Case{"equal_lengths", 300, 300, 1, 1, 4},
+                                         Case{"in_one_class", 300, 300, 1.4, 1, 4},
+                                         Case{"one_to_four_dilute", 400, 400, 4, 0.1, 2},
+                                         Case{"one_to_four", 400, 400, 4, 1, 4},
+                                         Case{"one_to_four_dense", 400, 400, 4, 10, 4},
+                                         Case{"one_to_twenty_dilute", 400, 400, 20, 0.1, 2},
+                                         Case{"one_to_twenty", 400, 400, 20, 1, 4},
+                                         Case{"one_to_twenty_dense", 400, 400, 20, 10, 4},
+                                         Case{"few_long_ones_dilute", 1400, 60, 20, 0.1, 1},
+                                         Case{"few_long_ones", 6000, 300, 20, 0.45, 0.1},
+                                         Case{"few_short_ones", 10, 700, 20, 3, 4}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace needlework
