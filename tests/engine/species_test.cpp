@@ -6,6 +6,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"

@@ -46,7 +46,7 @@ LAYERS = [
     Layer("observe", ["src/observe"], [],
           ["archive", "composition", "scene"], ["base", "theory", "trajectory", "engine"]),
     Layer("io", ["src/io"], ["h5md.h"], ["machine", "archive", "trajectory"],
-          ["base", "scene", "engine"]),
+          ["base", "composition", "scene", "engine"]),
     Layer("audit", ["src/audit"], [], [], ["base", "composition", "trajectory", "scene", "engine"]),
     Layer("runs", ["src/runs"], [],
           ["base", "machine", "archive", "kernels", "trajectory", "scene", "search", "calendar",

@@ -148,7 +148,7 @@ TEST(CellBall, HoldsTheCellsThatComeNearer) {
           const double gap = std::max(0, steps - 1) * of.sides()[axis];
           squares += gap * gap;
           if (seen.contains(cell)) {
-            EXPECT_LE(steps, ball.reach()[axis]);
+            EXPECT_LE(steps, ball.extent()[axis]);
           }
         }
         EXPECT_EQ(seen.contains(cell), squares < distance * distance) << cell << " of " << distance;

@@ -12,6 +12,7 @@
 
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/same_run.h"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "needlework/initial_state.h"
+#include "src/engine/initial_gas.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
