@@ -328,7 +328,7 @@ TEST(Parallel, IsInterruptedAfterAllItsRecords) {
   for (const int threads : {2, 3}) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
     const auto loop = make_rough_tc_loop(run, "linked-cells", threads, test::short_phases, {});
-    run.callback = [&](const Collision&) { run.interrupted = true; };
+    run.listeners.collision = [&](const Collision&) { run.interrupted = true; };
     for (int n = 0; n < 8; ++n) {
       run.interrupted = false;
       ASSERT_EQ(loop->advance(Limits(run, until)), Stop::interrupted);
