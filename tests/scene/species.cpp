@@ -232,7 +232,7 @@ TEST(Mixture, IsOverriddenByName) {
             "--set species.rods.count=-3: expected a whole number in digits, from 0 to 4294967294");
   EXPECT_EQ(message(mixture, {"species.rods.count=4294967294"}),
             "--set species.rods.count=4294967294: expected at most 4294967294 needles of all "
-            "species, not 4294967304");
+            "species, not 4294967298");
   EXPECT_EQ(message(mixture, {"species.rods.name=long rods"}),
             "--set species.rods.name=long rods: expected a name that no other species has");
   EXPECT_EQ(message(mixture, {"needles.rods.box=3"}),
