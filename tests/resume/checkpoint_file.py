@@ -222,8 +222,9 @@ class Fields:
         self.sequence("reference", self.reference)
         for name in ("arms", "angle", "normal_velocity"):
             self.sequence(name, self.f64)
-        self.several("statistics", "f64", 4)
+        self.several("statistics", "f64", 2)
         self.sequence("chains", self.f64)
+        self.several("temperatures", "f64", 2)
         self.sequence("chain", self.chain)
         self.one("begun", "u8")
         self.schedule("series")
