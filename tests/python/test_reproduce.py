@@ -196,7 +196,11 @@ class KnownRuns(InAFolder):
                   "second_moment": 0.05 * (1 + 5 * np.where(collisions <= 500,
                                                             collisions / 400, 0))}
         with h5py.File(path, "w") as file:
-            file["particles/needles/position/step"] = [0]
+            for name in ("position", "velocity", "orientation", "angular_velocity"):
+                file[f"particles/needles/{name}/step"] = [0]
+                file[f"particles/needles/{name}/time"] = [0.0]
+                file[f"particles/needles/{name}/value"] = np.zeros((1, 1, 3))
+            file["particles/needles/box/edges"] = np.ones(3)
             file["series/step"], file["series/time"] = total, np.arange(13.0)
             for name, column in columns.items():
                 file[f"series/{name}/value"] = column

@@ -16,7 +16,7 @@ from pathlib import Path
 from files import command, complete_rows, contents, open_growing, require_prefix
 
 SCENE = """
-needles = { count = 10, box = 2.5 }
+needles = { count = 100, box = 5.4 }
 collisions.epsilon = 0.9
 collisions.tc_relative = 1e-3
 until.energy_ratio = 1e-300
