@@ -123,7 +123,6 @@ class NearSearch {
   std::vector<Look> looks_;  ///< the own class first
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;
-  std::size_t view_count_ = 0;
   std::vector<Cell> view_cells_;      ///< of the views, not wrapped into the box
   std::vector<std::uint32_t> found_;  ///< needles, then their cells, each in one half
   PairTable pairs_;
