@@ -43,6 +43,42 @@ struct Scene {
     std::optional<double> epsilon;       ///< normal restitution, [0, 1]
     std::optional<double> beta;          ///< tangential restitution, [-1, 1]
   };
+  /// Motion of a wall along its axis: its surface is at A sin(2 pi f t + phase) from where the wall
+  /// is, t from the start of the scene.
+  struct WallMotion {
+    double amplitude = 0;  ///< A >= 0 [L]
+    double frequency = 1;  ///< f > 0 [cycles per time]
+    double phase = 0;      ///< [radians]
+  };
+  /// A smooth hard wall at an edge of the box, or one at both. Needles touch it by their tips.
+  struct Wall {
+    std::string axis;                   ///< "x", "y" or "z"
+    std::string side;                   ///< "low", "high" or "both"
+    double epsilon = 1;                 ///< normal restitution, [0, 1]
+    std::optional<double> temperature;  ///< all velocities of a needle that hits it are drawn anew
+    std::optional<WallMotion> motion;   ///< absent: at rest
+  };
+  struct Forces {
+    std::array<double, 3> gravity{};  ///< acceleration of all needles [L / time^2]
+  };
+  /// White noise in steps: at the multiples of `every`, each component of a velocity changes by a
+  /// Gaussian number of variance translational^2 every, and each component of an angular velocity
+  /// normal to the director by one of variance rotational^2 every.
+  struct Kicks {
+    double every = 1;          ///< > 0 [time]
+    double translational = 0;  ///< [L / time^(3/2)]
+    double rotational = 0;     ///< [1 / time^(3/2)]
+  };
+  /// Andersen thermostat: at exponentially distributed times each needle's velocities are drawn
+  /// anew.
+  struct Andersen {
+    double rate = 1;         ///< > 0, of each needle [1 / time]
+    double temperature = 1;  ///< > 0, of the velocities that are drawn
+  };
+  struct Driving {
+    std::optional<Kicks> kicks;
+    std::optional<Andersen> andersen;
+  };
   struct Engine {
     std::string search = "auto";
     std::string queue = "auto";
@@ -88,6 +124,9 @@ struct Scene {
   std::vector<Pair> pairs;
   Initial initial;
   Collisions collisions;
+  std::vector<Wall> walls;
+  Forces forces;
+  Driving driving;
   Engine engine;
   Until until;
   Output output;

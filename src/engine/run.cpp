@@ -11,12 +11,25 @@
 #include "src/engine/space_order.h"
 #include "src/machine/stop_request.h"
 #include "src/scene/accuracy.h"
+#include "src/scene/check.h"
 
 namespace needlework {
 namespace {
 
 bool is_at_rest(const Record& record) {
   return record.flight.v == Vec3d{} && record.flight.w == Vec3d{};
+}
+
+// Nothing that a scene asks for is left out in silence. What has code here is taken off this list.
+void require_known_effects(const Scene& scene) {
+  const auto refuse = [&](const char* key, const char* name) {
+    throw InputError(fmt::format("{}: expected none, as this version does not simulate {} yet",
+                                 place_of(scene, key, "..."), name));
+  };
+  if (!scene.walls.empty()) refuse("walls.axis", "walls");
+  if (scene.forces.gravity != std::array<double, 3>{}) refuse("forces.gravity", "gravity");
+  if (scene.driving.kicks) refuse("driving.kicks.every", "kicks");
+  if (scene.driving.andersen) refuse("driving.andersen.rate", "a thermostat");
 }
 
 }  // namespace
@@ -34,6 +47,7 @@ Run::Run(const Scene& scene)
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
       tc_relative_(scene.collisions.tc_relative) {
+  require_known_effects(scene);
   gas.set_composition(scene.composition());
 }
 

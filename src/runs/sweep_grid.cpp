@@ -221,9 +221,8 @@ std::vector<std::uint64_t> Reader::read_seed_range() const {
   if (!first || !count) throw document_.error(*head, "expected both first and count");
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t n = 0; n < *count; ++n) seeds.push_back(*first + n);
-  Scene scene;
   const SceneKey& key = *find_scene_key("needles", "seed");
-  if (!key.read(scene, Value{static_cast<std::int64_t>(seeds.back())})) {
+  if (!accepts(key, Value{static_cast<std::int64_t>(seeds.back())})) {
     throw document_.error(*head, fmt::format("expected smaller seeds, each {}", key.expected));
   }
   return seeds;
@@ -244,9 +243,7 @@ Setting Reader::read_setting(const Entry& entry) const {
   if (dot == std::string::npos) {
     throw document_.error(entry, "expected \"section.key\" = [VALUES], the name in quotes");
   }
-  Entry named;
-  named.section = entry.key.substr(0, dot);
-  named.key = entry.key.substr(dot + 1);
+  const Entry named = key_of_path(entry.key);
   const SceneKey* key = find_scene_key(named.section, named.key);
   if (!key) throw document_.error(entry, expected_instead(named));
   if (entry.key == "needles.seed") throw document_.error(entry, "expected seeds = [...] instead");
@@ -262,8 +259,7 @@ Setting Reader::read_setting(const Entry& entry) const {
   if (setting.parameter.values.empty()) throw document_.error(entry, "expected some values");
   std::set<std::string> names;
   for (const Value& value : setting.parameter.values) {
-    Scene scene;
-    if (!key->read(scene, value)) {
+    if (!accepts(*key, value)) {
       throw InputError(fmt::format("{}: expected {}", place(setting, value), key->expected));
     }
     if (!names.insert(plain(toml_of(value))).second) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "src/scene/printable.h"
+#include "src/scene/schema.h"
 #include "src/scene/toml_guard.h"
 
 namespace needlework {
@@ -60,13 +61,26 @@ Entry head_of(std::string_view section, const toml::node& node) {
   return entry;
 }
 
+// Appends a key of a section, or the keys of a table that a section may hold, each as "KEY.INNER".
+void append_key(std::string_view section, std::string_view key, const toml::node& node,
+                std::vector<Entry>& entries) {
+  const toml::table* table = node.as_table();
+  if (!table || table->empty() || !is_scene_table(section, key)) {
+    entries.push_back(entry_of(section, key, node));
+    return;
+  }
+  for (const auto& [inner, value] : *table)
+    entries.push_back(entry_of(section, fmt::format("{}.{}", key, inner.str()), value));
+}
+
 // Appends one [[section]] with its keys.
 void append_repeated(std::string_view section, const toml::node& element, std::size_t number,
                      std::vector<Entry>& entries) {
+  const std::size_t first = entries.size();
   entries.push_back(head_of(section, element));
   for (const auto& [key, value] : *element.as_table())
-    entries.push_back(entry_of(section, key.str(), value));
-  for (std::size_t n = entries.size() - element.as_table()->size() - 1; n < entries.size(); ++n) {
+    append_key(section, key.str(), value, entries);
+  for (std::size_t n = first; n < entries.size(); ++n) {
     entries[n].is_repeated = true;
     entries[n].number = number;
   }
@@ -87,8 +101,7 @@ std::vector<Entry> flattened(const toml::table& root) {
       continue;
     }
     entries.push_back(head_of(name.str(), node));
-    for (const auto& [key, value] : *table)
-      entries.push_back(entry_of(name.str(), key.str(), value));
+    for (const auto& [key, value] : *table) append_key(name.str(), key.str(), value, entries);
   }
   const auto place = [](const Entry& e) { return std::tuple(e.region.line, e.region.column); };
   // Stable: the header of a table stays before a key at the same position, as in "until.time = 1".
@@ -138,29 +151,36 @@ toml::table parse(std::string_view text) {
   return toml::parse(text);
 }
 
-// The value of an override: TOML if it is one value in TOML, otherwise a string.
-Value override_value(std::string_view text) {
-  const std::string toml = "value = " + std::string(text);
+// Appends an override with its value, which is TOML if that is one value in TOML, otherwise a
+// string. A table stands for its keys.
+void append_override(Entry entry, std::vector<Entry>& entries) {
+  const std::string toml = "value = " + entry.override_text;
+  entry.value = {entry.override_text};
   try {
     const toml::table table = find_toml_hazard(toml) ? toml::table() : parse(toml);
-    if (table.size() == 1) return value_of(table.begin()->second);
+    if (table.size() == 1) {
+      std::vector<Entry> values;
+      append_key(entry.section, entry.key, table.begin()->second, values);
+      for (Entry& each : values) {
+        entry.key = std::move(each.key);
+        entry.value = std::move(each.value);
+        entries.push_back(entry);
+      }
+      return;
+    }
   } catch (const toml::parse_error&) {
   }
-  return {std::string(text)};
+  entries.push_back(std::move(entry));
 }
 
 Entry parse_override(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view path = trimmed(text.substr(0, equals));
-  const std::size_t dot = path.find('.');
-  const bool has_section = dot != std::string_view::npos;
-  Entry entry;
+  Entry entry = key_of_path(path);
   entry.is_override = true;
-  if (has_section) entry.section = trimmed(path.substr(0, dot));
-  const std::size_t last_dot = path.rfind('.');
-  if (last_dot != dot) entry.item = unquoted(trimmed(path.substr(dot + 1, last_dot - dot - 1)));
-  entry.key = has_section ? trimmed(path.substr(last_dot + 1)) : path;
-  const bool complete = equals != std::string_view::npos && is_bare_key(entry.key) &&
+  const bool has_section = path.find('.') != path.npos;
+  const std::string_view last = trimmed(path.substr(path.rfind('.') + 1));  // npos + 1 is 0
+  const bool complete = equals != std::string_view::npos && is_bare_key(last) &&
                         (!has_section || is_bare_key(entry.section));
   if (!complete)
     throw InputError(
@@ -170,6 +190,24 @@ Entry parse_override(std::string_view text) {
 }
 
 }  // namespace
+
+Entry key_of_path(std::string_view path) {
+  Entry entry;
+  const std::size_t dot = path.find('.'), last_dot = path.rfind('.');
+  entry.key = trimmed(path.substr(last_dot + 1));  // npos + 1 is 0
+  if (dot == path.npos) return entry;
+  entry.section = trimmed(path.substr(0, dot));
+  if (last_dot == dot) return entry;
+  std::string_view item = trimmed(path.substr(dot + 1, last_dot - dot - 1));
+  const std::size_t before_table = item.rfind('.');
+  const std::string_view table = item.substr(before_table + 1);
+  if (is_scene_table(entry.section, table)) {
+    entry.key = fmt::format("{}.{}", table, entry.key);
+    item = before_table == item.npos ? std::string_view() : item.substr(0, before_table);
+  }
+  entry.item = unquoted(item);
+  return entry;
+}
 
 Document::Document(std::string_view text, std::string_view name,
                    std::span<const Override> overrides)
@@ -186,8 +224,7 @@ Document::Document(std::string_view text, std::string_view name,
   for (const Override& given : overrides) {
     Entry entry = parse_override(given.assignment);
     entry.named = given.place;
-    entry.value = override_value(entry.override_text);
-    entries_.push_back(std::move(entry));
+    append_override(std::move(entry), entries_);
   }
 }
 

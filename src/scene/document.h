@@ -14,7 +14,8 @@
 
 namespace needlework {
 
-/// A TOML value. monostate stands for dates, times and tables, which no scene uses.
+/// A TOML value. monostate stands for dates and times, which no scene uses, and for tables that no
+/// section may hold.
 struct Value {
   using Array = std::vector<Value>;
   std::variant<std::monostate, bool, std::int64_t, double, std::string, Array> data;
@@ -35,7 +36,8 @@ struct Region {
   std::size_t end_column = 0;
 };
 
-/// One key with its value, or the header of a table. A key outside all tables has no section.
+/// One key with its value, or the header of a table. A key outside all tables has no section; one
+/// of a table that its section holds is "table.key".
 struct Entry {
   std::string section;
   std::string item;  ///< of an override "section.item.key": which [[section]] it is for
@@ -51,10 +53,14 @@ struct Entry {
   std::string named;          ///< Override::place
 };
 
+/// The section, the item and the key of "section.key", "section.item.key" or "key". The last part
+/// may be "table.key", of a table that the section may hold.
+Entry key_of_path(std::string_view path);
+
 /// A key that is given outside the scene file.
 struct Override {
   std::string assignment;  ///< "section.key=value", "section.item.key=value" or "key=value", the
-                           ///< value in TOML
+                           ///< value in TOML; a key may be "table.key", and a value a table
   std::string place;       ///< how messages name it; if empty, "--set ASSIGNMENT"
 };
 

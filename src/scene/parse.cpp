@@ -31,9 +31,16 @@ std::string full_name(const Entry& entry) {
 }
 
 // Sections that occur several times, each time with a name by which overrides mean it: that of a
-// species, "a-b" for a pair.
+// species, "a-b" for a pair, "z-low" for a wall.
 bool may_occur_again(std::string_view section) {
-  return section == "species" || section == "pairs";
+  return section == "species" || section == "pairs" || section == "walls";
+}
+
+// Whether a value of the key is part of that name.
+bool names_item(const Entry& entry) {
+  const std::string name = full_name(entry);
+  return name == "species.name" || name == "pairs.between" || name == "walls.axis" ||
+         name == "walls.side";
 }
 
 // The same for keys of different occurrences only if they are of the first.
@@ -53,6 +60,12 @@ std::string item_of(const Entry& entry) {
   return fmt::format("{}", fmt::join(names, "-"));
 }
 
+// Appends it to what other keys of the same occurrence have given; the axis of a wall is first.
+void add_to_name(std::string& name, const Entry& entry) {
+  const std::string item = item_of(entry);
+  name = name.empty() ? item : entry.key == "axis" ? item + "-" + name : name + "-" + item;
+}
+
 // Finds out which occurrence of a section each override is for.
 std::vector<Entry> with_items_found(const Document& document) {
   std::map<std::string, std::vector<std::string>> items;
@@ -62,8 +75,7 @@ std::vector<Entry> with_items_found(const Document& document) {
       if (!may_occur_again(entry.section)) continue;
       auto& names = items[entry.section];
       if (entry.is_head) names.emplace_back();
-      const bool names_it = entry.key == (entry.section == "species" ? "name" : "between");
-      if (names_it && !names.empty()) names.back() = item_of(entry);
+      if (names_item(entry) && !names.empty()) add_to_name(names.back(), entry);
       continue;
     }
     if (!may_occur_again(entry.section)) {
@@ -123,20 +135,21 @@ std::vector<Entry> with_overrides_applied(const std::vector<Entry>& entries) {
   return result;
 }
 
-// Begins an entry [[species]] or [[pairs]].
+// Begins an entry [[species]], [[pairs]] or [[walls]].
 void begin_again(Scene& scene, const Document& document, const Entry& head) {
   if (!head.is_repeated)
     throw document.error(head, fmt::format("expected [[{}]], in double brackets", head.section));
-  if (head.section == "pairs") {
-    scene.pairs.emplace_back();
-  } else if (scene.species.size() < most_species) {
-    scene.species.emplace_back();
-  } else {
-    throw document.error(head, fmt::format("expected at most {} entries", most_species));
-  }
+  const auto begin = [&](auto& all, std::size_t most) {
+    if (all.size() == most)
+      throw document.error(head, fmt::format("expected at most {} entries", most));
+    all.emplace_back();
+  };
+  if (head.section == "species") begin(scene.species, most_species);
+  if (head.section == "pairs") begin(scene.pairs, most_species * (most_species + 1) / 2);
+  if (head.section == "walls") begin(scene.walls, most_walls);
 }
 
-// Reads the value of a key. Keys of [[species]] and [[pairs]] are read into the last of them.
+// Reads the value of a key. Keys of sections that occur again are read into the last of them.
 bool read_value(Scene& scene, const SceneKey& key, const Entry& entry) {
   const auto into = [&](auto& all) {
     std::swap(all[entry.number], all.back());
@@ -146,6 +159,7 @@ bool read_value(Scene& scene, const SceneKey& key, const Entry& entry) {
   };
   if (entry.section == "species") return into(scene.species);
   if (entry.section == "pairs") return into(scene.pairs);
+  if (entry.section == "walls") return into(scene.walls);
   return key.read(scene, entry.value);
 }
 
@@ -235,6 +249,18 @@ void require_what_is_needed(const Scene& scene, const Document& document,
   }
   for (std::size_t n = 0; n < scene.species.size(); ++n) require("species", "name", n);
   for (std::size_t n = 0; n < scene.pairs.size(); ++n) require("pairs", "between", n);
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    require("walls", "axis", n);
+    require("walls", "side", n);
+    if (!scene.walls[n].motion) continue;
+    require("walls", "motion.amplitude", n);
+    require("walls", "motion.frequency", n);
+  }
+  if (scene.driving.kicks) require("driving", "kicks.every", 0);
+  if (scene.driving.andersen) {
+    require("driving", "andersen.rate", 0);
+    require("driving", "andersen.temperature", 0);
+  }
   const Scene::Until& until = scene.until;
   if (provided.end) return;
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s)

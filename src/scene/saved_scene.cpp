@@ -15,6 +15,23 @@ void transfer(Archive& archive, Scene::Pair& pair) {
   visit_pair(pair, [&](std::string_view, std::string_view, auto& member) { archive(member); });
 }
 
+void transfer(Archive& archive, Scene::WallMotion& motion) {
+  visit_motion(motion, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
+void transfer(Archive& archive, Scene::Wall& wall) {
+  visit_wall(wall, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
+void transfer(Archive& archive, Scene::Kicks& kicks) {
+  visit_kicks(kicks, [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
+void transfer(Archive& archive, Scene::Andersen& andersen) {
+  visit_andersen(andersen,
+                 [&](std::string_view, std::string_view, auto& member) { archive(member); });
+}
+
 void transfer(Archive& archive, Scene& scene) {
   visit_members(scene, [&](std::string_view, std::string_view, auto& member) { archive(member); });
   archive(scene.text, scene.places);

@@ -32,13 +32,50 @@ void visit_pair(Pair& pair, Visit&& visit) {
   visit("pairs", "beta", beta);
 }
 
-/// The same for each member of a Scene, or of its parts. Those of all species and pairs have the
-/// key "". Left out are text and places, which say where a scene comes from, and whether `threads`
-/// was chosen.
+/// The same for each member of Scene::WallMotion.
+template <class Motion, class Visit>
+void visit_motion(Motion& motion, Visit&& visit) {
+  auto& [amplitude, frequency, phase] = motion;
+  visit("walls", "motion.amplitude", amplitude);
+  visit("walls", "motion.frequency", frequency);
+  visit("walls", "motion.phase", phase);
+}
+
+/// The same for each member of Scene::Wall.
+template <class Wall, class Visit>
+void visit_wall(Wall& wall, Visit&& visit) {
+  auto& [axis, side, epsilon, temperature, motion] = wall;
+  visit("walls", "axis", axis);
+  visit("walls", "side", side);
+  visit("walls", "epsilon", epsilon);
+  visit("walls", "temperature", temperature);
+  visit("walls", "motion", motion);
+}
+
+/// The same for each member of Scene::Kicks.
+template <class Kicks, class Visit>
+void visit_kicks(Kicks& kicks, Visit&& visit) {
+  auto& [every, translational, rotational] = kicks;
+  visit("driving", "kicks.every", every);
+  visit("driving", "kicks.translational", translational);
+  visit("driving", "kicks.rotational", rotational);
+}
+
+/// The same for each member of Scene::Andersen.
+template <class Andersen, class Visit>
+void visit_andersen(Andersen& andersen, Visit&& visit) {
+  auto& [rate, temperature] = andersen;
+  visit("driving", "andersen.rate", rate);
+  visit("driving", "andersen.temperature", temperature);
+}
+
+/// The same for each member of a Scene, or of its parts. Those of all species, pairs and walls have
+/// the key "". Left out are text and places, which say where a scene comes from, and whether
+/// `threads` was chosen.
 template <class AnyScene, class Visit>
 void visit_members(AnyScene& scene, Visit&& visit) {
-  auto& [title, needles, species, pairs, initial, collisions, engine, until, output, text, places] =
-      scene;
+  auto& [title, needles, species, pairs, initial, collisions, walls, forces, driving, engine, until,
+         output, text, places] = scene;
   visit("", "title", title);
   visit("species", "", species);
   visit("pairs", "", pairs);
@@ -61,6 +98,16 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     visit("collisions", "beta", beta);
     visit("collisions", "tc", tc);
     visit("collisions", "tc_relative", tc_relative);
+  }
+  visit("walls", "", walls);
+  {
+    auto& [gravity] = forces;
+    visit("forces", "gravity", gravity);
+  }
+  {
+    auto& [kicks, andersen] = driving;
+    visit("driving", "kicks", kicks);
+    visit("driving", "andersen", andersen);
   }
   {
     auto& [search, queue, accuracy, isolation, escalation, filter, root_tolerance, sampling_step,

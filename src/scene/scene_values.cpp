@@ -68,6 +68,18 @@ class Collected {
   void operator()(std::string_view, std::string_view, const std::vector<Scene::Pair>& all) {
     for (const Scene::Pair& pair : all) visit_pair(pair, *this);
   }
+  void operator()(std::string_view, std::string_view, const std::vector<Scene::Wall>& all) {
+    for (const Scene::Wall& wall : all) visit_wall(wall, *this);
+  }
+  void operator()(std::string_view, std::string_view, const Scene::WallMotion& motion) {
+    visit_motion(motion, *this);
+  }
+  void operator()(std::string_view, std::string_view, const Scene::Kicks& kicks) {
+    visit_kicks(kicks, *this);
+  }
+  void operator()(std::string_view, std::string_view, const Scene::Andersen& andersen) {
+    visit_andersen(andersen, *this);
+  }
 
   std::vector<KeyValue> values;
 
@@ -99,6 +111,7 @@ void require_in_range(const Scene& scene, Predicate&& is_looked_at) {
   Scene again = scene;
   if (again.species.empty()) again.species.emplace_back();
   if (again.pairs.empty()) again.pairs.emplace_back();
+  if (again.walls.empty()) again.walls.emplace_back();
   for (const auto& [section, name, value] : values_of(scene)) {
     const SceneKey* key = find_scene_key(section, name);
     if (!is_looked_at(section, name) || key->read(again, value)) continue;
@@ -156,7 +169,8 @@ void require_simulable(const Scene& scene) {
   require_in_range(scene, [&](std::string_view section, std::string_view key) {
     if (section == "species") return is_among(key, {"length", "mass", "k"});
     if (section == "needles") return key == "k" && scene.species.empty();
-    return section == "collisions" || section == "pairs" || section == "engine";
+    return section == "collisions" || section == "pairs" || section == "walls" ||
+           section == "forces" || section == "driving" || section == "engine";
   });
   require_one_contact_time(scene.collisions);
   require_names(scene);

@@ -32,6 +32,8 @@ constexpr double shortest_edge = least_edge(1e-6);  // of the shortest needles; 
 constexpr double least_temperature = 1e-200;
 constexpr double largest_temperature = 1e200;
 constexpr double most_per_decade = 1e6;
+// Limit of frequencies, accelerations and strengths of kicks; the least is its inverse.
+constexpr double largest_rate = 1e100;
 
 constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();
 constexpr std::uint64_t most_threads = 1024;
@@ -126,6 +128,31 @@ std::optional<std::array<std::string, 2>> two_names(const Value& value) {
   for (std::size_t n = 0; n < 2; ++n)
     if (!store(out[n], text((*names)[n]))) return std::nullopt;
   return out;
+}
+
+std::optional<std::array<double, 3>> acceleration(const Value& value) {
+  const auto* components = value.as<Value::Array>();
+  if (!components || components->size() != 3) return std::nullopt;
+  std::array<double, 3> out{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto g = number((*components)[axis], -largest_rate, largest_rate);
+    if (!store(out[axis], g) || (*g != 0 && std::abs(*g) < 1 / largest_rate)) return std::nullopt;
+  }
+  return out;
+}
+
+// The tables of keys, made by the first key of theirs that is read.
+Scene::WallMotion& motion_of(Scene& scene) {
+  auto& motion = scene.walls.back().motion;
+  return motion ? *motion : motion.emplace();
+}
+Scene::Kicks& kicks_of(Scene& scene) {
+  auto& kicks = scene.driving.kicks;
+  return kicks ? *kicks : kicks.emplace();
+}
+Scene::Andersen& andersen_of(Scene& scene) {
+  auto& andersen = scene.driving.andersen;
+  return andersen ? *andersen : andersen.emplace();
 }
 
 std::optional<std::vector<double>> increasing_times(const Value& value) {
@@ -262,6 +289,50 @@ const SceneKey keys[] = {
     {"pairs", "beta", "a number from -1 (smooth) to 1 (perfectly rough)",
      [](Scene& s, V v) { return store(s.pairs.back().beta, number(v, -1, 1)); }},
 
+    {"walls", "axis", R"("x", "y" or "z")",
+     [](Scene& s, V v) {
+       return store(s.walls.back().axis, one_of(v, {"x", "y", "z"}));
+     }},
+    {"walls", "side", R"("low", "high" or "both")",
+     [](Scene& s, V v) {
+       return store(s.walls.back().side, one_of(v, {"low", "high", "both"}));
+     }},
+    {"walls", "epsilon", "a number from 0 to 1",
+     [](Scene& s, V v) { return store(s.walls.back().epsilon, number(v, 0, 1)); }},
+    {"walls", "temperature", "a temperature > 0 (from 1e-200 to 1e200)",
+     [](Scene& s, V v) {
+       return store(s.walls.back().temperature, number(v, least_temperature, largest_temperature));
+     }},
+    {"walls", "motion.amplitude", "a length >= 0 (at most 1e9)",
+     [](Scene& s, V v) { return store(motion_of(s).amplitude, number(v, 0, 1e9)); }},
+    {"walls", "motion.frequency", "a number > 0 of cycles per time (from 1e-100 to 1e100)",
+     [](Scene& s, V v) {
+       return store(motion_of(s).frequency, number(v, 1 / largest_rate, largest_rate));
+     }},
+    {"walls", "motion.phase", "an angle in radians, from -1e6 to 1e6",
+     [](Scene& s, V v) { return store(motion_of(s).phase, number(v, -1e6, 1e6)); }},
+
+    {"forces", "gravity", "an array of three accelerations (each 0, or from 1e-100 to 1e100)",
+     [](Scene& s, V v) { return store(s.forces.gravity, acceleration(v)); }},
+
+    {"driving", "kicks.every", "a time > 0 (from 1e-100 to 1e100)",
+     [](Scene& s, V v) {
+       return store(kicks_of(s).every, number(v, 1 / largest_rate, largest_rate));
+     }},
+    {"driving", "kicks.translational", "a number >= 0 (at most 1e100)",
+     [](Scene& s, V v) { return store(kicks_of(s).translational, number(v, 0, largest_rate)); }},
+    {"driving", "kicks.rotational", "a number >= 0 (at most 1e100)",
+     [](Scene& s, V v) { return store(kicks_of(s).rotational, number(v, 0, largest_rate)); }},
+    {"driving", "andersen.rate", "a number > 0 of redraws per time (from 1e-100 to 1e100)",
+     [](Scene& s, V v) {
+       return store(andersen_of(s).rate, number(v, 1 / largest_rate, largest_rate));
+     }},
+    {"driving", "andersen.temperature", "a temperature > 0 (from 1e-200 to 1e200)",
+     [](Scene& s, V v) {
+       return store(andersen_of(s).temperature,
+                    number(v, least_temperature, largest_temperature));
+     }},
+
     {"engine", "search", R"("auto", "all-pairs", "linked-lists", "linked-cells" or "capsules")",
      [](Scene& s, V v) {
        return store(s.engine.search,
@@ -347,7 +418,8 @@ const SceneKey keys[] = {
 };
 
 constexpr std::string_view sections[] = {"needles", "species", "initial", "collisions",
-                                         "pairs",   "engine",  "until",   "output"};
+                                         "pairs",   "walls",   "forces",  "driving",
+                                         "engine",  "until",   "output"};
 
 std::vector<std::string_view> keys_of(std::string_view section) {
   std::vector<std::string_view> names;
@@ -390,7 +462,29 @@ bool is_scene_section(std::string_view section) {
 
 std::span<const std::string_view> scene_sections() { return sections; }
 
+bool is_scene_table(std::string_view section, std::string_view key) {
+  return std::any_of(std::begin(keys), std::end(keys), [&](const SceneKey& k) {
+    return k.section == section && k.key.size() > key.size() && k.key.starts_with(key) &&
+           k.key[key.size()] == '.';
+  });
+}
+
+bool accepts(const SceneKey& key, const Value& value) {
+  Scene scene;
+  scene.species.emplace_back();
+  scene.pairs.emplace_back();
+  scene.walls.emplace_back();
+  return key.read(scene, value);
+}
+
 std::string expected_instead(const Entry& unknown) {
+  if (is_scene_table(unknown.section, unknown.key)) {
+    std::vector<std::string_view> inner;
+    for (const std::string_view name : keys_of(unknown.section)) {
+      if (name.starts_with(unknown.key + ".")) inner.push_back(name.substr(unknown.key.size() + 1));
+    }
+    return fmt::format("expected {{{}}}", fmt::join(inner, " = ..., "));
+  }
   if (unknown.section.empty() && is_scene_section(unknown.key))
     return fmt::format("expected a section [{}]", unknown.key);
   if (!unknown.section.empty() && !is_scene_section(unknown.section))

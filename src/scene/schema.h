@@ -41,6 +41,16 @@ const SceneKey* find_scene_key(std::string_view section, std::string_view key);
 
 bool is_scene_section(std::string_view section);
 
+/// Whether keys of the section begin with "KEY.", which a scene file may write as a table, such as
+/// `kicks = { every = 1 }`.
+bool is_scene_table(std::string_view section, std::string_view key);
+
+/// Limit of the number of entries [[walls]]: one at each side of the box.
+inline constexpr std::size_t most_walls = 6;
+
+/// Whether the value meets the requirement of the key.
+bool accepts(const SceneKey& key, const Value& value);
+
 /// All sections, in the order of their documentation.
 std::span<const std::string_view> scene_sections();
 

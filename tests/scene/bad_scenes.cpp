@@ -204,7 +204,8 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
        "s.toml: line 2: needles.Count = 100: " + of_needles + ", did you mean count?"},
       {"[needles]\nxyzzy = 1\n", "s.toml: line 2: needles.xyzzy = 1: " + of_needles},
       {"[needles]\nepsilon = 0.8\n", "s.toml: line 2: needles.epsilon = 0.8: " + of_needles +
-                                         ", did you mean collisions.epsilon or pairs.epsilon?"},
+                                         ", did you mean collisions.epsilon or pairs.epsilon or "
+                                         "walls.epsilon?"},
       {"[needles]\nfile = 'a'\n", "s.toml: line 2: needles.file = 'a': " + of_needles +
                                       ", did you mean initial.file or output.file?"},
       {"[needles]\ncount = 5\nuntil.time = 1\n",
@@ -230,8 +231,8 @@ TEST(BadScene, UnknownKeyComesWithSuggestion) {
 
 TEST(BadScene, UnknownSectionComesWithSuggestion) {
   const std::string sections =
-      "expected one of the sections needles, species, initial, collisions, pairs, engine, until, "
-      "output";
+      "expected one of the sections needles, species, initial, collisions, pairs, walls, forces, "
+      "driving, engine, until, output";
   expect_messages({
       {"# a scene\n[neddles]\ncount = 5\n",
        "s.toml: line 2: [neddles]: " + sections + ", did you mean needles?"},

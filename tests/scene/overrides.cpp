@@ -108,7 +108,7 @@ TEST(Override, IsNamedInItsError) {
   EXPECT_EQ(
       message_of_overrides({"neddles.count=5"}),
       "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "
-      "pairs, engine, until, output, did you mean needles?");
+      "pairs, walls, forces, driving, engine, until, output, did you mean needles?");
 }
 
 TEST(Override, ErrorsOfTheFileComeFirst) {

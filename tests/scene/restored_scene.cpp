@@ -65,9 +65,26 @@ epsilon = 0.5
 beta = 0
 )";
 
+const char* const effects = R"(
+needles = { count = 20, box = 9 }
+forces.gravity = [0, 0, -1]
+driving.kicks = { every = 0.1, translational = 2, rotational = 3 }
+driving.andersen = { rate = 0.5, temperature = 2 }
+until.time = 1
+[[walls]]
+axis = "z"
+side = "low"
+epsilon = 0.5
+motion = { amplitude = 0.1, frequency = 2, phase = 1 }
+[[walls]]
+axis = "z"
+side = "high"
+temperature = 3
+)";
+
 TEST(RestoredScene, HasAllKeys) {
   std::set<std::string> seen;
-  for (const char* text : {rich, species,
+  for (const char* text : {rich, species, effects,
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "initial.file = \"state.h5\"\n"
                            "collisions.tc_relative = 1"}) {
@@ -130,6 +147,11 @@ TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
   expect("species.name = ", species, [](Scene& s) { s.species.push_back(s.species[0]); });
   expect("pairs.between = ", species, [](Scene& s) { s.pairs[0].between[1] = "b"; });
   expect("pairs.epsilon = ", species, [](Scene& s) { s.pairs[0].epsilon = 2; });
+  expect("walls.axis = ", effects, [](Scene& s) { s.walls[1].axis = "w"; });
+  expect("walls.temperature = ", effects, [](Scene& s) { s.walls[1].temperature = 0; });
+  expect("walls.motion.frequency = ", effects, [](Scene& s) { s.walls[0].motion->frequency = 0; });
+  expect("forces.gravity = ", effects, [&](Scene& s) { s.forces.gravity[0] = nan; });
+  expect("driving.kicks.every = ", effects, [](Scene& s) { s.driving.kicks->every = 0; });
   expect("text: expected", rich, [](Scene& s) { s.text.resize(max_scene_bytes + 1); });
 }
 

@@ -1,0 +1,88 @@
+// Scenes with [driving].
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "needlework/error.h"
+#include "needlework/parse.h"
+#include "tests/scene/message.h"
+
+namespace needlework {
+namespace {
+
+using test::message;
+using test::Overrides;
+
+// Lines 1 to 2, so that more begins at line 3.
+const std::string undriven = "needles = { count = 10, box = 12 }\nuntil.time = 5\n";
+
+TEST(Driving, HasWhatTheSceneSays) {
+  for (const std::string text :
+       {"driving.kicks = { every = 0.5, translational = 2, rotational = 3 }\n"
+        "driving.andersen = { rate = 4, temperature = 5 }\n",
+        "[driving]\nkicks = { every = 0.5, translational = 2, rotational = 3 }\n"
+        "andersen.rate = 4\nandersen.temperature = 5\n",
+        "[driving.kicks]\nevery = 0.5\ntranslational = 2\nrotational = 3\n"
+        "[driving.andersen]\nrate = 4\ntemperature = 5\n"}) {
+    const Scene::Driving driving = parse_scene(undriven + text, "s.toml").driving;
+    ASSERT_TRUE(driving.kicks && driving.andersen) << text;
+    EXPECT_EQ(driving.kicks->every, 0.5);
+    EXPECT_EQ(driving.kicks->translational, 2);
+    EXPECT_EQ(driving.kicks->rotational, 3);
+    EXPECT_EQ(driving.andersen->rate, 4);
+    EXPECT_EQ(driving.andersen->temperature, 5);
+  }
+  const Scene::Driving none = parse_scene(undriven, "s.toml").driving;
+  EXPECT_FALSE(none.kicks || none.andersen);
+  const Scene::Driving usual = parse_scene(undriven + "driving.kicks.every = 1", "s.toml").driving;
+  EXPECT_EQ(usual.kicks->translational, 0);
+  EXPECT_EQ(usual.kicks->rotational, 0);
+}
+
+TEST(Driving, CanBeOverridden) {
+  const Scene::Driving driving =
+      parse_scene(
+          undriven + "driving.kicks = { every = 0.5, translational = 2 }", "s.toml",
+          Overrides{"driving.kicks.every=0.25", "driving.andersen={rate = 4, temperature = 5}"})
+          .driving;
+  EXPECT_EQ(driving.kicks->every, 0.25);
+  EXPECT_EQ(driving.kicks->translational, 2);
+  ASSERT_TRUE(driving.andersen);
+  EXPECT_EQ(driving.andersen->temperature, 5);
+  const std::string keys =
+      "expected one of kicks.every, kicks.translational, kicks.rotational, andersen.rate, "
+      "andersen.temperature";
+  EXPECT_EQ(message(undriven, {"driving.kicks.evry=1"}),
+            "--set driving.kicks.evry=1: " + keys + ", did you mean kicks.every?");
+  EXPECT_EQ(message(undriven, {"driving.kicks=1"}),
+            "--set driving.kicks=1: expected {every = ..., translational = ..., rotational = ...}");
+  EXPECT_EQ(message(undriven, {"driving.a.kicks.every=1"}),
+            "--set driving.a.kicks.every=1: expected section.key=value");
+}
+
+TEST(BadDriving, IsRefused) {
+  const std::string interval = "expected a time > 0 (from 1e-100 to 1e100)";
+  const std::string rate = "expected a number > 0 of redraws per time (from 1e-100 to 1e100)";
+  const std::string temperature = "expected a temperature > 0 (from 1e-200 to 1e200)";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"kicks = { every = 0 }", "line 3: driving.kicks.every = 0: " + interval},
+      {"kicks = { every = -1 }", "line 3: driving.kicks.every = -1: " + interval},
+      {"kicks = { every = 1, translational = -1 }",
+       "line 3: driving.kicks.translational = -1: expected a number >= 0 (at most 1e100)"},
+      {"kicks = { every = 1, rotational = inf }",
+       "line 3: driving.kicks.rotational = inf: expected a number >= 0 (at most 1e100)"},
+      {"kicks = { translational = 1 }", "driving.kicks.every is missing: " + interval},
+      {"andersen = { rate = 0, temperature = 1 }", "line 3: driving.andersen.rate = 0: " + rate},
+      {"andersen = { rate = 1, temperature = 0 }",
+       "line 3: driving.andersen.temperature = 0: " + temperature},
+      {"andersen = { rate = 1 }", "driving.andersen.temperature is missing: " + temperature},
+      {"andersen = { temperature = 1 }", "driving.andersen.rate is missing: " + rate},
+  };
+  for (const auto& [text, expected] : cases)
+    EXPECT_EQ(message(undriven + "driving." + text), "s.toml: " + expected) << text;
+}
+
+}  // namespace
+}  // namespace needlework
