@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/machine/stop_request.h"
-#include "src/scene/random.h"
+#include "src/random/needle_random.h"
 #include "src/scene/scene_values.h"
 
 namespace needlework {

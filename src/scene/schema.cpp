@@ -309,8 +309,8 @@ const SceneKey keys[] = {
      [](Scene& s, V v) {
        return store(motion_of(s).frequency, number(v, 1 / largest_rate, largest_rate));
      }},
-    {"walls", "motion.phase", "an angle in radians, from -1e6 to 1e6",
-     [](Scene& s, V v) { return store(motion_of(s).phase, number(v, -1e6, 1e6)); }},
+    {"walls", "motion.phase", "an angle in radians, from -1000 to 1000",
+     [](Scene& s, V v) { return store(motion_of(s).phase, number(v, -1000, 1000)); }},
 
     {"forces", "gravity", "an array of three accelerations (each 0, or from 1e-100 to 1e100)",
      [](Scene& s, V v) { return store(s.forces.gravity, acceleration(v)); }},

@@ -120,7 +120,7 @@ TEST(BadWalls, AreRefused) {
        "line 7: walls.motion.frequency = 0: expected a number > 0 of cycles per time (from 1e-100 "
        "to 1e100)"},
       {both + "motion = { amplitude = 1, frequency = 1, phase = nan }",
-       "line 7: walls.motion.phase = nan: expected an angle in radians, from -1e6 to 1e6"},
+       "line 7: walls.motion.phase = nan: expected an angle in radians, from -1000 to 1000"},
       {both + "motion = { frequency = 1 }",
        "walls.motion.amplitude is missing: expected a length >= 0 (at most 1e9)"},
       {both + "motion = { amplitude = 1 }",

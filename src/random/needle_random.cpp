@@ -1,4 +1,4 @@
-#include "src/scene/random.h"
+#include "src/random/needle_random.h"
 
 #include <Random123/philox.h>
 
@@ -31,7 +31,7 @@ double natural_log(double x) {
 
 double NeedleRandom::uniform() {
   if (used_ == words_.size()) {
-    const auto words = r123::Philox4x64()({{block_++, id_, 0, 0}}, {{seed_, 0}});
+    const auto words = r123::Philox4x64()({{block_++, id_, count_, purpose_}}, {{seed_, 0}});
     for (std::size_t i = 0; i < words_.size(); ++i) words_[i] = words[i];
     used_ = 0;
   }

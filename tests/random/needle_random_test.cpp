@@ -1,5 +1,5 @@
 // The random numbers of one needle: exact bits, accuracy of the logarithm, independence.
-#include "src/scene/random.h"
+#include "src/random/needle_random.h"
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
@@ -46,6 +46,28 @@ TEST(NeedleRandom, IsPhiloxWithTheSeedAsKey) {
   const auto other = r123::Philox4x64()({{0, 5, 0, 0}}, {{~std::uint64_t{0}, 0}});
   EXPECT_EQ(NeedleRandom(~std::uint64_t{0}, 5).uniform(),
             static_cast<double>(other[0] >> 11) * 0x1p-53);
+}
+
+TEST(NeedleRandom, IsAnotherForEachPurposeAndCount) {
+  const auto words = r123::Philox4x64()({{0, 5, 7, 3}}, {{9, 0}});
+  EXPECT_EQ(NeedleRandom(9, 5, RandomFor::kick, 7).uniform(),
+            static_cast<double>(words[0] >> 11) * 0x1p-53);
+  EXPECT_EQ(NeedleRandom(9, 5, RandomFor::initial_state, 0).uniform(),
+            NeedleRandom(9, 5).uniform());
+}
+
+// Tolerances: five standard errors.
+TEST(NeedleRandom, ExponentialNumbersHaveMeanAndVarianceOne) {
+  constexpr int count = 100000;
+  double sum = 0, squares = 0;
+  for (int n = 0; n < count; ++n) {
+    const double x = NeedleRandom(4, n).exponential();
+    ASSERT_GE(x, 0);
+    sum += x;
+    squares += x * x;
+  }
+  EXPECT_NEAR(sum / count, 1, 5 / std::sqrt(count));
+  EXPECT_NEAR(squares / count, 2, 5 * std::sqrt(20.0 / count));
 }
 
 TEST(NeedleRandom, DirectionsHaveLengthOne) {
