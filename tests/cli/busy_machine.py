@@ -15,12 +15,18 @@ import subprocess
 import sys
 import time
 
-BUSY = "while True: pass"
+# Ends with the program that started it, also when a signal ends that one.
+BUSY = """
+import os, sys
+while os.getppid() == int(sys.argv[1]):
+    for _ in range(1000000):
+        pass
+"""
 
 
 @contextlib.contextmanager
 def load(programs):
-    busy = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(programs)]
+    busy = [subprocess.Popen([sys.executable, "-c", BUSY, str(os.getpid())]) for _ in range(programs)]
     try:
         yield
     finally:
