@@ -52,6 +52,14 @@ struct Touch {
   double gap = 0;         ///< f(0) [L]
 };
 
+/// What a common acceleration has done, from its record to s = 0, to the needle whose record is the
+/// earlier one: the change of the relative velocity and place, those of the first needle less those
+/// of the second. From s = 0 on both fall alike.
+struct Fall {
+  Vec3dd velocity;  ///< [L / time]
+  Vec3dd place;     ///< [L]
+};
+
 /// Two needles and one periodic image. Exchanging the needles and negating `shift` changes no bit
 /// of any result.
 struct Pair {
@@ -60,6 +68,8 @@ struct Pair {
   DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
   DoubleDouble elapsed_second;  ///< one of the two is 0
   Vec3dd shift;                 ///< added to the second needle's centre [L]
+  bool falls = false;           ///< whether there is a common acceleration
+  Fall fall;                    ///< then
   double half_first = 0.5, half_second = 0.5;  ///< half lengths of the needles [L]
   Touch touch;
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "src/physics/gas.h"
@@ -17,6 +19,7 @@ namespace needlework {
 /// A needle at an event.
 struct NeedleAt {
   Needle needle;
+  Id id;
   const Record& record;  ///< made before the event
   const Species& species;
   Time now;
@@ -30,6 +33,7 @@ struct NeedleAt {
 struct SourceEvent {
   Time time = Time::never();
   std::int8_t detail = 0;  ///< passed to happen(), such as which tip touches
+  bool resolvable = true;  ///< false: the run ends with message() if it gets there
 };
 
 /// What an event has done. Velocities need to be set only where the motion changes.
@@ -42,6 +46,7 @@ struct SourceOutcome {
   double arm = 0;              ///< where on the needle it happens [L]
   double normal_velocity = 0;  ///< before the event [L / time]
   Vec3d impulse;               ///< on the needle [m L / time]
+  bool contact_time_rule = false;
 };
 
 /// A source of events.
@@ -62,6 +67,13 @@ class EventSource {
   virtual SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const = 0;
   /// What happens at such an event. May change the needle's values in the columns of the source.
   virtual SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) = 0;
+  /// About the time from one of its events of a needle to the next, as far as that does not depend
+  /// on the motion of needles; else infinite. [time]
+  virtual double usual_time() const { return std::numeric_limits<double>::infinity(); }
+  /// Why a run cannot go on at an event that is not resolvable.
+  virtual std::string message(const Gas&, const NeedleAt&, std::int8_t /*detail*/) const {
+    return {};
+  }
   /// All numbers on which its events depend. A run is continued with the same ones only.
   virtual std::vector<double> parameters() const { return {}; }
 };

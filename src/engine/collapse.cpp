@@ -25,6 +25,12 @@ std::string message_of(const PairCollapse& c) {
 }
 
 std::string message_of(const GroupCollapse& c) {
+  if (c.first == c.second) {
+    return fmt::format(
+        "needle {} collapses at time {:.17g}: {} events at one instant, with walls or others; set "
+        "collisions.tc_relative, to 1e-3 say, unless it rests on a wall",
+        c.first.value, c.time, c.collisions);
+  }
   return fmt::format(
       "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; set "
       "collisions.tc_relative, to 1e-3 say",

@@ -20,9 +20,10 @@ struct PairCollapse {
 };
 std::string message_of(const PairCollapse& collapse);
 
-/// Three needles or more that hit each other in turn until the time no longer advances.
+/// Three needles or more that hit each other in turn until the time no longer advances, or one that
+/// hits walls.
 struct GroupCollapse {
-  Id first, second;
+  Id first, second;  ///< the same for an event of one needle
   double time = 0;
   std::uint64_t collisions = 0;  ///< number of collisions at that one instant
 };

@@ -46,7 +46,7 @@ class EnergyAccount {
     archive(energy_, changes_, drift_);
     if (archive.reads() && is_sound()) set_quantum();
   }
-  bool is_sound() const { return std::isfinite(energy_) && energy_ >= 0 && std::isfinite(drift_); }
+  bool is_sound() const { return std::isfinite(energy_) && std::isfinite(drift_); }
 
  private:
   static double relative(double energy, double by_account) {

@@ -95,7 +95,9 @@ class EventProcessor {
     report.offset = now().offset;
     report.time = gas_.clock.since_start(now());
   }
-  [[noreturn, gnu::noinline]] void report_collapse(const Event& event) const;
+  NeedleAt needle_at(Needle i) const;
+  [[noreturn, gnu::noinline]] void refuse(const Event& event);
+  [[noreturn]] void report_collapse(const Event& event) const;
 
   Run& run_;
   Gas& gas_;
@@ -109,7 +111,7 @@ class EventProcessor {
 
 template <Search S, Model M>
 void EventProcessor<S, M>::process(const Event& event, bool stale) {
-  if (!event.resolvable && !stale) report_collapse(event);
+  if (!event.resolvable && !stale) refuse(event);
   ++tally_.counters.events;
   predictor_.begin(event.time);
   switch (event.kind) {
@@ -166,7 +168,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   const DoubleDouble elapsed = gas_.clock.exact_difference(now(), Gas::start_of(first, second));
   const kernels::ContactGeometry contact = model_.contact().geometry(pair, elapsed);
   const bool elastic = by_contact_time(a, b);
-  const Impact impact = model_.collide(first, second, contact, event.side, elastic);
+  const Impact impact = model_.collide(first, second, now(), contact, event.side, elastic);
 
   Happening happening;
   Collision& report = happening.event;
@@ -219,19 +221,25 @@ void EventProcessor<S, M>::collide(const Event& event) {
 }
 
 template <Search S, Model M>
+NeedleAt EventProcessor<S, M>::needle_at(Needle i) const {
+  const Record& record = gas_.records[i];
+  const auto motion = gas_.motion_from(record, now());
+  return {.needle = i,
+          .id = gas_.ids[i],
+          .record = record,
+          .species = gas_.species_of(record),
+          .now = now(),
+          .centre = motion.centre(),
+          .director = motion.director(),
+          .velocity = motion.velocity(),
+          .angular_velocity = motion.angular_velocity()};
+}
+
+template <Search S, Model M>
 void EventProcessor<S, M>::happen(const Event& event) {
   const Needle i = event.owner;
   count_at_instant(i, i);
-  const Record& record = gas_.records[i];
-  const auto motion = gas_.motion_from(record, now());
-  const NeedleAt at{.needle = i,
-                    .record = record,
-                    .species = gas_.species_of(record),
-                    .now = now(),
-                    .centre = motion.centre(),
-                    .director = motion.director(),
-                    .velocity = motion.velocity(),
-                    .angular_velocity = motion.angular_velocity()};
+  const NeedleAt at = needle_at(i);
   if (rollback_log) rollback_log->replaced(i, gas_);
   columns_before_.clear();
   gas_.columns.append(i, columns_before_);
@@ -247,6 +255,7 @@ void EventProcessor<S, M>::happen(const Event& event) {
   report.normal_velocity = outcome.normal_velocity;
   report.impulse = {outcome.impulse.x, outcome.impulse.y, outcome.impulse.z};
   report.energy_change = outcome.energy_change;
+  report.contact_time_rule = outcome.contact_time_rule;
   if (outcome.changes_motion) {
     try {
       replace_record(i, [&] {
@@ -279,6 +288,7 @@ void EventProcessor<S, M>::consider_sources(Needle i, Event& best) const {
     event.time = next.time;
     event.side = next.detail;
     event.source = static_cast<std::uint8_t>(n);
+    event.resolvable = next.resolvable;
     if (event < best) best = event;
   }
 }
@@ -355,6 +365,15 @@ void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
       message_of(GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()),
                                tally_.at_instant}),
       {{gas_.ids[a].value, gas_.ids[b].value}});
+}
+
+template <Search S, Model M>
+void EventProcessor<S, M>::refuse(const Event& event) {
+  if (event.kind != EventKind::source) report_collapse(event);
+  set_now(event.time);
+  const std::uint32_t id = gas_.ids[event.owner].value;
+  throw InvalidStateError(
+      run_.sources[event.source]->message(gas_, needle_at(event.owner), event.side), {{id, id}});
 }
 
 template <Search S, Model M>

@@ -8,15 +8,31 @@
 
 namespace needlework {
 
-std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, int threads) {
+namespace {
+
+// Where gravity has no component along an axis, the place there does not count.
+Vec3d lowest(const Gas& gas) {
+  const auto edge = [&](double pull, int axis) { return pull > 0 ? gas.box[axis] : 0; };
+  return {edge(gas.gravity.x, 0), edge(gas.gravity.y, 1), edge(gas.gravity.z, 2)};
+}
+
+double height_of(const Gas& gas, const MotionFrom<FreeFlight>& motion) {
+  return gas.falls ? dot(gas.gravity, lowest(gas) - motion.centre()) : 0;
+}
+
+}  // namespace
+
+std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads) {
   std::vector<SumsOfSquares> out(gas.composition.size());
   if (gas.size() == 0) return out;
   for (std::size_t species = 0; species < out.size(); ++species) {
-    const auto [v2, w2] = exact_sums(gas.records, threads, [&](const Record& a) {
-      if (a.species != species) return std::array{0.0, 0.0};
-      return std::array{dot(a.flight.v, a.flight.v), dot(a.flight.w, a.flight.w)};
+    const auto [v2, w2, height] = exact_sums(gas.records, threads, [&](const Record& a) {
+      if (a.species != species) return std::array{0.0, 0.0, 0.0};
+      const auto motion = gas.motion_from(a, now);
+      const Vec3d v = motion.velocity(), w = motion.angular_velocity();
+      return std::array{dot(v, v), dot(w, w), height_of(gas, motion)};
     });
-    out[species] = {v2, w2};
+    out[species] = {v2, w2, height};
   }
   return out;
 }
@@ -50,32 +66,54 @@ void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, To
   out.energy = 1.5 * out.t_tr + out.t_rot;
 }
 
+double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  double out = 0;
+  for (std::size_t index = 0; index < sums.size(); ++index) {
+    out += gas.composition[index].mass * sums[index].height;
+  }
+  return out;
+}
+
 }  // namespace
 
 double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   Totals totals;
   set_temperatures(gas, sums, totals);
-  return totals.energy * static_cast<double>(gas.size());
+  const double motion = totals.energy * static_cast<double>(gas.size());
+  return gas.falls ? motion + potential_of(gas, sums) : motion;
 }
 
-Totals totals_of(const Gas& gas, int threads) {
+double energy_of_low_edges(const Gas& gas) {
+  double mass = 0;
+  for (const Species& each : gas.composition.species()) {
+    mass += each.mass * static_cast<double>(each.count);
+  }
+  return mass * dot(gas.gravity, lowest(gas));
+}
+
+Totals totals_of(const Gas& gas, Time now, int threads) {
   Totals out;
   if (gas.size() == 0) return out;
   std::vector<SumsOfSquares> sums;
   for (std::size_t species = 0; species < gas.composition.size(); ++species) {
     // All at once: reading the records takes most of the time.
-    const auto [v2, w2, x, y, z] = exact_sums(gas.records, threads, [&](const Record& a) {
-      if (a.species != species) return std::array<double, 5>{};
-      const Vec3d& v = a.flight.v;
-      return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
+    const auto [v2, w2, x, y, z, height] = exact_sums(gas.records, threads, [&](const Record& a) {
+      if (a.species != species) return std::array<double, 6>{};
+      const auto motion = gas.motion_from(a, now);
+      const Vec3d v = motion.velocity(), w = motion.angular_velocity();
+      return std::array{dot(v, v), dot(w, w), v.x, v.y, v.z, height_of(gas, motion)};
     });
-    sums.push_back({v2, w2});
+    sums.push_back({v2, w2, height});
     const double mass = gas.composition[species].mass;
     for (const auto& [axis, sum] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)}) {
       out.momentum[axis] += mass * sum;
     }
   }
   set_temperatures(gas, sums, out);
+  if (gas.falls) {
+    const double energy = potential_of(gas, sums) - energy_of_low_edges(gas);
+    out.energy += energy / static_cast<double>(gas.size());
+  }
   return out;
 }
 

@@ -12,16 +12,20 @@ namespace needlework {
 /// Sums over all needles of a species, on which its energy depends.
 struct SumsOfSquares {
   double v2 = 0, w2 = 0;  ///< [L^2 / time^2], [1 / time^2]
+  double height = 0;      ///< above where gravity points to, times gravity [L^2 / time^2]
 };
 
 /// Of all needles of each species. The threads share the work; see exact_sums.h.
-std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, int threads);
+std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads);
 
 std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<SumsOfSquares>& sums);
-/// The energy of all needles. [energy]
+/// The energy of all needles; where there is gravity, counted from the walls to which it points, so
+/// that it is positive. [energy]
 double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// What that is more than where heights count from the low edges of the box. [energy]
+double energy_of_low_edges(const Gas& gas);
 /// Temperatures, energy and momentum; times and counts are left as they are.
-Totals totals_of(const Gas& gas, int threads);
+Totals totals_of(const Gas& gas, Time now, int threads);
 /// By kinetic theory, for what these sums say of temperatures. [time]
 double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// What tells whether searches can follow needles with these sums of squares; `moves` is whether

@@ -42,7 +42,7 @@ void check_image(const Gas& gas, Needle i) {
           fmt::format("state: needle {}: image = {}: expected a whole number from {} to {}",
                       gas.ids[i].value, image, -most_boxes, most_boxes));
     }
-    const double boxes = wrap(place[axis], gas.box[axis]).boxes;
+    const double boxes = wrap(gas, place[axis], axis).boxes;
     if (std::abs(image + boxes) <= most_boxes) continue;
     throw InputError(fmt::format(
         "state: needle {}: position {} in a box of {}, with image {}: expected it within {} boxes",
@@ -104,6 +104,12 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
 
 }  // namespace
 
+void set_surroundings(Gas& gas, const Scene& scene) {
+  for (const Scene::Wall& wall : scene.walls) gas.walled[wall.axis[0] - 'x'] = true;
+  gas.gravity = vector_of(scene.forces.gravity);
+  gas.falls = !(gas.gravity == Vec3d{});
+}
+
 Gas make_gas(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
   check_size(initial.velocity.size(), count, "velocity");
@@ -113,6 +119,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   if (!initial.id.empty()) check_size(initial.id.size(), count, "id");
   Gas gas;
   gas.box = initial.box;
+  set_surroundings(gas, scene);
   gas.set_composition(composition_of(scene, initial));
   const double length = gas.longest;
   for (const double edge : initial.box) {

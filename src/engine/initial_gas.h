@@ -7,6 +7,9 @@
 
 namespace needlework {
 
+/// Sets the walls and the gravity of the scene.
+void set_surroundings(Gas& gas, const Scene& scene);
+
 /// Makes the needles of a run from a state. Throws InputError for a state that cannot be
 /// simulated.
 Gas make_gas(const Scene& scene, const State& initial);

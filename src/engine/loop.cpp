@@ -41,6 +41,8 @@ std::optional<Stop> Limits::reached_without_events(Run& run) const {
   if (time < run.now) return Stop::time;
   if (time == Time::never()) {
     if (run.collisionless()) return Stop::nothing_can_happen;
+    // Sources may have events for ever, but no collision.
+    if (run.gas.size() < 2 && energy < 0 && wall == wall.max()) return Stop::nothing_can_happen;
     return std::nullopt;
   }
   if (!run.nothing_can_happen()) return std::nullopt;

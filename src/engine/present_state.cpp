@@ -34,20 +34,22 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
     for (std::size_t n = 0; n < needles.size(); ++n) {
       const Needle i = needles[n];
       const kernels::Flight& flight = gas.records[i].flight;
-      std::array<double, 3> r = to_array(flights.centre(n));
+      const double elapsed = columns[C::elapsed][n];
+      std::array<double, 3> r =
+          to_array(gas.falls ? gas.motion(gas.records[i]).centre(elapsed) : flights.centre(n));
       Shift image = gas.images[i];
       for (int axis = 0; axis < 3; ++axis) {
-        const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+        const Wrapped wrapped = wrap(gas, r[axis], axis);
         r[axis] = wrapped.place;
         image[axis] += static_cast<std::int32_t>(wrapped.boxes);  // see most_boxes
       }
-      const bool just_now = columns[C::elapsed][n] == 0;
+      const bool just_now = elapsed == 0;
       const std::size_t row = begin + n;
       out.id[row] = gas.ids[i].value;
       if (!out.species.empty()) out.species[row] = gas.records[i].species;
       out.position[row] = r;
       out.image[row] = image;
-      out.velocity[row] = to_array(flight.v);
+      out.velocity[row] = to_array(gas.motion(gas.records[i]).velocity(elapsed));
       out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
       out.angular_velocity[row] = to_array(flight.w);
     }
@@ -63,8 +65,8 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   const auto motion = gas.motion_from(record, at);
   const Vec3d centre = motion.centre();
   FreeNeedle out;
-  out.position = {wrap(centre.x, gas.box[0]).place, wrap(centre.y, gas.box[1]).place,
-                  wrap(centre.z, gas.box[2]).place};
+  out.position = {wrap(gas, centre.x, 0).place, wrap(gas, centre.y, 1).place,
+                  wrap(gas, centre.z, 2).place};
   out.orientation = to_array(motion.unit_director());
   out.velocity = to_array(motion.velocity());
   out.angular_velocity = to_array(motion.angular_velocity());
@@ -77,7 +79,7 @@ void require_images(const Gas& gas, Time at) {
     const Vec3d centre = gas.motion_from(gas.records[i], at).centre();
     const double place[3] = {centre.x, centre.y, centre.z};
     for (int axis = 0; axis < 3; ++axis) {
-      add_boxes(gas.images[i][axis], wrap(place[axis], gas.box[axis]).boxes, gas.ids[i]);
+      add_boxes(gas.images[i][axis], wrap(gas, place[axis], axis).boxes, gas.ids[i]);
     }
   }
 }

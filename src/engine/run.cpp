@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "needlework/error.h"
+#include "src/effects/walls/walls.h"
 #include "src/engine/present_state.h"
 #include "src/engine/space_order.h"
 #include "src/machine/stop_request.h"
@@ -26,8 +29,6 @@ void require_known_effects(const Scene& scene) {
     throw InputError(fmt::format("{}: expected none, as this version does not simulate {} yet",
                                  place_of(scene, key, "..."), name));
   };
-  if (!scene.walls.empty()) refuse("walls.axis", "walls");
-  if (scene.forces.gravity != std::array<double, 3>{}) refuse("forces.gravity", "gravity");
   if (scene.driving.kicks) refuse("driving.kicks.every", "kicks");
   if (scene.driving.andersen) refuse("driving.andersen.rate", "a thermostat");
 }
@@ -51,18 +52,24 @@ Run::Run(const Scene& scene)
   gas.set_composition(scene.composition());
 }
 
-void Run::add_columns() {
+void Run::add_effects(const Scene& scene) {
   if (effects.contact_time) contact_time_rule.emplace(gas);
+  if (!scene.walls.empty()) {
+    const ContactTimeOfWalls contact_time_of_walls{
+        contact_time_rule ? &*contact_time_rule : nullptr, &contact_time};
+    add_source(std::make_unique<Walls>(gas, walls_of(scene, gas.box), scene.needles.seed,
+                                       contact_time_of_walls));
+  }
 }
 
 Run::Run(const Scene& scene, Gas initial) : Run(scene) {
   gas = std::move(initial);
   gas.columns.resize(gas.size());
-  add_columns();
+  add_effects(scene);
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InputError("state: " + reason);
   open_window();
-  gas.clock = Clock(windows.mean_free_time());
+  gas.clock = Clock(windows.span());
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
@@ -76,17 +83,31 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
 }
 
 void Run::open_window() {
-  const std::vector<SumsOfSquares> sums = sums_of_squares(gas, team.threads());
+  const std::vector<SumsOfSquares> sums = sums_of_squares(gas, now, team.threads());
   energy.open(energy_of(gas, sums), tally.energy);
-  windows.open(mean_free_time_of(gas, sums), gas.clock, now);
+  windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
+}
+
+// Of the crossing of the box, of a fall, and of what the sources say.
+double Run::usual_time_of_events(const std::vector<SumsOfSquares>& sums) const {
+  double out = std::numeric_limits<double>::infinity();
+  if (sources.empty() || gas.size() == 0) return out;
+  for (const auto& source : sources) out = std::min(out, source->usual_time());
+  double square = 0;  // of the speed
+  for (const SumsOfSquares& sum : sums) square += sum.v2 / static_cast<double>(gas.size());
+  const double edge = std::max({gas.box[0], gas.box[1], gas.box[2]});
+  square += edge * std::sqrt(dot(gas.gravity, gas.gravity));
+  return square > 0 ? std::min(out, edge / std::sqrt(square)) : out;
 }
 
 void Run::pass_window() {
   const double by_account = present_energy();
+  // Walls and gravity make densities that kinetic theory does not know.
+  if (gas.has_walls()) windows.measure(tally.collisions, gas.size(), gas.clock.since_start(now));
   open_window();
   energy.note_drift_from(by_account);
-  windows.count(tally.collisions);
+  windows.count(tally.collisions + std::reduce(tally.by_source.begin(), tally.by_source.end()));
 }
 
 void Run::set_contact_time() {
@@ -94,11 +115,11 @@ void Run::set_contact_time() {
 }
 
 double Run::energy_drift() const {
-  return energy.drift(energy_of(gas, sums_of_squares(gas, team.threads())), tally.energy);
+  return energy.drift(energy_of(gas, sums_of_squares(gas, now, team.threads())), tally.energy);
 }
 
 Totals Run::totals() const {
-  Totals out = totals_of(gas, team.threads());
+  Totals out = totals_of(gas, now, team.threads());
   out.time = gas.clock.since_start(now);
   out.collisions = tally.collisions;
   out.tc_collisions = tally.tc_collisions;
@@ -114,7 +135,7 @@ void Run::add_source(std::unique_ptr<EventSource> source) {
 }
 
 GasNumbers Run::numbers() const {
-  return numbers_of(gas, sums_of_squares(gas, team.threads()),
+  return numbers_of(gas, sums_of_squares(gas, now, team.threads()),
                     !std::all_of(gas.records.begin(), gas.records.end(), is_at_rest));
 }
 
@@ -147,7 +168,13 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
 }
 
 bool Run::nothing_can_happen() const {
-  if (!sources.empty() && gas.size() > 0) return false;
+  if (!sources.empty() && gas.size() > 0) {
+    const auto sets_in_motion = [](const auto& source) {
+      return std::isfinite(source->usual_time());
+    };
+    return !gas.falls && std::ranges::none_of(sources, sets_in_motion) &&
+           std::ranges::all_of(gas.records, is_at_rest);
+  }
   if (gas.size() < 2) return true;
   const Vec3d& v = gas.records[0].flight.v;
   return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {

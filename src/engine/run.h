@@ -92,8 +92,9 @@ class Run {
  private:
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);
-  /// Adds the columns of the effects to the gas.
-  void add_columns();
+  /// Makes what the effects of the scene need besides.
+  void add_effects(const Scene& scene);
+  double usual_time_of_events(const std::vector<SumsOfSquares>& sums) const;
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;
   GasNumbers numbers() const;

@@ -10,6 +10,7 @@
 
 #include "needlework/error.h"
 #include "src/archive/archive.h"
+#include "src/engine/initial_gas.h"
 #include "src/engine/run.h"
 #include "src/engine/space_order.h"
 #include "src/machine/stop_request.h"
@@ -70,6 +71,13 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
                              static_cast<double>(accuracy.float_filter),
                              accuracy.root_tolerance,
                              accuracy.sampling_step};
+  if (run.gas.falls) {
+    out.insert(out.end(), {run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
+  }
+  for (const auto& source : run.sources) {
+    const std::vector<double> parameters = source->parameters();
+    out.insert(out.end(), parameters.begin(), parameters.end());
+  }
   if (!composition.is_mixture()) return out;
   for (const Species& each : composition.species()) {
     out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});
@@ -105,11 +113,11 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   for (const std::int32_t boxes : gas.images[i])
     require(boxes >= -most_boxes && boxes <= most_boxes);
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
-  record.renewal = renewal_time(gas.clock, record, gas.species_of(record).length);
+  record.renewal = renewal_time(gas, record, gas.species_of(record).length);
   require(touches.size() <= most_touches);
-  for (const auto& [place, edge] :
-       {std::pair(f.r.x, gas.box[0]), std::pair(f.r.y, gas.box[1]), std::pair(f.r.z, gas.box[2])}) {
-    require(place >= 0 && place < edge);
+  const double places[3] = {f.r.x, f.r.y, f.r.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    require(gas.walled[axis] || (places[axis] >= 0 && places[axis] < gas.box[axis]));
   }
   record.touch_count = 0;
   for (const RecordedTouch& touch : touches) {
@@ -145,13 +153,13 @@ void Run::require_consistent() const {
     const double places[3] = {centre.x, centre.y, centre.z};
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double most = std::numeric_limits<std::int32_t>::max();
-      require(std::abs(gas.images[i][axis] + wrap(places[axis], gas.box[axis]).boxes) <= most);
+      require(std::abs(gas.images[i][axis] + wrap(gas, places[axis], axis).boxes) <= most);
     }
   }
   GasNumbers present = numbers();
   present.has_cooled = true;
   require(out_of_range(present).empty());
-  const double sum = energy_of(gas, sums_of_squares(gas, team.threads()));
+  const double sum = energy_of(gas, sums_of_squares(gas, now, team.threads()));
   require(std::abs(sum - present_energy()) <= 1e-6 * energy.at_opening());
 }
 
@@ -164,7 +172,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     gas.clock = Clock(epoch_length);
     require(gas.clock.epoch_length() == epoch_length);
     for (const double edge : gas.box) {
-      require(std::isfinite(edge) && edge >= 2.01 * gas.longest);
+      require(std::isfinite(edge) && edge >= gas.longest);
     }
   }
   for (const Needle i : by_id) {
@@ -178,6 +186,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
           std::ranges::adjacent_find(gas.ids, std::ranges::equal_to{}) == gas.ids.end());
   archive(now);
   windows.transfer(archive);
+  if (!sources.empty()) windows.transfer_measured(archive);
   archive(initial_energy);
   energy.transfer(archive);
   if (archive.reads()) {
@@ -209,6 +218,8 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   std::uint64_t count;
   archive(physics, count);
   gas.box = scene.needles.box;
+  set_surroundings(gas, scene);
+  add_effects(scene);
   if (physics != physics_of(*this, scene)) {
     throw InputError(
         "the saved state is of another box, or of other needles, collisions or accuracy than those "
@@ -223,7 +234,6 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   // A scene need not say how many needles there are of its only species.
   if (!gas.composition.is_mixture()) gas.composition.set_count(0, count);
   gas.resize(count);
-  add_columns();
   std::vector<Needle> by_id(count);
   for (Needle i{0}; i < count; ++i) by_id[i] = i;
   transfer(archive, by_id);

@@ -83,6 +83,8 @@ std::string name_effects(const Run& run) {
   if (run.effects.rough) out += " rough";
   if (run.effects.contact_time) out += " tc";
   if (run.gas.composition.is_mixture()) out += " mixture";
+  for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
+  if (run.gas.falls) out += " gravity";
   return out;
 }
 
@@ -305,7 +307,7 @@ Totals Simulation::totals() const {
 std::vector<SpeciesTotals> Simulation::species_totals() const {
   const kernels::DefaultArithmetic arithmetic;
   const Run& run = implementation_->run;
-  return needlework::species_totals(run.gas, sums_of_squares(run.gas, run.team.threads()));
+  return needlework::species_totals(run.gas, sums_of_squares(run.gas, run.now, run.team.threads()));
 }
 std::vector<std::uint8_t> Simulation::species() const {
   const Gas& gas = implementation_->run.gas;
@@ -331,7 +333,8 @@ std::size_t Simulation::needles() const { return implementation_->run.gas.size()
 std::uint64_t Simulation::collisions() const { return implementation_->run.tally.collisions; }
 double Simulation::initial_energy() const {
   const kernels::DefaultArithmetic arithmetic;
-  return implementation_->run.initial_energy / static_cast<double>(implementation_->run.gas.size());
+  const Run& run = implementation_->run;
+  return (run.initial_energy - energy_of_low_edges(run.gas)) / static_cast<double>(run.gas.size());
 }
 double Simulation::energy_drift() const {
   const kernels::DefaultArithmetic arithmetic;

@@ -45,6 +45,10 @@ class Clock {
     return {epoch, carry ? offset - length_ : offset};
   }
 
+  /// frequency (time since the start), in turns less whole ones; good to 2^-100 of a turn at any
+  /// age, for frequencies [1 / time] that turn less than 2^50 times in an epoch.
+  DoubleDouble turns(Time t, double frequency) const;
+
   /// a - b.
   double difference(Time a, Time b) const {
     return static_cast<double>(a.epoch - b.epoch) * length_ + (a.offset - b.offset);

@@ -40,10 +40,10 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 
 template <bool smooth>
 Impact collide(const Meeting& meeting, const Restitution& restitution) {
-  const auto& [first, second, body_first, body_second, c, side] = meeting;
+  const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = meeting;
   const double epsilon = restitution.epsilon;
-  const Vec3d v = (first.v - second.v) + (cross(first.w, c.u_first) * c.arm_first -
-                                          cross(second.w, c.u_second) * c.arm_second);
+  const Vec3d v = (v_first - v_second) + (cross(w_first, c.u_first) * c.arm_first -
+                                          cross(w_second, c.u_second) * c.arm_second);
   double vn = dot(v, c.normal);
   if (vn * side > 0) vn = 0;
   const double masses = body_first.inverse_mass + body_second.inverse_mass;
@@ -59,12 +59,12 @@ Impact collide(const Meeting& meeting, const Restitution& restitution) {
     out.impulse += t.impulse;
     out.energy_change += t.energy_change;
   }
-  out.v_first = first.v + out.impulse * body_first.inverse_mass;
-  out.v_second = second.v - out.impulse * body_second.inverse_mass;
+  out.v_first = v_first + out.impulse * body_first.inverse_mass;
+  out.v_second = v_second - out.impulse * body_second.inverse_mass;
   out.w_first =
-      first.w + cross(c.u_first, out.impulse) * (body_first.inverse_inertia * c.arm_first);
+      w_first + cross(c.u_first, out.impulse) * (body_first.inverse_inertia * c.arm_first);
   out.w_second =
-      second.w - cross(c.u_second, out.impulse) * (body_second.inverse_inertia * c.arm_second);
+      w_second - cross(c.u_second, out.impulse) * (body_second.inverse_inertia * c.arm_second);
   return out;
 }
 

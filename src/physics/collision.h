@@ -16,8 +16,10 @@ struct Impact {
 
 /// Two needles at their contact.
 struct Meeting {
-  const kernels::Flight& first;
-  const kernels::Flight& second;
+  const Vec3d& v_first;  ///< velocities at the contact
+  const Vec3d& w_first;
+  const Vec3d& v_second;
+  const Vec3d& w_second;
   Body body_first, body_second;
   const kernels::ContactGeometry& contact;
   int side;  ///< sign of r12 . (u1 x u2) before the contact

@@ -53,6 +53,15 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
     pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
                   two_prod(shift[2], gas.box[2])};
   }
+  if (gas.falls) {
+    // Both fall alike from the start on, and the earlier record has fallen until then.
+    const bool first_is_earlier = record_a.time != start;
+    const DoubleDouble elapsed = first_is_earlier ? pair.elapsed_first : pair.elapsed_second;
+    const Vec3dd gain = to_double_double(gas.gravity) * elapsed;
+    const Vec3dd fall = gain * (elapsed * DoubleDouble(0.5));
+    pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
+    pair.falls = true;
+  }
   pair.touch_within = gas.touch_tolerance();
   // The touch is in the later record. If both records were made at the same time, it may be in
   // either.
@@ -112,7 +121,7 @@ Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
   double r[3] = {centre.x, centre.y, centre.z};
   Shift wraps{}, image = gas.images[i];
   for (int axis = 0; axis < 3; ++axis) {
-    const Wrapped wrapped = wrap(r[axis], gas.box[axis]);
+    const Wrapped wrapped = wrap(gas, r[axis], axis);
     r[axis] = wrapped.place;
     image[axis] = add_boxes(image[axis], wrapped.boxes, gas.ids[i]);
     wraps[axis] = static_cast<std::int32_t>(wrapped.boxes);
@@ -124,7 +133,7 @@ Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
   record.flight.w = project_out(flight.angular_velocity, record.flight.u);
   set_rotation(record.flight);
   record.time = now;
-  record.renewal = renewal_time(gas.clock, record, flight.length);
+  record.renewal = renewal_time(gas, record, flight.length);
   record.touch_count = 0;
   ++record.serial;
   return wraps;

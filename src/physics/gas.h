@@ -26,19 +26,30 @@ struct Gas {
   std::unique_ptr<FurtherTouches> further_touches = std::make_unique<FurtherTouches>();
   Clock clock;
   std::array<double, 3> box{};
+  std::array<bool, 3> walled{};  ///< axes with a wall: they have no periodic images
+  Vec3d gravity{};               ///< acceleration of all needles [L / time^2]
+  bool falls = false;            ///< gravity is not 0
   Columns columns;                                  ///< what effects keep for each needle
   Composition composition;                          ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
   double longest = 1;                               ///< length of the longest species [L]
 
   std::size_t size() const { return records.size(); }
+  bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
+  /// Whether an image by this shift exists.
+  bool has_image(const Shift& shift) const {
+    return !(walled[0] && shift[0] != 0) && !(walled[1] && shift[1] != 0) &&
+           !(walled[2] && shift[2] != 0);
+  }
   /// Number density [L^-3].
   double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
 
   void set_composition(Composition its_composition);
   const Species& species_of(const Record& record) const { return composition[record.species]; }
   /// How a needle moves from its record on.
-  static FreeFlight motion(const Record& record) { return FreeFlight(record.flight); }
+  FreeFlight motion(const Record& record) const {
+    return FreeFlight(record.flight, falls ? &gravity : nullptr);
+  }
   /// The same from `now` on.
   MotionFrom<FreeFlight> motion_from(const Record& record, Time now) const {
     return {motion(record), clock.difference(now, record.time)};
@@ -72,8 +83,8 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
                         const Record& record_b, const Shift& shift);
 
 /// Time at which a record of a needle of this length [L] is renewed, to keep its precision.
-inline Time renewal_time(const Clock& clock, const Record& record, double length) {
-  return clock.add(record.time, Gas::motion(record).lasts(length));
+inline Time renewal_time(const Gas& gas, const Record& record, double length) {
+  return gas.clock.add(record.time, gas.motion(record).lasts(length));
 }
 
 /// A coordinate in [0, box), and the number of boxes subtracted, a whole number.
@@ -82,6 +93,10 @@ struct Wrapped {
   double boxes;
 };
 Wrapped wrap(double x, double box);
+/// The same along an axis of a gas, whose coordinates stay as they are if it has a wall.
+inline Wrapped wrap(const Gas& gas, double x, int axis) {
+  return gas.walled[axis] ? Wrapped{x, 0} : wrap(x, gas.box[axis]);
+}
 /// Most boxes by which the centre of a record has been wrapped along an axis. Files hold up to
 /// 2^31 - 1, and until its record is renewed a needle crosses no more than 2^11.
 inline constexpr std::int32_t most_boxes = 0x7fffffff - (1 << 11);

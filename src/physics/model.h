@@ -20,7 +20,7 @@ namespace needlework {
 ///   `has_effects` is false for a model without any effect, and `effects()` tells which there are.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
-///   `collide` returns the velocities after a contact of needles that approach from `side`;
+///   `collide` returns the velocities after a contact, now, of needles that approach from `side`;
 ///     `elastic` selects the rule for collisions within the contact time. It never adds energy.
 ///   `renew` replaces the record of one needle by its state at `now` with a new director, velocity
 ///     and angular velocity; `renew_in_flight` by the state to which its present flight has led.
@@ -42,7 +42,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.reach(record, record) } -> std::convertible_to<double>;
   { model.pair(i, record, i, record, shift) } -> std::same_as<kernels::Pair>;
   { model.contact() } -> ContactLaw;
-  { model.collide(record, record, geometry, int{}, bool{}) } -> std::same_as<Impact>;
+  { model.collide(record, record, now, geometry, int{}, bool{}) } -> std::same_as<Impact>;
   { model.renew(i, now, vector, vector, vector) } -> std::same_as<Shift>;
   { model.renew_in_flight(i, now) } -> std::same_as<Shift>;
 };

@@ -29,7 +29,10 @@ class NeedleModel {
   }
   const Accuracy& accuracy() const { return contact_.accuracy(); }
 
-  FreeFlight motion(const Record& record) const { return Gas::motion(record); }
+  FreeFlight motion(const Record& record) const {
+    if constexpr (has_effects) return gas_.motion(record);
+    return FreeFlight(record.flight);
+  }
   /// Half the length of needle i. [L]
   double half_length(Needle i) const {
     if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
@@ -49,14 +52,19 @@ class NeedleModel {
     return out;
   }
   const NeedleContact& contact() const { return contact_; }
-  Impact collide(const Record& a, const Record& b, const kernels::ContactGeometry& contact,
-                 int side, bool elastic) const {
-    const Meeting both{a.flight, b.flight, body(a), body(b), contact, side};
+  Impact collide(const Record& a, const Record& b, Time now,
+                 const kernels::ContactGeometry& contact, int side, bool elastic) const {
+    const kernels::Flight &first = a.flight, &second = b.flight;
     if constexpr (has_effects) {
+      const Vec3d v_first = velocity(a, now), v_second = velocity(b, now);
+      const Meeting both{v_first, first.w, v_second, second.w, body(a), body(b), contact, side};
       if (elastic) return needlework::collide<true>(both, Restitution{});
       if (restitution(a, b).is_rough()) return needlework::collide<false>(both, restitution(a, b));
+      return needlework::collide<true>(both, restitution(a, b));
+    } else {
+      const Meeting both{first.v, first.w, second.v, second.w, body(a), body(b), contact, side};
+      return needlework::collide<true>(both, restitution(a, b));
     }
-    return needlework::collide<true>(both, restitution(a, b));
   }
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
@@ -70,6 +78,9 @@ class NeedleModel {
   }
 
  private:
+  Vec3d velocity(const Record& record, Time now) const {
+    return gas_.falls ? gas_.motion_from(record, now).velocity() : record.flight.v;
+  }
   Body body(const Record& record) const {
     if constexpr (has_effects) return gas_.bodies[record.species];
     return {.half_length = 0.5, .inverse_mass = 1, .inverse_inertia = 2 * gas_.composition[0].k};

@@ -30,18 +30,15 @@ class AllPairs {
   template <class Visit>
   void find(const SearchQuery& query, const Lengths auto& lengths, Visit&& visit) const {
     const Needle i = query.needle;
-    const Vec3d& v_i = gas_.records[i].flight.v;
     BoundingFilter filter(gas_, counters_, query, lengths);
     for (Needle j{0}; j < gas_.size(); ++j) {
       if (j == i) continue;
-      const Record& b = gas_.records[j];
-      const Vec3d r =
-          filter.centre() - centre_after(b.flight, gas_.clock.difference(query.now, b.time));
-      const Vec3d v = v_i - b.flight.v;
+      const auto other = gas_.motion_from(gas_.records[j], query.now);
+      const Vec3d r = filter.centre() - other.centre(), v = filter.velocity() - other.velocity();
       const double reach = lengths.half_length(i) + lengths.half_length(j);
-      const Range x = images(r.x, v.x, reach, filter.ahead(), gas_.box[0]);
-      const Range y = images(r.y, v.y, reach, filter.ahead(), gas_.box[1]);
-      const Range z = images(r.z, v.z, reach, filter.ahead(), gas_.box[2]);
+      const Range x = images(r.x, v.x, reach, filter.ahead(), 0);
+      const Range y = images(r.y, v.y, reach, filter.ahead(), 1);
+      const Range z = images(r.z, v.z, reach, filter.ahead(), 2);
       for (std::int32_t sx = x.first; sx <= x.last; ++sx) {
         for (std::int32_t sy = y.first; sy <= y.last; ++sy) {
           for (std::int32_t sz = z.first; sz <= z.last; ++sz) {
@@ -57,7 +54,9 @@ class AllPairs {
     std::int32_t first, last;
   };
   // The images m for which |r + v s - m box| <= reach somewhere in [0, dt], with a margin.
-  static Range images(double r, double v, double reach, double dt, double box) {
+  Range images(double r, double v, double reach, double dt, int axis) const {
+    if (gas_.walled[axis]) return {0, 0};
+    const double box = gas_.box[axis];
     const double wide = reach * (1 + 0x1p-10), travel = v == 0 ? 0 : v * dt;
     return {static_cast<std::int32_t>(std::ceil((r + std::fmin(0, travel) - wide) / box)),
             static_cast<std::int32_t>(std::floor((r + std::fmax(0, travel) + wide) / box))};

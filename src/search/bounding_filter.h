@@ -18,21 +18,20 @@ class BoundingFilter {
         lengths_(lengths),
         now_(query.now),
         ahead_(query.ahead),
-        half_(lengths.half_length(query.needle)),
-        v_(gas.records[query.needle].flight.v) {
-    const Record& record = gas.records[query.needle];
-    centre_ = centre_after(record.flight, gas.clock.difference(now_, record.time));
+        half_(lengths.half_length(query.needle)) {
+    const auto motion = gas.motion_from(gas.records[query.needle], now_);
+    centre_ = motion.centre();
+    v_ = motion.velocity();
   }
 
   template <class Visit>
   void operator()(Needle j, const Shift& shift, Visit&& visit) {
     ++counters_.candidates;
-    const Record& other = gas_.records[j];
+    const auto other = gas_.motion_from(gas_.records[j], now_);
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
-    const Vec3d r =
-        (centre_ - centre_after(other.flight, gas_.clock.difference(now_, other.time))) - image;
+    const Vec3d r = (centre_ - other.centre()) - image;
     const double reach = half_ + lengths_.half_length(j);
-    if (kernels::spheres_stay_apart(r, v_ - other.flight.v, reach, ahead_)) {
+    if (kernels::spheres_stay_apart(r, v_ - other.velocity(), reach, ahead_)) {
       ++counters_.filtered;
     } else {
       ahead_ = visit(j, shift, 0.0);
@@ -40,6 +39,7 @@ class BoundingFilter {
   }
 
   const Vec3d& centre() const { return centre_; }
+  const Vec3d& velocity() const { return v_; }
   double ahead() const { return ahead_; }
 
  private:

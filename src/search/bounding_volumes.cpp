@@ -20,6 +20,9 @@ using kernels::NeedleBlock;
 // A needle stays in its cell until it is out of it by this share of the cell's side: one that goes
 // to and fro across a border, or crosses a corner, need not be placed again so often.
 constexpr double overlap_of_side = 0.2;
+// So far the falling frame of motions moves, by sides of cells or lengths of needles, before it is
+// brought to rest again.
+constexpr double fallen_of_side = 0.125;
 // Cells that a search may choose to have, by needles: those around a cloud are empty, and take a
 // third of a kilobyte each.
 constexpr double cells_per_needle = 2;
@@ -60,7 +63,8 @@ void store(float (&to)[3], const Vec3d& a) {
 
 }  // namespace
 
-ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length)
+ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length,
+                       bool falls)
     : kind(sizes.kind),
       longest(sizes.longest),
       radius(sizes.capsule_radius),
@@ -70,8 +74,10 @@ ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double 
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
   }
-  const double side = std::max({sides[0], sides[1], sides[2]}), widest = side + overlap;
-  format = kernels::WordFormat::holding(-overlap * per_length, widest * per_length);
+  const double side = std::max({sides[0], sides[1], sides[2]});
+  if (falls) most_fallen = fallen_of_side * std::min(side, longest);
+  const double low = -overlap - most_fallen, widest = side + overlap + most_fallen;
+  format = kernels::WordFormat::holding(low * per_length, widest * per_length);
   margin = kernels::margin_of_lengths(widest * per_length);
 }
 
@@ -88,7 +94,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   grid = one ? wished.front() : coarsest(wished, gas.box);
   for (std::size_t c = 0; c < wished.size(); ++c) {
     const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
-    classes.push_back(std::make_unique<ClassCells>(sizes.all[c], its_grid, per_length));
+    classes.push_back(std::make_unique<ClassCells>(sizes.all[c], its_grid, per_length, gas.falls));
     const ClassCells& made = *classes.back();
     // What words round is far less than what Phase adds to the length of a needle, unless cells are
     // very much longer than that.
@@ -99,42 +105,48 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
-  if (per_time == 0 || since_base(now) > kernels::longest_time) rebase(now, 1);
-  const Record& record = gas.records[i];
-  const kernels::Flight& flight = record.flight;
-  const double elapsed = gas.clock.difference(now, record.time);
+  if (per_time == 0 || since_base(now) > longest_time) rebase(now, 1);
+  const auto present = gas.motion_from(gas.records[i], now);
+  const auto& motion = present.motion;
+  const double elapsed = present.start;
   ClassCells& own = class_of(i);
-  Vec3d r = centre_after(flight, elapsed), a;
-  double stay;
-  if (own.kind == BoundingVolume::cell) {
-    stay = own.grid.time_to_leave(own.grid.cell_of(r), r, flight.v, own.overlap);
-    a = flight.v * (per_length / per_time);
-  } else {
-    // The capsule is around where the needle will be in half of its time there, so that it may
-    // move by the radius before that and after.
-    const double speed = std::sqrt(dot(flight.v, flight.v)) + half_length * flight.omega;
-    const double half = own.radius / speed;
-    stay = 2 * half;
-    const double middle = std::isfinite(half) ? elapsed + half : elapsed;
-    r = centre_after(flight, middle);
-    a = director_after(flight, middle);
-  }
-  const bool crosses = enter(own, i, own.grid.cell_of(r));
-  places[i].next_event = gas.clock.add(now, stay);
   motions[i].half = static_cast<float>(half_length * per_length);
+  if (own.kind == BoundingVolume::cell) {
+    const Cell cell = own.grid.cell_of(present.centre());
+    const bool crosses = enter(own, i, cell);
+    places[i].next_event = gas.clock.add(now, own.grid.time_to_leave(cell, present, own.overlap));
+    assert(fits_words(i, path_of(present, now).centre));
+    write_path(own, i, present, now);
+    set_motion(i, present, now);
+    return crosses;
+  }
+  // The capsule is around where the needle will be in half of its time there, so that it may
+  // move by the radius before that and after.
+  const double speed =
+      motion.fastest(elapsed, elapsed) + half_length * motion.fastest_rotation(elapsed, elapsed);
+  double half = own.radius / speed;
+  if (gas.falls) {
+    // The speed in the middle is greater by up to |g| half, and changes by as much from there on.
+    const double pull = std::sqrt(dot(gas.gravity, gas.gravity));
+    half = 2 * own.radius / (speed + std::sqrt(speed * speed + 6 * pull * own.radius));
+  }
+  const double middle = std::isfinite(half) ? elapsed + half : elapsed;
+  const Vec3d r = motion.centre(middle);
+  const bool crosses = enter(own, i, own.grid.cell_of(r));
+  places[i].next_event = gas.clock.add(now, 2 * half);
   assert(fits_words(i, r));
-  write_entry(own, i, r, a, now);
-  set_motion(i, now);
+  write_entry(own, i, r, motion.director(middle), now);
+  set_motion(i, present, now);
   return crosses;
 }
 
 void BoundingVolumes::prepare(Time now, int threads) {
   // Early, so that there is always some time ahead.
-  if (per_time == 0 || since_base(now) > 0.75 * kernels::longest_time) rebase(now, threads);
+  if (per_time == 0 || since_base(now) > 0.75 * longest_time) rebase(now, threads);
 }
 
 Time BoundingVolumes::prepared_until() const {
-  return gas.clock.add(base, kernels::longest_time / per_time);
+  return gas.clock.add(base, longest_time / per_time);
 }
 
 void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
@@ -155,38 +167,63 @@ void BoundingVolumes::rebase(Time now, int threads) {
   const double speed = std::sqrt(sum / static_cast<double>(gas.size()));
   per_time = speed > 0 && std::isfinite(speed) ? times_power_of_two(1, exponent_of(speed)) : 1;
   base = now;
+  longest_time = kernels::longest_time;
+  if (gas.falls) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& each : classes) least = std::min(least, each->most_fallen);
+    const double pull = std::sqrt(dot(gas.gravity, gas.gravity));
+    longest_time = std::min(longest_time, std::sqrt(2 * least / pull) * per_time);
+  }
   kernels::in_parallel(gas.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;
-      set_motion(i, now);
+      const auto present = gas.motion_from(gas.records[i], now);
+      set_motion(i, present, now);
       ClassCells& own = class_of(i);
       if (own.kind == BoundingVolume::capsule) continue;
-      const Record& record = gas.records[i];
-      const double elapsed = gas.clock.difference(now, record.time);
       // The centre fits its words, except that of a needle that has just collided and was taken to
       // the other side of the box: it is placed again before any needle searches.
-      write_entry(own, i, centre_after(record.flight, elapsed),
-                  record.flight.v * (per_length / per_time), now);
+      write_path(own, i, present, now);
     }
   });
 }
 
 // All but the half length, which does not depend on the units of time.
-void BoundingVolumes::set_motion(Needle i, Time now) {
-  const Record& record = gas.records[i];
-  const kernels::Flight& flight = record.flight;
-  const double elapsed = gas.clock.difference(now, record.time);
-  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
+void BoundingVolumes::set_motion(Needle i, const MotionFrom<FreeFlight>& present, Time now) {
+  const kernels::Flight& flight = gas.records[i].flight;
+  const SineCosine<double> sc = sine_cosine(flight.omega * present.start);
   const double unit_of_time = 1 / per_time;
   Motion& out = motions[i];
   const Vec3d corner = class_of(i).grid.corner(places[i].cell);
-  store(out.r, (centre_after(flight, elapsed) - corner) * per_length);
-  store(out.v, flight.v * (per_length * unit_of_time));
+  const Path path = path_of(present, now);
+  store(out.r, (path.centre - corner) * per_length);
+  store(out.v, path.velocity * (per_length * unit_of_time));
   store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
   store(out.p, flight.p * sc.cosine - flight.u * sc.sine);
   out.omega = static_cast<float>(flight.omega * unit_of_time);
   out.time = static_cast<float>(since_base(now));
   out.until = rounded_up(places[i].next_event);
+}
+
+// How a needle moves now in the frame of motions.
+BoundingVolumes::Path BoundingVolumes::path_of(const MotionFrom<FreeFlight>& present,
+                                               Time now) const {
+  Path out{present.centre(), present.velocity()};
+  if (gas.falls) {
+    const double time = gas.clock.difference(now, base);
+    out.centre = out.centre - gas.gravity * (0.5 * time * time);
+    out.velocity = out.velocity - gas.gravity * time;
+  }
+  return out;
+}
+
+float BoundingVolumes::bend(float now, float ahead, const ClassCells& own) const {
+  const double time = (now + ahead) / per_time;
+  const double fallen = 0.5 * std::sqrt(dot(gas.gravity, gas.gravity)) * time * time;
+  // Neither path leaves the cell that contains all bounding volumes of the class.
+  const auto sides = grid.sides();
+  const double widest = 2 * (sides[0] + sides[1] + sides[2] + 3 * drift) + own.most_fallen;
+  return static_cast<float>(std::min(fallen, widest) * per_length);
 }
 
 // Whether words can hold a centre in the needle's cell.
@@ -195,6 +232,13 @@ bool BoundingVolumes::fits_words(Needle i, const Vec3d& centre) const {
   const kernels::WordFormat& format = own.format;
   const Vec3d r = (centre - own.grid.corner(places[i].cell)) * per_length;
   return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
+}
+
+// Writes the entry of a needle in a cell.
+void BoundingVolumes::write_path(ClassCells& own, Needle i,
+                                 const MotionFrom<FreeFlight>& present, Time now) {
+  const Path path = path_of(present, now);
+  write_entry(own, i, path.centre, path.velocity * (per_length / per_time), now);
 }
 
 // Writes the needle's entry, with its velocity or director, into its slot.

@@ -29,7 +29,8 @@ namespace needlework {
 
 /// The cells of one size class, and the needles in them.
 struct ClassCells {
-  ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length);
+  /// `falls` is whether there is gravity.
+  ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length, bool falls);
 
   BoundingVolume kind;
   double longest;  ///< length of the longest needle of the class [L]
@@ -37,6 +38,7 @@ struct ClassCells {
   CellGrid grid;
   double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
   kernels::WordFormat format;  ///< of the words in blocks
+  double most_fallen = 0;      ///< by the frame of motions since `base`, at most [L]
   float margin = 0;            ///< of lengths, see kernels::Seeker [unit of length]
   NeedleCells cells;
 };
@@ -46,7 +48,10 @@ struct ClassCells {
 /// `Phase::neighbours` of its own (src/engine/phase.h).
 ///
 /// Blocks and motions are in units that are powers of two: lengths in units of
-/// 1 / per_length, times in units of 1 / per_time and counted from `base`.
+/// 1 / per_length, times in units of 1 / per_time and counted from `base`. Where there is gravity,
+/// motions, and the words of cells, are those seen from a frame that falls with all needles and is
+/// at rest at `base`: there they are straight, which is what kernels compute with. Cells and
+/// capsules are at rest themselves.
 struct BoundingVolumes {
   struct Place {
     Cell cell{};
@@ -74,6 +79,10 @@ struct BoundingVolumes {
   Time prepared_until() const;
   void renumber(const std::vector<Needle>& ranks);
 
+  /// How far a path may be, from now - as a time of motions - for a time ahead, from what it is in
+  /// the falling frame, as long as the needle stays in its bounding volume. [unit of length]
+  float bend(float now, float ahead, const ClassCells& own) const;
+
   double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
 
   ClassCells& class_of(Needle i) const {
@@ -92,6 +101,7 @@ struct BoundingVolumes {
   double radius = 0;    ///< how far from where a needle is it may be placed, at most [L]
   double drift = 0;     ///< how far from its cell a needle may come, at most [L]
   double per_time = 0;  ///< 1 / unit of time; 0 before the first needle
+  double longest_time = kernels::longest_time;  ///< largest present time [unit of time]
   Time base;
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
@@ -100,7 +110,12 @@ struct BoundingVolumes {
   Cell cell_around(Needle i) const;
   float rounded_up(Time t) const { return static_cast<float>(since_base(t) * (1 + 0x1p-20)); }
   void rebase(Time now, int threads);
-  void set_motion(Needle i, Time now);
+  void set_motion(Needle i, const MotionFrom<FreeFlight>& present, Time now);
+  struct Path {
+    Vec3d centre, velocity;
+  };
+  Path path_of(const MotionFrom<FreeFlight>& present, Time now) const;
+  void write_path(ClassCells& own, Needle i, const MotionFrom<FreeFlight>& present, Time now);
   bool fits_words(Needle i, const Vec3d& centre) const;
   void write_entry(ClassCells& own, Needle i, const Vec3d& centre, const Vec3d& direction,
                    Time now);

@@ -10,6 +10,7 @@
 
 #include "kernels/four.h"
 #include "kernels/vec3.h"
+#include "src/physics/motion.h"
 
 namespace needlework {
 
@@ -155,20 +156,13 @@ class CellGrid {
             (to[2] - from[2]) / count_[2]};
   }
 
-  /// Time until a centre at r with velocity v is out of the cell by `margin` [L]. Then it is in
+  /// Time until a centre that moves like this is out of the cell by `margin` [L]. Then it is in
   /// another cell, whatever rounding does to it.
-  double time_to_leave(const Cell& cell, const Vec3d& r, const Vec3d& v, double margin) const {
-    const double position[3] = {r.x, r.y, r.z}, velocity[3] = {v.x, v.y, v.z};
-    double out = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = cell[axis] * side_[axis];
-      if (velocity[axis] > 0) {
-        out = std::min(out, (low + side_[axis] + margin - position[axis]) / velocity[axis]);
-      } else if (velocity[axis] < 0) {
-        out = std::min(out, (low - margin - position[axis]) / velocity[axis]);
-      }
-    }
-    return std::max(out, 0.0);
+  template <NeedleMotion M>
+  double time_to_leave(const Cell& cell, const MotionFrom<M>& from, double margin) const {
+    const Vec3d low = corner(cell), wide{margin, margin, margin};
+    const Vec3d high = low + Vec3d{side_[0], side_[1], side_[2]};
+    return from.motion.time_to_leave(from.start, low - wide, high + wide);
   }
 
  private:

@@ -25,17 +25,16 @@ LinkedLists::LinkedLists(const Gas& gas, Counters& counters, const SearchSetup& 
 }
 
 Time LinkedLists::place(Needle i, Time now, double /*half_length*/) {
-  const kernels::Flight& flight = gas_.records[i].flight;
-  const Vec3d r = centre_after(flight, gas_.clock.difference(now, gas_.records[i].time));
+  const auto motion = gas_.motion_from(gas_.records[i], now);
   Place& place = place_[i];
-  const Cell cell = grid_.cell_of(r);
+  const Cell cell = grid_.cell_of(motion.centre());
   if (!place.linked || cell != place.cell) {
     if (place.linked) unlink(i);
     counters_.crossings += place.linked;
     place.cell = cell;
     link(i);
   }
-  return gas_.clock.add(now, grid_.time_to_leave(cell, r, flight.v, margin_));
+  return gas_.clock.add(now, grid_.time_to_leave(cell, motion, margin_));
 }
 
 void LinkedLists::renumber(const std::vector<Needle>& ranks) {

@@ -39,8 +39,11 @@ class LinkedLists {
     BoundingFilter filter(gas_, counters_, query, lengths);
     grid_.for_each_around(place_[i].cell, [&](const Cell& cell, std::size_t index) {
       for (Needle j = head_[index]; j != no_needle; j = place_[j].next) {
-        // An image of i itself is at least two needle lengths away.
-        if (j != i) filter(j, grid_.boxes_between(cell, place_[j].cell), visit);
+        // An image of i itself is at least two needle lengths away. Cells that come round to those
+        // at the other wall hold no neighbours.
+        if (j == i) continue;
+        const Shift shift = grid_.boxes_between(cell, place_[j].cell);
+        if (gas_.has_image(shift)) filter(j, shift, visit);
       }
     });
   }

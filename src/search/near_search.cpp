@@ -111,6 +111,11 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
       (capsule ? radius_of(own) : half) + (to_capsules ? radius_of(there) : longest_half);
   look.reach = look.distance + (static_cast<float>(volume_margin) + 2 * seeker.margin);
   if (to_capsules) look.reach += longest_half + static_cast<float>(there.format.step());
+  if (volumes.gas.falls && !(capsule && to_capsules)) {
+    const float bend = volumes.bend(seeker.now, seeker.ahead, own);
+    look.reach += bend;
+    look.distance += bend;
+  }
   look.reach *= 1 + 0x1p-18f;
   for (int axis = 0; axis < 3; ++axis) {
     const float r = capsule ? seeker.r[axis] : seeker.motion.r[axis];
@@ -397,6 +402,12 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
             [](const Candidate& a, const Candidate& b) { return a.from < b.from; });
   for (Candidate& candidate : candidates_) {
     candidate.shift = shift_of(candidate.needle, candidate.view);
+  }
+  // Cells that come round to those at the other wall hold no neighbours.
+  if (volumes.gas.has_walls()) {
+    std::erase_if(candidates_, [&](const Candidate& candidate) {
+      return !volumes.gas.has_image(candidate.shift);
+    });
   }
   counters_.filtered += entries - candidates_.size();
   return candidates_;

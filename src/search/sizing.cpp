@@ -34,7 +34,7 @@ double density_around(const Gas& gas, Time now) {
   std::vector<std::uint64_t> cells;
   cells.reserve(gas.size());
   for (const Record& record : gas.records) {
-    const Vec3d r = centre_after(record.flight, gas.clock.difference(now, record.time));
+    const Vec3d r = gas.motion_from(record, now).centre();
     const double place[3] = {r.x, r.y, r.z};
     std::uint64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis) {

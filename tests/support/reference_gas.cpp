@@ -163,8 +163,8 @@ class ReferenceGas {
                                   scene_.collisions.beta};
     const needlework::Body body =
         body_of(Species{.name = {}, .length = 1, .mass = 1, .k = scene_.needles.k});
-    const Impact impact =
-        needlework::collide<false>({a.flight, b.flight, body, body, contact, side}, restitution);
+    const Impact impact = needlework::collide<false>(
+        {a.flight.v, a.flight.w, b.flight.v, b.flight.w, body, body, contact, side}, restitution);
     Collision report;
     report.epoch = static_cast<std::int64_t>(std::floor(now / reference_epoch));
     report.offset = now - static_cast<double>(report.epoch) * reference_epoch;

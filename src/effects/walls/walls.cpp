@@ -1,0 +1,206 @@
+#include "src/effects/walls/walls.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "src/physics/director.h"
+#include "src/physics/vectors.h"
+#include "src/random/needle_random.h"
+
+namespace needlework {
+namespace {
+
+// Serial numbers of records begin above the bits of twice six walls.
+constexpr unsigned bits_of_tips = 12;
+
+double sign_of(int tip) { return tip == 0 ? 1 : -1; }
+
+}  // namespace
+
+std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box) {
+  std::vector<Wall> out;
+  for (const Scene::Wall& given : scene.walls) {
+    const int axis = given.axis[0] - 'x';
+    for (const bool low : {true, false}) {
+      if (given.side != "both" && (given.side == "low") != low) continue;
+      Wall& wall = out.emplace_back();
+      wall.plane.axis = axis;
+      wall.plane.normal = low ? 1 : -1;
+      wall.plane.place = low ? 0 : box[axis];
+      wall.epsilon = given.epsilon;
+      wall.temperature = given.temperature.value_or(0);
+      if (!given.motion) continue;
+      wall.plane.amplitude = given.motion->amplitude;
+      wall.plane.frequency = given.motion->frequency;
+      const double turns = given.motion->phase / (2 * std::numbers::pi);
+      wall.turns = turns - std::floor(turns);
+    }
+  }
+  return out;
+}
+
+Walls::Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeOfWalls contact_time)
+    : walls_(std::move(walls)),
+      seed_(seed),
+      contact_time_(contact_time),
+      touching_(gas.columns.add<std::uint64_t>("tips at walls", ~std::uint64_t{0})) {
+  const auto is_thermal = [](const Wall& wall) { return wall.temperature > 0; };
+  if (std::ranges::any_of(walls_, is_thermal)) {
+    draws_ = &gas.columns.add<std::uint64_t>("draws at walls", 0);
+  }
+}
+
+std::vector<double> Walls::parameters() const {
+  std::vector<double> out;
+  for (const Wall& wall : walls_) {
+    const kernels::WallPlane& plane = wall.plane;
+    out.insert(out.end(),
+               {static_cast<double>(plane.axis), static_cast<double>(plane.normal), plane.amplitude,
+                plane.frequency, wall.turns, wall.epsilon, wall.temperature});
+  }
+  return out;
+}
+
+// That of a turn of a wall, which may set needles in motion that are at rest.
+double Walls::usual_time() const {
+  double fastest = 0;
+  for (const Wall& wall : walls_) {
+    if (wall.plane.amplitude > 0) fastest = std::max(fastest, wall.plane.frequency);
+  }
+  return 1 / fastest;
+}
+
+// In turns, without the loss of digits that f t has late in a run.
+DoubleDouble Walls::turns_at(const Clock& clock, const Wall& wall, Time time) const {
+  if (!(wall.plane.amplitude > 0)) return {};
+  return clock.turns(time, wall.plane.frequency) + DoubleDouble(wall.turns);
+}
+
+unsigned Walls::touching(const Record& record, Needle i, std::size_t wall) const {
+  const std::uint64_t tips = touching_[i];
+  if (tips >> bits_of_tips != record.serial) return 0;
+  return static_cast<unsigned>(tips >> (2 * wall)) & 3;
+}
+
+SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
+  const Record& record = gas.records[i];
+  SourceEvent out;
+  Time latest = until;
+  for (std::size_t n = 0; n < walls_.size(); ++n) {
+    const Wall& wall = walls_[n];
+    const kernels::WallApproach approach{.flight = &record.flight,
+                                         .gravity = component(gas.gravity, wall.plane.axis),
+                                         .half = 0.5 * gas.species_of(record).length,
+                                         .wall = wall.plane,
+                                         .turns = turns_at(gas.clock, wall, record.time),
+                                         .touching = touching(record, i, n),
+                                         .tolerance = gas.touch_tolerance(),
+                                         .resolution = gas.clock.resolution()};
+    const kernels::WallContact contact =
+        first_wall_contact(approach, gas.clock.difference(now, record.time),
+                           gas.clock.difference(latest, record.time));
+    if (!contact.found) continue;
+    const Time time = std::max(now, gas.clock.add(record.time, contact.elapsed));
+    if (time > latest || (out.time != Time::never() && time == out.time)) continue;
+    out.time = latest = time;
+    out.detail = static_cast<std::int8_t>(2 * n + static_cast<std::size_t>(contact.tip));
+    out.resolvable = !contact.unresolvable && !contact.across;
+  }
+  return out;
+}
+
+// Draws velocities of this temperature and shifts them along the direction of an impulse, so that
+// the tip leaves with the flux-weighted distribution.
+void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const Vec3d& normal,
+                                   double arm, SourceOutcome& outcome) {
+  const Species& species = at.species;
+  const double temperature = wall.temperature, inertia = species.inertia();
+  const double share = component(at.director, wall.plane.axis);
+  const double mobility = 1 / species.mass + arm * arm / inertia * (1 - share * share);
+  NeedleRandom random(seed_, at.id.value, RandomFor::thermal_wall, (*draws_)[at.needle]++);
+  const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / species.mass);
+  const Vec3d w =
+      project_out(vector_of(random.normal()) * std::sqrt(temperature / inertia), at.director);
+  const double drawn = dot(v + cross(w, at.director) * arm, normal);
+  const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
+  const double impulse = (leaving - drawn) / mobility;
+  outcome.velocity = v + normal * (impulse / species.mass);
+  outcome.angular_velocity = w + cross(at.director, normal) * (arm * impulse / inertia);
+  // The impulse that the wall has given, along its normal and besides.
+  outcome.impulse = (outcome.velocity - at.velocity) * species.mass;
+  const auto energy = [&](const Vec3d& its_v, const Vec3d& its_w) {
+    return 0.5 * (species.mass * dot(its_v, its_v) + inertia * dot(its_w, its_w));
+  };
+  outcome.energy_change =
+      energy(outcome.velocity, outcome.angular_velocity) - energy(at.velocity, at.angular_velocity);
+}
+
+SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) {
+  const auto n = static_cast<std::size_t>(detail / 2);
+  const Wall& wall = walls_[n];
+  const Species& species = at.species;
+  const double arm = sign_of(detail % 2) * (0.5 * species.length);
+  const double sign = wall.plane.normal;
+  const Vec3d normal{wall.plane.axis == 0 ? sign : 0, wall.plane.axis == 1 ? sign : 0,
+                     wall.plane.axis == 2 ? sign : 0};
+  const double surface =
+      kernels::surface_at(wall.plane, turns_at(gas.clock, wall, at.now)).velocity;
+  const double tip = dot(at.velocity + cross(at.angular_velocity, at.director) * arm, normal);
+  SourceOutcome out;
+  out.changes_motion = true;
+  out.object = static_cast<std::uint32_t>(n);
+  out.arm = arm;
+  out.normal_velocity = std::min(0.0, tip - sign * surface);
+  if (contact_time_.rule) {
+    out.contact_time_rule =
+        !(wall.temperature > 0) &&
+        contact_time_.rule->is_recent(at.needle, at.now, *contact_time_.contact_time);
+    contact_time_.rule->collided(at.needle, at.now);
+  }
+  if (wall.temperature > 0) {
+    leave_with_temperature(at, wall, normal, arm, out);
+  } else {
+    const double share = component(at.director, wall.plane.axis), inertia = species.inertia();
+    const double mobility = 1 / species.mass + arm * arm / inertia * (1 - share * share);
+    const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
+    const double impulse = -(1 + epsilon) * out.normal_velocity / mobility;
+    out.velocity = at.velocity + normal * (impulse / species.mass);
+    out.angular_velocity =
+        at.angular_velocity + cross(at.director, normal) * (arm * impulse / inertia);
+    out.impulse = normal * impulse;
+    out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
+  }
+  // Tips that have hit walls at this instant are still there.
+  const std::uint64_t before = touching_[at.needle];
+  const bool same_instant = before >> bits_of_tips == at.record.serial && at.record.time == at.now;
+  const std::uint64_t tips = same_instant ? before & ((1u << bits_of_tips) - 1) : 0;
+  touching_[at.needle] =
+      std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips | std::uint64_t{1} << detail;
+  return out;
+}
+
+std::string Walls::message(const Gas& gas, const NeedleAt& at, std::int8_t detail) const {
+  const Wall& wall = walls_[static_cast<std::size_t>(detail / 2)];
+  const char axis = static_cast<char>('x' + wall.plane.axis);
+  const char* side = wall.plane.normal > 0 ? "low" : "high";
+  const double time = gas.clock.since_start(at.now);
+  if (touching(at.record, at.needle, static_cast<std::size_t>(detail / 2)) == 0) {
+    return fmt::format("needle {} at time {:.17g} lies across the {} wall of axis {}", at.id.value,
+                       time, side, axis);
+  }
+  return fmt::format(
+      "collapse of needle {} at the {} wall of axis {} at time {:.17g}, back after {:.3g}: its "
+      "next "
+      "bounce is below what double resolves; {}",
+      at.id.value, side, axis, time, gas.clock.difference(at.now, at.record.time),
+      wall.epsilon == 0    ? "with epsilon = 0 there is no rebound, and no contact time can help"
+      : contact_time_.rule ? "a longer contact time helps, unless it rests on the wall"
+                           : "set collisions.tc_relative, to 1e-3 say");
+}
+
+}  // namespace needlework

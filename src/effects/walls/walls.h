@@ -1,0 +1,64 @@
+// Hard walls at edges of the box: at rest, in motion, or of a temperature.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kernels/wall_contact.h"
+#include "needlework/scene.h"
+#include "src/effects/event_source.h"
+#include "src/physics/contact_time.h"
+
+namespace needlework {
+
+/// One wall of a scene. `both` of a scene are two, first the low one.
+struct Wall {
+  kernels::WallPlane plane;
+  double epsilon = 1;
+  double temperature = 0;  ///< 0: none; above, all velocities are drawn anew
+  double turns = 0;        ///< phase of its motion at the start of the run, in turns
+};
+
+/// The walls of a scene, in the order in which reports count them.
+std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box);
+
+/// The t_c rule for hits of walls: elastic if the needle's own last collision is less than this
+/// ago.
+struct ContactTimeOfWalls {
+  const ContactTimeRule* rule = nullptr;  ///< null: there is none
+  const double* contact_time = nullptr;   ///< as it is in this window [time]
+};
+
+/// Tips of needles hit the walls. A hit on a wall at rest or in motion is smooth, with the wall's
+/// own restitution; a wall of a temperature draws the needle's velocities from the Maxwell
+/// distribution of those that leave it. Heights of tips that are at a wall are continued from 0, so
+/// that rounding a record never moves a tip through it.
+class Walls final : public EventSource {
+ public:
+  /// Adds its columns to the gas. `seed` is that of the scene.
+  Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeOfWalls contact_time);
+
+  const char* name() const override { return "wall"; }
+  SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const override;
+  SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) override;
+  double usual_time() const override;
+  std::vector<double> parameters() const override;
+  std::string message(const Gas& gas, const NeedleAt& at, std::int8_t detail) const override;
+
+ private:
+  DoubleDouble turns_at(const Clock& clock, const Wall& wall, Time time) const;
+  unsigned touching(const Record& record, Needle i, std::size_t wall) const;
+  void leave_with_temperature(const NeedleAt& at, const Wall& wall, const Vec3d& normal, double arm,
+                              SourceOutcome& outcome);
+
+  std::vector<Wall> walls_;
+  std::uint64_t seed_;
+  ContactTimeOfWalls contact_time_;
+  /// Which tips are at which walls: two bits for each wall, above them the serial number of the
+  /// record for which that is so.
+  Column<std::uint64_t>& touching_;
+  Column<std::uint64_t>* draws_ = nullptr;  ///< of hits on walls with a temperature
+};
+
+}  // namespace needlework

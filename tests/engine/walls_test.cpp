@@ -1,0 +1,300 @@
+// Walls, gravity and their hard cases in the event loop.
+#include "src/effects/walls/walls.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
+#include "src/engine/initial_gas.h"
+#include "src/engine/make_loop.h"
+#include "src/engine/run.h"
+#include "tests/support/parallel_loops.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+using test::until_time;
+
+// A vibrated binary mixture under gravity, rough and inelastic, between walls on two axes.
+Scene shaken(std::uint64_t count = 160) {
+  Scene scene;
+  scene.needles.box = {7, 4, 5};
+  scene.species = {
+      {.name = "long", .count = count / 4, .length = 1, .mass = 1, .k = 6, .t_tr = 1, .t_rot = 1},
+      {.name = "short",
+       .count = count - count / 4,
+       .length = 0.5,
+       .mass = 0.4,
+       .k = 3,
+       .t_tr = 1,
+       .t_rot = 1}};
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.beta = 0.2;
+  scene.collisions.tc = 1e-4;
+  scene.walls = {{.axis = "z",
+                  .side = "low",
+                  .epsilon = 0.8,
+                  .motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 2, .phase = 0.3}},
+                 {.axis = "y", .side = "both", .epsilon = 0.95}};
+  scene.forces.gravity = {0, 0, -1};
+  return scene;
+}
+
+struct Hit {
+  double time;
+  std::uint32_t needle, wall;
+  double arm, velocity;
+};
+
+struct Course {
+  std::string hash;
+  std::uint64_t hits = 0, collisions = 0;
+};
+
+template <class Make>
+Course course_of(const Scene& scene, const Make& make, double time) {
+  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  const auto loop = make(run);
+  EXPECT_EQ(loop->advance(Limits(run, until_time(time))), Stop::time);
+  return {run.tally.hash.hex(), run.tally.by_source.at(0), run.tally.collisions};
+}
+
+TEST(WallsAndGravity, HaveOneTrajectory) {
+  const Scene scene = shaken();
+  const auto with = [](const char* search, const char* calendar) {
+    return [=](needlework::Run& run) {
+      return make_loop(run, {.search = search, .calendar = calendar});
+    };
+  };
+  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 4);
+  EXPECT_GT(first.hits, 300u);
+  EXPECT_GT(first.collisions, 300u);
+  for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
+    for (const char* calendar : {"lazy-heap", "tournament", "cell-calendar"}) {
+      const Course other = course_of(scene, with(search, calendar), 4);
+      EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
+      EXPECT_EQ(other.hits, first.hits);
+    }
+  }
+}
+
+TEST(WallsAndGravity, HaveOneTrajectoryOnThreads) {
+  Scene scene = shaken(1200);
+  scene.needles.box = {14, 10, 6};
+  const auto alone = [](needlework::Run& run) {
+    return make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
+  };
+  const Course first = course_of(scene, alone, 1.5);
+  for (const char* search : {"linked-cells", "capsules"}) {
+    for (const double sight : {1.6, 0.3}) {
+      const auto make = [&](needlework::Run& run) {
+        return test::make_parallel_loop<true>(run, search, 3,
+                                              {.sight = sight, .least = 1, .by_cost = false});
+      };
+      EXPECT_EQ(course_of(scene, make, 1.5).hash, first.hash) << search << ", " << sight;
+    }
+  }
+}
+
+TEST(WallsAndGravity, ContinueFromACheckpointBitForBit) {
+  const Scene scene = shaken();
+  Simulation whole(scene), half(scene);
+  whole.advance(until_time(3));
+  half.advance(until_time(1.3));
+  Simulation rest(scene, half.checkpoint());
+  rest.advance(until_time(3));
+  EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash());
+  Scene other = scene;
+  other.walls[0].motion->frequency *= 1.01;
+  EXPECT_THROW(Simulation(other, half.checkpoint()), InputError);
+}
+
+// One needle in free space between walls on all axes, of the least edges that there may be.
+Scene one_needle(double edge) {
+  Scene scene = test::scene_of(1, edge);
+  scene.walls = {
+      {.axis = "x", .side = "both"}, {.axis = "y", .side = "both"}, {.axis = "z", .side = "both"}};
+  return scene;
+}
+
+State state_of(const Scene& scene, const std::array<double, 3>& r, const std::array<double, 3>& u,
+               const std::array<double, 3>& v, const std::array<double, 3>& w) {
+  State out;
+  out.resize(1);
+  out.box = scene.needles.box;
+  out.position[0] = r;
+  out.orientation[0] = u;
+  out.velocity[0] = v;
+  out.angular_velocity[0] = w;
+  out.id[0] = 0;
+  return out;
+}
+
+std::vector<Hit> hits_of(Simulation& run, double time) {
+  std::vector<Hit> out;
+  run.on_happening([&](const Happening& h) {
+    out.push_back(
+        {h.event.time, h.event.first, h.event.second, h.event.arm_first, h.event.normal_velocity});
+  });
+  run.advance(until_time(time));
+  return out;
+}
+
+TEST(OneNeedle, StaysBetweenWallsOnAllAxes) {
+  for (const double edge : {1.0, 1.5}) {
+    const Scene scene = one_needle(edge);
+    Simulation run(scene, state_of(scene, {0.5 * edge, 0.5 * edge, 0.5 * edge}, {0.36, 0.48, 0.8},
+                                   {0.3, -0.5, 0.7}, {0.8, -0.6, 0.0}));
+    const double energy = run.totals().energy;
+    const std::vector<Hit> hits = hits_of(run, 200);
+    EXPECT_GT(hits.size(), 300u);
+    for (const Hit& hit : hits) {
+      EXPECT_LE(hit.velocity, 0);
+      EXPECT_EQ(std::abs(hit.arm), 0.5);
+    }
+    EXPECT_NEAR(run.totals().energy, energy, 1e-10);
+    const State end = run.copy();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double tip = 0.5 * std::abs(end.orientation[0][axis]);
+      EXPECT_GE(end.position[0][axis], tip - 1e-12);
+      EXPECT_LE(end.position[0][axis], edge - tip + 1e-12);
+      EXPECT_EQ(end.image[0][axis], 0);
+    }
+  }
+}
+
+// A needle that comes down lying: of a uniform rod (k = 6) three hits turn it back as it came; for
+// k = 3.1 two do, and it leaves turning.
+TEST(OneNeedle, ThatComesDownLyingHitsWithBothTips) {
+  Scene scene = one_needle(3);
+  const auto run_of = [&](double k, std::vector<Hit>& hits) {
+    scene.needles.k = k;
+    Simulation run(scene, state_of(scene, {1.5, 1.5, 1}, {1, 0, 0}, {0, 0, -1}, {0, 0, 0}));
+    hits = hits_of(run, 1.25);
+    return run.copy();
+  };
+  std::vector<Hit> hits;
+  State end = run_of(6, hits);
+  ASSERT_EQ(hits.size(), 3u);
+  EXPECT_EQ(hits[0].arm, 0.5);
+  EXPECT_EQ(hits[1].arm, -0.5);
+  EXPECT_EQ(hits[2].arm, 0.5);
+  for (const Hit& hit : hits) EXPECT_NEAR(hit.time, 1, 1e-14);
+  EXPECT_NEAR(end.velocity[0][2], 1, 1e-14);
+  EXPECT_NEAR(end.angular_velocity[0][1], 0, 1e-13);
+  end = run_of(3.1, hits);
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_GT(std::abs(end.angular_velocity[0][1]), 0.1);
+  EXPECT_GT(end.velocity[0][2], 0);
+}
+
+// It falls upright from height h: the times of its bounces are known.
+TEST(OneNeedle, BouncesUprightAsABallDoes) {
+  Scene scene = test::scene_of(1, 4);
+  scene.walls = {{.axis = "z", .side = "low", .epsilon = 0.5}};
+  scene.forces.gravity = {0, 0, -2};
+  Simulation run(scene, state_of(scene, {2, 2, 1.5}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}));
+  const std::vector<Hit> hits = hits_of(run, 2.9);
+  ASSERT_GE(hits.size(), 4u);
+  double time = 1, speed = 2;
+  for (std::size_t n = 0; n < 4; ++n) {
+    EXPECT_NEAR(hits[n].time, time, 1e-13);
+    EXPECT_NEAR(hits[n].velocity, -speed, 1e-12);
+    speed *= 0.5;
+    time += speed;
+  }
+}
+
+// It flies as high as it gets, far above the box.
+TEST(OneNeedle, FliesHighAboveAnOpenBox) {
+  Scene scene = test::scene_of(1, 4);
+  scene.walls = {{.axis = "z", .side = "low"}};
+  scene.forces.gravity = {0, 0, -1};
+  Simulation run(scene, state_of(scene, {2, 2, 0.5}, {0, 0, 1}, {0.1, 0, 30}, {0, 0, 0}));
+  run.advance(until_time(30));
+  EXPECT_NEAR(run.copy().position[0][2], 450.5, 1e-9);
+  EXPECT_NEAR(run.totals().energy, 0.5 * (900 + 0.01) + 0.5, 1e-9);
+  run.advance(until_time(61));
+  EXPECT_NEAR(run.copy().velocity[0][2], 29, 1e-9);
+}
+
+// Inelastic bounces grow ever shorter, and end in a clear error; the t_c rule keeps them finite.
+TEST(OneNeedle, ThatClattersEndsInAnErrorOrByTheContactTime) {
+  Scene scene = test::scene_of(1, 4);
+  scene.walls = {{.axis = "z", .side = "low", .epsilon = 0.7}};
+  scene.forces.gravity = {0, 0, -1};
+  const State start = state_of(scene, {2, 2, 1.2}, {0.6, 0, 0.8}, {0.3, 0, 0}, {0, 0.1, 0});
+  Simulation falls(scene, start);
+  try {
+    falls.advance(until_time(50));
+    FAIL() << "no collapse";
+  } catch (const InvalidStateError& error) {
+    EXPECT_NE(std::string(error.what()).find("wall of axis z"), std::string::npos) << error.what();
+  }
+  scene.collisions.tc = 1e-3;
+  scene.collisions.epsilon = 0.9;
+  Simulation clatters(scene, start);
+  clatters.advance(until_time(50));
+  EXPECT_GT(clatters.events_by_source().at(0), 20u);
+  EXPECT_LT(clatters.totals().energy, clatters.initial_energy());
+}
+
+// A wall that moves away as fast as the tip follows never meets it, and one a little slower does.
+TEST(OneNeedle, FollowsAWallThatMovesAway) {
+  Scene scene = one_needle(4);
+  constexpr double frequency = 0.25, amplitude = 0.5;
+  scene.walls[2] = {
+      .axis = "z",
+      .side = "low",
+      .motion = Scene::WallMotion{
+          .amplitude = amplitude, .frequency = frequency, .phase = std::numbers::pi / 2}};
+  scene.walls.push_back({.axis = "z", .side = "high"});
+  // The tip is at 1, the surface at A cos(2 pi f t): it begins to fall from 0.5 on.
+  Simulation run(scene, state_of(scene, {2, 2, 1.5}, {0, 0, 1}, {0, 0, -0.5}, {0, 0, 0}));
+  const std::vector<Hit> hits = hits_of(run, 4);
+  ASSERT_FALSE(hits.empty());
+  const double t = hits[0].time;
+  EXPECT_NEAR(1 - 0.5 * t, amplitude * std::cos(2 * std::numbers::pi * frequency * t), 1e-12);
+}
+
+TEST(Walls, WorkUntilTheirMotionIsOld) {
+  // Late in the run the phase has the digits that it had at first.
+  Scene scene = test::scene_of(1, 4);
+  scene.walls = {{.axis = "z",
+                  .side = "low",
+                  .motion = Scene::WallMotion{.amplitude = 0.25, .frequency = 1, .phase = 0}}};
+  scene.forces.gravity = {0, 0, -1};
+  Simulation run(scene, state_of(scene, {2, 2, 1}, {0, 0, 1}, {0, 0, 0}, {0, 0, 0}));
+  Hit last{};
+  State after;
+  run.on_happening([&](const Happening& h) {
+    last = {h.event.time, 0, 0, 0, h.event.normal_velocity};
+    after.resize(1);
+    after.position[0] = h.event.after[0].position;
+  });
+  run.advance(until_time(3000));
+  ASSERT_GT(last.time, 2900);
+  EXPECT_NEAR(after.position[0][2] - 0.5, 0.25 * std::sin(2 * std::numbers::pi * last.time), 1e-11);
+}
+
+TEST(Walls, AreTwoWhereTheSceneSaysBoth) {
+  Scene scene = test::scene_of(10, 4);
+  scene.walls = {{.axis = "y", .side = "both"}, {.axis = "x", .side = "high"}};
+  const std::vector<Wall> walls = walls_of(scene, scene.needles.box);
+  ASSERT_EQ(walls.size(), 3u);
+  EXPECT_EQ(walls[0].plane.normal, 1);
+  EXPECT_EQ(walls[1].plane.normal, -1);
+  EXPECT_EQ(walls[1].plane.place, 4);
+  EXPECT_EQ(walls[2].plane.axis, 0);
+}
+
+}  // namespace
+}  // namespace needlework
