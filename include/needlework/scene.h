@@ -18,10 +18,11 @@ namespace needlework {
 /// are keys of a scene file, besides those that say where the scene comes from.
 struct Scene {
   struct Needles {
-    std::uint64_t count = 0;      ///< number of needles; 0 and 1 are allowed
-    std::array<double, 3> box{};  ///< edges of the periodic box [L], each >= 2.01
-    double k = 6.0;               ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
-    std::uint64_t seed = 1;       ///< of the counter-based generator that draws the initial state
+    std::uint64_t count = 0;  ///< number of needles; 0 and 1 are allowed
+    std::array<double, 3>
+        box{};               ///< edges of the box [L], each >= 2.01, or 1 along an axis with walls
+    double k = 6.0;          ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
+    std::uint64_t seed = 1;  ///< of the counter-based generator that draws the initial state
   };
   /// One species of needles. If there are any, they replace needles.count, needles.k and the
   /// temperatures of Initial.

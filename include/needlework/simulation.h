@@ -35,8 +35,9 @@ void require_simulable(const Scene& scene, const State& initial);
 
 /// Why no two needles of this initial state can ever collide, in words ("all needles are parallel
 /// and do not rotate"), or empty if they may: there are fewer than two, they move alike, they are
-/// parallel and do not rotate, or they lie and move in planes normal to an axis.
-std::string why_no_collision(const State& initial);
+/// parallel and do not rotate, or they lie and move in planes normal to an axis. Empty, too, where
+/// walls or driving may change that, or another end of the run does not need collisions of needles.
+std::string why_no_collision(const Scene& scene, const State& initial);
 /// The same for the state that the scene draws.
 std::string why_no_collision(const Scene& drawn);
 

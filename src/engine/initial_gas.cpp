@@ -11,6 +11,7 @@
 #include "src/machine/stop_request.h"
 #include "src/physics/vectors.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
 
 namespace needlework {
@@ -102,6 +103,29 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
   }
 }
 
+// That tips are inside the walls, as they are at the start, to within rounding.
+void require_inside(const Scene& scene, const Gas& gas) {
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  const std::vector<WallSide> walls = wall_sides(scene);
+  if (walls.empty()) return;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    const Vec3d &r = record.flight.r, &u = record.flight.u;
+    const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
+    const double half = 0.5 * gas.species_of(record).length / std::hypot(u.x, u.y, u.z);
+    for (const WallSide& side : walls) {
+      Gap wall = gaps[side.axis];
+      (side.is_high ? wall.has_low : wall.has_high) = false;
+      const double reach = half * std::abs(director[side.axis]);
+      const double beyond = wall.beyond(centre[side.axis], reach, gas.box[side.axis]);
+      if (beyond <= gas.touch_tolerance()) continue;
+      throw InputError(fmt::format(
+          "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside",
+          gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low"));
+    }
+  }
+}
+
 }  // namespace
 
 void set_surroundings(Gas& gas, const Scene& scene) {
@@ -122,10 +146,12 @@ Gas make_gas(const Scene& scene, const State& initial) {
   set_surroundings(gas, scene);
   gas.set_composition(composition_of(scene, initial));
   const double length = gas.longest;
-  for (const double edge : initial.box) {
-    if (!(edge >= least_edge(length) && edge <= largest_edge(length))) {
+  const Room room(scene);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double edge = initial.box[axis];
+    if (!room.holds(edge, axis)) {
       throw InputError(fmt::format("state: box edge {}: expected from {:.10g} to {:.10g}", edge,
-                                   least_edge(length), largest_edge(length)));
+                                   room.least(axis), room.most()));
     }
   }
   if (is_too_sparse(initial.box, static_cast<double>(count), length)) {
@@ -163,6 +189,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
       refuse_vector(flight.u, "orientation", gas.ids[i], "one that is not 0");
   }
   set_species(gas, initial, order);
+  require_inside(scene, gas);
   return gas;
 }
 

@@ -16,6 +16,7 @@
 #include "src/machine/stop_request.h"
 #include "src/physics/transfer.h"
 #include "src/physics/vectors.h"
+#include "src/scene/confinement.h"
 
 namespace needlework {
 
@@ -171,9 +172,6 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     require(std::isfinite(epoch_length) && epoch_length > 0);
     gas.clock = Clock(epoch_length);
     require(gas.clock.epoch_length() == epoch_length);
-    for (const double edge : gas.box) {
-      require(std::isfinite(edge) && edge >= gas.longest);
-    }
   }
   for (const Needle i : by_id) {
     if (archive.reads()) StopRequest::check_in_turn(i);
@@ -231,6 +229,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
                                  count, of_scene));
   }
   require(count <= saved.bytes.size() / least_bytes_of_a_needle);
+  require(Room(scene).holds(gas.box));
   // A scene need not say how many needles there are of its only species.
   if (!gas.composition.is_mixture()) gas.composition.set_count(0, count);
   gas.resize(count);

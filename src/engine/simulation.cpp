@@ -18,6 +18,7 @@
 #include "src/physics/vectors.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 #include "src/scene/scene_values.h"
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
@@ -206,8 +207,20 @@ void require_simulable(const Scene& scene, const State& initial) {
   const Run run(scene, make_gas(scene, initial));
 }
 
-std::string why_no_collision(const State& initial) {
+namespace {
+
+// Whether a gas of so many needles changes without collisions, by walls or driving, so that needles
+// may collide later, or another end may be met.
+bool goes_on(const Scene& scene, std::size_t count) {
+  const bool may_end = count > 1 || scene.until.energy_ratio || scene.until.wall_s;
+  return count > 0 && may_end && acts_on_single_needles(scene);
+}
+
+}  // namespace
+
+std::string why_no_collision(const Scene& scene, const State& initial) {
   const std::size_t count = initial.size();
+  if (goes_on(scene, count)) return "";
   if (initial.velocity.size() != count || initial.orientation.size() != count ||
       initial.angular_velocity.size() != count) {
     return "";  // it cannot be simulated
@@ -221,6 +234,7 @@ std::string why_no_collision(const State& initial) {
 
 std::string why_no_collision(const Scene& drawn) {
   const Composition composition = drawn.composition();
+  if (goes_on(drawn, composition.count())) return "";
   if (composition.count() == 0) return words_for(Collisionless::no_needles);
   if (composition.count() == 1) return words_for(Collisionless::one_needle);
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {

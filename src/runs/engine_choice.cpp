@@ -133,7 +133,7 @@ std::vector<std::string> all_warnings(const LoadedScene& loaded) {
                                 *c.tc * rate, effect_of_long_contact));
     }
   }
-  const std::string why = loaded.initial ? why_no_collision(*loaded.initial) : "";
+  const std::string why = loaded.initial ? why_no_collision(scene, *loaded.initial) : "";
   // A gas at rest may be meant, to be set in motion.
   if (!why.empty() && totals_of(*loaded.initial, scene).energy > 0) {
     const std::string& file = scene.initial.file;

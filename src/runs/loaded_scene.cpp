@@ -11,6 +11,7 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::runs {
 namespace {
@@ -127,7 +128,8 @@ double initial_collision_rate(const LoadedScene& loaded) {
 bool starts_in_equilibrium(const Scene& scene) {
   const Composition composition = scene.composition();
   const double t = composition[0].t_tr;
-  return !composition.is_inelastic() && scene.initial.file.empty() && t > 0 &&
+  return !composition.is_inelastic() && !acts_on_single_needles(scene) &&
+         scene.initial.file.empty() && t > 0 &&
          std::ranges::all_of(composition.species(),
                              [&](const Species& s) { return s.t_tr == t && s.t_rot == t; }) &&
          composition.count() >= 2;

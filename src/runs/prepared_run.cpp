@@ -15,6 +15,7 @@
 #include "src/runs/failure.h"
 #include "src/runs/state_file.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 #include "src/trajectory/saved_totals.h"
 
 namespace needlework::runs {
@@ -24,7 +25,7 @@ void require_events(const LoadedScene& loaded, const std::string& path) {
   require_reachable_end(scene);
   if (scene.until.time) return;
   const std::string why =
-      loaded.initial ? why_no_collision(*loaded.initial) : why_no_collision(scene);
+      loaded.initial ? why_no_collision(scene, *loaded.initial) : why_no_collision(scene);
   if (!why.empty()) {
     throw InputError(fmt::format(
         "{}: nothing can ever happen, as {}: expected needles that can collide, or until.time",
@@ -35,7 +36,8 @@ void require_events(const LoadedScene& loaded, const std::string& path) {
 void require_reachable_end(const Scene& scene) {
   const Scene::Until& until = scene.until;
   if (!until.time && until.energy_ratio && *until.energy_ratio < 1 &&
-      !scene.composition().is_inelastic() && !until.collisions_per_needle && !until.wall_s) {
+      !scene.composition().is_inelastic() && !exchanges_energy(scene) &&
+      !until.collisions_per_needle && !until.wall_s) {
     throw InputError(
         fmt::format("{}: is never met, as collisions keep the energy: expected another end, or "
                     "collisions.epsilon < 1",

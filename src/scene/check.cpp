@@ -8,6 +8,7 @@
 
 #include "needlework/error.h"
 #include "src/composition/pair_name.h"
+#include "src/scene/confinement.h"
 #include "src/scene/printable.h"
 
 namespace needlework {
@@ -38,6 +39,33 @@ std::vector<Rule> rules_of(const Scene& scene, const Composition& composition) {
   return out;
 }
 
+// Inelastic walls, of which the messages are those of inelastic pairs.
+std::vector<std::string> wall_warnings(const Scene& scene) {
+  std::vector<std::string> list;
+  const double tc = scene.collisions.tc.value_or(scene.collisions.tc_relative.value_or(0));
+  const std::array<double, 3>& gravity = scene.forces.gravity;
+  for (const Scene::Wall& wall : scene.walls) {
+    const std::string key = fmt::format("walls.epsilon = {} of {}", wall.epsilon, name_of(wall));
+    if (wall.epsilon < 1 && tc == 0) {
+      list.push_back(fmt::format(
+          "{}: needles can hit an inelastic wall infinitely often in a finite time, which ends a "
+          "run; set collisions.tc_relative, such as 1e-3, to prevent it",
+          key));
+    } else if (wall.epsilon == 0 && gravity != std::array<double, 3>{}) {
+      list.push_back(fmt::format(
+          "{}: t_c cannot prevent collapse at epsilon = 0, where needles that fall do not rebound",
+          key));
+    }
+  }
+  return list;
+}
+
+std::vector<std::string> driving_warnings(const Scene& scene) {
+  const auto& kicks = scene.driving.kicks;
+  if (!kicks || kicks->translational > 0 || kicks->rotational > 0) return {};
+  return {"driving.kicks: translational = rotational = 0: kicks change no velocity"};
+}
+
 std::vector<std::string> collision_warnings(const Scene& scene) {
   std::vector<std::string> list;
   const Scene::Collisions& c = scene.collisions;
@@ -48,7 +76,10 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
   const auto any = [&](auto&& holds) {
     return std::ranges::any_of(rules, [&](const Rule& rule) { return holds(rule.restitution); });
   };
-  const bool bounces = any([](const Restitution& rule) { return rule.epsilon < 1; });
+  const bool walls_bounce =
+      std::ranges::any_of(scene.walls, [](const Scene::Wall& wall) { return wall.epsilon < 1; });
+  const bool bounces =
+      walls_bounce || any([](const Restitution& rule) { return rule.epsilon < 1; });
   for (const Rule& rule : rules) {
     if (!(rule.restitution.epsilon < 1 && tc == 0)) continue;
     list.push_back(fmt::format(
@@ -65,7 +96,7 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
         "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
         "collapse is not prevented",
         tc));
-  if (c.tc_relative && tc >= long_contact && composition.is_inelastic())
+  if (c.tc_relative && tc >= long_contact && (composition.is_inelastic() || walls_bounce))
     list.push_back(fmt::format("collisions.tc_relative = {}: {}", tc, effect_of_long_contact));
   if (!bounces && !composition.is_rough() && tc > 0)
     list.push_back(
@@ -78,7 +109,7 @@ std::vector<std::string> until_warnings(const Scene& scene) {
   const auto ratio = scene.until.energy_ratio;
   if (ratio && *ratio >= 1)
     list.push_back(fmt::format("until.energy_ratio = {}: is met from the start", *ratio));
-  if (ratio && *ratio < 1 && !scene.composition().is_inelastic())
+  if (ratio && *ratio < 1 && !scene.composition().is_inelastic() && !exchanges_energy(scene))
     list.push_back(fmt::format(
         "until.energy_ratio = {}: is never met, as collisions keep the energy", *ratio));
   return list;
@@ -156,10 +187,13 @@ std::vector<std::string> warnings(const Scene& scene) {
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
     return species.t_tr == 0 && species.t_rot == 0;
   });
-  if (scene.initial.file.empty() && at_rest) {
+  const bool is_pushed = exchanges_energy(scene) || scene.forces.gravity != std::array<double, 3>{};
+  if (scene.initial.file.empty() && at_rest && !is_pushed) {
     list.push_back("initial.t_tr, initial.t_rot = 0: nothing moves");
   }
   add(collision_warnings(scene));
+  add(wall_warnings(scene));
+  add(driving_warnings(scene));
   add(until_warnings(scene));
   add(output_warnings(scene));
   add(size_warnings(scene.engine));

@@ -161,9 +161,14 @@ void append_override(Entry entry, std::vector<Entry>& entries) {
     if (table.size() == 1) {
       std::vector<Entry> values;
       append_key(entry.section, entry.key, table.begin()->second, values);
+      const bool is_table = table.begin()->second.is_table();
       for (Entry& each : values) {
         entry.key = std::move(each.key);
         entry.value = std::move(each.value);
+        // Messages quote the value of this key, not the whole table.
+        const Region& at = each.region;
+        if (is_table && at.line == 1 && at.end_line == 1)
+          entry.override_text = toml.substr(at.column - 1, at.end_column - at.column);
         entries.push_back(entry);
       }
       return;

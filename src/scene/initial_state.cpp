@@ -9,6 +9,7 @@
 
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
+#include "src/scene/confinement.h"
 #include "src/scene/scene_values.h"
 
 namespace needlework {
@@ -101,6 +102,26 @@ void set_mean_square(std::vector<Vector>& vectors, const std::vector<SpeciesInde
     for (double& component : v) component *= factor;
 }
 
+// Draws centre and director, uniformly among those at which both tips are inside the walls.
+void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vector& box,
+                double half_length, Vector& centre, Vector& director) {
+  const auto is_inside = [&] {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double reach = half_length * std::abs(director[i]);
+      if (gaps[i].is_walled() && gaps[i].beyond(centre[i], reach, box[i]) >= 0) return false;
+    }
+    return true;
+  };
+  do {
+    // A product with a number below 1 never rounds up to the edge itself.
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Gap& gap = gaps[i];
+      centre[i] = gap.low + random.uniform() * (box[i] + gap.high - gap.low);
+    }
+    director = random.direction();
+  } while (!is_inside());
+}
+
 }  // namespace
 
 State draw_initial_state(const Scene& scene) {
@@ -124,12 +145,12 @@ State draw_initial_state(const Scene& scene) {
       composition,
       [](const Species& s) { return 4 * s.k * s.t_rot / (s.mass * (s.length * s.length)); },
       [](const Species& s) { return s.inertia(); });
+  const std::array<Gap, 3> gaps = gaps_of(scene);
   for (std::size_t id = 0; id < n; ++id) {
     StopRequest::check_in_turn(id);
     NeedleRandom random(needles.seed, id);
-    // A product with a number below 1 never rounds up to the edge itself.
-    for (std::size_t i = 0; i < 3; ++i) state.position[id][i] = random.uniform() * needles.box[i];
-    state.orientation[id] = random.direction();
+    draw_place(random, gaps, needles.box, 0.5 * composition[species[id]].length, state.position[id],
+               state.orientation[id]);
     state.velocity[id] = random.normal();
     for (double& v : state.velocity[id]) v *= flight.factors[species[id]];
     state.angular_velocity[id] = normal_part(random.normal(), state.orientation[id]);

@@ -16,6 +16,7 @@
 #include "needlework/error.h"
 #include "src/composition/pair_name.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
 #include "src/scene/document.h"
 #include "src/scene/overridden_scene.h"
@@ -333,13 +334,13 @@ void require_ids(const Scene& scene, const Document& document, const Entry& last
 
 void require_room(const Scene& scene, const Document& document, const Entry& box) {
   const Composition composition = scene.composition();
-  const double length = composition.longest();
-  if (has_room(scene.needles.box, length)) return;
+  const Room room(scene);
+  if (room.holds(scene.needles.box)) return;
   const std::string_view of = composition.is_mixture() ? ", of the longest species" : "";
   throw document.error(
-      box, length == 1
+      box, composition.longest() == 1 && scene.walls.empty()
                ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
-               : fmt::format("expected {}{}", expected_room(scene.needles.box, length), of));
+               : fmt::format("expected {}{}", room.expected_instead_of(scene.needles.box), of));
 }
 
 // For a state that is drawn: what follows from its numbers.
@@ -416,8 +417,9 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   }
   require_names(scene, document, names);
   require_ids(scene, document, last_count);
-  if (given.contains("needles.box")) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
+  require_compatible_effects(scene);
+  if (given.contains("needles.box")) require_room(scene, document, box);
   adopt_species(scene);
   if (!provided.state && scene.initial.file.empty()) require_followable(scene, name);
   scene.text = annotated(text, overrides);

@@ -12,6 +12,7 @@
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "src/scene/box_edges.h"
+#include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
 #include "src/scene/printable.h"
 #include "src/scene/scene_members.h"
@@ -151,10 +152,10 @@ void require_names(const Scene& scene) {
 }
 
 void require_room(const Scene& scene) {
-  const double length = scene.composition().longest();
-  if (!has_room(scene.needles.box, length))
+  const Room room(scene);
+  if (!room.holds(scene.needles.box))
     refuse(fmt::format("needles.box = {}", quoted(toml_of(scene.needles.box))),
-           expected_room(scene.needles.box, length));
+           room.expected_instead_of(scene.needles.box));
 }
 
 }  // namespace
@@ -174,6 +175,7 @@ void require_simulable(const Scene& scene) {
   });
   require_one_contact_time(scene.collisions);
   require_names(scene);
+  require_compatible_effects(scene);
 }
 
 void require_drawable(const Scene& scene) {
@@ -181,6 +183,7 @@ void require_drawable(const Scene& scene) {
     if (section == "species") return key != "name";
     if (section == "needles")
       return key == "box" || (is_among(key, {"count", "k"}) && scene.species.empty());
+    if (section == "walls") return true;
     return section == "initial" && key != "file" && scene.species.empty();
   });
   require_room(scene);
@@ -195,6 +198,7 @@ void require_drawable(const Scene& scene) {
 void require_valid(const Scene& scene) {
   require_in_range(scene, [](std::string_view, std::string_view) { return true; });
   require_one_contact_time(scene.collisions);
+  require_compatible_effects(scene);
   require_room(scene);
   require_names(scene);
   const Composition composition = scene.composition();

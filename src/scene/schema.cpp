@@ -26,7 +26,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr double smallest_positive = std::numeric_limits<double>::denorm_min();
 
-constexpr double shortest_edge = least_edge(1e-6);  // of the shortest needles; see require_room()
+constexpr double shortest_edge = 1e-6;  // of the shortest needles, between walls; see Room
 // Limits beyond which squares and products of physical quantities would exceed the range of a
 // double.
 constexpr double least_temperature = 1e-200;

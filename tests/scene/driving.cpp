@@ -84,5 +84,14 @@ TEST(BadDriving, IsRefused) {
     EXPECT_EQ(message(undriven + "driving." + text), "s.toml: " + expected) << text;
 }
 
+TEST(BadDriving, DoesNotGoTogetherWithGravity) {
+  const std::string falling =
+      undriven + "forces.gravity = [0, 0, -1]\n[[walls]]\naxis = 'z'\nside = 'low'\n";
+  EXPECT_EQ(message(falling, {"driving.andersen={rate = 1, temperature = 1}"}),
+            "--set driving.andersen.rate=1: expected none beside "
+            "forces.gravity: the thermostat is for needles that fly freely");
+  EXPECT_EQ(message(falling, {"driving.kicks.every=1"}), "no error");
+}
+
 }  // namespace
 }  // namespace needlework

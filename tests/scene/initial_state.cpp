@@ -270,5 +270,91 @@ TEST(InitialState, CostsInProportionToTheNeedles) {
   EXPECT_LT(cost(1000000), 1000 * cost(10000));
 }
 
+Scene walled(std::uint64_t count, std::vector<Scene::Wall> walls) {
+  Scene scene = scene_of(count);
+  scene.needles.box = {4, 5, 6};
+  scene.walls = std::move(walls);
+  return scene;
+}
+
+Scene::Wall wall(const char* axis, const char* side) {
+  Scene::Wall out;
+  out.axis = axis;
+  out.side = side;
+  return out;
+}
+
+// Positions are those of an ideal gas, where both tips are inside: at the distance d < L/2 from a
+// wall the density is 2 d / L of what it is in the middle, and |u_z| is uniform up to that.
+TEST(InitialStateBetweenWalls, HasItsDepletionAtThem) {
+  constexpr std::uint64_t count = 200000;
+  const State state = draw_initial_state(walled(count, {wall("z", "both")}));
+  const double height = 6;
+  double near = 0, nearer = 0, low = 0, cosines = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = state.position[i][2], reach = std::abs(state.orientation[i][2]) / 2;
+    ASSERT_GT(z - reach, 0);
+    ASSERT_LT(z + reach, height);
+    const double d = std::min(z, height - z);
+    low += z < height / 2;
+    near += d < 0.5;
+    nearer += d < 0.25;
+    if (d < 0.5) cosines += reach / d;  // uniform on [0, 1]
+  }
+  const auto expect_share = [&](double found, double share) {
+    EXPECT_NEAR(found / count, share, 4 * std::sqrt(share * (1 - share) / count));
+  };
+  expect_share(low, 0.5);
+  expect_share(near, 2 * 0.25 / (height - 0.5));
+  expect_share(nearer, 2 * 0.0625 / (height - 0.5));
+  EXPECT_NEAR(cosines / near, 0.5, 4 * std::sqrt(1 / (12 * near)));
+}
+
+TEST(InitialStateBetweenWalls, LiesInsideAllOfThem) {
+  Scene::Wall raised = wall("z", "low"), lifted = wall("z", "high");
+  raised.motion = {.amplitude = 2, .frequency = 3, .phase = 1.5707963267948966};
+  lifted.motion = {.amplitude = 1, .frequency = 3, .phase = 1.5707963267948966};
+  Scene scene = walled(20000, {wall("x", "both"), raised, lifted});
+  scene.species = {{.name = "long", .count = 10000, .length = 3},
+                   {.name = "short", .count = 10000, .length = 0.5}};
+  const State state = draw_initial_state(scene);
+  double lowest = 9, highest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const double half = (state.species[i] == 0 ? 3 : 0.5) / 2;
+    for (const double tip : {-half, half}) {
+      const double x = state.position[i][0] + tip * state.orientation[i][0];
+      const double z = state.position[i][2] + tip * state.orientation[i][2];
+      ASSERT_GT(x, 0);
+      ASSERT_LT(x, 4);
+      ASSERT_GT(z, 2);
+      ASSERT_LT(z, 7);
+      lowest = std::min(lowest, z);
+      highest = std::max(highest, z);
+    }
+  }
+  EXPECT_NEAR(lowest, 2, 0.1);
+  EXPECT_NEAR(highest, 7, 0.1);
+  EXPECT_NEAR(t_tr(state), 1, 0.1);
+}
+
+TEST(InitialStateBetweenWalls, HasRoomForOneLength) {
+  Scene scene = walled(1000, {wall("x", "both"), wall("y", "both"), wall("z", "both")});
+  scene.needles.box = {1, 1, 1};
+  EXPECT_EQ(draw_initial_state(scene).size(), 1000u);
+}
+
+TEST(InitialStateAboveAFloor, IsDrawnInTheBox) {
+  Scene scene = walled(10000, {wall("z", "low")});
+  scene.forces.gravity = {0, 0, -1};
+  const State state = draw_initial_state(scene);
+  double highest = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    ASSERT_GT(state.position[i][2] - std::abs(state.orientation[i][2]) / 2, 0);
+    highest = std::max(highest, state.position[i][2]);
+  }
+  EXPECT_GT(highest, 5.9);
+  EXPECT_LT(highest, 6);
+}
+
 }  // namespace
 }  // namespace needlework

@@ -148,5 +148,99 @@ TEST(BadWalls, AreRefused) {
     EXPECT_EQ(message(with_walls(walls)), "s.toml: " + expected) << walls;
 }
 
+std::string wall(const char* axis, const char* side, const std::string& more = "") {
+  return std::string("[[walls]]\naxis = '") + axis + "'\nside = '" + side + "'\n" + more;
+}
+
+TEST(BadWalls, DoNotGoTogether) {
+  const std::string at_rest =
+      "expected none beside temperature: a thermal wall is at rest, and epsilon and t_c do not "
+      "apply";
+  const std::string open =
+      "expected \"both\", or a second wall along z, or forces.gravity that points to this one: "
+      "needles would leave the box at its open side";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {wall("z", "both") + wall("z", "high"),
+       "line 9: walls.side = 'high': expected no second wall at the high edge of z"},
+      {wall("x", "both") + wall("z", "both") + wall("x", "low"),
+       "line 12: walls.side = 'low': expected no second wall at the low edge of x"},
+      {wall("z", "both", "epsilon = 1\ntemperature = 2\n"),
+       "line 7: walls.epsilon = 1: " + at_rest},
+      {wall("x", "both") + wall("z", "both", "temperature = 2\nepsilon = 0.5\n"),
+       "line 11: walls.epsilon = 0.5: " + at_rest},
+      {wall("z", "both", "temperature = 2\nmotion = { amplitude = 1, frequency = 1 }\n"),
+       "line 8: walls.motion.amplitude = 1: " + at_rest},
+      {wall("z", "low"), "line 6: walls.side = 'low': " + open},
+      {wall("z", "high"), "line 6: walls.side = 'high': " + open},
+      {"forces.gravity = [0, 0, -1]\n" + wall("z", "high"), "line 7: walls.side = 'high': " + open},
+      {"forces.gravity = [0, 0, 1]\n" + wall("z", "low"), "line 7: walls.side = 'low': " + open},
+      {"forces.gravity = [0, 0, -1]\n",
+       "line 4: forces.gravity = [0, 0, -1]: expected none along z, which is periodic: there "
+       "gravity does nothing to the motion of needles relative to each other"},
+      {"forces.gravity = [1, 0, -1]\n" + wall("z", "low"),
+       "line 4: forces.gravity = [1, 0, -1]: expected none along x, which is periodic: there "
+       "gravity does nothing to the motion of needles relative to each other"},
+  };
+  for (const auto& [text, expected] : cases)
+    EXPECT_EQ(message(with_walls(text)), "s.toml: " + expected) << text;
+  for (const std::string& good :
+       {wall("z", "low") + wall("z", "high"), wall("x", "both") + wall("y", "both"),
+        "forces.gravity = [0, 0, -1]\n" + wall("z", "low"),
+        "forces.gravity = [0, 0, 1]\n" + wall("z", "high"),
+        "forces.gravity = [1, 0, 1]\n" + wall("z", "both") + wall("x", "high")}) {
+    EXPECT_EQ(message(with_walls(good)), "no error") << good;
+  }
+}
+
+// The gap between two walls needs room for one needle, at all times; a periodic edge for two.
+TEST(BadWalls, LeaveNoRoom) {
+  const auto of_box = [](const std::string& box, const std::string& walls) {
+    return message("needles = { count = 1, box = " + box + " }\nuntil.time = 5\n" + walls);
+  };
+  const std::string all = wall("x", "both") + wall("y", "both") + wall("z", "both");
+  EXPECT_EQ(of_box("1", all), "no error");
+  EXPECT_EQ(of_box("[2.01, 2.01, 1]", wall("z", "both")), "no error");
+  EXPECT_EQ(of_box("0.99", all),
+            "s.toml: line 1: needles.box = 0.99: expected an edge of at least 1 along x, which has "
+            "walls (one needle length)");
+  EXPECT_EQ(of_box("[2, 2.01, 1]", wall("z", "both")),
+            "s.toml: line 1: needles.box = [2, 2.01, 1]: expected edges of at least 2.01 along "
+            "periodic axes (2.01 needle lengths)");
+  // Two walls, with amplitude, frequency and phase each, and how near they come.
+  struct Case {
+    const char *low, *high;
+    double nearer;
+  };
+  for (const Case& c : {
+           Case{"amplitude = 0.5, frequency = 2", "amplitude = 0.25, frequency = 3", 0.75},
+           Case{"amplitude = 0.5, frequency = 2", "amplitude = 0.5, frequency = 2", 0},
+           Case{"amplitude = 0.5, frequency = 2", "amplitude = 0.25, frequency = 2", 0.25},
+           Case{"amplitude = 0.5, frequency = 2",
+                "amplitude = 0.5, frequency = 2, phase = 3.141592653589793", 1},
+           Case{"amplitude = 0.3, frequency = 2",
+                "amplitude = 0.4, frequency = 2, phase = -1.570796326794897", 0.5},
+           Case{"amplitude = 0.3, frequency = 2", "amplitude = 0, frequency = 2", 0.3},
+       }) {
+    const std::string walls = wall("z", "low", std::string("motion = { ") + c.low + " }\n") +
+                              wall("z", "high", std::string("motion = { ") + c.high + " }\n");
+    const auto box = [](double edge) { return "[3, 3, " + std::to_string(edge) + "]"; };
+    EXPECT_EQ(of_box(box(1 + c.nearer + 1e-5), walls), "no error") << walls;
+    EXPECT_NE(of_box(box(1 + c.nearer - 1e-5), walls), "no error") << walls;
+  }
+  EXPECT_EQ(
+      of_box("[3, 3, 1.25]", wall("z", "both", "motion = { amplitude = 0.5, frequency = 1 }\n")),
+      "no error");  // both move as one
+  EXPECT_EQ(
+      of_box("[3, 3, 1.25]", "forces.gravity = [0, 0, -1]\n" +
+                                 wall("z", "low", "motion = { amplitude = 0.5, frequency = 1 }\n")),
+      "s.toml: line 1: needles.box = [3, 3, 1.25]: expected an edge of at least 1.5 along z, "
+      "which has walls (one needle length at all times of their motion)");
+  EXPECT_EQ(message("needles.box = [7, 7, 2.9]\nuntil.time = 5\n"
+                    "species = [{name = 'a', count = 1, length = 3}]\n" +
+                    wall("z", "both")),
+            "s.toml: line 1: needles.box = [7, 7, 2.9]: expected an edge of at least 3 along z, "
+            "which has walls (one needle length)");
+}
+
 }  // namespace
 }  // namespace needlework

@@ -74,6 +74,27 @@ TEST(Warning, LooksAtAllSpeciesAndPairs) {
   EXPECT_EQ(of("until.time = 1", "k = 1\nt_tr = 0\nt_rot = 0\n"), Keys{"species.k = 1 of b"});
 }
 
+TEST(Warning, IsGivenForWallsAndDriving) {
+  const std::string wall = "\n[[walls]]\naxis = 'z'\nside = 'low'\nepsilon = ";
+  const std::string falls = "until.time = 1\nforces.gravity = [0, 0, -1]\n";
+  EXPECT_EQ(warned_of(falls + wall + "1"), Keys{});
+  EXPECT_EQ(warned_of(falls + wall + "0.5"), Keys{"walls.epsilon"});
+  EXPECT_EQ(warned_of(falls + "collisions.tc_relative = 1e-3" + wall + "0.5"), Keys{});
+  EXPECT_EQ(warned_of(falls + "collisions.tc_relative = 1e-3" + wall + "0"), Keys{"walls.epsilon"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc_relative = 1e-3" + wall +
+                      "0\n[[walls]]\naxis = 'z'\nside = 'high'"),
+            Keys{});
+  EXPECT_EQ(warned_of("until.time = 1\ndriving.kicks.every = 1"), Keys{"driving.kicks"});
+  EXPECT_EQ(warned_of("until.time = 1\ndriving.kicks = {every = 1, rotational = 1}"), Keys{});
+  // They set in motion what is at rest, and change the energy.
+  const std::string at_rest = "until.time = 1\ninitial = {t_tr = 0, t_rot = 0}\n";
+  EXPECT_EQ(warned_of(at_rest), Keys{"initial.t_tr,"});
+  EXPECT_EQ(warned_of(at_rest + "driving.andersen = {rate = 1, temperature = 1}"), Keys{});
+  EXPECT_EQ(warned_of(at_rest + "forces.gravity = [0, 0, -1]" + wall + "1"), Keys{});
+  EXPECT_EQ(warned_of("until.energy_ratio = 0.5\ndriving.andersen = {rate = 1, temperature = 1}"),
+            Keys{});
+}
+
 TEST(Warning, IsGivenForEndsThatAreNeverOrAtOnceMet) {
   EXPECT_EQ(warned_of("until.energy_ratio = 0.5"), Keys{"until.energy_ratio"});
   EXPECT_EQ(warned_of("until.energy_ratio = 0.5\ncollisions.beta = 1"), Keys{"until.energy_ratio"});

@@ -1,0 +1,193 @@
+#include "src/scene/confinement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "kernels/sine_cosine.h"
+#include "needlework/error.h"
+#include "src/scene/box_edges.h"
+#include "src/scene/check.h"
+
+namespace needlework {
+namespace {
+
+constexpr std::array<char, 3> axis_names = {'x', 'y', 'z'};
+
+std::size_t axis_of(const Scene::Wall& wall) {
+  return wall.axis == "x" ? 0 : wall.axis == "y" ? 1 : 2;
+}
+
+// Of the surfaces of two walls along one axis, either of which may be at rest, over all times. Of
+// different frequencies, all pairs of phases occur.
+double approach_of(const Scene::WallMotion& a, const Scene::WallMotion& b) {
+  if (a.frequency != b.frequency) return a.amplitude + b.amplitude;
+  const SineCosine<double> turn_a = sine_cosine(a.phase), turn_b = sine_cosine(b.phase);
+  return std::hypot(a.amplitude * turn_a.cosine - b.amplitude * turn_b.cosine,
+                    a.amplitude * turn_a.sine - b.amplitude * turn_b.sine);
+}
+
+// The key of an entry [[walls]] as Scene::places has it.
+std::string key_of(std::string_view key, std::size_t entry) {
+  return entry == 0 ? fmt::format("walls.{}", key) : fmt::format("walls.{}#{}", key, entry);
+}
+
+std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); }
+
+std::string place_of_side(const Scene& scene, std::size_t entry) {
+  return place_of(scene, key_of("side", entry), quoted(scene.walls[entry].side));
+}
+
+std::string place_of_gravity(const Scene& scene) {
+  return place_of(scene, "forces.gravity",
+                  fmt::format("[{}]", fmt::join(scene.forces.gravity, ", ")));
+}
+
+[[noreturn]] void refuse(const std::string& place, const std::string& expected) {
+  throw InputError(fmt::format("{}: expected {}", place, expected));
+}
+
+void require_one_wall_a_side(const Scene& scene) {
+  const std::vector<WallSide> sides = wall_sides(scene);
+  for (auto side = sides.begin(); side != sides.end(); ++side) {
+    const bool is_taken = std::any_of(sides.begin(), side, [&](const WallSide& other) {
+      return other.axis == side->axis && other.is_high == side->is_high;
+    });
+    if (!is_taken) continue;
+    refuse(place_of_side(scene, side->entry),
+           fmt::format("no second wall at the {} edge of {}", side->is_high ? "high" : "low",
+                       axis_names[side->axis]));
+  }
+}
+
+void require_thermal_walls_at_rest(const Scene& scene) {
+  constexpr const char* reason =
+      "none beside temperature: a thermal wall is at rest, and epsilon and t_c do not apply";
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const Scene::Wall& wall = scene.walls[n];
+    if (!wall.temperature) continue;
+    const std::string epsilon = key_of("epsilon", n);
+    if (wall.epsilon != 1 || scene.places.contains(epsilon))
+      refuse(place_of(scene, epsilon, fmt::to_string(wall.epsilon)), reason);
+    if (wall.motion)
+      refuse(place_of(scene, key_of("motion.amplitude", n), fmt::to_string(wall.motion->amplitude)),
+             reason);
+  }
+}
+
+// Nothing holds needles back on an open side but gravity.
+void require_gravity_to_single_walls(const Scene& scene) {
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  for (const WallSide& side : wall_sides(scene)) {
+    const double gravity = scene.forces.gravity[side.axis];
+    if (!gaps[side.axis].is_open() || (side.is_high ? gravity > 0 : gravity < 0)) continue;
+    const char axis = axis_names[side.axis];
+    refuse(place_of_side(scene, side.entry),
+           fmt::format("\"both\", or a second wall along {}, or forces.gravity that points to this "
+                       "one: needles would leave the box at its open side",
+                       axis));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (scene.forces.gravity[axis] == 0 || gaps[axis].is_walled()) continue;
+    refuse(place_of_gravity(scene),
+           fmt::format("none along {}, which is periodic: there gravity does nothing to the motion "
+                       "of needles relative to each other",
+                       axis_names[axis]));
+  }
+}
+
+void require_thermostat_without_gravity(const Scene& scene) {
+  if (!scene.driving.andersen || scene.forces.gravity == std::array<double, 3>{}) return;
+  refuse(place_of(scene, "driving.andersen.rate", fmt::to_string(scene.driving.andersen->rate)),
+         "none beside forces.gravity: the thermostat is for needles that fly freely");
+}
+
+}  // namespace
+
+std::vector<WallSide> wall_sides(const Scene& scene) {
+  std::vector<WallSide> out;
+  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
+    const Scene::Wall& wall = scene.walls[n];
+    if (wall.side != "high") out.push_back({axis_of(wall), false, n});
+    if (wall.side != "low") out.push_back({axis_of(wall), true, n});
+  }
+  return out;
+}
+
+double Gap::beyond(double centre, double reach, double edge) const {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  return std::max(has_low ? low - (centre - reach) : none,
+                  has_high ? (centre + reach) - (edge + high) : none);
+}
+
+std::array<Gap, 3> gaps_of(const Scene& scene) {
+  std::array<Gap, 3> out;
+  std::array<std::array<Scene::WallMotion, 2>, 3> motions;
+  for (const WallSide& side : wall_sides(scene)) {
+    Gap& gap = out[side.axis];
+    (side.is_high ? gap.has_high : gap.has_low) = true;
+    const auto& motion = scene.walls[side.entry].motion;
+    if (!motion) continue;
+    motions[side.axis][side.is_high] = *motion;
+    (side.is_high ? gap.high : gap.low) = motion->amplitude * sine_cosine(motion->phase).sine;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    out[axis].approach = approach_of(motions[axis][0], motions[axis][1]);
+  }
+  return out;
+}
+
+Room::Room(const Scene& scene) : gaps_(gaps_of(scene)) {
+  const double length = scene.composition().longest();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    least_[axis] = gaps_[axis].is_walled() ? length + gaps_[axis].approach : least_edge(length);
+  }
+  most_ = largest_edge(length);
+}
+
+bool Room::holds(const std::array<double, 3>& box) const {
+  return holds(box[0], 0) && holds(box[1], 1) && holds(box[2], 2);
+}
+
+std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Gap& gap = gaps_[axis];
+    if (box[axis] >= least_[axis]) continue;
+    if (!gap.is_walled()) {
+      const bool all = std::ranges::none_of(gaps_, &Gap::is_walled);
+      return fmt::format("edges of at least {:.10g}{} (2.01 needle lengths)", least_[axis],
+                         all ? "" : " along periodic axes");
+    }
+    return fmt::format(
+        "an edge of at least {:.10g} along {}, which has walls (one needle length{})", least_[axis],
+        axis_names[axis], gap.approach > 0 ? " at all times of their motion" : "");
+  }
+  return fmt::format("edges of at most {:.10g} (1e9 needle lengths)", most_);
+}
+
+bool acts_on_single_needles(const Scene& scene) {
+  return !scene.walls.empty() || scene.driving.kicks || scene.driving.andersen;
+}
+
+bool exchanges_energy(const Scene& scene) {
+  const auto exchanges = [](const Scene::Wall& wall) {
+    return wall.epsilon < 1 || wall.temperature || wall.motion;
+  };
+  return std::ranges::any_of(scene.walls, exchanges) || scene.driving.kicks ||
+         scene.driving.andersen;
+}
+
+std::string name_of(const Scene::Wall& wall) { return wall.axis + "-" + wall.side; }
+
+void require_compatible_effects(const Scene& scene) {
+  require_one_wall_a_side(scene);
+  require_thermal_walls_at_rest(scene);
+  require_gravity_to_single_walls(scene);
+  require_thermostat_without_gravity(scene);
+}
+
+}  // namespace needlework

@@ -1,0 +1,70 @@
+// Where the walls of a scene are, how much room they leave, and what goes with them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "needlework/scene.h"
+
+namespace needlework {
+
+/// One wall at one edge of the box.
+struct WallSide {
+  std::size_t axis = 0;
+  bool is_high = false;   ///< at the edge of the box, else at 0
+  std::size_t entry = 0;  ///< in Scene::walls
+};
+
+/// All walls in the order in which they are listed and counted: that of the scene, and low before
+/// high where an entry is for both sides.
+std::vector<WallSide> wall_sides(const Scene& scene);
+
+/// What bounds the needles along an axis.
+struct Gap {
+  bool has_low = false, has_high = false;  ///< a wall at 0, at the edge
+  double low = 0, high = 0;                ///< how far the surfaces are from there at t = 0 [L]
+  double approach = 0;  ///< they come so much nearer to each other than the edge [L]
+
+  bool is_walled() const { return has_low || has_high; }  ///< neither wrapped nor imaged
+  bool is_open() const { return has_low != has_high; }    ///< only one side has a wall
+  /// The greater distance [L] by which a tip of a needle is beyond a wall at t = 0; at most 0 if it
+  /// is beyond none. `edge` is that of the box, `reach` the distance of the tips from the centre
+  /// along the axis.
+  double beyond(double centre, double reach, double edge) const;
+};
+std::array<Gap, 3> gaps_of(const Scene& scene);
+
+/// How long the edges of a box may be for the needles and the walls of a scene.
+class Room {
+ public:
+  explicit Room(const Scene& scene);
+
+  double least(std::size_t axis) const { return least_[axis]; }  ///< [L]
+  double most() const { return most_; }                          ///< [L]
+  bool holds(double edge, std::size_t axis) const { return edge >= least_[axis] && edge <= most_; }
+  bool holds(const std::array<double, 3>& box) const;
+  /// What messages expect of a box that is none of these.
+  std::string expected_instead_of(const std::array<double, 3>& box) const;
+
+ private:
+  std::array<Gap, 3> gaps_;
+  std::array<double, 3> least_{};
+  double most_;
+};
+
+/// Whether a needle's motion may change without a collision: walls or driving do so.
+bool acts_on_single_needles(const Scene& scene);
+/// Whether energy may change but in collisions of needles: by inelastic, thermal or moving walls,
+/// or by driving.
+bool exchanges_energy(const Scene& scene);
+
+/// "x-low": how messages and `--set` name an entry [[walls]].
+std::string name_of(const Scene::Wall& wall);
+
+/// Throws InputError, "PLACE: expected ...", where walls, forces and driving do not go together.
+/// Each value on its own must be in its range.
+void require_compatible_effects(const Scene& scene);
+
+}  // namespace needlework
