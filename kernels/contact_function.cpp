@@ -91,8 +91,8 @@ Vec3d director_after(const Flight& flight, double elapsed) {
 PairScale scale_of(const Pair& pair) {
   PairScale out;
   out.per_length = times_power_of_two(1, -exponent_of(pair.half_first + pair.half_second));
-  const double rate = largest(relative_velocity(pair)) * out.per_length +
-                      (pair.first->omega + pair.second->omega);
+  const double rate =
+      largest(relative_velocity(pair)) * out.per_length + (pair.first->omega + pair.second->omega);
   if (!(rate > 0)) return out;
   // Clamped so that both factors are normal numbers.
   const int exponent = std::clamp(exponent_of(rate), -1000, 1000);
@@ -179,11 +179,11 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair, const P
     return Vec3<Range>{range_of(a.x, error), range_of(a.y, error), range_of(a.z, error)};
   };
   Frame<Range> out;
-  const double far = scale.per_length * (largest(pair.first->r) + largest(pair.second->r) +
-                                         largest(to_double(pair.shift)) +
-                                         largest(to_double(pair.fall.place)) +
-                                         largest(pair.first->v) * pair.elapsed_first.hi +
-                                         largest(pair.second->v) * pair.elapsed_second.hi);
+  const double far =
+      scale.per_length *
+      (largest(pair.first->r) + largest(pair.second->r) + largest(to_double(pair.shift)) +
+       largest(to_double(pair.fall.place)) + largest(pair.first->v) * pair.elapsed_first.hi +
+       largest(pair.second->v) * pair.elapsed_second.hi);
   out.r = {range_of(frame.r.x, share * far), range_of(frame.r.y, share * far),
            range_of(frame.r.z, share * far)};
   out.v = vector(frame.v, pair.falls ? frame.v_norm : 0);

@@ -177,17 +177,20 @@ class TipSearch {
         std::max({v / approach.half, sizes.omega, sizes.rate, std::sqrt(sizes.g / approach.half)});
     stretch_ = rate > 0 ? times_power_of_two(1, 3 - exponent_of(rate)) : infinity;
     was_touching_ = approach.touching >> tip & 1;
+    const Height<double> rough = height(terms, sizes, tip, 0.0, 0);
+    at_wall_ = was_touching_ || rough.h <= rough.error_h;
+    if (!at_wall_) return;
     at_record_ = height(exact, sizes, tip, DoubleDouble(), 0);
+    at_wall_ = was_touching_ || to_double(at_record_.h) <= at_record_.error_h;
   }
 
-  double height_at_record() const { return to_double(at_record_.h); }
+  bool is_across(double within) const { return at_wall_ && to_double(at_record_.h) < -within; }
 
   // At or after the record; infinite if there is none up to `to`.
   double first(double enter, double from, double to) {
     double begin = enter;
-    const Height<DoubleDouble>& now = at_record_;
-    const double h = to_double(now.h);
-    if (was_touching_ || h <= now.error_h) {
+    if (at_wall_) {
+      const Height<DoubleDouble>& now = at_record_;
       // It is at the wall, whatever rounding its record has done to that.
       zero_ = now.h;
       const double slope = to_double(now.dh);
@@ -251,7 +254,7 @@ class TipSearch {
   const int tip_;
   const double tick_;
   double bend_, stretch_;
-  bool was_touching_;
+  bool was_touching_, at_wall_;
   Height<DoubleDouble> at_record_;
   DoubleDouble zero_;
 };
@@ -278,7 +281,7 @@ WallContact first_wall_contact(const WallApproach& approach, double from, double
       4 * approach.resolution * (sizes.v + sizes.turn * sizes.omega + sizes.amplitude * sizes.rate);
   for (int tip = 0; tip < 2; ++tip) {
     TipSearch search(approach, exact, terms, sizes, tip);
-    if (search.height_at_record() < -within) return {.found = true, .tip = tip, .across = true};
+    if (search.is_across(within)) return {.found = true, .tip = tip, .across = true};
     const double at = search.first(enter, from, to);
     if (std::isinf(at) || (out.found && at >= out.elapsed)) continue;
     out.found = true;

@@ -70,6 +70,9 @@ class EventSource {
   /// About the time from one of its events of a needle to the next, as far as that does not depend
   /// on the motion of needles; else infinite. [time]
   virtual double usual_time() const { return std::numeric_limits<double>::infinity(); }
+  /// The temperature towards which it drives the gas, of whatever temperature that is; 0 if it does
+  /// not.
+  virtual double usual_temperature() const { return 0; }
   /// Why a run cannot go on at an event that is not resolvable.
   virtual std::string message(const Gas&, const NeedleAt&, std::int8_t /*detail*/) const {
     return {};

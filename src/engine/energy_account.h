@@ -2,6 +2,7 @@
 // since then as whole numbers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -14,6 +15,9 @@ namespace needlework {
 /// in which those of all windows would overflow.
 class EnergyAccount {
  public:
+  /// Sources drive the gas towards this energy of all needles, from whatever it has. Follows from
+  /// the scene, so that it is not saved.
+  void expect(double usual) { usual_ = usual; }
   /// Begins with this energy of all needles, when changes have come to so many quanta.
   void open(double energy, std::uint64_t changes) {
     energy_ = energy;
@@ -54,13 +58,14 @@ class EnergyAccount {
   }
   // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
   void set_quantum() {
-    quantum_ = times_power_of_two(1, energy_ > 0 ? exponent_of(energy_) - 58 : 0);
+    const double most = std::max(energy_, usual_);
+    quantum_ = times_power_of_two(1, most > 0 ? exponent_of(most) - 58 : 0);
     per_quantum_ = 1 / quantum_;
   }
 
   double energy_ = 0, quantum_ = 1, per_quantum_ = 1;
   std::uint64_t changes_ = 0;
-  double drift_ = 0;
+  double drift_ = 0, usual_ = 0;
 };
 
 }  // namespace needlework

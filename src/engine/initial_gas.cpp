@@ -129,7 +129,7 @@ void require_inside(const Scene& scene, const Gas& gas) {
 }  // namespace
 
 void set_surroundings(Gas& gas, const Scene& scene) {
-  for (const Scene::Wall& wall : scene.walls) gas.walled[wall.axis[0] - 'x'] = true;
+  for (const WallSide& side : wall_sides(scene)) gas.walled[side.axis] = true;
   gas.gravity = vector_of(scene.forces.gravity);
   gas.falls = !(gas.gravity == Vec3d{});
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "src/machine/stop_request.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 
 namespace needlework {
 namespace {
@@ -31,6 +33,26 @@ void require_known_effects(const Scene& scene) {
   };
   if (scene.driving.kicks) refuse("driving.kicks.every", "kicks");
   if (scene.driving.andersen) refuse("driving.andersen.rate", "a thermostat");
+}
+
+// The walls in the order in which reports count them.
+std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box) {
+  std::vector<Wall> out;
+  for (const WallSide& side : wall_sides(scene)) {
+    const Scene::Wall& given = scene.walls[side.entry];
+    Wall& wall = out.emplace_back();
+    wall.plane.axis = static_cast<int>(side.axis);
+    wall.plane.normal = side.is_high ? -1 : 1;
+    wall.plane.place = side.is_high ? box[side.axis] : 0;
+    wall.epsilon = given.epsilon;
+    wall.temperature = given.temperature.value_or(0);
+    if (!given.motion) continue;
+    wall.plane.amplitude = given.motion->amplitude;
+    wall.plane.frequency = given.motion->frequency;
+    const double turns = given.motion->phase / (2 * std::numbers::pi);
+    wall.turns = turns - std::floor(turns);
+  }
+  return out;
 }
 
 }  // namespace
@@ -84,9 +106,18 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
 
 void Run::open_window() {
   const std::vector<SumsOfSquares> sums = sums_of_squares(gas, now, team.threads());
+  expect_energy();
   energy.open(energy_of(gas, sums), tally.energy);
   windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
+}
+
+void Run::expect_energy() {
+  double temperature = 0;
+  for (const auto& source : sources) {
+    temperature = std::max(temperature, source->usual_temperature());
+  }
+  energy.expect(2.5 * temperature * static_cast<double>(gas.size()));
 }
 
 // Of the crossing of the box, of a fall, and of what the sources say.
@@ -104,7 +135,9 @@ double Run::usual_time_of_events(const std::vector<SumsOfSquares>& sums) const {
 void Run::pass_window() {
   const double by_account = present_energy();
   // Walls and gravity make densities that kinetic theory does not know.
-  if (gas.has_walls()) windows.measure(tally.collisions, gas.size(), gas.clock.since_start(now));
+  if (gas.has_walls() && gas.size() > 1) {
+    windows.measure(tally.collisions, gas.size(), gas.clock.since_start(now));
+  }
   open_window();
   energy.note_drift_from(by_account);
   windows.count(tally.collisions + std::reduce(tally.by_source.begin(), tally.by_source.end()));

@@ -94,6 +94,7 @@ class Run {
   explicit Run(const Scene& scene);
   /// Makes what the effects of the scene need besides.
   void add_effects(const Scene& scene);
+  void expect_energy();
   double usual_time_of_events(const std::vector<SumsOfSquares>& sums) const;
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;

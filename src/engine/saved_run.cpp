@@ -186,6 +186,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   windows.transfer(archive);
   if (!sources.empty()) windows.transfer_measured(archive);
   archive(initial_energy);
+  expect_energy();
   energy.transfer(archive);
   if (archive.reads()) {
     require(energy.is_sound() && windows.mean_free_time() > 0);

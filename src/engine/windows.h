@@ -1,9 +1,11 @@
 // The windows into which simulated time is divided.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "src/physics/clock.h"
@@ -11,7 +13,7 @@
 namespace needlework {
 
 /// A window is about as long as the mean free time at its start, or as the usual time of other
-/// events where no two needles meet. The ends of windows depend on the simulated history only. What
+/// events if that is shorter. The ends of windows depend on the simulated history only. What
 /// changes slowly as the gas cools is updated there and nowhere else.
 class Windows {
  public:
@@ -59,7 +61,8 @@ class Windows {
   void transfer(A& archive) {
     double mean_free_time = mean_free_time_;
     archive(end_, mean_free_time);
-    if (archive.reads()) set_times(mean_free_time, mean_free_time);
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (archive.reads()) set_times(mean_free_time, never);
   }
   /// The same where there are effects that measure() or have usual times of their own.
   template <class A>
@@ -73,7 +76,8 @@ class Windows {
   void set_times(double mean_free_time, double usual_time) {
     mean_free_time_ = mean_free_time;
     usual_time_ = usual_time;
-    const double time = std::isfinite(mean_free_time) ? mean_free_time : usual_time;
+    // Walls may change the energy much faster than collisions do.
+    const double time = std::min(mean_free_time, usual_time);
     span_ = std::isfinite(time) ? std::ldexp(1.0, std::ilogb(time)) : time;
   }
 

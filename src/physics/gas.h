@@ -29,8 +29,8 @@ struct Gas {
   std::array<bool, 3> walled{};  ///< axes with a wall: they have no periodic images
   Vec3d gravity{};               ///< acceleration of all needles [L / time^2]
   bool falls = false;            ///< gravity is not 0
-  Columns columns;                                  ///< what effects keep for each needle
-  Composition composition;                          ///< indexed by Record::species
+  Columns columns;               ///< what effects keep for each needle
+  Composition composition;       ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
   double longest = 1;                               ///< length of the longest species [L]
 

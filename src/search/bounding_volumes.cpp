@@ -217,6 +217,22 @@ BoundingVolumes::Path BoundingVolumes::path_of(const MotionFrom<FreeFlight>& pre
   return out;
 }
 
+BoundingVolumes::Range BoundingVolumes::path_along(int axis, const kernels::Seeker& seeker,
+                                                   float ahead) const {
+  const auto pull =
+      static_cast<float>(component(gas.gravity, axis) * per_length / (per_time * per_time));
+  const float r = seeker.motion.r[axis] + 0.5f * pull * (seeker.now * seeker.now);
+  const float v = seeker.motion.v[axis] + pull * seeker.now;
+  const float end = (v + 0.5f * pull * ahead) * ahead;
+  Range out{r + std::min(0.0f, end), r + std::max(0.0f, end)};
+  // It turns back on the way.
+  if (v * pull < 0 && std::abs(v) < std::abs(pull) * ahead) {
+    const float turn = r - 0.5f * v * v / pull;
+    out = {std::min(out.low, turn), std::max(out.high, turn)};
+  }
+  return out;
+}
+
 float BoundingVolumes::bend(float now, float ahead, const ClassCells& own) const {
   const double time = (now + ahead) / per_time;
   const double fallen = 0.5 * std::sqrt(dot(gas.gravity, gas.gravity)) * time * time;
@@ -235,8 +251,8 @@ bool BoundingVolumes::fits_words(Needle i, const Vec3d& centre) const {
 }
 
 // Writes the entry of a needle in a cell.
-void BoundingVolumes::write_path(ClassCells& own, Needle i,
-                                 const MotionFrom<FreeFlight>& present, Time now) {
+void BoundingVolumes::write_path(ClassCells& own, Needle i, const MotionFrom<FreeFlight>& present,
+                                 Time now) {
   const Path path = path_of(present, now);
   write_entry(own, i, path.centre, path.velocity * (per_length / per_time), now);
 }

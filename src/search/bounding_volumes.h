@@ -83,6 +83,12 @@ struct BoundingVolumes {
   /// the falling frame, as long as the needle stays in its bounding volume. [unit of length]
   float bend(float now, float ahead, const ClassCells& own) const;
 
+  /// Where the centre of a seeker of a cell gets to along an axis in a time ahead. [unit of length]
+  struct Range {
+    float low, high;
+  };
+  Range path_along(int axis, const kernels::Seeker& seeker, float ahead) const;
+
   double since_base(Time t) const { return gas.clock.difference(t, base) * per_time; }
 
   ClassCells& class_of(Needle i) const {

@@ -19,8 +19,7 @@ inline bool are_possible(const Totals& totals) {
   const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0; };
   const auto is_finite = [](double x) { return std::isfinite(x); };
   return is_amount(totals.time) && is_amount(totals.t_tr) && is_amount(totals.t_rot) &&
-         is_finite(totals.energy) &&
-         std::ranges::all_of(totals.momentum, is_finite) &&
+         is_finite(totals.energy) && std::ranges::all_of(totals.momentum, is_finite) &&
          totals.tc_collisions <= totals.collisions;
 }
 

@@ -128,8 +128,9 @@ TEST(RenewalTime, IsAboutAThousandLengthsOrRadiansAhead) {
   for (int n = 0; n < count; ++n) {
     record.flight = test::flight({}, vec3(random.direction()), vec3(random.normal_vector(1)),
                                  vec3(random.normal_vector(random.uniform(0, 5))));
-    const Clock clock(random.log_uniform(0.1, 10));
-    const double life = clock.difference(renewal_time(clock, record, 1), record.time);
+    Gas gas;
+    gas.clock = Clock(random.log_uniform(0.1, 10));
+    const double life = gas.clock.difference(renewal_time(gas, record, 1), record.time);
     const auto [x, y, z] = components(record.flight.v);
     const double speed = std::max({std::abs(x), std::abs(y), std::abs(z), record.flight.omega});
     ASSERT_GE(life * speed, 0x1p10) << "seed " << seed << ", " << n;
@@ -142,14 +143,15 @@ TEST(RenewalTime, IsAboutAThousandLengthsOrRadiansAhead) {
         *a = *a * std::ldexp(1.0, -power);
       }
       set_rotation(slow.flight);
-      const Clock slower(std::ldexp(clock.epoch_length(), power));
-      const Time a = renewal_time(clock, record, 1), b = renewal_time(slower, slow, 1);
+      Gas slower;
+      slower.clock = Clock(std::ldexp(gas.clock.epoch_length(), power));
+      const Time a = renewal_time(gas, record, 1), b = renewal_time(slower, slow, 1);
       ASSERT_EQ(a.epoch, b.epoch);
       ASSERT_EQ(std::ldexp(a.offset, power), b.offset);
     }
   }
   record.flight = test::flight({}, {1, 0, 0}, {}, {});
-  EXPECT_EQ(renewal_time(Clock(1), record, 1), Time::never());
+  EXPECT_EQ(renewal_time(Gas(), record, 1), Time::never());
 }
 
 TEST(MakePair, StartsAtTheLaterRecord) {

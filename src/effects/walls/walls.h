@@ -6,22 +6,18 @@
 #include <vector>
 
 #include "kernels/wall_contact.h"
-#include "needlework/scene.h"
 #include "src/effects/event_source.h"
 #include "src/physics/contact_time.h"
 
 namespace needlework {
 
-/// One wall of a scene. `both` of a scene are two, first the low one.
+/// One wall. What a scene calls both are two, first the low one.
 struct Wall {
   kernels::WallPlane plane;
   double epsilon = 1;
   double temperature = 0;  ///< 0: none; above, all velocities are drawn anew
   double turns = 0;        ///< phase of its motion at the start of the run, in turns
 };
-
-/// The walls of a scene, in the order in which reports count them.
-std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box);
 
 /// The t_c rule for hits of walls: elastic if the needle's own last collision is less than this
 /// ago.
@@ -43,6 +39,7 @@ class Walls final : public EventSource {
   SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const override;
   SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) override;
   double usual_time() const override;
+  double usual_temperature() const override;
   std::vector<double> parameters() const override;
   std::string message(const Gas& gas, const NeedleAt& at, std::int8_t detail) const override;
 
@@ -53,6 +50,7 @@ class Walls final : public EventSource {
                               SourceOutcome& outcome);
 
   std::vector<Wall> walls_;
+  double heaviest_ = 0;  ///< mass of the heaviest species
   std::uint64_t seed_;
   ContactTimeOfWalls contact_time_;
   /// Which tips are at which walls: two bits for each wall, above them the serial number of the
