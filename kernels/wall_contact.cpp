@@ -1,9 +1,9 @@
 #include "kernels/wall_contact.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "kernels/power_of_two.h"
 
@@ -75,12 +75,21 @@ Terms<DoubleDouble> terms_of(const WallApproach& a) {
   return out;
 }
 
-Terms<double> rounded(const Terms<DoubleDouble>& terms) {
-  return {to_double(terms.z),         to_double(terms.v),
-          to_double(terms.g),         to_double(terms.cosine),
-          to_double(terms.sine),      to_double(terms.omega),
-          to_double(terms.amplitude), to_double(terms.turns),
-          to_double(terms.frequency), terms.moves};
+// The same from the record's own doubles, of which p and |w| are rounded.
+Terms<double> rough_terms_of(const WallApproach& a) {
+  const Flight& flight = *a.flight;
+  const int axis = a.wall.axis;
+  const double sign = a.wall.normal, half = sign * a.half;
+  return {.z = sign * (component(flight.r, axis) - a.wall.place),
+          .v = sign * component(flight.v, axis),
+          .g = sign * a.gravity,
+          .cosine = half * component(flight.u, axis),
+          .sine = half * component(flight.p, axis),
+          .omega = flight.omega,
+          .amplitude = sign * a.wall.amplitude,
+          .turns = to_double(a.turns),
+          .frequency = a.wall.frequency,
+          .moves = a.wall.amplitude > 0};
 }
 
 Sizes sizes_of(const Terms<double>& t) {
@@ -118,8 +127,8 @@ Height<T> height(const Terms<T>& t, const Sizes& sizes, int tip, const T& zero, 
     phase = std::abs(to_double(angle));
   }
   out.h = out.h - zero;
-  // A dozen roundings of each term, and of its phase.
-  constexpr double rounding = 16 * unit_roundoff<T>;
+  // Two dozen roundings of each term, and of its phase.
+  constexpr double rounding = 32 * unit_roundoff<T>;
   const double turned = 1 + sizes.omega * s, moved = 1 + phase;
   out.error_h = rounding * ((sizes.z + sizes.v * s + sizes.g * s * s) + sizes.turn * turned +
                             sizes.amplitude * moved + std::abs(to_double(zero)));
@@ -147,67 +156,102 @@ double safe_step_from_contact(double slope, double curvature, double twist) {
   return 3 * (0.5 * curvature + root) / twist;
 }
 
-// The time before which the centre does not come nearer to the surface than half the length;
+// The time before which the centre does not come so near to the surface that a tip can touch it;
 // infinite if it does not until `to`. That is so for most needles and walls.
-double time_to_come_near(const WallApproach& a, double to) {
-  const double sign = a.wall.normal, v = sign * component(a.flight->v, a.wall.axis),
-               g = sign * a.gravity,
-               z = sign * (component(a.flight->r, a.wall.axis) - a.wall.place);
-  const double near = a.half + a.wall.amplitude;
-  const double apart = z - (near + 0x1p-40 * (std::abs(z) + near));
+double time_to_come_near(const Terms<double>& t, const Sizes& sizes, double to) {
+  const double near = sizes.turn + sizes.amplitude;
+  const double apart = t.z - (near + 0x1p-40 * (sizes.z + near));
   if (!(apart > 0)) return 0;
   // The first time at which apart + v s + g s^2 / 2 is 0.
-  const double square = v * v - 2 * g * apart;
-  if (square < 0 || (v >= 0 && g >= 0)) return infinity;
+  const double square = t.v * t.v - 2 * t.g * apart;
+  if (square < 0 || (t.v >= 0 && t.g >= 0)) return infinity;
   const double root = std::sqrt(square);
-  const double at = v < 0 ? 2 * apart / (root - v) : (root + v) / -g;
+  const double at = t.v < 0 ? 2 * apart / (root - t.v) : (root + t.v) / -t.g;
   return at > to ? infinity : at * (1 - 0x1p-40);
 }
+
+// A needle and a wall: their terms, and what follows from them.
+class Approach {
+ public:
+  explicit Approach(const WallApproach& given)
+      : given_(given), rough_(rough_terms_of(given)), sizes_(sizes_of(rough_)) {
+    const double v = sizes_.v + sizes_.turn * sizes_.omega + sizes_.amplitude * sizes_.rate;
+    // Besides the rounding of the record, that of the time of a contact.
+    within_ = given.tolerance + 4 * given.resolution * v;
+    const double rate =
+        std::max({v / given.half, sizes_.omega, sizes_.rate, std::sqrt(sizes_.g / given.half)});
+    stretch_ = rate > 0 ? times_power_of_two(1, 3 - exponent_of(rate)) : infinity;
+    bend_ = sizes_.bend() * roundup;
+    twist_ = sizes_.twist() * roundup;
+  }
+
+  double time_to_come_near(double to) const {
+    return kernels::time_to_come_near(rough_, sizes_, to);
+  }
+  Height<double> rough(int tip, double zero, double s) const {
+    return height(rough_, sizes_, tip, zero, s);
+  }
+  Height<DoubleDouble> exact(int tip, const DoubleDouble& zero, double s) {
+    if (!exact_) exact_ = terms_of(given_);
+    return height(*exact_, sizes_, tip, zero, s);
+  }
+  bool is_touching(int tip) const { return given_.touching >> tip & 1; }
+  double within() const { return within_; }  ///< a tip at the wall may be so far beyond it [L]
+  double stretch() const {
+    return stretch_;
+  }  ///< in which the needle moves a few lengths or radians
+  double bend() const { return bend_; }
+  double twist() const { return twist_; }
+
+ private:
+  const WallApproach& given_;
+  Terms<double> rough_;
+  Sizes sizes_;
+  std::optional<Terms<DoubleDouble>> exact_;
+  double within_, stretch_, bend_, twist_;
+};
 
 // The search for the first contact of one tip. It goes by stretches of time whose begin depends on
 // nothing but the record, so that it may begin in any of them and still finds the same bits.
 class TipSearch {
  public:
-  TipSearch(const WallApproach& approach, const Terms<DoubleDouble>& exact,
-            const Terms<double>& terms, const Sizes& sizes, int tip)
-      : exact_(exact), terms_(terms), sizes_(sizes), tip_(tip), tick_(approach.resolution / 8) {
-    bend_ = sizes.bend() * roundup;
-    const double v = sizes.v + sizes.turn * sizes.omega + sizes.amplitude * sizes.rate;
-    const double rate =
-        std::max({v / approach.half, sizes.omega, sizes.rate, std::sqrt(sizes.g / approach.half)});
-    stretch_ = rate > 0 ? times_power_of_two(1, 3 - exponent_of(rate)) : infinity;
-    was_touching_ = approach.touching >> tip & 1;
-    const Height<double> rough = height(terms, sizes, tip, 0.0, 0);
-    at_wall_ = was_touching_ || rough.h <= rough.error_h;
-    if (!at_wall_) return;
-    at_record_ = height(exact, sizes, tip, DoubleDouble(), 0);
-    at_wall_ = was_touching_ || to_double(at_record_.h) <= at_record_.error_h;
+  TipSearch(Approach& approach, int tip, double resolution)
+      : approach_(approach), tip_(tip), tick_(resolution / 8) {}
+
+  // From the tip's height at the record: its contact may be then, at 0, or come no earlier than
+  // begin().
+  enum class Start { above, leaves, hits, across };
+  Start start() {
+    const Height<double> rough = approach_.rough(tip_, 0, 0);
+    const bool touching = approach_.is_touching(tip_);
+    if (!touching && rough.h > rough.error_h) return Start::above;
+    // Of a tip that leaves fast, double tells enough.
+    if (touching && std::abs(rough.h) < approach_.within() && rough.dh > 0x1p20 * rough.error_dh) {
+      zero_ = rough.h;
+      return leave(rough.dh - rough.error_dh, rough.ddh - 0x1p-40 * approach_.bend());
+    }
+    const Height<DoubleDouble> exact = approach_.exact(tip_, DoubleDouble(), 0);
+    const double h = to_double(exact.h), slope = to_double(exact.dh);
+    if (h < -approach_.within()) return Start::across;
+    if (!touching && h > exact.error_h) return Start::above;
+    // It is at the wall, whatever rounding its record has done to that.
+    zero_ = exact.h;
+    const double curvature = to_double(exact.ddh);
+    if (slope < -exact.error_dh || (slope <= exact.error_dh && curvature < 0)) return Start::hits;
+    return leave(std::max(slope, 0.0), curvature);
   }
 
-  bool is_across(double within) const { return at_wall_ && to_double(at_record_.h) < -within; }
-
-  // At or after the record; infinite if there is none up to `to`.
+  // After start(): the contact at or after `enter`; infinite if there is none up to `to`.
   double first(double enter, double from, double to) {
-    double begin = enter;
-    if (at_wall_) {
-      const Height<DoubleDouble>& now = at_record_;
-      // It is at the wall, whatever rounding its record has done to that.
-      zero_ = now.h;
-      const double slope = to_double(now.dh);
-      if (slope < -now.error_dh || (slope <= now.error_dh && to_double(now.ddh) < 0)) return 0;
-      const double leaves = safe_step_from_contact(std::max(slope, 0.0), to_double(now.ddh),
-                                                   sizes_.twist() * roundup);
-      if (leaves == 0) return 0;
-      begin = std::max(begin, 0.75 * leaves);
-    }
+    const double begin = std::max(enter, begin_), stretch = approach_.stretch();
     if (begin > to) return infinity;
     // Where the stretch in which to begin is not that of `begin`, there is nothing between.
-    const double first_stretch = std::floor(begin / stretch_);
-    const double earliest = std::floor(std::max(0.0, from * (1 - 0x1p-40)) / stretch_);
-    double s = earliest > first_stretch ? earliest * stretch_ : begin;
+    const double first_stretch = std::floor(begin / stretch);
+    const double earliest = std::floor(std::max(0.0, from * (1 - 0x1p-40)) / stretch);
+    double s = earliest > first_stretch ? earliest * stretch : begin;
     for (double n = std::max(first_stretch, earliest);; ++n) {
-      const double end = std::isinf(stretch_) ? infinity : (n + 1) * stretch_;
-      const double at = in_stretch(s, std::min(end, to * (1 + 0x1p-40) + tick_));
+      const double end = std::isinf(stretch) ? infinity : (n + 1) * stretch;
+      const double at = in_stretch(s, end, to * (1 + 0x1p-40) + tick_);
       if (!std::isinf(at)) return at;
       if (!(end <= to)) return infinity;
       s = end;
@@ -215,16 +259,28 @@ class TipSearch {
   }
 
  private:
-  // From s, where the height is above 0 or 0, to the end.
-  double in_stretch(double s, double end) {
-    while (s <= end) {
-      const Height<double> rough = height(terms_, sizes_, tip_, to_double(zero_), s);
+  Start leave(double slope, double curvature) {
+    const double leaves = safe_step_from_contact(slope, curvature, approach_.twist());
+    begin_ = 0.75 * leaves;
+    return leaves > 0 ? Start::leaves : Start::hits;
+  }
+  // From s, where the height is above 0 or 0, to the end of the stretch, or to the last time asked
+  // for.
+  double in_stretch(double s, double end, double last) const {
+    while (s < end && s <= last) {
+      const Height<double> rough = approach_.rough(tip_, to_double(zero_), s);
       const double step = step_from(rough, rough.h);
       if (step > 1024 * tick_ && step > 0x1p-30 * s) {
         s += step;
         continue;
       }
-      const Height<DoubleDouble> fine = height(exact_, sizes_, tip_, zero_, s);
+      // Of a tip that comes fast, double tells the time of contact well enough.
+      const double fall = -(rough.dh + rough.error_dh);
+      if (2 * rough.error_h <= fall * (0x1p-45 * approach_.stretch())) {
+        const double at = s + std::max(rough.h, 0.0) / -rough.dh;
+        return at < end ? at : infinity;
+      }
+      const Height<DoubleDouble> fine = approach_.exact(tip_, zero_, s);
       const double fine_step = step_from(fine, to_double(fine.h));
       if (fine_step > tick_ && s + fine_step > s) {
         s += fine_step;
@@ -233,8 +289,8 @@ class TipSearch {
       const double slope = to_double(fine.dh);
       if (slope < 0) return s;
       // It grazes the wall, and leaves it.
-      const double leaves = safe_step_from_contact(slope, to_double(fine.ddh) - bend_rounding(),
-                                                   sizes_.twist() * roundup);
+      const double leaves = safe_step_from_contact(
+          slope, to_double(fine.ddh) - 0x1p-40 * approach_.bend(), approach_.twist());
       if (!(0.75 * leaves > tick_ && s + 0.75 * leaves > s)) return s;
       s += 0.75 * leaves;
     }
@@ -244,18 +300,13 @@ class TipSearch {
   double step_from(const Height<T>& at, double h) const {
     const double low = h - at.error_h;
     if (!(low > 0)) return 0;
-    return safe_step(low, to_double(at.dh) - at.error_dh, bend_) * (1 - 0x1p-40);
+    return safe_step(low, to_double(at.dh) - at.error_dh, approach_.bend()) * (1 - 0x1p-40);
   }
-  double bend_rounding() const { return bend_ * 0x1p-40; }
 
-  const Terms<DoubleDouble>& exact_;
-  const Terms<double>& terms_;
-  const Sizes& sizes_;
+  Approach& approach_;
   const int tip_;
   const double tick_;
-  double bend_, stretch_;
-  bool was_touching_, at_wall_;
-  Height<DoubleDouble> at_record_;
+  double begin_ = 0;
   DoubleDouble zero_;
 };
 
@@ -268,26 +319,21 @@ WallSurface surface_at(const WallPlane& wall, const DoubleDouble& turns) {
           wall.amplitude * (two_pi * wall.frequency) * to_double(sc.cosine)};
 }
 
-WallContact first_wall_contact(const WallApproach& approach, double from, double to) {
+WallContact first_wall_contact(const WallApproach& given, double from, double to) {
   WallContact out;
-  const double enter = time_to_come_near(approach, to);
+  Approach approach(given);
+  const double enter = approach.time_to_come_near(to);
   if (std::isinf(enter)) return out;
-  const Terms<DoubleDouble> exact = terms_of(approach);
-  const Terms<double> terms = rounded(exact);
-  const Sizes sizes = sizes_of(terms);
-  // Besides the rounding of the record, that of the time of a contact.
-  const double within =
-      approach.tolerance +
-      4 * approach.resolution * (sizes.v + sizes.turn * sizes.omega + sizes.amplitude * sizes.rate);
   for (int tip = 0; tip < 2; ++tip) {
-    TipSearch search(approach, exact, terms, sizes, tip);
-    if (search.is_across(within)) return {.found = true, .tip = tip, .across = true};
-    const double at = search.first(enter, from, to);
+    TipSearch search(approach, tip, given.resolution);
+    const TipSearch::Start start = search.start();
+    if (start == TipSearch::Start::across) return {.found = true, .tip = tip, .across = true};
+    const double at = start == TipSearch::Start::hits ? 0 : search.first(enter, from, to);
     if (std::isinf(at) || (out.found && at >= out.elapsed)) continue;
     out.found = true;
     out.elapsed = at;
     out.tip = tip;
-    out.unresolvable = (approach.touching >> tip & 1) && at > 0 && at < 64 * approach.resolution;
+    out.unresolvable = approach.is_touching(tip) && at > 0 && at < 64 * given.resolution;
     to = at;
   }
   return out;

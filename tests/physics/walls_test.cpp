@@ -59,7 +59,7 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
         ++all;
         impulse += std::abs(h.event.impulse[2]);
       });
-      constexpr double time = 40;
+      constexpr double time = 80;
       gas.advance(until_time(time));
       // The temperature is that of the degrees of freedom that can change: 5 N less two for the
       // momentum along the walls.

@@ -17,37 +17,6 @@ kernels::Flight draw_flight(test::Random& random) {
                       test::vec3(random.normal_vector(3)));
 }
 
-/// A second motion, as an effect would bring it: free flight under an acceleration. Shows that the
-/// interface suffices for one whose speed changes.
-class Falling {
- public:
-  Falling(const kernels::Flight& flight, const Vec3d& g) : flight_(flight), free_(flight), g_(g) {}
-  Vec3d centre(double t) const { return free_.centre(t) + g_ * (0.5 * t * t); }
-  Vec3d director(double t) const { return free_.director(t); }
-  Vec3d velocity(double t) const { return flight_.v + g_ * t; }
-  Vec3d angular_velocity(double t) const { return free_.angular_velocity(t); }
-  double fastest(double from, double to) const {
-    const auto speed = [&](double t) { return std::sqrt(dot(velocity(t), velocity(t))); };
-    return std::max(speed(from), speed(to));  // the speed is convex in time
-  }
-  double fastest_rotation(double from, double to) const { return free_.fastest_rotation(from, to); }
-  double time_to_leave(double t, const Vec3d& low, const Vec3d& high) const {
-    // A lower bound is enough: the nearest side at twice the present speed, while that holds.
-    const Vec3d r = centre(t);
-    const double room =
-        std::min({r.x - low.x, r.y - low.y, r.z - low.z, high.x - r.x, high.y - r.y, high.z - r.z});
-    const double speed = fastest(t, t), pull = std::sqrt(dot(g_, g_));
-    return room <= 0 ? 0 : std::min(room / (2 * speed), speed / pull);
-  }
-  double lasts(double length) const { return free_.lasts(length); }
-
- private:
-  kernels::Flight flight_;
-  FreeFlight free_;
-  Vec3d g_;
-};
-static_assert(NeedleMotion<Falling>);
-
 template <NeedleMotion M>
 void expect_bounds(const M& motion, test::Random& random) {
   const double from = random.uniform(0, 1), to = from + random.uniform(0, 1);
@@ -71,18 +40,20 @@ void expect_bounds(const M& motion, test::Random& random) {
 
 TEST(NeedleMotion, KeepsItsBounds) {
   test::Random random(7);
+  const Vec3d gravity{0, 0.5, -2};
   for (int n = 0; n < 1000; ++n) {
     const kernels::Flight flight = draw_flight(random);
     expect_bounds(FreeFlight(flight), random);
-    expect_bounds(Falling(flight, {0, 0, -2}), random);
+    expect_bounds(FreeFlight(flight, &gravity), random);
   }
 }
 
 TEST(FreeFlight, LeavesExactlyThen) {
   test::Random random(8);
+  const Vec3d gravity{0, 0.5, -2};
   for (int n = 0; n < 1000; ++n) {
     const kernels::Flight flight = draw_flight(random);
-    const FreeFlight motion(flight);
+    const FreeFlight motion(flight, n % 2 == 0 ? nullptr : &gravity);
     const Vec3d room{1, 2, 3}, low = flight.r - room, high = flight.r + room;
     const double stays = motion.time_to_leave(0, low, high);
     const Vec3d out = motion.centre(stays * (1 + 1e-9));
@@ -92,6 +63,22 @@ TEST(FreeFlight, LeavesExactlyThen) {
   const kernels::Flight still = test::flight({1, 2, 3}, {0, 0, 1}, {}, {});
   EXPECT_TRUE(std::isinf(FreeFlight(still).time_to_leave(0, {0, 0, 0}, {4, 4, 4})));
   EXPECT_TRUE(std::isinf(FreeFlight(still).lasts(1)));
+  EXPECT_TRUE(std::isfinite(FreeFlight(still, &gravity).lasts(1)));
+}
+
+// So that the bound on its speed is of use to the protocol of several threads.
+TEST(FreeFlight, HasABoundOnItsSpeedUnderGravity) {
+  test::Random random(9);
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3d gravity = test::vec3(random.normal_vector(random.log_uniform(1e-3, 1e3)));
+    const kernels::Flight flight = draw_flight(random);
+    const FreeFlight motion(flight, &gravity);
+    const double speed = motion.fastest(0, 0), fall = std::sqrt(std::sqrt(dot(gravity, gravity)));
+    EXPECT_LE(motion.fastest(0, motion.lasts(1)), 10 * (speed + fall));
+    // And renewals are not too frequent.
+    EXPECT_GE(motion.lasts(1) * (speed + fall),
+              0.25 * std::min(speed * speed / (fall * fall), 1.0));
+  }
 }
 
 }  // namespace

@@ -354,9 +354,10 @@ void GasDrive::bounce(Needle i, double epsilon) {
   now_ = then;
   const kernels::ContactGeometry at =
       contact_geometry(pair_in_order(gas_, a, b, shift), gas_.clock.exact_difference(now_, start));
-  const Impact impact = collide<true>({first.flight, second.flight, gas_.bodies[first.species],
-                                       gas_.bodies[second.species], at, next->contact.side},
-                                      {.epsilon = epsilon, .beta = -1});
+  const Impact impact = collide<true>(
+      {first.flight.v, first.flight.w, second.flight.v, second.flight.w, gas_.bodies[first.species],
+       gas_.bodies[second.species], at, next->contact.side},
+      {.epsilon = epsilon, .beta = -1});
   const Shift wraps_a =
       renew_record(gas_, a, now_, {at.u_first, impact.v_first, impact.w_first, length_of(gas_, a)});
   const Shift wraps_b = renew_record(
