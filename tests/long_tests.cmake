@@ -29,6 +29,12 @@ foreach(family thermal_k6 thermal_k2 parallel tip grazing just_collided fast_spi
                grazing_to_rounding)
   set_tests_properties(Families/PredictOracle.AgreesOnEveryPairOfMany/${family} PROPERTIES LABELS long)
 endforeach()
+# InitialRates of other k, rules and initial temperatures
+foreach(gas Smooth:n0p72_k6_epsilon0p8_beta_m1_q0 Rough:n0p72_k2_epsilon1_beta_m0p5_q3
+            Rough:n0p72_k20_epsilon0p5_beta0p5_q0 OfLengthAndMass:n0p72_k2_epsilon0p8_beta0p5_q1)
+  string(REPLACE ":" "/InitialRates.AreExact/" test ${gas})
+  set_tests_properties(${test} PROPERTIES LABELS long)
+endforeach()
 # ElasticRate at other densities and k
 foreach(gas Smooth:k2_n0p1 Smooth:k2_n0p72 Smooth:k2_n3 Smooth:k6_n0p1 Smooth:k6_n3 Smooth:k6_n20
             Smooth:k6_n50 Smooth:k6_n100 Smooth:k20_n0p1 Smooth:k20_n0p72 Smooth:k20_n20

@@ -30,7 +30,9 @@ std::unique_ptr<Loop> make_loop(Run& run, LoopChoice choice) {
   if (const auto kind = NearSearch::kind_of(choice.search)) {
     NearSearch search(run.gas, counters, choice.setup, *kind);
     if (choice.threads > 1 && choice.calendar == CellCalendar::name) {
-      return make_parallel_loop(run, std::move(search), choice);
+      return make_parallel_loop(
+          run, std::move(search), std::move(choice.replaced), choice.threads,
+          ParallelTuning{.by_cost = !choice.all_threads, .place = choice.threads_place});
     }
     require_one_thread(choice);
     return with_search(run, std::move(search), choice);

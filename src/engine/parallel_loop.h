@@ -40,6 +40,7 @@
 #include "needlework/error.h"
 #include "src/calendar/cell_calendar.h"
 #include "src/engine/event_loop.h"
+#include "src/engine/parallel_tuning.h"
 #include "src/engine/phase.h"
 #include "src/engine/phase_plan.h"
 #include "src/engine/subdomain_thread.h"
@@ -47,20 +48,6 @@
 #include "src/machine/available_cores.h"
 
 namespace needlework {
-
-/// How far threads look and how much work they share. Values other than the defaults are for
-/// tests.
-struct ParallelTuning {
-  /// Distance from its needles within which an event looks for earlier ones, besides the distance
-  /// that needles may be outside of their cells. If it is shorter, phases are rolled back
-  /// repeatedly; if it is longer, events wait without need. [L]
-  double sight = 1.6;
-  double least = PhasePlan::usual_least;  ///< least number of collisions for which a phase is
-                                          ///< shared
-  bool by_cost = true;                    ///< whether one thread works alone where that is faster
-  std::string_view place = "engine.threads";  ///< who asked for threads, for messages of the
-                                              ///< constructor
-};
 
 /// Wall time since it was made [s].
 class WallTime {

@@ -38,8 +38,8 @@ seeds = [1, 2, 3]
     write("long.toml", R"(scene = "cooling.toml"
 seeds = [1, 2, 3, 4, 5, 6]
 [parameters]
-"needles.count" = 3000
-"needles.box" = 17
+"needles.count" = 1000
+"needles.box" = 12
 "collisions.epsilon" = 0.8
 "until.energy_ratio" = 1e-3
 )");

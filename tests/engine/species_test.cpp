@@ -98,7 +98,7 @@ TEST(TableOfSpecies, OfLengthAndMassOneChangesNoBitOnThreads) {
   for (const char* search : {"linked-cells", "capsules"}) {
     needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
     run.effects.table = true;
-    const auto loop = test::make_parallel_loop<true>(run, search, 3, test::short_phases);
+    const auto loop = test::parallel_loop(run, search, 3, test::short_phases);
     EXPECT_EQ(loop->advance(Limits(run, until)), Stop::collisions);
     EXPECT_EQ(run.tally.hash.hex(), simulation.trajectory_hash()) << search;
     EXPECT_GT(run.tally.counters.phases, run.tally.counters.redone) << search;

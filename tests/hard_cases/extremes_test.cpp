@@ -299,7 +299,7 @@ TEST(Subnormal, ComponentsChangeNothing) {
     }
   }
   // For many pairs f is subnormal at the start.
-  const HardRun run = run_hard(scene, state, until_collisions(10.0 / thin), {.undecided = 800});
+  const HardRun run = run_hard(scene, state, until_collisions(3.0 / thin), {.undecided = 800});
   EXPECT_EQ(run.stop, Stop::collisions);
   // Directors given by subnormal numbers only.
   for (auto& u : state.orientation) {

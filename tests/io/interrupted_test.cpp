@@ -112,7 +112,7 @@ TEST_F(Continuing, AFullDiskLosesNothing) {
   const Contents stopped = read_contents(file("stopped.h5"));
   const SharedCheckpoint checkpoint;
   for (const auto event : {Disk::Event::full, Disk::Event::full_once}) {
-    for (int at = 0;; at += 11) {
+    for (int at = 0;; at += 29) {
       SCOPED_TRACE(at);
       *checkpoint = beginning;
       std::filesystem::copy_file(file("stopped.h5"), path,

@@ -6,7 +6,7 @@
 
 #include "src/calendar/any_calendar.h"
 #include "src/engine/loop.h"
-#include "src/engine/make_loop.h"
+#include "src/engine/parallel_tuning.h"
 #include "src/engine/replaced_records.h"
 #include "src/search/all_pairs.h"
 #include "src/search/linked_lists.h"
@@ -20,7 +20,8 @@ template <Search S>
 std::unique_ptr<Loop> make_event_loop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar,
                                       ReplacedRecords replaced);
 
-/// The multi-threaded loop.
-std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, LoopChoice& choice);
+/// The multi-threaded loop, for the effects `run.effects`.
+std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
+                                         int threads, const ParallelTuning& tuning);
 
 }  // namespace needlework

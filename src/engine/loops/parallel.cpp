@@ -4,11 +4,11 @@
 
 namespace needlework {
 
-std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, LoopChoice& choice) {
+std::unique_ptr<Loop> make_parallel_loop(Run& run, NearSearch search, ReplacedRecords replaced,
+                                         int threads, const ParallelTuning& tuning) {
   return with_model(run.effects, [&]<Model M>() -> std::unique_ptr<Loop> {
-    return std::make_unique<ParallelLoop<NearSearch, M>>(
-        run, std::move(search), std::move(choice.replaced), choice.threads,
-        ParallelTuning{.by_cost = !choice.all_threads, .place = choice.threads_place});
+    return std::make_unique<ParallelLoop<NearSearch, M>>(run, std::move(search),
+                                                         std::move(replaced), threads, tuning);
   });
 }
 

@@ -108,7 +108,7 @@ TEST(Loops, MayFollowEachOther) {
     };
     if (n % 4 == 0) one_thread("linked-cells", "tournament");
     if (n % 4 == 1) {
-      loop = test::make_parallel_loop<true>(run, "capsules", 2, test::short_phases, setup);
+      loop = test::parallel_loop(run, "capsules", 2, test::short_phases, setup);
     }
     if (n % 4 == 2) one_thread("linked-lists", "tournament");
     if (n % 4 == 3) one_thread("capsules", "cell-calendar");
