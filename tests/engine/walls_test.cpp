@@ -94,8 +94,7 @@ TEST(WallsAndGravity, HaveOneTrajectoryOnThreads) {
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const double sight : {1.6, 0.3}) {
       const auto make = [&](needlework::Run& run) {
-        return test::make_parallel_loop<true>(run, search, 3,
-                                              {.sight = sight, .least = 1, .by_cost = false});
+        return test::parallel_loop(run, search, 3, {.sight = sight, .least = 1, .by_cost = false});
       };
       EXPECT_EQ(course_of(scene, make, 1.5).hash, first.hash) << search << ", " << sight;
     }
