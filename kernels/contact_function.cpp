@@ -31,16 +31,14 @@ Vec3dd separation(const Pair& pair) {
   if (!(pair.elapsed_second == DoubleDouble())) {
     out = out - to_double_double(pair.second->v) * pair.elapsed_second;
   }
-  return pair.falls ? out + pair.fall.place : out;
+  return pair.fall ? out + pair.fall->place : out;
 }
 
-// v1 - v2 from s = 0 on.
-Vec3d relative_velocity(const Pair& pair) {
+// v1 - v2 from s = 0 on, of needles that have fallen. What they have gained may nearly cancel the
+// rest. Kept out of the code of those that do not fall.
+[[gnu::noinline]] Vec3dd falling_velocity(const Pair& pair) {
   const Vec3d &a = pair.first->v, &b = pair.second->v;
-  if (!pair.falls) return a - b;
-  // What has been gained may nearly cancel the rest.
-  const Vec3dd v{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
-  return to_double(v + pair.fall.velocity);
+  return Vec3dd{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)} + pair.fall->velocity;
 }
 
 template <class T>
@@ -50,17 +48,20 @@ void set_half_lengths(Frame<T>& frame, const Pair& pair, const PairScale& scale)
 }
 
 template <class T>
-void set_norms(Frame<T>& frame, const Pair& pair, const PairScale& scale) {
+void set_norms(Frame<T>& frame) {
   const Vec3d v{to_double(frame.v.x), to_double(frame.v.y), to_double(frame.v.z)};
   const Vec3d r{to_double(frame.r.x), to_double(frame.r.y), to_double(frame.r.z)};
   frame.r_norm = norm_1(r) * roundup;
   frame.v_norm = norm_1(v) * roundup;
-  // Errors of what has been gained count relative to itself.
-  if (pair.falls) {
-    frame.v_norm += norm_1(to_double(pair.fall.velocity)) * (scale.per_velocity() * roundup);
-  }
   frame.v_length = std::sqrt(dot(v, v)) * roundup;
   frame.w_sum = (to_double(frame.omega[0]) + to_double(frame.omega[1])) * roundup;
+}
+
+// Errors of what has been gained in a fall count relative to itself.
+template <class T>
+[[gnu::noinline]] void add_fall_to_norms(Frame<T>& frame, const Pair& pair,
+                                         const PairScale& scale) {
+  frame.v_norm += norm_1(to_double(pair.fall->velocity)) * (scale.per_velocity() * roundup);
 }
 
 }  // namespace
@@ -91,8 +92,8 @@ Vec3d director_after(const Flight& flight, double elapsed) {
 PairScale scale_of(const Pair& pair) {
   PairScale out;
   out.per_length = times_power_of_two(1, -exponent_of(pair.half_first + pair.half_second));
-  const double rate =
-      largest(relative_velocity(pair)) * out.per_length + (pair.first->omega + pair.second->omega);
+  const Vec3d v = pair.fall ? to_double(falling_velocity(pair)) : pair.first->v - pair.second->v;
+  const double rate = largest(v) * out.per_length + (pair.first->omega + pair.second->omega);
   if (!(rate > 0)) return out;
   // Clamped so that both factors are normal numbers.
   const int exponent = std::clamp(exponent_of(rate), -1000, 1000);
@@ -108,7 +109,8 @@ Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
   out.r = to_double(separation(pair)) * scale.per_length;
   const Flight* flight[2] = {pair.first, pair.second};
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
-  out.v = relative_velocity(pair) * scale.per_velocity();
+  out.v = (flight[0]->v - flight[1]->v) * scale.per_velocity();
+  if (pair.fall) out.v = to_double(falling_velocity(pair)) * scale.per_velocity();
   for (int i = 0; i < 2; ++i) {
     out.u[i] = flight[i]->u;
     out.p[i] = flight[i]->p;
@@ -116,7 +118,8 @@ Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
     out.delay[i] = elapsed[i].hi * scale.per_time;
   }
   set_half_lengths(out, pair, scale);
-  set_norms(out, pair, scale);
+  set_norms(out);
+  if (pair.fall) add_fall_to_norms(out, pair, scale);
   return out;
 }
 
@@ -128,7 +131,7 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
   out.v = to_double_double(flight[0]->v * scale.per_velocity()) -
           to_double_double(flight[1]->v * scale.per_velocity());
-  if (pair.falls) out.v = out.v + scaled(pair.fall.velocity, scale.per_velocity());
+  if (pair.fall) out.v = scaled(falling_velocity(pair), scale.per_velocity());
   for (int i = 0; i < 2; ++i) {
     out.u[i] = to_double_double(flight[i]->u);
     // |w| and w x u / |w| again, to full precision; w first scaled by a power of two of its own.
@@ -149,7 +152,8 @@ Frame<DoubleDouble> make_frame<DoubleDouble>(const Pair& pair, const PairScale& 
     out.delay[i] = {elapsed[i].hi * scale.per_time, elapsed[i].lo * scale.per_time};
   }
   set_half_lengths(out, pair, scale);
-  set_norms(out, pair, scale);
+  set_norms(out);
+  if (pair.fall) add_fall_to_norms(out, pair, scale);
   return out;
 }
 
@@ -179,14 +183,14 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair, const P
     return Vec3<Range>{range_of(a.x, error), range_of(a.y, error), range_of(a.z, error)};
   };
   Frame<Range> out;
-  const double far =
-      scale.per_length *
-      (largest(pair.first->r) + largest(pair.second->r) + largest(to_double(pair.shift)) +
-       largest(to_double(pair.fall.place)) + largest(pair.first->v) * pair.elapsed_first.hi +
-       largest(pair.second->v) * pair.elapsed_second.hi);
+  const double far = scale.per_length * (largest(pair.first->r) + largest(pair.second->r) +
+                                         largest(to_double(pair.shift)) +
+                                         (pair.fall ? largest(to_double(pair.fall->place)) : 0) +
+                                         largest(pair.first->v) * pair.elapsed_first.hi +
+                                         largest(pair.second->v) * pair.elapsed_second.hi);
   out.r = {range_of(frame.r.x, share * far), range_of(frame.r.y, share * far),
            range_of(frame.r.z, share * far)};
-  out.v = vector(frame.v, pair.falls ? frame.v_norm : 0);
+  out.v = vector(frame.v, pair.fall ? frame.v_norm : 0);
   for (int i = 0; i < 2; ++i) {
     out.u[i] = vector(frame.u[i]);
     out.p[i] = vector(frame.p[i]);
@@ -198,7 +202,8 @@ Frame<Range> enclose(const Frame<DoubleDouble>& frame, const Pair& pair, const P
   out.offset = range_of(frame.offset, share * r + frame.offset_error);
   out.slope = range_of(frame.slope, share * (frame.v_norm + r * frame.w_sum));
   set_half_lengths(out, pair, scale);
-  set_norms(out, pair, scale);
+  set_norms(out);
+  if (pair.fall) add_fall_to_norms(out, pair, scale);
   return out;
 }
 

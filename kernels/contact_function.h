@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include "kernels/double_double.h"
@@ -68,8 +69,7 @@ struct Pair {
   DoubleDouble elapsed_first;   ///< s = 0 is this long after the first needle's record [time]
   DoubleDouble elapsed_second;  ///< one of the two is 0
   Vec3dd shift;                 ///< added to the second needle's centre [L]
-  bool falls = false;           ///< whether there is a common acceleration
-  Fall fall;                    ///< then
+  std::optional<Fall> fall;     ///< if there is a common acceleration
   double half_first = 0.5, half_second = 0.5;  ///< half lengths of the needles [L]
   Touch touch;
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]

@@ -16,8 +16,21 @@ Vec3d lowest(const Gas& gas) {
   return {edge(gas.gravity.x, 0), edge(gas.gravity.y, 1), edge(gas.gravity.z, 2)};
 }
 
-double height_of(const Gas& gas, const MotionFrom<FreeFlight>& motion) {
-  return gas.falls ? dot(gas.gravity, lowest(gas) - motion.centre()) : 0;
+// SumsOfSquares::height of a species.
+double height_of(const Gas& gas, Time now, std::size_t species, int threads) {
+  if (!gas.falls) return 0;
+  const auto [height] = exact_sums(gas.records, threads, [&](const Record& a) {
+    if (a.species != species) return std::array{0.0};
+    return std::array{dot(gas.gravity, lowest(gas) - gas.motion_from(a, now).centre())};
+  });
+  return height;
+}
+
+// Calls sum(velocity_of) with a function that gives the present velocity of a record.
+template <class Sum>
+auto with_velocities(const Gas& gas, Time now, const Sum& sum) {
+  if (gas.falls) return sum([&](const Record& a) { return gas.motion_from(a, now).velocity(); });
+  return sum([](const Record& a) -> const Vec3d& { return a.flight.v; });
 }
 
 }  // namespace
@@ -26,13 +39,14 @@ std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads
   std::vector<SumsOfSquares> out(gas.composition.size());
   if (gas.size() == 0) return out;
   for (std::size_t species = 0; species < out.size(); ++species) {
-    const auto [v2, w2, height] = exact_sums(gas.records, threads, [&](const Record& a) {
-      if (a.species != species) return std::array{0.0, 0.0, 0.0};
-      const auto motion = gas.motion_from(a, now);
-      const Vec3d v = motion.velocity(), w = motion.angular_velocity();
-      return std::array{dot(v, v), dot(w, w), height_of(gas, motion)};
+    const auto [v2, w2] = with_velocities(gas, now, [&](const auto& velocity_of) {
+      return exact_sums(gas.records, threads, [&](const Record& a) {
+        if (a.species != species) return std::array{0.0, 0.0};
+        const Vec3d& v = velocity_of(a);
+        return std::array{dot(v, v), dot(a.flight.w, a.flight.w)};
+      });
     });
-    out[species] = {v2, w2, height};
+    out[species] = {v2, w2, height_of(gas, now, species, threads)};
   }
   return out;
 }
@@ -97,13 +111,14 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   std::vector<SumsOfSquares> sums;
   for (std::size_t species = 0; species < gas.composition.size(); ++species) {
     // All at once: reading the records takes most of the time.
-    const auto [v2, w2, x, y, z, height] = exact_sums(gas.records, threads, [&](const Record& a) {
-      if (a.species != species) return std::array<double, 6>{};
-      const auto motion = gas.motion_from(a, now);
-      const Vec3d v = motion.velocity(), w = motion.angular_velocity();
-      return std::array{dot(v, v), dot(w, w), v.x, v.y, v.z, height_of(gas, motion)};
+    const auto [v2, w2, x, y, z] = with_velocities(gas, now, [&](const auto& velocity_of) {
+      return exact_sums(gas.records, threads, [&](const Record& a) {
+        if (a.species != species) return std::array<double, 5>{};
+        const Vec3d& v = velocity_of(a);
+        return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
+      });
     });
-    sums.push_back({v2, w2, height});
+    sums.push_back({v2, w2, height_of(gas, now, species, threads)});
     const double mass = gas.composition[species].mass;
     for (const auto& [axis, sum] : {std::pair(0, x), std::pair(1, y), std::pair(2, z)}) {
       out.momentum[axis] += mass * sum;

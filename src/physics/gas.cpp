@@ -38,6 +38,16 @@ namespace {
   return record.touch_count > 1 && find_further_touch(gas, i, record, id, other, shift, out);
 }
 
+// Both fall alike from the start on, and the earlier record has fallen until then. Kept out of the
+// code of gases without gravity.
+[[gnu::noinline]] void add_fall(kernels::Pair& pair, const Vec3d& gravity) {
+  const bool first_is_earlier = !(pair.elapsed_first == DoubleDouble());
+  const DoubleDouble elapsed = first_is_earlier ? pair.elapsed_first : pair.elapsed_second;
+  const Vec3dd gain = to_double_double(gravity) * elapsed;
+  const Vec3dd fall = gain * (elapsed * DoubleDouble(0.5));
+  pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
+}
+
 }  // namespace
 
 kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle b,
@@ -53,15 +63,7 @@ kernels::Pair make_pair(const Gas& gas, Needle a, const Record& record_a, Needle
     pair.shift = {two_prod(shift[0], gas.box[0]), two_prod(shift[1], gas.box[1]),
                   two_prod(shift[2], gas.box[2])};
   }
-  if (gas.falls) {
-    // Both fall alike from the start on, and the earlier record has fallen until then.
-    const bool first_is_earlier = record_a.time != start;
-    const DoubleDouble elapsed = first_is_earlier ? pair.elapsed_first : pair.elapsed_second;
-    const Vec3dd gain = to_double_double(gas.gravity) * elapsed;
-    const Vec3dd fall = gain * (elapsed * DoubleDouble(0.5));
-    pair.fall = first_is_earlier ? kernels::Fall{gain, fall} : kernels::Fall{-gain, -fall};
-    pair.falls = true;
-  }
+  if (gas.falls) add_fall(pair, gas.gravity);
   pair.touch_within = gas.touch_tolerance();
   // The touch is in the later record. If both records were made at the same time, it may be in
   // either.

@@ -83,6 +83,8 @@ ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double 
 
 BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, BoundingVolume kind)
     : gas(all),
+      falls(all.falls),
+      walled(all.has_walls()),
       per_length(1 / needlework::unit_of_length(all)),
       places(all.size()),
       motions(all.size()) {
@@ -106,37 +108,52 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
   if (per_time == 0 || since_base(now) > longest_time) rebase(now, 1);
-  const auto present = gas.motion_from(gas.records[i], now);
-  const auto& motion = present.motion;
-  const double elapsed = present.start;
+  return gas.falls ? place_one<true>(i, now, half_length) : place_one<false>(i, now, half_length);
+}
+
+// Without gravity, the compiler knows that there is none.
+template <bool falls>
+inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
+  const Record& record = gas.records[i];
+  const double elapsed = gas.clock.difference(now, record.time);
+  const MotionFrom<FreeFlight> present{FreeFlight(record.flight, falls ? &gas.gravity : nullptr),
+                                       elapsed};
+  const FreeFlight& motion = present.motion;
+  const Vec3d centre = present.centre();
+  const Path path =
+      falls ? path_of(centre, present.velocity(), now) : Path{centre, present.velocity()};
   ClassCells& own = class_of(i);
-  motions[i].half = static_cast<float>(half_length * per_length);
+  Cell cell;
+  Vec3d r, a;
+  double stay;
   if (own.kind == BoundingVolume::cell) {
-    const Cell cell = own.grid.cell_of(present.centre());
-    const bool crosses = enter(own, i, cell);
-    places[i].next_event = gas.clock.add(now, own.grid.time_to_leave(cell, present, own.overlap));
-    assert(fits_words(i, path_of(present, now).centre));
-    write_path(own, i, present, now);
-    set_motion(i, present, now);
-    return crosses;
+    cell = own.grid.cell_of(centre);
+    stay = own.grid.time_to_leave(cell, present, own.overlap);
+    r = path.centre;
+    a = path.velocity * (per_length / per_time);
+  } else {
+    // The capsule is around where the needle will be in half of its time there, so that it may
+    // move by the radius before that and after.
+    const double speed =
+        motion.fastest(elapsed, elapsed) + half_length * motion.fastest_rotation(elapsed, elapsed);
+    double half = own.radius / speed;
+    if (falls) {
+      // The speed in the middle is greater by up to |g| half, and changes by as much from there on.
+      const double pull = std::sqrt(dot(gas.gravity, gas.gravity));
+      half = 2 * own.radius / (speed + std::sqrt(speed * speed + 6 * pull * own.radius));
+    }
+    stay = 2 * half;
+    const double middle = std::isfinite(half) ? elapsed + half : elapsed;
+    r = motion.centre(middle);
+    a = motion.director(middle);
+    cell = own.grid.cell_of(r);
   }
-  // The capsule is around where the needle will be in half of its time there, so that it may
-  // move by the radius before that and after.
-  const double speed =
-      motion.fastest(elapsed, elapsed) + half_length * motion.fastest_rotation(elapsed, elapsed);
-  double half = own.radius / speed;
-  if (gas.falls) {
-    // The speed in the middle is greater by up to |g| half, and changes by as much from there on.
-    const double pull = std::sqrt(dot(gas.gravity, gas.gravity));
-    half = 2 * own.radius / (speed + std::sqrt(speed * speed + 6 * pull * own.radius));
-  }
-  const double middle = std::isfinite(half) ? elapsed + half : elapsed;
-  const Vec3d r = motion.centre(middle);
-  const bool crosses = enter(own, i, own.grid.cell_of(r));
-  places[i].next_event = gas.clock.add(now, 2 * half);
+  const bool crosses = enter(own, i, cell);
+  places[i].next_event = gas.clock.add(now, stay);
+  motions[i].half = static_cast<float>(half_length * per_length);
   assert(fits_words(i, r));
-  write_entry(own, i, r, motion.director(middle), now);
-  set_motion(i, present, now);
+  write_entry(own, i, r, a, now);
+  set_motion(i, elapsed, path, now);
   return crosses;
 }
 
@@ -178,24 +195,24 @@ void BoundingVolumes::rebase(Time now, int threads) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;
       const auto present = gas.motion_from(gas.records[i], now);
-      set_motion(i, present, now);
+      const Path path = path_of(present.centre(), present.velocity(), now);
+      set_motion(i, present.start, path, now);
       ClassCells& own = class_of(i);
       if (own.kind == BoundingVolume::capsule) continue;
       // The centre fits its words, except that of a needle that has just collided and was taken to
       // the other side of the box: it is placed again before any needle searches.
-      write_path(own, i, present, now);
+      write_entry(own, i, path.centre, path.velocity * (per_length / per_time), now);
     }
   });
 }
 
 // All but the half length, which does not depend on the units of time.
-void BoundingVolumes::set_motion(Needle i, const MotionFrom<FreeFlight>& present, Time now) {
+void BoundingVolumes::set_motion(Needle i, double elapsed, const Path& path, Time now) {
   const kernels::Flight& flight = gas.records[i].flight;
-  const SineCosine<double> sc = sine_cosine(flight.omega * present.start);
+  const SineCosine<double> sc = sine_cosine(flight.omega * elapsed);
   const double unit_of_time = 1 / per_time;
   Motion& out = motions[i];
   const Vec3d corner = class_of(i).grid.corner(places[i].cell);
-  const Path path = path_of(present, now);
   store(out.r, (path.centre - corner) * per_length);
   store(out.v, path.velocity * (per_length * unit_of_time));
   store(out.u, flight.u * sc.cosine + flight.p * sc.sine);
@@ -203,18 +220,6 @@ void BoundingVolumes::set_motion(Needle i, const MotionFrom<FreeFlight>& present
   out.omega = static_cast<float>(flight.omega * unit_of_time);
   out.time = static_cast<float>(since_base(now));
   out.until = rounded_up(places[i].next_event);
-}
-
-// How a needle moves now in the frame of motions.
-BoundingVolumes::Path BoundingVolumes::path_of(const MotionFrom<FreeFlight>& present,
-                                               Time now) const {
-  Path out{present.centre(), present.velocity()};
-  if (gas.falls) {
-    const double time = gas.clock.difference(now, base);
-    out.centre = out.centre - gas.gravity * (0.5 * time * time);
-    out.velocity = out.velocity - gas.gravity * time;
-  }
-  return out;
 }
 
 BoundingVolumes::Range BoundingVolumes::path_along(int axis, const kernels::Seeker& seeker,
@@ -248,13 +253,6 @@ bool BoundingVolumes::fits_words(Needle i, const Vec3d& centre) const {
   const kernels::WordFormat& format = own.format;
   const Vec3d r = (centre - own.grid.corner(places[i].cell)) * per_length;
   return format.holds(r.x) && format.holds(r.y) && format.holds(r.z);
-}
-
-// Writes the entry of a needle in a cell.
-void BoundingVolumes::write_path(ClassCells& own, Needle i, const MotionFrom<FreeFlight>& present,
-                                 Time now) {
-  const Path path = path_of(present, now);
-  write_entry(own, i, path.centre, path.velocity * (per_length / per_time), now);
 }
 
 // Writes the needle's entry, with its velocity or director, into its slot.

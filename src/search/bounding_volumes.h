@@ -100,6 +100,7 @@ struct BoundingVolumes {
   }
 
   const Gas& gas;
+  const bool falls, walled;                          ///< whether there is gravity, are walls
   double per_length;                                 ///< 1 / unit of length
   std::vector<std::unique_ptr<ClassCells>> classes;  ///< at least one
   std::vector<std::uint8_t> class_of_species;        ///< index in `classes`
@@ -116,12 +117,19 @@ struct BoundingVolumes {
   Cell cell_around(Needle i) const;
   float rounded_up(Time t) const { return static_cast<float>(since_base(t) * (1 + 0x1p-20)); }
   void rebase(Time now, int threads);
-  void set_motion(Needle i, const MotionFrom<FreeFlight>& present, Time now);
+  template <bool falls>
+  bool place_one(Needle i, Time now, double half_length);
   struct Path {
     Vec3d centre, velocity;
   };
-  Path path_of(const MotionFrom<FreeFlight>& present, Time now) const;
-  void write_path(ClassCells& own, Needle i, const MotionFrom<FreeFlight>& present, Time now);
+  /// The motion of a needle that is here now and has this velocity, in the frame of motions.
+  Path path_of(const Vec3d& centre, const Vec3d& velocity, Time now) const {
+    if (!gas.falls) return {centre, velocity};
+    const double time = gas.clock.difference(now, base);
+    return {centre - gas.gravity * (0.5 * time * time), velocity - gas.gravity * time};
+  }
+  /// `elapsed` is the time since the needle's record.
+  void set_motion(Needle i, double elapsed, const Path& path, Time now);
   bool fits_words(Needle i, const Vec3d& centre) const;
   void write_entry(ClassCells& own, Needle i, const Vec3d& centre, const Vec3d& direction,
                    Time now);

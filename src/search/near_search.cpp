@@ -111,7 +111,7 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
       (capsule ? radius_of(own) : half) + (to_capsules ? radius_of(there) : longest_half);
   look.reach = look.distance + (static_cast<float>(volume_margin) + 2 * seeker.margin);
   if (to_capsules) look.reach += longest_half + static_cast<float>(there.format.step());
-  if (volumes.gas.falls && looks_.size() > 1 && !(capsule && to_capsules)) {
+  if (volumes.falls && looks_.size() > 1 && !(capsule && to_capsules)) {
     const float bend = volumes.bend(seeker.now, seeker.ahead, own);
     look.reach += bend;
     look.distance += bend;
@@ -123,7 +123,9 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
     const float beside = capsule ? half * std::abs(seeker.u[axis]) : 0;
     look.low[axis] = r + std::min(moved, 0.0f) - beside;
     look.high[axis] = r + std::max(moved, 0.0f) + beside;
-    if (!capsule && volumes.gas.falls && looks_.size() == 1) {
+  }
+  if (volumes.falls && !capsule && looks_.size() == 1) {
+    for (int axis = 0; axis < 3; ++axis) {
       const BoundingVolumes::Range path = volumes.path_along(axis, seeker, time);
       look.low[axis] = path.low;
       look.high[axis] = path.high;
@@ -409,7 +411,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
     candidate.shift = shift_of(candidate.needle, candidate.view);
   }
   // Cells that come round to those at the other wall hold no neighbours.
-  if (volumes.gas.has_walls()) {
+  if (volumes.walled) {
     std::erase_if(candidates_, [&](const Candidate& candidate) {
       return !volumes.gas.has_image(candidate.shift);
     });
