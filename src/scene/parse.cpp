@@ -417,9 +417,12 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   }
   require_names(scene, document, names);
   require_ids(scene, document, last_count);
+  // Where there are walls, the room depends on what they need.
+  const bool box_given = given.contains("needles.box"), walled = !scene.walls.empty();
+  if (box_given && !walled) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
   require_compatible_effects(scene);
-  if (given.contains("needles.box")) require_room(scene, document, box);
+  if (box_given && walled) require_room(scene, document, box);
   adopt_species(scene);
   if (!provided.state && scene.initial.file.empty()) require_followable(scene, name);
   scene.text = annotated(text, overrides);

@@ -483,7 +483,7 @@ std::string expected_instead(const Entry& unknown) {
     for (const std::string_view name : keys_of(unknown.section)) {
       if (name.starts_with(unknown.key + ".")) inner.push_back(name.substr(unknown.key.size() + 1));
     }
-    return fmt::format("expected {{{}}}", fmt::join(inner, " = ..., "));
+    return fmt::format("expected {{{} = ...}}", fmt::join(inner, " = ..., "));
   }
   if (unknown.section.empty() && is_scene_section(unknown.key))
     return fmt::format("expected a section [{}]", unknown.key);

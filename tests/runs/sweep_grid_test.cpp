@@ -91,6 +91,28 @@ time = 2
             ": line 7: until.time = 2");
 }
 
+TEST_F(GridFile, VariesKeysOfTablesAndOfEntries) {
+  const Grid grid = read(R"(seeds = [8]
+needles = { count = 7, box = [5, 6, 7] }
+until.time = 2
+driving.kicks.every = 1
+[parameters]
+"driving.kicks.every" = [0.5, 2]
+"walls.z-low.motion.amplitude" = [0.25, 0.5]
+[[walls]]
+axis = "z"
+side = "low"
+motion = { amplitude = 1, frequency = 3 }
+[[walls]]
+axis = "z"
+side = "high"
+)");
+  ASSERT_EQ(grid.members.size(), 4u);
+  EXPECT_EQ(grid.members[3].name, "kicks.every=2,z-low.motion.amplitude=0.5,seed=8");
+  EXPECT_EQ(grid.members[3].scene.driving.kicks->every, 2);
+  EXPECT_EQ(grid.members[3].scene.walls.at(0).motion->amplitude, 0.5);
+}
+
 TEST_F(GridFile, WithoutParametersHasOnePoint) {
   const Grid grid = read("scene = 'base.toml'\nseeds = [1]\n");
   ASSERT_EQ(grid.members.size(), 1u);

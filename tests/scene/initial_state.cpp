@@ -317,6 +317,7 @@ TEST(InitialStateBetweenWalls, LiesInsideAllOfThem) {
   Scene scene = walled(20000, {wall("x", "both"), raised, lifted});
   scene.species = {{.name = "long", .count = 10000, .length = 3},
                    {.name = "short", .count = 10000, .length = 0.5}};
+  scene.needles.box[1] = 7;
   const State state = draw_initial_state(scene);
   double lowest = 9, highest = 0;
   for (std::size_t i = 0; i < state.size(); ++i) {

@@ -69,7 +69,6 @@ const char* const effects = R"(
 needles = { count = 20, box = 9 }
 forces.gravity = [0, 0, -1]
 driving.kicks = { every = 0.1, translational = 2, rotational = 3 }
-driving.andersen = { rate = 0.5, temperature = 2 }
 until.time = 1
 [[walls]]
 axis = "z"
@@ -85,6 +84,8 @@ temperature = 3
 TEST(RestoredScene, HasAllKeys) {
   std::set<std::string> seen;
   for (const char* text : {rich, species, effects,
+                           "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
+                           "driving.andersen = { rate = 0.5, temperature = 2 }",
                            "needles = { count = 1, box = 3 }\nuntil.time = 1\n"
                            "initial.file = \"state.h5\"\n"
                            "collisions.tc_relative = 1"}) {
