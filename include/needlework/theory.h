@@ -91,6 +91,31 @@ double asymptotic_ratio(const Gas& gas);
 /// The k at which c = 1 for every epsilon < 1 (beta = -1).
 double equipartition_k();
 
+/// What the needles of one species do to resting hard walls: per needle and time, for each wall of
+/// an axis. [1 / time], [energy / L]
+struct WallRates {
+  double hits = 0;   ///< of either wall
+  double force = 0;  ///< of elastic hits; (1 + epsilon) / 2 of that where they are not
+};
+
+/// For a box whose axes have walls at both edges, or none. Exact, at every density, where no
+/// gravity acts, for Gaussian velocities and positions and directors of which nothing is known but
+/// that both tips are inside: in elastic equilibrium and in a state that is drawn. Edges with walls
+/// must be at least the length.
+std::array<WallRates, 3> wall_rates(const Species& species, const std::array<double, 3>& box,
+                                    const std::array<bool, 3>& walled, Temperatures now);
+
+/// The length delta, for which the collision rate of needles between two walls H >= 2 L apart,
+/// along one axis alone, is (H - delta L) / (H - L/2) of collision_rate() at the density N / (A (H
+/// - L/2)). q = T_rot / T_tr. Accurate to 1e-6. [1]
+double pair_depletion(double q, double k);
+
+/// Energy that kicks give, per needle and time, for elastic and inelastic needles alike: every dt
+/// each component of a velocity changes by a Gaussian number of variance translational^2 dt, each
+/// of the two of an angular velocity by one of rotational^2 dt, and the momentum that this gives is
+/// taken off. [energy / time]
+double kick_power(const Composition& composition, double translational, double rotational);
+
 /// What happens in a mixture at one instant, in the units of the composition, in which k_B = 1.
 struct MixtureRates {
   std::vector<double> collisions;          ///< of each two species, by Composition::pair_index

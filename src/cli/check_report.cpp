@@ -148,6 +148,86 @@ std::string contact_time_text(const Scene::Collisions& c) {
   return "off";
 }
 
+const char* name_of_axis(const WallSide& side) {
+  return side.axis == 0 ? "x" : side.axis == 1 ? "y" : "z";
+}
+const char* name_of_side(const WallSide& side) { return side.is_high ? "high" : "low"; }
+
+std::string wall_text(const Scene::Wall& wall) {
+  if (wall.temperature) return fmt::format("thermal, at temperature {:g}", *wall.temperature);
+  std::string text = wall.epsilon < 1 ? fmt::format("inelastic (epsilon = {:g})", wall.epsilon)
+                                      : "elastic (epsilon = 1)";
+  if (!wall.motion) return text;
+  const Scene::WallMotion& motion = *wall.motion;
+  return text + fmt::format(", moves by {:g} sin(2 pi {:g} t + {:g})", motion.amplitude,
+                            motion.frequency, motion.phase);
+}
+
+std::string wall_lines(const runs::Explanation& e) {
+  std::string text;
+  for (const runs::ExplainedWall& wall : e.walls) {
+    std::string about = fmt::format("{}-{}: {}", name_of_axis(wall.side), name_of_side(wall.side),
+                                    wall_text(e.scene.walls[wall.side.entry]));
+    if (std::isfinite(wall.hits))
+      about += fmt::format("; at the start {:.4g} hits per time", wall.hits);
+    if (std::isfinite(wall.force)) about += fmt::format(", mean force {:.4g}", wall.force);
+    text += line(text.empty() ? "walls" : "", about);
+  }
+  return text;
+}
+
+std::string driving_lines(const runs::Explanation& e) {
+  std::string text;
+  const auto& [kicks, andersen] = e.scene.driving;
+  if (kicks) {
+    text += line("driving",
+                 fmt::format("kicks every {:g}, translational {:g}, rotational {:g}: energy {:.4g} "
+                             "per needle and time",
+                             kicks->every, kicks->translational, kicks->rotational, e.kick_power));
+  }
+  if (andersen) {
+    text += line(text.empty() ? "driving" : "",
+                 fmt::format("thermostat at temperature {:g}, rate {:g} of redraws of each needle",
+                             andersen->temperature, andersen->rate));
+  }
+  return text;
+}
+
+Json walls_json(const runs::Explanation& e) {
+  Json out = Json::array();
+  for (const runs::ExplainedWall& wall : e.walls) {
+    const Scene::Wall& given = e.scene.walls[wall.side.entry];
+    Json motion;
+    if (given.motion) {
+      motion = {{"amplitude", given.motion->amplitude},
+                {"frequency", given.motion->frequency},
+                {"phase", given.motion->phase}};
+    }
+    out.push_back({{"axis", name_of_axis(wall.side)},
+                   {"side", name_of_side(wall.side)},
+                   {"epsilon", given.temperature ? Json() : Json(given.epsilon)},
+                   {"temperature", optional_number(given.temperature)},
+                   {"motion", std::move(motion)},
+                   {"hits_per_time", number(wall.hits)},
+                   {"force", number(wall.force)}});
+  }
+  return out;
+}
+
+Json driving_json(const runs::Explanation& e) {
+  Json out = Json::object();
+  if (const auto& kicks = e.scene.driving.kicks) {
+    out["kicks"] = {{"every", kicks->every},
+                    {"translational", kicks->translational},
+                    {"rotational", kicks->rotational},
+                    {"energy_per_needle_and_time", number(e.kick_power)}};
+  }
+  if (const auto& andersen = e.scene.driving.andersen) {
+    out["andersen"] = {{"rate", andersen->rate}, {"temperature", andersen->temperature}};
+  }
+  return out;
+}
+
 std::string until_text(const Scene::Until& until) {
   std::vector<std::string> conditions;
   const auto add = [&](const char* name, const std::optional<double>& value) {
@@ -161,6 +241,9 @@ std::string until_text(const Scene::Until& until) {
 }
 
 std::string expected_text(const runs::Explanation& e) {
+  if (!e.expected && is_pushed(e.scene)) {
+    return "not known: the theory of a gas that cools does not apply to walls, gravity and driving";
+  }
   if (!e.expected) {
     return e.scene.until.wall_s ? "runs until wall_s is over" : "never ends, as far as theory goes";
   }
@@ -232,6 +315,9 @@ std::string json_of(const runs::Explanation& e) {
   if (!one) json["pairs"] = pairs_json(e, composition);
   json["tc"] = optional_number(scene.collisions.tc);
   json["tc_relative"] = optional_number(scene.collisions.tc_relative);
+  if (!e.walls.empty()) json["walls"] = walls_json(e);
+  if (scene.forces.gravity != std::array<double, 3>{}) json["gravity"] = scene.forces.gravity;
+  if (scene.driving.kicks || scene.driving.andersen) json["driving"] = driving_json(e);
   json["until"] = {{"time", optional_number(scene.until.time)},
                    {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
                    {"energy_ratio", optional_number(scene.until.energy_ratio)},
@@ -276,6 +362,10 @@ std::string text_of(const runs::Explanation& e) {
   text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
+  text += wall_lines(e);
+  if (scene.forces.gravity != std::array<double, 3>{})
+    text += line("gravity", fmt::format("({:g})", fmt::join(scene.forces.gravity, ", ")));
+  text += driving_lines(e);
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));
   text += line("engine", engine_text(e));

@@ -24,6 +24,7 @@ double collisions_of(const std::optional<Forecast>& expected, const Scene& scene
 std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
+  if (is_pushed(scene)) return std::nullopt;
   if (!composition.is_mixture()) {
     const Restitution& rule = composition.restitution(0, 0);
     return forecast({composition[0].k, rule.epsilon, rule.beta}, initial_temperatures(loaded),
@@ -31,6 +32,40 @@ std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   }
   if (!has_mixture_theory(composition)) return std::nullopt;
   return forecast(composition, volume_of(scene), temperatures_by_species(loaded), scene.until);
+}
+
+// Exact where no gravity acts, for a wall at rest and a state that is drawn.
+std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  const Composition composition = scene.composition();
+  const auto temperatures = temperatures_by_species(loaded);
+  std::array<bool, 3> walled{};
+  bool is_known = !loaded.initial && scene.forces.gravity == std::array<double, 3>{};
+  for (const Scene::Wall& wall : scene.walls) is_known = is_known && !wall.motion;
+  std::vector<ExplainedWall> out;
+  for (const WallSide& side : wall_sides(scene)) {
+    walled[side.axis] = true;
+    const double start = is_known ? 0 : undefined;
+    out.push_back({side, start, scene.walls[side.entry].temperature ? undefined : start});
+  }
+  if (!is_known || out.empty()) return out;
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    const auto rates =
+        theory::wall_rates(composition[n], scene.needles.box, walled, temperatures[n]);
+    const auto count = static_cast<double>(composition[n].count);
+    for (ExplainedWall& wall : out) {
+      const double epsilon = scene.walls[wall.side.entry].epsilon;
+      wall.hits += count * rates[wall.side.axis].hits;
+      wall.force += count * 0.5 * (1 + epsilon) * rates[wall.side.axis].force;
+    }
+  }
+  return out;
+}
+
+double kick_power_of(const Scene& scene) {
+  const auto& kicks = scene.driving.kicks;
+  if (!kicks) return 0;
+  return theory::kick_power(scene.composition(), kicks->translational, kicks->rotational);
 }
 
 std::vector<double> rates_of(const LoadedScene& loaded) {
@@ -50,6 +85,8 @@ Explanation::Explanation(const LoadedScene& loaded)
       by_species(temperatures_by_species(loaded)),
       mean_free_time(1 / initial_collision_rate(loaded)),
       rates(rates_of(loaded)),
+      walls(walls_of(loaded)),
+      kick_power(kick_power_of(scene)),
       expected(expected_of(loaded)),
       collisions(collisions_of(expected, scene)),
       seconds(expected && std::isfinite(expected->time)

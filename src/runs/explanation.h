@@ -8,8 +8,16 @@
 #include "needlework/theory.h"
 #include "src/observe/forecast.h"
 #include "src/runs/loaded_scene.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::runs {
+
+/// A wall, and what needles do to it at the start. NaN where that is not known exactly.
+struct ExplainedWall {
+  WallSide side;
+  double hits = 0;   ///< of all needles [1 / time]
+  double force = 0;  ///< mean, of all needles [energy / L]
+};
 
 /// The facts of a scene, for people and for programs. Borrows the scene.
 struct Explanation {
@@ -23,7 +31,10 @@ struct Explanation {
   /// Of a mixture: collisions of each two species per time at the start, by
   /// Composition::pair_index; empty if they are too many.
   std::vector<double> rates;
-  std::optional<Forecast> expected;  ///< none: never met, or wall_s alone
+  std::vector<ExplainedWall> walls;
+  double kick_power;                 ///< energy per needle and time that kicks give
+  std::optional<Forecast> expected;  ///< none: never met, wall_s alone, or not known where walls,
+                                     ///< gravity or driving are
   double collisions;                 ///< of all needles until then; NaN if nothing is expected
   double seconds;                    ///< estimate of the wall time; NaN if no end is expected
   double memory;                     ///< estimate [bytes]

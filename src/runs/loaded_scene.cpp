@@ -112,12 +112,36 @@ bool has_mixture_theory(const Composition& composition) {
   return composition.is_mixture() && composition.size() <= theory::most_species_of_theory;
 }
 
+namespace {
+
+// By how much needles of one species collide more often between walls, in a state that is drawn:
+// there is less room for their centres, but near the walls only for directors along these. 1 where
+// that is not known exactly.
+double factor_between_walls(const Scene& scene, theory::Temperatures start) {
+  const double length = scene.composition().longest();
+  double factor = 1;
+  int walled = 0;
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!gaps[axis].is_walled()) continue;
+    const double gap = scene.needles.box[axis] + gaps[axis].high - gaps[axis].low;
+    if (++walled > 1 || gaps[axis].is_open() || gap < 2 * length || !(start.t_tr > 0)) return 1;
+    const double delta = theory::pair_depletion(start.t_rot / start.t_tr, scene.composition()[0].k);
+    const double room = gap - 0.5 * length;
+    factor = scene.needles.box[axis] * (gap - delta * length) / (room * room);
+  }
+  return factor;
+}
+
+}  // namespace
+
 double initial_collision_rate(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
   if (!composition.is_mixture()) {
-    return theory::collision_rate(theory_density_of(scene), initial_temperatures(loaded),
-                                  composition[0].k);
+    const theory::Temperatures start = initial_temperatures(loaded);
+    return factor_between_walls(scene, start) *
+           theory::collision_rate(theory_density_of(scene), start, composition[0].k);
   }
   const auto rates =
       theory::mixture_rates(composition, volume_of(scene), temperatures_by_species(loaded));

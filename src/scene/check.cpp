@@ -187,8 +187,7 @@ std::vector<std::string> warnings(const Scene& scene) {
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {
     return species.t_tr == 0 && species.t_rot == 0;
   });
-  const bool is_pushed = exchanges_energy(scene) || scene.forces.gravity != std::array<double, 3>{};
-  if (scene.initial.file.empty() && at_rest && !is_pushed) {
+  if (scene.initial.file.empty() && at_rest && !is_pushed(scene)) {
     list.push_back("initial.t_tr, initial.t_rot = 0: nothing moves");
   }
   add(collision_warnings(scene));

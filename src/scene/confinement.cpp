@@ -181,6 +181,10 @@ bool exchanges_energy(const Scene& scene) {
          scene.driving.andersen;
 }
 
+bool is_pushed(const Scene& scene) {
+  return exchanges_energy(scene) || scene.forces.gravity != std::array<double, 3>{};
+}
+
 std::string name_of(const Scene::Wall& wall) { return wall.axis + "-" + wall.side; }
 
 void require_compatible_effects(const Scene& scene) {

@@ -60,6 +60,10 @@ bool acts_on_single_needles(const Scene& scene);
 /// or by driving.
 bool exchanges_energy(const Scene& scene);
 
+/// Whether anything changes the motion of needles so that a gas does not just cool or stay as it
+/// is.
+bool is_pushed(const Scene& scene);
+
 /// "x-low": how messages and `--set` name an entry [[walls]].
 std::string name_of(const Scene::Wall& wall);
 

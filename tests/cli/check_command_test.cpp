@@ -35,6 +35,37 @@ TEST_F(CheckCommand, PrintsOneJsonObject) {
   EXPECT_GT(json["memory_bytes"].get<double>(), 0);
 }
 
+TEST_F(CheckCommand, ExplainsWallsAndDriving) {
+  // Per needle and time 0.4546 hits of each wall and a force of 2/3 between walls 2 apart.
+  write("walls.toml", R"(needles = { count = 1000, box = [10, 10, 2] }
+until.time = 1
+driving.kicks = { every = 0.1, translational = 2 }
+driving.andersen = { rate = 0.5, temperature = 3 }
+[[walls]]
+axis = "z"
+side = "both"
+)");
+  const Outcome outcome = run("check walls.toml --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json = outcome.json();
+  ASSERT_EQ(json["walls"].size(), 2u);
+  EXPECT_EQ(json["walls"][1]["side"], "high");
+  EXPECT_NEAR(json["walls"][0]["hits_per_time"].get<double>(), 454.6, 0.05);
+  EXPECT_NEAR(json["walls"][0]["force"].get<double>(), 2000.0 / 3, 1e-6);
+  EXPECT_NEAR(json["driving"]["kicks"]["energy_per_needle_and_time"].get<double>(), 6 * 0.999,
+              1e-9);
+  EXPECT_EQ(json["driving"]["andersen"]["temperature"], 3);
+  EXPECT_TRUE(json["expected"].is_null());
+  // H (H - delta) / (H - 1/2)^2 of the rate without walls.
+  EXPECT_NEAR(json["mean_free_time"].get<double>(), 1 / (1.237662 * 5 * 2 * (2 - 0.753889) / 2.25),
+              1e-5);
+  const Outcome text = run("check walls.toml");
+  EXPECT_NE(text.out.find("z-low: elastic (epsilon = 1); at the start 454.6 hits per time"),
+            std::string::npos)
+      << text.out;
+  EXPECT_NE(text.out.find("thermostat at temperature 3"), std::string::npos) << text.out;
+}
+
 TEST_F(CheckCommand, SaysWhatLimitsCores) {
   const std::string large = "check small.toml --set needles.count=9000 --set needles.box=30 ";
   const auto json = run(large + "--threads auto --json", "SLURM_CPUS_PER_TASK=1").json();
