@@ -47,7 +47,7 @@ std::string place_of_gravity(const Scene& scene) {
                   fmt::format("[{}]", fmt::join(scene.forces.gravity, ", ")));
 }
 
-[[noreturn]] void refuse(const std::string& place, const std::string& expected) {
+[[noreturn]] void refuse_at(const std::string& place, const std::string& expected) {
   throw InputError(fmt::format("{}: expected {}", place, expected));
 }
 
@@ -58,9 +58,9 @@ void require_one_wall_a_side(const Scene& scene) {
       return other.axis == side->axis && other.is_high == side->is_high;
     });
     if (!is_taken) continue;
-    refuse(place_of_side(scene, side->entry),
-           fmt::format("no second wall at the {} edge of {}", side->is_high ? "high" : "low",
-                       axis_names[side->axis]));
+    refuse_at(place_of_side(scene, side->entry),
+              fmt::format("no second wall at the {} edge of {}", side->is_high ? "high" : "low",
+                          axis_names[side->axis]));
   }
 }
 
@@ -72,10 +72,11 @@ void require_thermal_walls_at_rest(const Scene& scene) {
     if (!wall.temperature) continue;
     const std::string epsilon = key_of("epsilon", n);
     if (wall.epsilon != 1 || scene.places.contains(epsilon))
-      refuse(place_of(scene, epsilon, fmt::to_string(wall.epsilon)), reason);
+      refuse_at(place_of(scene, epsilon, fmt::to_string(wall.epsilon)), reason);
     if (wall.motion)
-      refuse(place_of(scene, key_of("motion.amplitude", n), fmt::to_string(wall.motion->amplitude)),
-             reason);
+      refuse_at(
+          place_of(scene, key_of("motion.amplitude", n), fmt::to_string(wall.motion->amplitude)),
+          reason);
   }
 }
 
@@ -86,24 +87,26 @@ void require_gravity_to_single_walls(const Scene& scene) {
     const double gravity = scene.forces.gravity[side.axis];
     if (!gaps[side.axis].is_open() || (side.is_high ? gravity > 0 : gravity < 0)) continue;
     const char axis = axis_names[side.axis];
-    refuse(place_of_side(scene, side.entry),
-           fmt::format("\"both\", or a second wall along {}, or forces.gravity that points to this "
-                       "one: needles would leave the box at its open side",
-                       axis));
+    refuse_at(
+        place_of_side(scene, side.entry),
+        fmt::format("\"both\", or a second wall along {}, or forces.gravity that points to this "
+                    "one: needles would leave the box at its open side",
+                    axis));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (scene.forces.gravity[axis] == 0 || gaps[axis].is_walled()) continue;
-    refuse(place_of_gravity(scene),
-           fmt::format("none along {}, which is periodic: there gravity does nothing to the motion "
-                       "of needles relative to each other",
-                       axis_names[axis]));
+    refuse_at(
+        place_of_gravity(scene),
+        fmt::format("none along {}, which is periodic: there gravity does nothing to the motion "
+                    "of needles relative to each other",
+                    axis_names[axis]));
   }
 }
 
 void require_thermostat_without_gravity(const Scene& scene) {
   if (!scene.driving.andersen || scene.forces.gravity == std::array<double, 3>{}) return;
-  refuse(place_of(scene, "driving.andersen.rate", fmt::to_string(scene.driving.andersen->rate)),
-         "none beside forces.gravity: the thermostat is for needles that fly freely");
+  refuse_at(place_of(scene, "driving.andersen.rate", fmt::to_string(scene.driving.andersen->rate)),
+            "none beside forces.gravity: the thermostat is for needles that fly freely");
 }
 
 }  // namespace
