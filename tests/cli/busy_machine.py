@@ -1,7 +1,7 @@
 """Several threads are not much slower than one beside other programs that keep all cores busy.
 
     busy_machine.py NEEDLEWORK SCENE [--load N] [--threads 2,8] [--repetitions N] [--most RATIO]
-                    [--attempts N]
+                    [--attempts N] [--set SECTION.KEY=VALUE]
 
 Prints the median wall time of interleaved runs for each number of threads, over that of one thread.
 Fails if in each attempt one of them is larger than the largest ratio: other programs may disturb one.
@@ -35,10 +35,12 @@ def load(programs):
             process.wait()
 
 
-def seconds(program, scene, threads):
+def seconds(arguments, threads):
+    command = [arguments.program, "run", arguments.scene, "--threads", str(threads), "--quiet"]
+    for setting in arguments.set:
+        command += ["--set", setting]
     begin = time.perf_counter()
-    subprocess.run([program, "run", scene, "--threads", str(threads), "--quiet"], check=True,
-                   stdout=subprocess.DEVNULL)
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return time.perf_counter() - begin
 
 
@@ -46,7 +48,7 @@ def largest_ratio(arguments, settings):
     times = {threads: [] for threads in settings}
     for _ in range(arguments.repetitions):
         for threads in settings:
-            times[threads].append(seconds(arguments.program, arguments.scene, threads))
+            times[threads].append(seconds(arguments, threads))
     one = statistics.median(times[1])
     for threads in settings:
         median = statistics.median(times[threads])
@@ -64,6 +66,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=3)
     parser.add_argument("--most", type=float, default=1.3, help="largest ratio that passes")
     parser.add_argument("--attempts", type=int, default=1)
+    parser.add_argument("--set", action="append", default=[], help="a key of the scene")
     arguments = parser.parse_args()
     settings = [1] + [int(threads) for threads in arguments.threads.split(",")]
     with load(arguments.load):
