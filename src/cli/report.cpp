@@ -14,6 +14,7 @@
 #include "src/runs/loaded_scene.h"
 #include "src/runs/resources.h"
 #include "src/scene/accuracy.h"
+#include "src/scene/confinement.h"
 #include "src/serve/species_json.h"
 
 namespace needlework::cli {
@@ -106,7 +107,7 @@ std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
     const Totals& sample) const {
   const Composition composition = scene.composition();
   if (!runs::has_mixture_theory(composition) || !scene.initial.file.empty() ||
-      !(course.initial.energy > 0) || !course.theory_holds) {
+      acts_on_single_needles(scene) || !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }
   if (!mixture_theory) {
@@ -130,7 +131,7 @@ std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) cons
     return theory::mean_of_species(scene.composition(), *each);
   }
   if (scene.composition().is_mixture() || !scene.initial.file.empty() ||
-      !(course.initial.energy > 0) || !course.theory_holds) {
+      acts_on_single_needles(scene) || !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }
   const Composition composition = scene.composition();

@@ -8,6 +8,7 @@
 #include "src/runs/estimates.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
+#include "src/scene/confinement.h"
 #include "src/search/choice.h"
 
 namespace needlework::runs {

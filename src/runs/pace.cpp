@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/observe/completion.h"
 
@@ -10,6 +11,9 @@ namespace {
 
 // The change of the total momentum, over that of so many needles by chance.
 double momentum_drift(const Totals& initial, const Totals& now, const Scene& scene) {
+  if (!scene.walls.empty() || scene.driving.andersen) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double change = now.momentum[axis] - initial.momentum[axis];

@@ -60,11 +60,11 @@ LoadedScene with_events(LoadedScene loaded, const std::string& path) {
   return loaded;
 }
 
-// Where kinetic theory has something to say: of a drawn gas that moves. One that is continued goes
-// to its place by itself.
+// Where kinetic theory has something to say: of a drawn, uniform gas that moves by itself. One that
+// is continued goes to its place by itself.
 observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& initial,
                                           const Simulation& simulation, bool drawn) {
-  if (!drawn || !(initial.energy > 0)) return nullptr;
+  if (!drawn || !(initial.energy > 0) || acts_on_single_needles(scene)) return nullptr;
   const Composition composition = scene.composition();
   if (composition.is_mixture()) {
     if (!has_mixture_theory(composition)) return nullptr;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "src/runs/amount_text.h"
 
 namespace needlework::runs {
@@ -20,7 +22,10 @@ std::string progress_text(const Progress& progress) {
   if (progress.since_checkpoint) {
     text += fmt::format(", saved {} ago", duration_text(*progress.since_checkpoint));
   }
-  text += fmt::format(", drift E {:.1e}, P {:.1e}", progress.energy_drift, progress.momentum_drift);
+  text += fmt::format(", drift E {:.1e}", progress.energy_drift);
+  if (std::isfinite(progress.momentum_drift)) {
+    text += fmt::format(", P {:.1e}", progress.momentum_drift);
+  }
   return progress_text(progress.fraction, progress.left, text);
 }
 

@@ -17,7 +17,8 @@ struct Progress {
   double rate = 0;          ///< collisions in this process per second of wall time
   Totals now, initial;      ///< `initial`: at the start of the run
   double energy_drift = 0;  ///< see Simulation::energy_drift()
-  double momentum_drift = 0;  ///< change of the total momentum, over sqrt(N m T_tr)
+  double momentum_drift = 0;  ///< change of the total momentum, over sqrt(N m T_tr); NaN where
+                              ///< walls or a thermostat change it
   /// Wall time since the last checkpoint, or since this process has begun; none if none is written
   /// [s].
   std::optional<double> since_checkpoint = {};
