@@ -67,6 +67,8 @@ class EventSource {
   virtual SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const = 0;
   /// What happens at such an event. May change the needle's values in the columns of the source.
   virtual SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) = 0;
+  /// Sets the values of its columns at the start of a run, where they depend on ids or the clock.
+  virtual void begin(const Gas&) {}
   /// About the time from one of its events of a needle to the next, as far as that does not depend
   /// on the motion of needles; else infinite. [time]
   virtual double usual_time() const { return std::numeric_limits<double>::infinity(); }

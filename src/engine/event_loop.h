@@ -45,7 +45,6 @@ class EventLoop : public Loop {
   S search_;
   std::unique_ptr<AnyCalendar> calendar_;
   EventProcessor<S, M> processor_;
-  std::uint64_t sorted_at_;  ///< value of the counter `crossings` when the needles were last sorted
 
  private:
   void first_search(Needle i);
@@ -63,8 +62,7 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
       model_(run.gas, run.effects, run.accuracy),
       search_(std::move(search)),
       calendar_(std::move(calendar)),
-      processor_(run, model_, search_, *calendar_, run.tally),
-      sorted_at_(run.tally.counters.crossings) {
+      processor_(run, model_, search_, *calendar_, run.tally) {
   const std::size_t count = run.gas.size();
   calendar_->reset(count, run.gas.clock, search_.cells());
   processor_.set_now(run.now);
@@ -150,12 +148,7 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   FurtherTouches& touches = *run_.gas.further_touches;
   // No record of an earlier window is ever put back.
   if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);
-  // Number of cell crossings per needle after which storage is sorted again. Measured: with 6,
-  // sorting itself takes 2 % of the time of 1e4 needles; after 24 and more, 1e5 needles have lost
-  // their order.
-  constexpr std::uint64_t crossings = 12;
-  const std::uint64_t crossed = run_.tally.counters.crossings - sorted_at_;
-  if (run_.sorted && crossed > crossings * run_.gas.size()) sort_storage();
+  if (run_.is_out_of_order()) sort_storage();
   return true;
 }
 
@@ -163,10 +156,7 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
 template <Search S, Model M>
 void EventLoop<S, M>::sort_storage() {
   Gas& gas = run_.gas;
-  ++run_.tally.counters.sorts;
-  sorted_at_ = run_.tally.counters.crossings;
-  const std::vector<Needle> order = order_in_space(gas, run_.now), ranks = ranks_of(order);
-  reorder(gas, order);
+  const std::vector<Needle> order = run_.sort_storage(), ranks = ranks_of(order);
   search_.renumber(ranks);
   processor_.forget();
   std::vector<Event> events;

@@ -306,7 +306,10 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
   best.lower_id = best.higher_id = gas_.ids[i];
   best.time = std::min(
       {placed_until, gas_.records[i].renewal, gas_.clock.add(time, run_.windows.search_span())});
-  if constexpr (M::has_effects) consider_sources(i, best);
+  if constexpr (M::has_effects) {
+    if (run_.kicks) best.time = std::min(best.time, run_.after_next_kick());
+    consider_sources(i, best);
+  }
   search_.find({i, just_hit, time, gas_.clock.difference(best.time, time)}, model_,
                [&](Needle j, const Shift& shift, double from) {
                  consider(i, j, shift, from, best);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/simulation.h"
+#include "src/effects/driving/kicks.h"
 #include "src/effects/event_source.h"
 #include "src/engine/energy_account.h"
 #include "src/engine/gas_sums.h"
@@ -60,6 +61,12 @@ class Run {
   /// move, their next events are beyond the range of the clock: throws InvalidStateError.
   Stop end_of_events() const;
 
+  /// Whether so many needles have moved in space that storage should be sorted.
+  bool is_out_of_order() const;
+  /// Sorts the needles so that neighbours in space are neighbours in memory. Returns where each
+  /// place in storage was before.
+  std::vector<Needle> sort_storage();
+
   /// Adds a source of events. To be called before there is an event loop.
   void add_source(std::unique_ptr<EventSource> source);
 
@@ -73,6 +80,14 @@ class Run {
   ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                      const std::function<Vec3d(Needle)>& angular_velocity);
 
+  /// When all needles are kicked next; never where there are no kicks. What happens at the same
+  /// instant happens before.
+  Time next_kick() const { return kicks ? kicks->time(gas.clock, kicks_done + 1) : Time::never(); }
+  /// The first time after it, up to which contacts need to be searched.
+  Time after_next_kick() const { return after_next_kick_; }
+  /// Kicks all needles now, and replaces their records; see replace_velocities().
+  ReplacedRecords kick();
+
   Gas gas;
   Time now;
   Windows windows;
@@ -85,6 +100,9 @@ class Run {
   double contact_time = 0;  ///< contact time of the t_c rule in this window
   std::optional<ContactTimeRule> contact_time_rule;
   std::vector<std::unique_ptr<EventSource>> sources;
+  std::optional<Kicks> kicks;
+  std::uint64_t kicks_done = 0;
+  double kick_energy = 0;  ///< that all kicks have given to all needles
   Listeners listeners;
   TeamAtHand team;
   std::atomic<bool> interrupted = false;
@@ -96,12 +114,15 @@ class Run {
   void add_effects(const Scene& scene);
   void expect_energy();
   double usual_time_of_events(const std::vector<SumsOfSquares>& sums) const;
+  void find_next_kick();
   void transfer(Archive& archive, const std::vector<Needle>& by_id);
   void require_consistent() const;
   GasNumbers numbers() const;
   void set_contact_time();
 
   std::optional<double> tc_, tc_relative_;
+  Time after_next_kick_ = Time::never();
+  std::uint64_t sorted_at_ = 0;  ///< value of the counter `crossings` at the last sorting
 };
 
 /// The effects on motion and pair rule that the scene requires.

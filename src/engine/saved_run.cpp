@@ -72,13 +72,12 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
                              static_cast<double>(accuracy.float_filter),
                              accuracy.root_tolerance,
                              accuracy.sampling_step};
-  if (run.gas.falls) {
-    out.insert(out.end(), {run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
-  }
-  for (const auto& source : run.sources) {
-    const std::vector<double> parameters = source->parameters();
+  const auto add = [&](const std::vector<double>& parameters) {
     out.insert(out.end(), parameters.begin(), parameters.end());
-  }
+  };
+  if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
+  for (const auto& source : run.sources) add(source->parameters());
+  if (run.kicks) add(run.kicks->parameters());
   if (!composition.is_mixture()) return out;
   for (const Species& each : composition.species()) {
     out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});
@@ -184,7 +183,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
           std::ranges::adjacent_find(gas.ids, std::ranges::equal_to{}) == gas.ids.end());
   archive(now);
   windows.transfer(archive);
-  if (!sources.empty()) windows.transfer_measured(archive);
+  if (!sources.empty() || kicks) windows.transfer_measured(archive);
   archive(initial_energy);
   expect_energy();
   energy.transfer(archive);
@@ -196,6 +195,12 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
           tally.instant, tally.at_instant);
   if (gas.composition.is_mixture()) archive(tally.by_pair);
   if (!sources.empty()) archive(tally.by_source);
+  if (kicks) {
+    archive(kicks_done, kick_energy);
+    require(std::isfinite(kick_energy) && kicks_done < std::uint64_t{1} << 53 &&
+            now <= next_kick());
+    find_next_kick();
+  }
   if (archive.reads()) require_consistent();
 }
 
@@ -241,6 +246,7 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   if (!sorted) return;
   const std::vector<Needle> order = order_in_space(gas, now);
   reorder(gas, order);
+  sorted_at_ = tally.counters.crossings;
 }
 
 }  // namespace needlework

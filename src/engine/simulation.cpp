@@ -86,6 +86,7 @@ std::string name_effects(const Run& run) {
   if (run.gas.composition.is_mixture()) out += " mixture";
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";
+  if (run.kicks) out += " kicks";
   return out;
 }
 
@@ -180,11 +181,30 @@ struct Simulation::Implementation {
     return loop->prepare(&limits);
   }
 
+  // All needles search anew, as after a caller has replaced velocities.
+  void kick() {
+    loop.reset();
+    if (run.is_out_of_order()) run.sort_storage();
+    replaced = run.kick();
+    run.gas.further_touches->keep_only(run.gas.records, run.gas.ids);
+    begin_loop();
+  }
+
   Stop advance(Limits limits) {
     if (const auto stop = prepare(limits)) return *stop;
     for (;;) {
       if (sizing) limits.pause = sizing->next();
-      if (const auto stop = loop->advance(limits)) return *stop;
+      // What happens at the instant of a kick happens before it.
+      const Time kicked = run.next_kick();
+      Limits before = limits;
+      before.time = std::min(limits.time, kicked);
+      const auto stop = loop->advance(before);
+      if (stop == Stop::time && kicked <= limits.time) {
+        kick();
+        if (const auto called_off = limits.called_off(run)) return *called_off;
+        continue;
+      }
+      if (stop) return *stop;
       if (!sizing->look(run.tally.collisions, run.gas, run.now)) continue;
       loop.reset();  // frees its memory before the next loop allocates
       ++run.tally.counters.resized;

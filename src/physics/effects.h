@@ -13,8 +13,9 @@ struct Effects {
                               ///< otherwise length and mass are 1
 
   bool sources = false;  ///< there are sources of events
+  bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
 
-  bool any() const { return rough || contact_time || table || sources; }
+  bool any() const { return rough || contact_time || table || sources || kicks; }
 };
 
 }  // namespace needlework

@@ -12,6 +12,11 @@ namespace needlework {
 /// The natural logarithm of a positive normal number, within 2 ulp, computed with + - * / only.
 double natural_log(double x);
 
+/// The seed as two numbers that doubles hold exactly.
+inline std::array<double, 2> halves(std::uint64_t seed) {
+  return {static_cast<double>(seed & 0xffffffff), static_cast<double>(seed >> 32)};
+}
+
 /// What random numbers are for. Numbers for different purposes are independent.
 enum class RandomFor : std::uint64_t { initial_state, thermal_wall, thermostat, kick };
 
