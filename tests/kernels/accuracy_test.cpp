@@ -20,7 +20,7 @@ using test::KernelPair;
 using test::NeedlePair;
 using test::Quad;
 
-constexpr std::size_t count = test::by_build<std::size_t>(3000, 100);
+constexpr std::size_t accuracy_count = test::by_build<std::size_t>(3000, 100);
 
 KernelPair held_pair(const NeedlePair& drawn) {
   KernelPair pair = test::kernel_pair(drawn);
@@ -71,7 +71,7 @@ class AccuracyLevels : public testing::TestWithParam<test::PairFamily> {};
 TEST_P(AccuracyLevels, RigorousTimesAreExact) {
   double worst = 0, worst_standard = 0;
   std::size_t contacts = 0, in_noise = 0;
-  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 41)) {
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count, 41)) {
     const KernelPair pair = held_pair(drawn);
     const Contact rigorous = contact_of(pair, drawn.horizon, rigorous_accuracy);
     const Contact standard = contact_of(pair, drawn.horizon, standard_accuracy);
@@ -98,15 +98,15 @@ TEST_P(AccuracyLevels, RigorousTimesAreExact) {
       "rigorous %.2f, standard %.3g\n",
       static_cast<int>(GetParam().name.size()), GetParam().name.data(), contacts, in_noise, worst,
       worst_standard);
-  EXPECT_GT(contacts, count / 20);
+  EXPECT_GT(contacts, accuracy_count / 20);
   if (GetParam().name != "back-to-rounding") {
-    EXPECT_LE(in_noise, count / 100);
+    EXPECT_LE(in_noise, accuracy_count / 100);
   }
 }
 
 // Isolation by intervals with the rest as in `standard`: the same contacts.
 TEST_P(AccuracyLevels, IsolationsAgree) {
-  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count, 42)) {
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count, 42)) {
     const KernelPair pair = held_pair(drawn);
     const Contact one = contact_of(pair, drawn.horizon, standard_accuracy);
     const Contact two = contact_of(pair, drawn.horizon, {.isolation = Isolation::intervals});
@@ -119,7 +119,7 @@ TEST_P(AccuracyLevels, IsolationsAgree) {
 
 TEST_P(AccuracyLevels, EscalationCanBeOff) {
   EvaluationCounters counters;
-  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 43)) {
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count / 10, 43)) {
     const KernelPair pair = held_pair(drawn);
     first_contact(pair.view(), 0, drawn.horizon, counters, fast_accuracy);
     first_contact(pair.view(), 0, drawn.horizon, counters,
@@ -133,7 +133,7 @@ TEST_P(AccuracyLevels, EscalationCanBeOff) {
 TEST_P(AccuracyLevels, SkippingChangesNoBit) {
   const Accuracy accuracies[] = {
       fast_accuracy, rigorous_accuracy, {.isolation = Isolation::sampling}};
-  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, count / 10, 44)) {
+  for (const NeedlePair& drawn : test::draw_pairs(GetParam().name, accuracy_count / 10, 44)) {
     const KernelPair pair = held_pair(drawn);
     for (const Accuracy& accuracy : accuracies) {
       const Contact whole = contact_of(pair, drawn.horizon, accuracy);

@@ -17,8 +17,8 @@ using test::Quad;
 using test::Random;
 using test::vec3;
 
-constexpr std::uint64_t seed = 808;
-constexpr int count = 20000;
+constexpr std::uint64_t spheres_seed = 808;
+constexpr int spheres_count = 20000;
 
 // The least of |r + v s|^2 for s in [0, until], in 113 bits.
 Quad least_square(const Vec3d& r, const Vec3d& v, double until) {
@@ -42,9 +42,9 @@ Passage passage(Random& random, double distance, double time, double speed) {
 }
 
 TEST(BoundingSpheres, NeverDropAPairThatComesWithinReach) {
-  Random random(seed);
+  Random random(spheres_seed);
   int near = 0;
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < spheres_count; ++n) {
     const double speed = random.log_uniform(1e-6, 1e6);
     const double time = random.log_uniform(1e-3, 1e3) / speed;
     const double distance = 1 + (n % 4 - 2) * random.log_uniform(1e-17, 1e-1);
@@ -56,15 +56,15 @@ TEST(BoundingSpheres, NeverDropAPairThatComesWithinReach) {
     ++near;
     ASSERT_FALSE(spheres_stay_apart(p.r * reach, p.v * reach, reach, until))
         << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
-        << seed << ", pair " << n;
+        << spheres_seed << ", pair " << n;
   }
-  EXPECT_GT(near, count / 4);
+  EXPECT_GT(near, spheres_count / 4);
 }
 
 TEST(BoundingSpheres, DropAPairThatStaysBeyondTheMargin) {
-  Random random(seed);
+  Random random(spheres_seed);
   int apart = 0;
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < spheres_count; ++n) {
     const double speed = random.log_uniform(1e-6, 1e6);
     const double time = random.log_uniform(1e-3, 1e2) / speed;
     const double distance = 1 + random.log_uniform(1e-6, 1);
@@ -75,13 +75,13 @@ TEST(BoundingSpheres, DropAPairThatStaysBeyondTheMargin) {
     ++apart;
     ASSERT_TRUE(spheres_stay_apart(p.r * reach, p.v * reach, reach, until))
         << "distance " << distance << ", speed " << speed << ", until " << until << ", seed "
-        << seed << ", pair " << n;
+        << spheres_seed << ", pair " << n;
   }
-  EXPECT_GT(apart, count / 2);
+  EXPECT_GT(apart, spheres_count / 2);
 }
 
 TEST(BoundingSpheres, AgreeWithSampledMotion) {
-  Random random(seed);
+  Random random(spheres_seed);
   int apart = 0;
   for (int n = 0; n < 5000; ++n) {
     const Vec3d r = vec3(random.normal_vector(1.5)), v = vec3(random.normal_vector(1));
@@ -96,9 +96,9 @@ TEST(BoundingSpheres, AgreeWithSampledMotion) {
     // Between two samples the distance changes by at most |v| until / 400.
     const double slack = std::sqrt(dot(v, v)) * until / 400;
     if (least < 1) {
-      ASSERT_FALSE(says) << "seed " << seed << ", pair " << n;
+      ASSERT_FALSE(says) << "seed " << spheres_seed << ", pair " << n;
     } else if (std::sqrt(least) > 1 + 1e-6 + slack) {
-      ASSERT_TRUE(says) << "seed " << seed << ", pair " << n;
+      ASSERT_TRUE(says) << "seed " << spheres_seed << ", pair " << n;
     }
   }
   EXPECT_GT(apart, 1000);
@@ -117,20 +117,21 @@ TEST(BoundingSpheres, SettleTheSimpleCases) {
 }
 
 TEST(BoundingSpheres, KnowNoUnitOfTimeOrLength) {
-  Random random(seed);
+  Random random(spheres_seed);
   for (int n = 0; n < 5000; ++n) {
     const Passage p =
         passage(random, 1 + random.uniform(-0x1p-19, 0x1p-18), random.uniform(0, 5), 1);
     const double until = random.uniform(0, 5);
     const bool says = spheres_stay_apart(p.r, p.v, 1, until);
     for (const double slow : {0x1p-60, 0x1p60, 0x1p-300}) {
-      ASSERT_EQ(spheres_stay_apart(p.r, p.v * slow, 1, until / slow), says) << "seed " << seed;
+      ASSERT_EQ(spheres_stay_apart(p.r, p.v * slow, 1, until / slow), says)
+          << "seed " << spheres_seed;
     }
     for (const double length : {0x1p-60, 0x1p-1, 0x1p7, 0x1p100}) {
       ASSERT_EQ(spheres_stay_apart(p.r * length, p.v * length, length, until), says)
-          << "seed " << seed;
+          << "seed " << spheres_seed;
     }
-    ASSERT_EQ(spheres_stay_apart(-p.r, -p.v, 1, until), says) << "seed " << seed;
+    ASSERT_EQ(spheres_stay_apart(-p.r, -p.v, 1, until), says) << "seed " << spheres_seed;
   }
 }
 

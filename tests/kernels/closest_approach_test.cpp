@@ -18,8 +18,8 @@ namespace {
 using test::Random;
 using test::vec3;
 
-constexpr std::uint64_t seed = 1010;
-constexpr int thin = test::by_build(1, 20);
+constexpr std::uint64_t approach_seed = 1010;
+constexpr int approach_thin = test::by_build(1, 20);
 
 struct Segments {
   Vec3d r, u1, u2;  ///< first centre less the second
@@ -64,8 +64,8 @@ void expect_right(const Segments& s) {
 }
 
 TEST(SegmentDistance, IsThatOfTheNearestPoints) {
-  Random random(seed);
-  for (int n = 0; n < 200000 / thin; ++n) {
+  Random random(approach_seed);
+  for (int n = 0; n < 200000 / approach_thin; ++n) {
     Segments s{vec3(random.direction()) * random.uniform(0, 2), vec3(random.direction()),
                vec3(random.direction())};
     const int kind = random.below(6);
@@ -79,7 +79,7 @@ TEST(SegmentDistance, IsThatOfTheNearestPoints) {
       s.half2 = random.log_uniform(0.01, 0.5);
     }
     ASSERT_NO_FATAL_FAILURE(expect_right(s));
-    ASSERT_FALSE(HasFailure()) << "kind " << kind << ", seed " << seed << ", case " << n;
+    ASSERT_FALSE(HasFailure()) << "kind " << kind << ", seed " << approach_seed << ", case " << n;
   }
 }
 
@@ -122,8 +122,8 @@ void expect_right(float angle) {
 }
 
 TEST(SineCosineOfFloats, IsGoodTo20BitsForAnglesBelow4096) {
-  Random random(seed);
-  for (int n = 0; n < 2000000 / thin; ++n) {
+  Random random(approach_seed);
+  for (int n = 0; n < 2000000 / approach_thin; ++n) {
     const double size = random.coin() ? 0x1p12 * random.uniform()
                                       : std::ldexp(random.uniform(), 13 - random.below(40));
     expect_right(static_cast<float>(std::min(size, 0x1p12) * (random.coin() ? 1 : -1)));

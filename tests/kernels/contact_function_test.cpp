@@ -26,7 +26,7 @@ using test::slowed;
 using test::vec3;
 using test::Wide;
 
-constexpr std::uint64_t seed = 303;
+constexpr std::uint64_t function_seed = 303;
 
 // The same quotient of time and rate for both needles' records as in a run: one of them older.
 void age(KernelPair& pair, Random& random, double radians) {
@@ -58,7 +58,7 @@ const char* name(Kind kind) {
   return names[static_cast<int>(kind)];
 }
 
-KernelPair draw(Kind kind, Random& random) {
+KernelPair draw_kind(Kind kind, Random& random) {
   const auto needle = [&](double spin) {
     return test::flight(vec3(random.normal_vector(0.4)), vec3(random.direction()),
                         vec3(random.normal_vector(1)), vec3(random.normal_vector(spin)));
@@ -144,10 +144,10 @@ DoubleDouble draw_time(Random& random, Kind kind) {
 
 template <class T, class Real>
 void expect_bounds_hold(Kind kind, int count, double loosest) {
-  Random random(seed);
+  Random random(function_seed);
   Looseness looseness;
   for (int n = 0; n < count && !testing::Test::HasFailure(); ++n) {
-    const KernelPair held = draw(kind, random);
+    const KernelPair held = draw_kind(kind, random);
     const Pair pair = held.view();
     const PairScale scale = scale_of(pair);
     const Frame<T> frame = make_frame<T>(pair, scale);
@@ -155,8 +155,8 @@ void expect_bounds_hold(Kind kind, int count, double loosest) {
     const Sample<T> sample = evaluate(frame, s);
     const Estimate e = estimate(frame, s, sample);
     const test::PreciseContact<Real> exact = precise_contact(pair, scale, real<Real>(s));
-    const std::string where =
-        std::string(name(kind)) + ", seed " + std::to_string(seed) + ", pair " + std::to_string(n);
+    const std::string where = std::string(name(kind)) + ", seed " + std::to_string(function_seed) +
+                              ", pair " + std::to_string(n);
     looseness.take(0, distance_of(sample.f, exact.f), e.error_f, where);
     looseness.take(1, distance_of(sample.df, exact.df), e.error_df, where);
     looseness.take(2, distance_of(sample.ddf, exact.ddf), e.error_ddf, where);
@@ -190,10 +190,10 @@ TEST_P(ContactFunction, ErrorBoundsHoldInDoubleDouble) {
 // Also of what is known to more digits than the expansion has.
 template <class T>
 void expect_expansion(Kind kind, int count) {
-  Random random(seed + 2);
+  Random random(function_seed + 2);
   Looseness far;  // where the third derivative counts, not rounding
   for (int n = 0; n < count && !testing::Test::HasFailure(); ++n) {
-    const KernelPair held = draw(kind, random);
+    const KernelPair held = draw_kind(kind, random);
     const Pair pair = held.view();
     const PairScale scale = scale_of(pair);
     const Frame<T> frame = make_frame<T>(pair, scale);
@@ -203,8 +203,9 @@ void expect_expansion(Kind kind, int count) {
       const double off = random.coin() ? size : -size;
       const Estimate there = expanded(e, off, third_derivative_bound(frame, e, size));
       const auto exact = precise_contact(pair, scale, Wide(Wide(s) + Wide(off)));
-      const std::string where = std::string(name(kind)) + ", seed " + std::to_string(seed + 2) +
-                                ", pair " + std::to_string(n) + ", off " + std::to_string(off);
+      const std::string where = std::string(name(kind)) + ", seed " +
+                                std::to_string(function_seed + 2) + ", pair " + std::to_string(n) +
+                                ", off " + std::to_string(off);
       Looseness near;
       Looseness& looseness = size == 0.25 ? far : near;
       looseness.take(0, distance_of(there.f, exact.f), there.error_f, where);
@@ -222,10 +223,10 @@ TEST_P(ContactFunction, ExpansionHoldsAtOtherTimes) {
 }
 
 TEST_P(ContactFunction, AmplitudeBoundsItsDerivatives) {
-  Random random(seed + 1);
+  Random random(function_seed + 1);
   double closest = 0;
   for (int n = 0; n < 300; ++n) {
-    const KernelPair held = draw(GetParam(), random);
+    const KernelPair held = draw_kind(GetParam(), random);
     const Pair pair = held.view();
     const Frame<DoubleDouble> frame = make_frame<DoubleDouble>(pair, scale_of(pair));
     const Amplitude amplitude = kernels::amplitude(frame);
@@ -235,9 +236,9 @@ TEST_P(ContactFunction, AmplitudeBoundsItsDerivatives) {
         return to_double(evaluate(frame, DoubleDouble(at)).ddf);
       };
       const double bound = amplitude.derivative_bound(2, s);
-      ASSERT_LE(std::abs(second(s)), bound) << "seed " << seed + 1 << ", pair " << n;
+      ASSERT_LE(std::abs(second(s)), bound) << "seed " << function_seed + 1 << ", pair " << n;
       ASSERT_LE(std::abs(second(s + h) - second(s)), h * amplitude.derivative_bound(3, s + h))
-          << "seed " << seed + 1 << ", pair " << n;
+          << "seed " << function_seed + 1 << ", pair " << n;
       if (bound > 0) closest = std::max(closest, std::abs(second(s)) / bound);
     }
   }
@@ -264,11 +265,11 @@ void expect_same(const KernelPair& a, const KernelPair& b, const T& s, int sign)
 
 template <class T>
 void expect_symmetric(Kind kind) {
-  Random random(seed + 2);
+  Random random(function_seed + 2);
   for (int n = 0; n < 300; ++n) {
-    SCOPED_TRACE(name(kind) + (", seed " + std::to_string(seed + 2)) + ", pair " +
+    SCOPED_TRACE(name(kind) + (", seed " + std::to_string(function_seed + 2)) + ", pair " +
                  std::to_string(n));
-    const KernelPair pair = draw(kind, random);
+    const KernelPair pair = draw_kind(kind, random);
     const T s = draw_time<T>(random, kind);
     ASSERT_NO_FATAL_FAILURE(expect_same<T>(pair, exchanged(pair), s, 1));
     ASSERT_NO_FATAL_FAILURE(expect_same<T>(pair, axes_swapped(pair), s, -1));
@@ -290,9 +291,9 @@ INSTANTIATE_TEST_SUITE_P(Pairs, ContactFunction,
 
 // The reference of the tests above, by differences: no formula is shared with it.
 TEST(PreciseContact, DerivativesAreThoseOfTheFunction) {
-  Random random(seed);
+  Random random(function_seed);
   for (int n = 0; n < 10; ++n) {
-    const KernelPair held = draw(Kind::aged, random);
+    const KernelPair held = draw_kind(Kind::aged, random);
     const Pair pair = held.view();
     const PairScale scale = scale_of(pair);
     const Wide s = random.uniform(0, 3), h = Wide(1e-25);
@@ -320,9 +321,9 @@ TEST(ContactFunctionByHand, IsTheDistanceTimesTheSineOfTheAngle) {
 }
 
 TEST(PairScale, BringsTheRateBetweenOneAndTwo) {
-  Random random(seed);
+  Random random(function_seed);
   for (int n = 0; n < 1000; ++n) {
-    KernelPair held = draw(Kind::thermal, random);
+    KernelPair held = draw_kind(Kind::thermal, random);
     held = slowed(held, random.below(1200) - 600);
     const Pair pair = held.view();
     const PairScale scale = scale_of(pair);
@@ -330,8 +331,8 @@ TEST(PairScale, BringsTheRateBetweenOneAndTwo) {
     const Vec3d v = held.first.v - held.second.v;
     const double rate = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) +
                         (held.first.omega + held.second.omega);
-    ASSERT_GE(rate * scale.per_rate, 1) << "seed " << seed;
-    ASSERT_LT(rate * scale.per_rate, 2) << "seed " << seed;
+    ASSERT_GE(rate * scale.per_rate, 1) << "seed " << function_seed;
+    ASSERT_LT(rate * scale.per_rate, 2) << "seed " << function_seed;
     ASSERT_EQ(scale.per_rate * scale.per_time, 1);
   }
 }
@@ -347,7 +348,7 @@ TEST(PairScale, NeedlesThatMoveTogetherDoNotMove) {
 }
 
 TEST(SetRotation, FindsRateAndDirectionAtAnySize) {
-  Random random(seed);
+  Random random(function_seed);
   for (const int power : {0, -1000, 1000, -60, 520}) {
     KernelPair held;
     held.first = test::flight({}, vec3(random.direction()), {}, vec3(random.normal_vector(1)));
@@ -356,9 +357,11 @@ TEST(SetRotation, FindsRateAndDirectionAtAnySize) {
     const test::Vec<Wide> w = real<Wide>(flight.w), p = real<Wide>(flight.p);
     const test::Vec<Wide> turned = test::cross(w, real<Wide>(flight.u));
     const Wide omega = test::norm(w);
-    EXPECT_LT(abs(flight.omega / omega - 1), 0x1p-51) << "2^" << power << ", seed " << seed;
+    EXPECT_LT(abs(flight.omega / omega - 1), 0x1p-51)
+        << "2^" << power << ", seed " << function_seed;
     for (int i = 0; i < 3; ++i) {
-      EXPECT_LT(abs(p[i] - turned[i] / omega), 0x1p-50) << "2^" << power << ", seed " << seed;
+      EXPECT_LT(abs(p[i] - turned[i] / omega), 0x1p-50)
+          << "2^" << power << ", seed " << function_seed;
     }
   }
   Flight still = test::flight({}, {1, 2, 3}, {1, 0, 0}, {});

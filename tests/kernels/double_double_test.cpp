@@ -16,8 +16,8 @@ namespace {
 using test::Random;
 using test::Wide;
 
-constexpr std::uint64_t seed = 101;
-constexpr int count = 20000;
+constexpr std::uint64_t digits_seed = 101;
+constexpr int digits_count = 20000;
 
 Wide wide(const DoubleDouble& a) { return Wide(a.hi) + Wide(a.lo); }
 
@@ -31,7 +31,7 @@ double draw_double(Random& random, int exponents) {
 }
 
 // Low parts from none over tiny to the largest that a normalised number can have.
-DoubleDouble draw(Random& random, int exponents) {
+DoubleDouble draw_digits(Random& random, int exponents) {
   const double hi = draw_double(random, exponents);
   const double half_ulp = std::ldexp(1.0, std::ilogb(hi) - 53);
   switch (random.below(4)) {
@@ -55,18 +55,18 @@ double relative_error(const DoubleDouble& computed, const Wide& exact) {
 // ulp of the high one.
 template <class Operation, class Exact>
 double worst_error(int exponents, Operation operation, Exact exact) {
-  Random random(seed);
+  Random random(digits_seed);
   double worst = 0;
-  for (int i = 0; i < count; ++i) {
-    const DoubleDouble a = draw(random, exponents);
-    DoubleDouble b = draw(random, exponents);
+  for (int i = 0; i < digits_count; ++i) {
+    const DoubleDouble a = draw_digits(random, exponents);
+    DoubleDouble b = draw_digits(random, exponents);
     // Every fourth time nearly equal or opposite, so that sums cancel.
     if (i % 4 == 0) {
       const double factor = (random.coin() ? 1 : -1) * (1 + std::ldexp(1.0, -random.below(110)));
       b = a * DoubleDouble(factor);
     }
     const DoubleDouble c = operation(a, b);
-    EXPECT_EQ(c.hi, c.hi + c.lo) << "seed " << seed << ", operands " << i;
+    EXPECT_EQ(c.hi, c.hi + c.lo) << "seed " << digits_seed << ", operands " << i;
     worst = std::max(worst, relative_error(c, exact(wide(a), wide(b))));
     if (testing::Test::HasFailure()) break;
   }
@@ -100,24 +100,25 @@ TEST(DoubleDouble, SquareRootIsWithinItsBound) {
 }
 
 TEST(DoubleDouble, TwoSumIsExactForAnyOrderOfOperands) {
-  Random random(seed);
-  for (int i = 0; i < count; ++i) {
+  Random random(digits_seed);
+  for (int i = 0; i < digits_count; ++i) {
     const double a = draw_double(random, 60), b = draw_double(random, 60);
     const DoubleDouble sum = two_sum(a, b);
-    ASSERT_TRUE(wide(sum) == Wide(a) + Wide(b)) << "seed " << seed << ": " << a << " + " << b;
+    ASSERT_TRUE(wide(sum) == Wide(a) + Wide(b))
+        << "seed " << digits_seed << ": " << a << " + " << b;
     ASSERT_EQ(sum.hi, a + b);
     ASSERT_EQ(sum, two_sum(b, a));
     const DoubleDouble quick = std::abs(a) >= std::abs(b) ? quick_two_sum(a, b) : sum;
-    ASSERT_EQ(sum, quick) << "seed " << seed << ": " << a << " + " << b;
+    ASSERT_EQ(sum, quick) << "seed " << digits_seed << ": " << a << " + " << b;
   }
 }
 
 TEST(DoubleDouble, TwoSumIsExactAmongSubnormals) {
-  Random random(seed);
-  for (int i = 0; i < count; ++i) {
+  Random random(digits_seed);
+  for (int i = 0; i < digits_count; ++i) {
     const double a = DBL_TRUE_MIN * std::floor(random.uniform(-0x1p54, 0x1p54));
     const double b = DBL_TRUE_MIN * std::floor(random.uniform(-8, 8));
-    ASSERT_TRUE(wide(two_sum(a, b)) == Wide(a) + Wide(b)) << "seed " << seed;
+    ASSERT_TRUE(wide(two_sum(a, b)) == Wide(a) + Wide(b)) << "seed " << digits_seed;
   }
 }
 
@@ -130,8 +131,8 @@ void expect_exact_product(double a, double b) {
 }
 
 TEST(DoubleDouble, TwoProductIsExact) {
-  Random random(seed);
-  for (int i = 0; i < count; ++i) {
+  Random random(digits_seed);
+  for (int i = 0; i < digits_count; ++i) {
     SCOPED_TRACE(i);
     ASSERT_NO_FATAL_FAILURE(
         expect_exact_product(draw_double(random, 200), draw_double(random, 200)));
@@ -152,31 +153,31 @@ TEST(DoubleDouble, TwoProductIsExactUpToItsLimits) {
 }
 
 TEST(DoubleDouble, SignsAndOrderChangeNoBit) {
-  Random random(seed);
-  for (int i = 0; i < count; ++i) {
-    const DoubleDouble a = draw(random, 30), b = draw(random, 30);
-    ASSERT_EQ(a + b, b + a) << "seed " << seed;
-    ASSERT_EQ(a * b, b * a) << "seed " << seed;
-    ASSERT_EQ(a - b, -(b - a)) << "seed " << seed;
-    ASSERT_EQ((-a) * b, -(a * b)) << "seed " << seed;
-    ASSERT_EQ((-a) / b, -(a / b)) << "seed " << seed;
+  Random random(digits_seed);
+  for (int i = 0; i < digits_count; ++i) {
+    const DoubleDouble a = draw_digits(random, 30), b = draw_digits(random, 30);
+    ASSERT_EQ(a + b, b + a) << "seed " << digits_seed;
+    ASSERT_EQ(a * b, b * a) << "seed " << digits_seed;
+    ASSERT_EQ(a - b, -(b - a)) << "seed " << digits_seed;
+    ASSERT_EQ((-a) * b, -(a * b)) << "seed " << digits_seed;
+    ASSERT_EQ((-a) / b, -(a / b)) << "seed " << digits_seed;
     const Vec3dd x{a, b, a - b}, y{b, a * b, a};
-    ASSERT_EQ(cross(x, y), -cross(y, x)) << "seed " << seed;
+    ASSERT_EQ(cross(x, y), -cross(y, x)) << "seed " << digits_seed;
   }
 }
 
 TEST(DoubleDouble, PowersOfTwoScaleExactly) {
-  Random random(seed);
+  Random random(digits_seed);
   const auto scaled = [](const DoubleDouble& a, int power) {
     return DoubleDouble(std::ldexp(a.hi, power), std::ldexp(a.lo, power));
   };
-  for (int i = 0; i < count; ++i) {
-    const DoubleDouble a = draw(random, 10), b = draw(random, 10);
-    ASSERT_EQ(scaled(a, 60) + scaled(b, 60), scaled(a + b, 60)) << "seed " << seed;
-    ASSERT_EQ(scaled(a, 60) * scaled(b, -110), scaled(a * b, -50)) << "seed " << seed;
-    ASSERT_EQ(scaled(a, 60) / scaled(b, -110), scaled(a / b, 170)) << "seed " << seed;
+  for (int i = 0; i < digits_count; ++i) {
+    const DoubleDouble a = draw_digits(random, 10), b = draw_digits(random, 10);
+    ASSERT_EQ(scaled(a, 60) + scaled(b, 60), scaled(a + b, 60)) << "seed " << digits_seed;
+    ASSERT_EQ(scaled(a, 60) * scaled(b, -110), scaled(a * b, -50)) << "seed " << digits_seed;
+    ASSERT_EQ(scaled(a, 60) / scaled(b, -110), scaled(a / b, 170)) << "seed " << digits_seed;
     if (a.hi > 0) {
-      ASSERT_EQ(sqrt(scaled(a, 60)), scaled(sqrt(a), 30)) << "seed " << seed;
+      ASSERT_EQ(sqrt(scaled(a, 60)), scaled(sqrt(a), 30)) << "seed " << digits_seed;
     }
   }
 }

@@ -18,8 +18,8 @@ using test::KernelPair;
 using test::Random;
 using test::vec3;
 
-constexpr std::uint64_t seed = 606;
-constexpr int thin = test::by_build(1, 10);
+constexpr std::uint64_t cost_seed = 606;
+constexpr int cost_thin = test::by_build(1, 10);
 
 /// Evaluations that a search may take on top of `per_interval` for each half unit of scaled time
 /// that it covers, for any degenerate pair.
@@ -47,14 +47,14 @@ Cost cost(const KernelPair& pair, double until) {
 
 double expect_soon(const KernelPair& pair, double until) {
   const Cost c = cost(pair, until);
-  EXPECT_LT(c.spent, c.allowed) << "seed " << seed;
+  EXPECT_LT(c.spent, c.allowed) << "seed " << cost_seed;
   return c.spent;
 }
 
 TEST(FirstContactCost, IsSmallForAllFamiliesOfPairs) {
   for (const test::PairFamily& family : test::pair_families()) {
     double worst = 0, sum = 0;
-    const auto pairs = test::draw_pairs(family.name, 2000 / thin, seed);
+    const auto pairs = test::draw_pairs(family.name, 2000 / cost_thin, cost_seed);
     for (const test::NeedlePair& pair : pairs) {
       const KernelPair held = test::kernel_pair(pair);
       const double spent = cost(held, pair.horizon).spent;
@@ -71,7 +71,7 @@ TEST(FirstContactCost, IsSmallForAllFamiliesOfPairs) {
   }
 }
 
-KernelPair nearly_planar(Random& random, double tilt, double speed) {
+KernelPair planar_for_long(Random& random, double tilt, double speed) {
   const auto needle = [&] {
     const double angle = random.uniform(0, 6.3);
     return flight(
@@ -87,28 +87,28 @@ KernelPair nearly_planar(Random& random, double tilt, double speed) {
 }
 
 TEST(FirstContactCost, IsBoundedForNeedlesCloseToOnePlane) {
-  Random random(seed);
+  Random random(cost_seed);
   double worst = 0;
   for (const double tilt : {1e-3, 1e-6, 1e-9, 1e-13, 1e-17, 1e-20}) {
-    for (int n = 0; n < 500 / thin; ++n) {
-      worst = std::max(worst, expect_soon(nearly_planar(random, tilt, 0.3), 20));
+    for (int n = 0; n < 500 / cost_thin; ++n) {
+      worst = std::max(worst, expect_soon(planar_for_long(random, tilt, 0.3), 20));
     }
   }
   std::printf("most %.0f\n", worst);
 }
 
 TEST(FirstContactCost, IsBoundedForNeedlesInOnePlane) {
-  Random random(seed);
-  for (int n = 0; n < 500 / thin; ++n) {
-    EXPECT_FALSE(cost(nearly_planar(random, 0, 0.3), 20).contact.found);
-    EXPECT_LT(cost(nearly_planar(random, 0, 0.3), 1e6).spent, 200);
+  Random random(cost_seed);
+  for (int n = 0; n < 500 / cost_thin; ++n) {
+    EXPECT_FALSE(cost(planar_for_long(random, 0, 0.3), 20).contact.found);
+    EXPECT_LT(cost(planar_for_long(random, 0, 0.3), 1e6).spent, 200);
   }
 }
 
 TEST(FirstContactCost, IsBoundedForALongLife) {
-  Random random(seed);
-  for (int n = 0; n < 100 / thin; ++n) {
-    KernelPair pair = nearly_planar(random, 1, 1);
+  Random random(cost_seed);
+  for (int n = 0; n < 100 / cost_thin; ++n) {
+    KernelPair pair = planar_for_long(random, 1, 1);
     for (Flight* needle : {&pair.first, &pair.second}) {
       needle->w = needle->w * 1e6;
       set_rotation(*needle);
@@ -121,10 +121,10 @@ TEST(FirstContactCost, IsBoundedForALongLife) {
 }
 
 TEST(FirstContactCost, DoesNotGrowWithTheHorizonOncePastEachOther) {
-  Random random(seed);
-  for (int n = 0; n < 300 / thin; ++n) {
-    const KernelPair pair = nearly_planar(random, 1, 1);
-    EXPECT_EQ(cost(pair, 1e6).spent, cost(pair, 1e300).spent) << "seed " << seed << ", " << n;
+  Random random(cost_seed);
+  for (int n = 0; n < 300 / cost_thin; ++n) {
+    const KernelPair pair = planar_for_long(random, 1, 1);
+    EXPECT_EQ(cost(pair, 1e6).spent, cost(pair, 1e300).spent) << "seed " << cost_seed << ", " << n;
   }
 }
 
@@ -160,8 +160,8 @@ TEST(FirstContactCost, IsBoundedAtTripleRoots) {
 
 // A pair on a contact; what is left of its impulse and of its bend are powers of ten.
 TEST(FirstContactCost, IsBoundedAfterCollisionsOfAnyStrength) {
-  Random random(seed);
-  for (int n = 0; n < 3000 / thin; ++n) {
+  Random random(cost_seed);
+  for (int n = 0; n < 3000 / cost_thin; ++n) {
     const double spin = random.coin() ? random.log_uniform(1e-20, 1) : 0;
     KernelPair pair;
     pair.first = flight({random.uniform(-0.4, 0.4), 0, 0}, {1, 0, 0},
@@ -178,8 +178,8 @@ TEST(FirstContactCost, IsBoundedAfterCollisionsOfAnyStrength) {
 }
 
 TEST(FirstContactCost, IsBoundedForParallelNeedlesThatDoNotTurn) {
-  Random random(seed);
-  for (int n = 0; n < 300 / thin; ++n) {
+  Random random(cost_seed);
+  for (int n = 0; n < 300 / cost_thin; ++n) {
     KernelPair pair;
     const Vec3d u = vec3(random.direction());
     pair.first = flight(vec3(random.normal_vector(0.3)), u, vec3(random.normal_vector(1)), {});

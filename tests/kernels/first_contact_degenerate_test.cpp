@@ -19,15 +19,15 @@ using test::KernelPair;
 using test::Random;
 using test::vec3;
 
-constexpr std::uint64_t seed = 707;
-constexpr int count = test::by_build(600, 30);
+constexpr std::uint64_t degenerate_seed = 707;
+constexpr int degenerate_count = test::by_build(600, 30);
 
 struct Answer {
   Contact contact;
   std::uint64_t evaluations;
 };
 
-Answer find(const KernelPair& pair, double from, double until) {
+Answer answer_of(const KernelPair& pair, double from, double until) {
   EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), from, until, counters);
   return {contact, counters.evaluated + counters.escalated};
@@ -59,33 +59,33 @@ KernelPair concentric(Random& random, double speed) {
 
 // Returns whether there is a contact.
 bool expect_nothing_missed(const KernelPair& pair, double until, int n, double noise = 1e-14) {
-  const Contact contact = find(pair, 0, until).contact;
+  const Contact contact = answer_of(pair, 0, until).contact;
   const double end = contact.found ? contact.elapsed.hi : until;
   const auto seen = test::sampled_contact(pair.view(), end, 400, noise);
   // The last sample is next to the contact itself.
   if (seen && (!contact.found || *seen < end * (1 - 1e-9))) {
     ADD_FAILURE() << "missed at " << *seen << ", found " << contact.found << " at "
-                  << contact.elapsed.hi << ", seed " << seed << ", pair " << n;
+                  << contact.elapsed.hi << ", seed " << degenerate_seed << ", pair " << n;
   }
   return contact.found;
 }
 
 // Down to where f is nothing but rounding in double, and double-double decides.
 TEST(FirstContactOfFlatFunctions, MissesNothingNearOnePlane) {
-  Random random(seed);
+  Random random(degenerate_seed);
   for (const double tilt : {1e-1, 1e-3, 1e-6, 1e-12, 1e-15, 1e-18}) {
     int contacts = 0;
-    for (int n = 0; n < count / 3; ++n) {
+    for (int n = 0; n < degenerate_count / 3; ++n) {
       const KernelPair pair = nearly_planar(random, tilt, 0.01);
       contacts += expect_nothing_missed(pair, 10, n, std::min(1e-14, 1e-6 * tilt));
     }
-    EXPECT_GT(contacts, count / 30) << "tilt " << tilt;
+    EXPECT_GT(contacts, degenerate_count / 30) << "tilt " << tilt;
   }
 }
 
 TEST(FirstContactOfFlatFunctions, IsNotMissedIfSlowAndConcentric) {
-  Random random(seed);
-  for (int n = 0; n < count; ++n) expect_nothing_missed(concentric(random, 0.02), 10, n);
+  Random random(degenerate_seed);
+  for (int n = 0; n < degenerate_count; ++n) expect_nothing_missed(concentric(random, 0.02), 10, n);
 }
 
 // f is bounded by the magnitudes of its coefficients, which grow with time as the centres part: the
@@ -97,30 +97,30 @@ TEST(FirstContactOfFlatFunctions, IsFoundLongAfterTheCentresMet) {
   const auto seen = test::sampled_contact(pair.view(), 8, 1000);
   ASSERT_TRUE(seen.has_value());
   ASSERT_NEAR(*seen, 3.98808299, 1e-8);
-  const Contact contact = find(pair, 0, 20).contact;
+  const Contact contact = answer_of(pair, 0, 20).contact;
   ASSERT_TRUE(contact.found);
   EXPECT_NEAR(contact.elapsed.hi, *seen, 1e-12);
 }
 
 // An early start must not sharpen bounds that a later one lacks.
 TEST(FirstContactOfFlatFunctions, DoesNotDependOnWhereTheSearchStarts) {
-  Random random(seed);
+  Random random(degenerate_seed);
   int contacts = 0;
-  for (int n = 0; n < 3 * count; ++n) {
+  for (int n = 0; n < 3 * degenerate_count; ++n) {
     const KernelPair pair = n % 3 == 0 ? concentric(random, 0.02)
                                        : nearly_planar(random, n % 3 == 1 ? 1e-2 : 1e-6, 0.01);
-    const Contact contact = find(pair, 0, 60).contact;
+    const Contact contact = answer_of(pair, 0, 60).contact;
     contacts += contact.found;
     for (int i = 0; contact.found && i < 6; ++i) {
       const double from = contact.elapsed.hi * random.uniform();
-      const Contact again = find(pair, from, 60).contact;
+      const Contact again = answer_of(pair, from, 60).contact;
       EXPECT_TRUE(again.found && again.elapsed == contact.elapsed && again.side == contact.side)
           << "from " << from << ": " << again.elapsed.hi << " + " << again.elapsed.lo
           << " instead of " << contact.elapsed.hi << " + " << contact.elapsed.lo << ", seed "
-          << seed << ", pair " << n;
+          << degenerate_seed << ", pair " << n;
     }
   }
-  EXPECT_GT(contacts, count);
+  EXPECT_GT(contacts, degenerate_count);
 }
 
 // Centres and records coincide with the grid: an interval that ends at the contact holds it.
@@ -128,8 +128,8 @@ TEST(FirstContactOfFlatFunctions, OnTheGridIsFoundFromTheContactItself) {
   KernelPair pair;
   pair.first = flight({0.1, 0.05, -0.5}, {1, 0, 0}, {0, 0, 1}, {});
   pair.second = flight({0, 0, 0}, {0, 1, 0}, {}, {});
-  ASSERT_EQ(find(pair, 0, 1).contact.elapsed, DoubleDouble(0.5));
-  EXPECT_TRUE(find(pair, 0.5, 1).contact.found);
+  ASSERT_EQ(answer_of(pair, 0, 1).contact.elapsed, DoubleDouble(0.5));
+  EXPECT_TRUE(answer_of(pair, 0.5, 1).contact.found);
 }
 
 // Beyond 1e8 the time span in which the centres are near must not drown in the rounding of |r|^2.
@@ -138,7 +138,7 @@ TEST(FirstContactOfFlatFunctions, IsFoundFromFarAway) {
     KernelPair pair;
     pair.first = flight({0.25, 0, -distance}, {1, 0, 0}, {0, 0, 1}, {});
     pair.second = flight({0, 0.25, 0}, {0, 1, 0}, {}, {});
-    const Contact contact = find(pair, 0, 2 * distance).contact;
+    const Contact contact = answer_of(pair, 0, 2 * distance).contact;
     EXPECT_TRUE(contact.found) << distance;
     EXPECT_EQ(contact.elapsed.hi, contact.found ? distance : 0);
   }
@@ -150,7 +150,7 @@ TEST(FirstContactCostOfFlatFunctions, IsBoundedForParallel) {
   KernelPair pair;
   pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
   pair.second = flight({0.1, 0.2, 0.3}, {1, 0, 0}, {0, 0.01, 0}, {0, 0, 1});
-  const Answer answer = find(pair, 0, 4);
+  const Answer answer = answer_of(pair, 0, 4);
   EXPECT_FALSE(answer.contact.found);
   EXPECT_LT(answer.evaluations, 3000u);
 }
@@ -161,7 +161,7 @@ TEST(FirstContactCostOfFlatFunctions, IsBoundedForNearlyParallel) {
     KernelPair pair;
     pair.first = flight({0, 0, 0}, {1, 0, 0}, {}, {0, 0, 1});
     pair.second = flight({0.1, 0.2, 0.3}, {1, 0, angle}, {0, 0.01, 0}, {0, 0, 1});
-    EXPECT_LT(find(pair, 0, 4).evaluations, 3000u) << angle;
+    EXPECT_LT(answer_of(pair, 0, 4).evaluations, 3000u) << angle;
   }
 }
 
@@ -174,7 +174,7 @@ TEST(FirstContactCostOfFlatFunctions, IsBoundedBelowDoubleDouble) {
     pair.second =
         flight({0.1, 0.2, std::ldexp(1.0, power)}, {0.6, 0.8, 0}, {0, 0.01, 0}, {0, 0, 0.3});
     pair.elapsed_first = 1000;
-    EXPECT_LT(find(pair, 0, 4).evaluations, 3000u) << "2^" << power;
+    EXPECT_LT(answer_of(pair, 0, 4).evaluations, 3000u) << "2^" << power;
   }
 }
 

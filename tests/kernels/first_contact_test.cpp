@@ -27,8 +27,8 @@ using test::slowed;
 using test::vec3;
 using test::Wide;
 
-constexpr std::uint64_t seed = 404;
-constexpr int thin = test::by_build(1, 10);
+constexpr std::uint64_t first_seed = 404;
+constexpr int first_thin = test::by_build(1, 10);
 
 Contact find(const KernelPair& pair, double from, double until) {
   EvaluationCounters counters;
@@ -75,17 +75,17 @@ class FirstContact : public testing::TestWithParam<test::PairFamily> {
  protected:
   template <class Check>
   void for_each_pair(Check check) {
-    const auto pairs = test::draw_pairs(GetParam().name, 1000 / thin, seed);
-    Random random(seed);
+    const auto pairs = test::draw_pairs(GetParam().name, 1000 / first_thin, first_seed);
+    Random random(first_seed);
     int contacts = 0;
     for (std::size_t n = 0; n < pairs.size() && !HasFatalFailure(); ++n) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", pair " + std::to_string(n));
+      SCOPED_TRACE("seed " + std::to_string(first_seed) + ", pair " + std::to_string(n));
       const Case drawn = as_kernel_pair(pairs[n], random);
       const Contact contact = find(drawn.pair, drawn.until);
       contacts += contact.found;
       check(drawn, contact, random);
     }
-    EXPECT_GT(contacts, 40 / thin);
+    EXPECT_GT(contacts, 40 / first_thin);
   }
 };
 
@@ -165,9 +165,9 @@ INSTANTIATE_TEST_SUITE_P(Families, FirstContactFromAnywhere,
 
 // Without rotation f is linear: the only root and the arms are rational functions of the records.
 TEST(FirstContactWithoutRotation, IsWhereTheLinesMeet) {
-  Random random(seed);
+  Random random(first_seed);
   int contacts = 0, tips = 0;
-  for (int n = 0; n < 5000 / thin; ++n) {
+  for (int n = 0; n < 5000 / first_thin; ++n) {
     KernelPair held;
     held.first = flight(vec3(random.normal_vector(0.5)), vec3(random.direction()),
                         vec3(random.normal_vector(1)), {});
@@ -184,19 +184,19 @@ TEST(FirstContactWithoutRotation, IsWhereTheLinesMeet) {
     const double s21 = static_cast<double>(Wide(test::dot(test::cross(u1, there), x) / xx));
     const bool meet = time > 0 && std::abs(s12) < 0.5 && std::abs(s21) < 0.5;
     const Contact contact = find(held, 100);
-    ASSERT_EQ(contact.found, meet && time <= 100) << "seed " << seed << ", pair " << n;
+    ASSERT_EQ(contact.found, meet && time <= 100) << "seed " << first_seed << ", pair " << n;
     tips += time > 0 && !meet;
     if (!contact.found) continue;
     ++contacts;
     const Wide found = real<Wide>(contact.elapsed);
-    ASSERT_LT(abs(found / time - 1), 1e-12) << "seed " << seed << ", pair " << n;
+    ASSERT_LT(abs(found / time - 1), 1e-12) << "seed " << first_seed << ", pair " << n;
     ASSERT_EQ(contact.side, test::dot(r, x) > 0 ? 1 : -1);
     const ContactGeometry at = contact_geometry(held.view(), contact.elapsed);
-    ASSERT_NEAR(at.arm_first, s12, 1e-9) << "seed " << seed << ", pair " << n;
-    ASSERT_NEAR(at.arm_second, s21, 1e-9) << "seed " << seed << ", pair " << n;
+    ASSERT_NEAR(at.arm_first, s12, 1e-9) << "seed " << first_seed << ", pair " << n;
+    ASSERT_NEAR(at.arm_second, s21, 1e-9) << "seed " << first_seed << ", pair " << n;
   }
-  EXPECT_GT(contacts, 200 / thin);
-  EXPECT_GT(tips, 200 / thin);
+  EXPECT_GT(contacts, 200 / first_thin);
+  EXPECT_GT(tips, 200 / first_thin);
 }
 
 // Needle 1 turns about the y axis, its centre at (c, 0, h); needle 2 lies on the y axis:
@@ -236,14 +236,14 @@ TEST(FirstContactByHand, PassingThroughParallelIsNoContact) {
 }
 
 TEST(FirstContactByHand, NeedlesOfOnePlaneNeverMeet) {
-  Random random(seed);
+  Random random(first_seed);
   for (int n = 0; n < 200; ++n) {
     KernelPair held =
         falling(0, 0, random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(0, 6));
     held.first.v = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
     EvaluationCounters counters;
-    EXPECT_FALSE(first_contact(held.view(), 0, 20, counters).found) << "seed " << seed;
-    EXPECT_LT(counters.evaluated + counters.escalated, 200u) << "seed " << seed;
+    EXPECT_FALSE(first_contact(held.view(), 0, 20, counters).found) << "seed " << first_seed;
+    EXPECT_LT(counters.evaluated + counters.escalated, 200u) << "seed " << first_seed;
   }
 }
 

@@ -20,10 +20,10 @@ namespace {
 using test::Random;
 using C = FlightColumns;
 
-constexpr std::uint64_t seed = 1212;
+constexpr std::uint64_t flight_seed = 1212;
 constexpr double untouched = -77;
 
-struct Needle {
+struct FlyingNeedle {
   Flight flight;
   double elapsed;
 };
@@ -31,7 +31,7 @@ struct Needle {
 /// Columns with a guard beyond the room that they have to have, at any address of a double.
 class Table {
  public:
-  explicit Table(const std::vector<Needle>& needles)
+  explicit Table(const std::vector<FlyingNeedle>& needles)
       : room_((needles.size() + flights_at_once - 1) / flights_at_once * flights_at_once) {
     for (auto& column : storage_) column.assign(room_ + 1, untouched);
     for (std::size_t n = 0; n < needles.size(); ++n) {
@@ -62,7 +62,7 @@ void expect_same_bits(const Vec3d& a, const Vec3d& b) {
 }
 
 /// On every instruction set, what one needle at a time gives.
-void expect_flight(const std::vector<Needle>& needles) {
+void expect_flight(const std::vector<FlyingNeedle>& needles) {
   for (const Isa isa : available()) {
     SCOPED_TRACE(std::string(name_of(isa)) + ", " + std::to_string(needles.size()) + " needles");
     Table table(needles);
@@ -80,13 +80,13 @@ void expect_flight(const std::vector<Needle>& needles) {
   }
 }
 
-Needle draw(Random& random) {
+FlyingNeedle draw_needle(Random& random) {
   const auto vector = [&](double scale) {
     const auto a = random.normal_vector(scale);
     return Vec3d{a[0], a[1], a[2]};
   };
   const auto u = random.direction();
-  Needle out;
+  FlyingNeedle out;
   out.flight.r = vector(random.log_uniform(1e-3, 1e3));
   out.flight.v = vector(random.log_uniform(1e-3, 1e3));
   out.flight.u = {u[0], u[1], u[2]};
@@ -99,19 +99,19 @@ Needle draw(Random& random) {
 }
 
 TEST(Fly, GivesTheBitsOfOneNeedleAtATime) {
-  Random random(seed);
+  Random random(flight_seed);
   for (std::size_t count = 0; count <= 40; ++count) {
     for (int n = 0; n < 50; ++n) {
-      std::vector<Needle> needles;
-      while (needles.size() < count) needles.push_back(draw(random));
+      std::vector<FlyingNeedle> needles;
+      while (needles.size() < count) needles.push_back(draw_needle(random));
       expect_flight(needles);
-      ASSERT_FALSE(HasFailure()) << "seed " << seed;
+      ASSERT_FALSE(HasFailure()) << "seed " << flight_seed;
     }
   }
 }
 
 TEST(Fly, GivesTheSameBitsOfAnyNumbers) {
-  Random random(seed + 1);
+  Random random(flight_seed + 1);
   const auto any = [&] {
     switch (random.below(6)) {
       case 0:
@@ -125,7 +125,7 @@ TEST(Fly, GivesTheSameBitsOfAnyNumbers) {
     }
   };
   for (int n = 0; n < 3000; ++n) {
-    std::vector<Needle> needles(1 + random.below(20));
+    std::vector<FlyingNeedle> needles(1 + random.below(20));
     for (auto& [flight, elapsed] : needles) {
       flight.r = {any(), any(), any()};
       flight.v = {any(), any(), any()};
@@ -135,7 +135,7 @@ TEST(Fly, GivesTheSameBitsOfAnyNumbers) {
       elapsed = any();
     }
     expect_flight(needles);
-    ASSERT_FALSE(HasFailure()) << n << ", seed " << seed + 1;
+    ASSERT_FALSE(HasFailure()) << n << ", seed " << flight_seed + 1;
   }
 }
 

@@ -32,10 +32,11 @@ using test::operator*;
 using test::operator+;
 using test::operator-;
 
-constexpr std::uint64_t seed = 2020;
-constexpr int thin = test::by_build(1, 10);
+constexpr std::uint64_t lengths_seed = 2020;
+constexpr int lengths_thin = test::by_build(1, 10);
 
-Contact find(const KernelPair& pair, double until, const Accuracy& accuracy = standard_accuracy) {
+Contact find_of_lengths(const KernelPair& pair, double until,
+                        const Accuracy& accuracy = standard_accuracy) {
   EvaluationCounters counters;
   return first_contact(pair.view(), 0, until, counters, accuracy);
 }
@@ -63,30 +64,32 @@ class Lengths : public testing::TestWithParam<test::PairFamily> {};
 
 // Lengths times 2^p and times times 2^q, at once.
 TEST_P(Lengths, ByPowersOfTwoGiveTheSameBits) {
-  Random random(seed);
+  Random random(lengths_seed);
   const struct {
     const char* name;
     Accuracy accuracy;
   } accuracies[] = {
       {"standard", standard_accuracy}, {"fast", fast_accuracy}, {"rigorous", rigorous_accuracy}};
   int contacts = 0, unknown = 0;
-  for (const test::NeedlePair& drawn : draw_pairs(GetParam().name, 300 / thin, seed)) {
+  for (const test::NeedlePair& drawn :
+       draw_pairs(GetParam().name, 300 / lengths_thin, lengths_seed)) {
     KernelPair pair = pair_of(drawn, random, random.below(4) == 0);
     const int kind = random.below(3);
     if (kind > 0) pair.half_first = random.uniform(0.2, 1);
     if (kind > 1) pair.half_second = random.uniform(0.2, 1);
     for (const auto& [name, accuracy] : accuracies) {
       if (accuracy.isolation == Isolation::intervals && random.below(4) > 0) continue;
-      const Contact truth = find(pair, drawn.horizon, accuracy);
+      const Contact truth = find_of_lengths(pair, drawn.horizon, accuracy);
       contacts += truth.found;
       unknown += truth.side_unknown;
       const ContactGeometry geometry = contact_geometry(pair.view(), truth.elapsed);
       for (const int p : {-1, 1, 7, -60, 60}) {
         const int q = random.below(3) * (random.below(200) - 100);
         SCOPED_TRACE(std::string(name) + ", lengths times 2^" + std::to_string(p) +
-                     ", times times 2^" + std::to_string(q) + ", seed " + std::to_string(seed));
+                     ", times times 2^" + std::to_string(q) + ", seed " +
+                     std::to_string(lengths_seed));
         const KernelPair other = slowed(resized(pair, p), q);
-        const Contact contact = find(other, std::ldexp(drawn.horizon, q), accuracy);
+        const Contact contact = find_of_lengths(other, std::ldexp(drawn.horizon, q), accuracy);
         ASSERT_EQ(contact.found, truth.found);
         ASSERT_EQ(contact.side, truth.side);
         ASSERT_EQ(contact.side_unknown, truth.side_unknown);
@@ -106,34 +109,35 @@ TEST_P(Lengths, ByPowersOfTwoGiveTheSameBits) {
       }
     }
   }
-  EXPECT_GT(contacts, 30 / thin);
+  EXPECT_GT(contacts, 30 / lengths_thin);
 }
 
 class OddLengths : public testing::TestWithParam<test::PairFamily> {};
 
 // Needles of one odd length are needles of length 1 but for rounding of the records.
 TEST_P(OddLengths, AgreeWithTheOracle) {
-  Random random(seed + 1);
+  Random random(lengths_seed + 1);
   int contacts = 0;
-  for (const test::NeedlePair& drawn : draw_pairs(GetParam().name, 400 / thin, seed + 1)) {
+  for (const test::NeedlePair& drawn :
+       draw_pairs(GetParam().name, 400 / lengths_thin, lengths_seed + 1)) {
     const test::OracleAnswer oracle =
         test::first_contact(drawn.first, drawn.second, drawn.horizon, false);
     // Rounding the products adds about as much noise as the numbers have.
     if (oracle.decision_margin < 4 * test::least_margin) continue;
     const double length = random.log_uniform(0.1, 10);
     const KernelPair pair = lengthened(test::kernel_pair(drawn), length);
-    const Contact contact = find(pair, drawn.horizon);
-    ASSERT_EQ(contact.found, oracle.contact) << "length " << length << ", seed " << seed;
+    const Contact contact = find_of_lengths(pair, drawn.horizon);
+    ASSERT_EQ(contact.found, oracle.contact) << "length " << length << ", seed " << lengths_seed;
     if (!contact.found) continue;
     ++contacts;
     EXPECT_NEAR(contact.elapsed.hi, oracle.time, (16 * oracle.input_limit + 1e-14) * oracle.time)
-        << "length " << length << ", seed " << seed;
+        << "length " << length << ", seed " << lengths_seed;
     const ContactGeometry at = contact_geometry(pair.view(), contact.elapsed);
     EXPECT_NEAR(at.arm_first / length, oracle.arm_first, 16 * oracle.arm_limit + 1e-12);
     EXPECT_NEAR(at.arm_second / length, oracle.arm_second, 16 * oracle.arm_limit + 1e-12);
   }
   if (!GetParam().made_of_limits) {
-    EXPECT_GT(contacts, 20 / thin);
+    EXPECT_GT(contacts, 20 / lengths_thin);
   }
 }
 
@@ -147,7 +151,7 @@ std::string family_id(const testing::TestParamInfo<test::PairFamily>& info) {
 std::vector<test::PairFamily> apart_at_first() {
   std::vector<test::PairFamily> out;
   for (const test::PairFamily& family : test::pair_families()) {
-    if (!draw_pairs(family.name, 1, seed)[0].just_collided) out.push_back(family);
+    if (!draw_pairs(family.name, 1, lengths_seed)[0].just_collided) out.push_back(family);
   }
   return out;
 }
@@ -179,9 +183,9 @@ KernelPair unequal_pair(Random& random, bool turning) {
 // The contact function of needles that do not turn is linear, so that its only root and the arms
 // there are quotients.
 TEST(UnequalLengths, StillOnesMeetWhereClosedFormsSay) {
-  Random random(seed + 2);
+  Random random(lengths_seed + 2);
   int contacts = 0, beyond_a_tip = 0;
-  for (int n = 0; n < 20000 / thin; ++n) {
+  for (int n = 0; n < 20000 / lengths_thin; ++n) {
     const KernelPair pair = unequal_pair(random, false);
     const Vec<Quad> u1 = test::real<Quad>(pair.first.u), u2 = test::real<Quad>(pair.second.u);
     const Vec<Quad> x = cross(u1, u2);
@@ -197,8 +201,8 @@ TEST(UnequalLengths, StillOnesMeetWhereClosedFormsSay) {
     if (abs(least) < 1e-12 || abs(time) < 1e-12) continue;
     const bool meets = least > 0 && time > 0;
     beyond_a_tip += time > 0 && !meets;
-    const Contact contact = find(pair, 1e6);
-    ASSERT_EQ(contact.found, meets) << "pair " << n << ", seed " << seed;
+    const Contact contact = find_of_lengths(pair, 1e6);
+    ASSERT_EQ(contact.found, meets) << "pair " << n << ", seed " << lengths_seed;
     if (!meets) continue;
     ++contacts;
     ASSERT_NEAR(contact.elapsed.hi, static_cast<double>(time), 1e-11 * static_cast<double>(time));
@@ -206,8 +210,8 @@ TEST(UnequalLengths, StillOnesMeetWhereClosedFormsSay) {
     ASSERT_NEAR(at.arm_first, static_cast<double>(arm_first), 1e-10 * pair.half_first);
     ASSERT_NEAR(at.arm_second, static_cast<double>(arm_second), 1e-10 * pair.half_second);
   }
-  EXPECT_GT(contacts, 500 / thin);
-  EXPECT_GT(beyond_a_tip, 500 / thin);
+  EXPECT_GT(contacts, 500 / lengths_thin);
+  EXPECT_GT(beyond_a_tip, 500 / lengths_thin);
 }
 
 /// The first change of sign between samples of the contact function with both arms inside by
@@ -241,13 +245,13 @@ std::optional<double> sampled(const KernelPair& held, double until, int steps, d
 
 // None of the contacts that sampling finds is missed, and each that is found is one.
 TEST(UnequalLengths, TurningOnesMeetWhereFChangesSign) {
-  Random random(seed + 3);
+  Random random(lengths_seed + 3);
   int contacts = 0;
-  for (int n = 0; n < 3000 / thin; ++n) {
-    SCOPED_TRACE("pair " + std::to_string(n) + ", seed " + std::to_string(seed));
+  for (int n = 0; n < 3000 / lengths_thin; ++n) {
+    SCOPED_TRACE("pair " + std::to_string(n) + ", seed " + std::to_string(lengths_seed));
     const KernelPair pair = unequal_pair(random, true);
     const double until = 2;
-    const Contact contact = find(pair, until);
+    const Contact contact = find_of_lengths(pair, until);
     const double end = contact.found ? contact.elapsed.hi : until;
     const auto earlier = sampled(pair, end, 400, 1 - 1e-9);
     if (earlier) {
@@ -273,7 +277,7 @@ TEST(UnequalLengths, TurningOnesMeetWhereFChangesSign) {
     ASSERT_LE(std::abs(geometry.arm_first), pair.half_first);
     ASSERT_LE(std::abs(geometry.arm_second), pair.half_second);
   }
-  EXPECT_GT(contacts, 300 / thin);
+  EXPECT_GT(contacts, 300 / lengths_thin);
 }
 
 // The time for which needles touch at the start is decided within their own lengths.
@@ -282,13 +286,13 @@ TEST(UnequalLengths, TouchWithinTheirLengths) {
   pair.first = test::flight({0.25, 0, 0}, {1, 0, 0}, {0, 0, 1}, {});
   pair.second = test::flight({0, 0.1, 0}, {0, 1, 0}, {}, {});
   pair.touch_within = 1e-12;
-  EXPECT_TRUE(find(pair, 1).side_unknown);
+  EXPECT_TRUE(find_of_lengths(pair, 1).side_unknown);
   pair.half_first = 0.2;  // ends at x = 0.05
-  EXPECT_FALSE(find(pair, 1).side_unknown);
+  EXPECT_FALSE(find_of_lengths(pair, 1).side_unknown);
   pair.half_first = 0.26;
-  EXPECT_TRUE(find(pair, 1).side_unknown);
+  EXPECT_TRUE(find_of_lengths(pair, 1).side_unknown);
   pair.half_second = 0.05;  // ends at y = 0.05
-  EXPECT_FALSE(find(pair, 1).side_unknown);
+  EXPECT_FALSE(find_of_lengths(pair, 1).side_unknown);
 }
 
 TEST(UnequalLengths, ScaleByTheirSum) {

@@ -12,16 +12,16 @@ namespace {
 
 using test::Random;
 
-constexpr std::uint64_t seed = 41;
+constexpr std::uint64_t block_seed = 41;
 
-struct Drawn {
+struct DrawnBlock {
   WordFormat format;
   double from, to, coordinate;
 };
 
 // Ranges of all sizes, and coordinates within, at and beyond their ends.
-Drawn draw(Random& random) {
-  Drawn out;
+DrawnBlock draw_drawn(Random& random) {
+  DrawnBlock out;
   const double size = random.log_uniform(1e-2, 1e4);
   out.from = -size * random.uniform();
   out.to = out.from + size;
@@ -34,9 +34,9 @@ Drawn draw(Random& random) {
 }
 
 TEST(WordFormat, HasTheFinestStepForItsRange) {
-  Random random(seed);
+  Random random(block_seed);
   for (int n = 0; n < 10000; ++n) {
-    const Drawn drawn = draw(random);
+    const DrawnBlock drawn = draw_drawn(random);
     const double size = drawn.to - drawn.from, range = WordFormat::places * drawn.format.step();
     EXPECT_GE(range, 1.25 * size);
     EXPECT_LE(range, 2.5 * size);
@@ -46,10 +46,10 @@ TEST(WordFormat, HasTheFinestStepForItsRange) {
 }
 
 TEST(WordFormat, HoldsAPlaceAndAVelocity) {
-  Random random(seed);
+  Random random(block_seed);
   double worst = 0;
   for (int n = 0; n < 100000; ++n) {
-    const Drawn drawn = draw(random);
+    const DrawnBlock drawn = draw_drawn(random);
     const int kind = random.below(8);
     const double v = kind == 0   ? 0.0
                      : kind == 1 ? -0.0
@@ -79,9 +79,9 @@ TEST(WordFormat, KnowsWhatItHolds) {
 }
 
 TEST(WordFormat, HoldsAPlaceAndADirector) {
-  Random random(seed);
+  Random random(block_seed);
   for (int n = 0; n < 100000; ++n) {
-    const Drawn drawn = draw(random);
+    const DrawnBlock drawn = draw_drawn(random);
     const int kind = random.below(8);
     const double u = kind == 0 ? 1 : kind == 1 ? -1 : kind == 2 ? 0 : random.uniform(-1, 1);
     const std::uint32_t word = drawn.format.with_director(drawn.coordinate, u);

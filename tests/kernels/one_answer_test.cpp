@@ -43,7 +43,7 @@ class Digest {
 };
 
 /// Braces evaluate in order.
-Vec3d any_vector(Random& random, double size) {
+Vec3d vector_of_size(Random& random, double size) {
   return Vec3d{random.uniform(-size, size), random.uniform(-size, size),
                random.uniform(-size, size)};
 }
@@ -52,10 +52,10 @@ Vec3d any_vector(Random& random, double size) {
 Flight any_flight(Random& random) {
   Flight out;
   const auto u = random.direction();
-  out.r = any_vector(random, 0.6);
-  out.v = any_vector(random, 1.5);
+  out.r = vector_of_size(random, 0.6);
+  out.v = vector_of_size(random, 1.5);
   out.u = {u[0], u[1], u[2]};
-  out.w = cross(out.u, any_vector(random, 4));
+  out.w = cross(out.u, vector_of_size(random, 4));
   set_rotation(out);
   return out;
 }
@@ -103,7 +103,7 @@ TEST(OneAnswer, OfFilters) {
       for (NeedleBlock& block : blocks) {
         for (std::size_t lane = 0; lane < block_size; ++lane) {
           const auto a = random.direction();
-          const Vec3d r = any_vector(random, 1);
+          const Vec3d r = vector_of_size(random, 1);
           const double time = random.uniform(-1, 0);
           const double places[] = {r.x, r.y, r.z};
           for (int axis = 0; axis < 3; ++axis) {

@@ -17,7 +17,7 @@ namespace {
 
 using test::Quad;
 
-constexpr int count = test::by_build(200000, 5000);
+constexpr int range_count = test::by_build(200000, 5000);
 
 bool encloses(const Range& range, const Quad& value) {
   return Quad(range.lo) <= value && value <= Quad(range.hi);
@@ -44,7 +44,7 @@ Quad inside(const Range& a, test::Random& random) {
 
 TEST(Range, OperationsEncloseTheResultOfAllNumbersInTheOperands) {
   test::Random random(31);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < range_count; ++i) {
     const Range a = range(random), b = range(random);
     const Quad x = inside(a, random), y = inside(b, random);
     ASSERT_TRUE(encloses(a + b, x + y)) << a.lo << ' ' << a.hi << ' ' << b.lo << ' ' << b.hi;
@@ -59,7 +59,7 @@ TEST(Range, OperationsEncloseTheResultOfAllNumbersInTheOperands) {
 // Nor is it needlessly wide: a few units in the last place.
 TEST(Range, OperationsOnNumbersAreTight) {
   test::Random random(32);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < range_count; ++i) {
     const double a = number(random), b = number(random);
     const Range sum = Range(a) + Range(b), product = Range(a) * Range(b);
     EXPECT_LE(sum.hi - sum.lo, 4 * 0x1p-52 * std::abs(a + b));
@@ -69,7 +69,7 @@ TEST(Range, OperationsOnNumbersAreTight) {
 
 TEST(Range, SineAndCosineEncloseThoseOfAllAngles) {
   test::Random random(33);
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < range_count; ++i) {
     const double middle = random.uniform(-20, 20) * (random.coin() ? 1 : 100);
     const double half = random.coin() ? random.uniform(0, 2) : std::ldexp(1, -random.below(52));
     // Now and then centred on an extremum.
@@ -89,7 +89,7 @@ TEST(Range, SineAndCosineEncloseThoseOfAllAngles) {
 TEST(Range, ContactFunctionsAreEnclosed) {
   test::Random random(34);
   for (const test::PairFamily& family : test::pair_families()) {
-    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, count / 2000, 35)) {
+    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, range_count / 2000, 35)) {
       test::KernelPair held = test::kernel_pair(drawn);
       // Records made some time before, and a partner seen through the border of the box.
       if (random.coin()) {
@@ -124,7 +124,7 @@ TEST(Range, ContactFunctionsAreEnclosed) {
 TEST(Range, ContinuationsFromATouchAreEnclosed) {
   test::Random random(36);
   for (const test::PairFamily& family : test::pair_families()) {
-    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, count / 2000, 37)) {
+    for (const test::NeedlePair& drawn : test::draw_pairs(family.name, range_count / 2000, 37)) {
       test::KernelPair held = test::kernel_pair(drawn);
       const kernels::Pair pair = held.view();
       const kernels::PairScale scale = kernels::scale_of(pair);

@@ -17,7 +17,7 @@ using boost::multiprecision::cpp_bin_float_50;
 using test::Random;
 using test::Wide;
 
-constexpr std::uint64_t seed = 202;
+constexpr std::uint64_t sine_seed = 202;
 constexpr double half_pi = 0x1.921fb54442d18p+0;
 
 // Distance from the exact value in units of the spacing of doubles there.
@@ -46,7 +46,7 @@ class Worst {
 };
 
 TEST(SineCosine, IsWithinFourFifthsOfAnUlp) {
-  Random random(seed);
+  Random random(sine_seed);
   Worst worst;
   for (int i = 0; i < 10000; ++i) worst.take(random.uniform(-0x1p12, 0x1p12));
   for (int i = 0; i < 10000; ++i) worst.take(random.uniform(-2, 2));
@@ -75,7 +75,7 @@ TEST(SineCosine, IsWithinFourFifthsOfAnUlpNextToOddMultiplesOfQuarterPi) {
 }
 
 TEST(SineCosine, IsWithinFourFifthsOfAnUlpForSmallArguments) {
-  Random random(seed);
+  Random random(sine_seed);
   Worst worst;
   for (int exponent = -1060; exponent <= 0; ++exponent) {
     worst.take(std::ldexp(random.uniform(1, 2), exponent));
@@ -84,14 +84,14 @@ TEST(SineCosine, IsWithinFourFifthsOfAnUlpForSmallArguments) {
 }
 
 TEST(SineCosine, BeyondTwoToTheTwelfthTheErrorGrowsWithTheArgument) {
-  Random random(seed);
+  Random random(sine_seed);
   for (int i = 0; i < 10000; ++i) {
     const double x = random.uniform(1, 2) * std::ldexp(random.coin() ? 1 : -1, 12 + i % 28);
     const SineCosine<double> computed = sine_cosine(x);
     const cpp_bin_float_50 exact = x;
     const double bound = std::abs(x) * 0x1p-52;
-    ASSERT_LT(abs(computed.sine - sin(exact)), bound) << "x = " << x << ", seed " << seed;
-    ASSERT_LT(abs(computed.cosine - cos(exact)), bound) << "x = " << x << ", seed " << seed;
+    ASSERT_LT(abs(computed.sine - sin(exact)), bound) << "x = " << x << ", seed " << sine_seed;
+    ASSERT_LT(abs(computed.cosine - cos(exact)), bound) << "x = " << x << ", seed " << sine_seed;
   }
 }
 
@@ -107,16 +107,16 @@ TEST(SineCosine, TinyAnglesAreTheirOwnSines) {
 }
 
 TEST(SineCosine, OfTheOppositeAngleIsMirroredBitForBit) {
-  Random random(seed);
+  Random random(sine_seed);
   for (int i = 0; i < 100000; ++i) {
     const double x = std::ldexp(random.uniform(1, 2), i % 60 - 20);
     const SineCosine<double> a = sine_cosine(x), b = sine_cosine(-x);
-    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << x << ", seed " << seed;
-    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << x << ", seed " << seed;
+    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << x << ", seed " << sine_seed;
+    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << x << ", seed " << sine_seed;
   }
 }
 
-Wide wide(const DoubleDouble& a) { return Wide(a.hi) + Wide(a.lo); }
+Wide wide_of(const DoubleDouble& a) { return Wide(a.hi) + Wide(a.lo); }
 
 // Largest error over 2^-100 (1 + |x|), |x| about 2^exponent.
 double worst_precise(Random& random, int exponent, int count) {
@@ -127,20 +127,20 @@ double worst_precise(Random& random, int exponent, int count) {
     const SineCosine<DoubleDouble> computed = sine_cosine(x);
     const double unit = 0x1p-100 * (1 + std::abs(hi));
     const auto error = [&](const DoubleDouble& a, const Wide& exact) {
-      return std::abs(static_cast<double>(Wide(wide(a) - exact))) / unit;
+      return std::abs(static_cast<double>(Wide(wide_of(a) - exact))) / unit;
     };
-    worst =
-        std::max({worst, error(computed.sine, sin(wide(x))), error(computed.cosine, cos(wide(x)))});
+    worst = std::max(
+        {worst, error(computed.sine, sin(wide_of(x))), error(computed.cosine, cos(wide_of(x)))});
   }
   return worst;
 }
 
 TEST(SineCosineInDoubleDouble, IsWithinItsBound) {
-  Random random(seed);
+  Random random(sine_seed);
   for (int exponent = -60; exponent <= 39; ++exponent) {
     const double worst = worst_precise(random, exponent, 20);
     if (exponent % 10 == 0) std::printf("2^%d: %.4f of the bound\n", exponent, worst);
-    EXPECT_LT(worst, 1) << "|x| about 2^" << exponent << ", seed " << seed;
+    EXPECT_LT(worst, 1) << "|x| about 2^" << exponent << ", seed " << sine_seed;
   }
 }
 
@@ -151,30 +151,30 @@ TEST(SineCosineInDoubleDouble, IsWithinItsBoundNextToQuarterPi) {
     const DoubleDouble x(hi, static_cast<double>(Wide(exact - hi)));
     const SineCosine<DoubleDouble> computed = sine_cosine(x);
     const Wide bound = 0x1p-100 * (1 + hi);
-    EXPECT_LT(abs(wide(computed.sine) - sin(wide(x))), bound) << n << " quarters of pi";
-    EXPECT_LT(abs(wide(computed.cosine) - cos(wide(x))), bound) << n << " quarters of pi";
+    EXPECT_LT(abs(wide_of(computed.sine) - sin(wide_of(x))), bound) << n << " quarters of pi";
+    EXPECT_LT(abs(wide_of(computed.cosine) - cos(wide_of(x))), bound) << n << " quarters of pi";
   }
 }
 
 // The reduction takes off multiples of pi/2 in three parts; without the third, the error would grow
 // with the argument.
 TEST(SineCosineInDoubleDouble, LosesNothingByReductionOfArgumentsInUse) {
-  Random random(seed);
+  Random random(sine_seed);
   for (int exponent = 0; exponent <= 12; ++exponent) {
     const double worst = worst_precise(random, exponent, 100);
     EXPECT_LT(worst * (1 + std::ldexp(1.0, exponent)), 1)
-        << "|x| about 2^" << exponent << ", seed " << seed;
+        << "|x| about 2^" << exponent << ", seed " << sine_seed;
   }
 }
 
 TEST(SineCosineInDoubleDouble, OfTheOppositeAngleIsMirroredBitForBit) {
-  Random random(seed);
+  Random random(sine_seed);
   for (int i = 0; i < 10000; ++i) {
     const double hi = std::ldexp(random.uniform(1, 2), i % 60 - 20);
     const DoubleDouble x = two_sum(hi, hi * random.uniform(-0x1p-54, 0x1p-54));
     const SineCosine<DoubleDouble> a = sine_cosine(x), b = sine_cosine(-x);
-    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << hi << ", seed " << seed;
-    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << hi << ", seed " << seed;
+    ASSERT_EQ(a.sine, -b.sine) << std::hexfloat << hi << ", seed " << sine_seed;
+    ASSERT_EQ(a.cosine, b.cosine) << std::hexfloat << hi << ", seed " << sine_seed;
   }
 }
 

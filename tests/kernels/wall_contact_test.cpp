@@ -16,9 +16,9 @@
 namespace needlework::kernels {
 namespace {
 
-using Quad = boost::multiprecision::cpp_bin_float_quad;
+using WallQuad = boost::multiprecision::cpp_bin_float_quad;
 
-Quad quad_component(const Vec3d& a, int axis) { return Quad(component(a, axis)); }
+WallQuad quad_component(const Vec3d& a, int axis) { return WallQuad(component(a, axis)); }
 
 struct Approach {
   Flight flight;
@@ -30,29 +30,31 @@ struct Approach {
   }
   Approach& operator=(const Approach&) = delete;
 
-  Quad height(int tip, const Quad& s) const {
+  WallQuad height(int tip, const WallQuad& s) const {
     const WallApproach& a = approach;
     const int axis = a.wall.axis, next = (axis + 1) % 3, last = (axis + 2) % 3;
-    const Quad sign = a.wall.normal, half = a.half;
-    const Quad z = quad_component(flight.r, axis) - Quad(a.wall.place);
+    const WallQuad sign = a.wall.normal, half = a.half;
+    const WallQuad z = quad_component(flight.r, axis) - WallQuad(a.wall.place);
     const auto w = [&](int n) { return quad_component(flight.w, n); };
     const auto u = [&](int n) { return quad_component(flight.u, n); };
-    const Quad omega = sqrt(w(0) * w(0) + w(1) * w(1) + w(2) * w(2));
-    Quad along = u(axis);
+    const WallQuad omega = sqrt(w(0) * w(0) + w(1) * w(1) + w(2) * w(2));
+    WallQuad along = u(axis);
     if (omega > 0) {
-      const Quad p = (w(next) * u(last) - w(last) * u(next)) / omega;
+      const WallQuad p = (w(next) * u(last) - w(last) * u(next)) / omega;
       along = u(axis) * cos(omega * s) + p * sin(omega * s);
     }
-    const Quad turns = Quad(a.turns.hi) + Quad(a.turns.lo) + Quad(a.wall.frequency) * s;
-    const Quad surface =
-        Quad(a.wall.amplitude) * sin(2 * boost::math::constants::pi<Quad>() * turns);
-    const Quad centre = z + quad_component(flight.v, axis) * s + Quad(a.gravity) * s * s / 2;
-    return sign * (centre - surface + (tip == 0 ? half : Quad(-half)) * along);
+    const WallQuad turns =
+        WallQuad(a.turns.hi) + WallQuad(a.turns.lo) + WallQuad(a.wall.frequency) * s;
+    const WallQuad surface =
+        WallQuad(a.wall.amplitude) * sin(2 * boost::math::constants::pi<WallQuad>() * turns);
+    const WallQuad centre =
+        z + quad_component(flight.v, axis) * s + WallQuad(a.gravity) * s * s / 2;
+    return sign * (centre - surface + (tip == 0 ? half : WallQuad(-half)) * along);
   }
 };
 
 struct Found {
-  Quad time;
+  WallQuad time;
   int tip;
 };
 
@@ -60,14 +62,14 @@ struct Found {
 std::optional<Found> sampled(const Approach& a, double to, int steps) {
   std::optional<Found> out;
   for (int tip = 0; tip < 2; ++tip) {
-    Quad before = 0;
+    WallQuad before = 0;
     for (int n = 1; n <= steps; ++n) {
-      Quad at = Quad(to) * n / steps;
+      WallQuad at = WallQuad(to) * n / steps;
       if (out && before > out->time) break;
       if (a.height(tip, at) < 0) {
-        Quad low = before;
+        WallQuad low = before;
         for (int k = 0; k < 110; ++k) {
-          const Quad middle = (low + at) / 2;
+          const WallQuad middle = (low + at) / 2;
           (a.height(tip, middle) < 0 ? at : low) = middle;
         }
         if (!out || at < out->time) out = Found{at, tip};
