@@ -243,6 +243,35 @@ typedef int (*needlework_on_collisions)(const needlework_collision* collisions, 
 NEEDLEWORK_API int needlework_set_callback(needlework_simulation* simulation, size_t batch,
                                            needlework_on_collisions callback, void* user);
 
+/* What an event is; the same numbers as in /events/kind of files. */
+enum needlework_kind {
+  NEEDLEWORK_KIND_PAIR = 0,            /* a collision of two needles */
+  NEEDLEWORK_KIND_WALL = 1,            /* a hit on a wall: `second` is the index of the wall */
+  NEEDLEWORK_KIND_CONTACT_ENTERED = 2, /* two needles have begun to slide on each other */
+  NEEDLEWORK_KIND_CONTACT_ENDED = 3,   /* and have ended */
+  NEEDLEWORK_KIND_THERMOSTAT = 4,      /* velocities drawn anew by a thermostat */
+  NEEDLEWORK_KIND_OTHER = 255
+};
+
+/* A collision, or an event of one needle. Of an event of one needle `first` is its id, `second` the
+ * index of the wall or 0, `arm_first` that of the tip, `normal_velocity` that of the tip relative
+ * to the surface along the normal into the gas; `shift`, `arm_second` and `after[1]` are 0. */
+typedef struct needlework_happening {
+  uint8_t kind;   /* of needlework_kind; others may be added */
+  uint8_t source; /* 0 for events of two needles */
+  needlework_collision event;
+} needlework_happening;
+
+/* Receives all that happens, as needlework_on_collisions receives collisions. */
+typedef int (*needlework_on_happenings)(const needlework_happening* happenings, size_t count,
+                                        void* user);
+
+/* Sets such a function, beside that of needlework_set_callback(), and in the same way: NULL ends
+ * it. Collisions of two needles are among what it is given. [handle] */
+NEEDLEWORK_API int needlework_set_happening_callback(needlework_simulation* simulation,
+                                                     size_t batch,
+                                                     needlework_on_happenings callback, void* user);
+
 /* ---- State ----------------------------------------------------------------------------------- */
 
 /* Where to copy the state at the present time, by increasing id. What is NULL is not copied. */
@@ -309,6 +338,23 @@ NEEDLEWORK_API int needlework_get_species_pair(needlework_simulation* simulation
  * [handle] */
 NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simulation,
                                                      uint8_t* species);
+
+/* ---- Walls ----------------------------------------------------------------------------------- */
+
+/* Hits on one wall since the start. Walls are indexed in the order of the scene, where "both"
+ * counts as low, then high. */
+typedef struct needlework_wall {
+  int axis;       /* 0, 1, 2 for x, y, z */
+  int high;       /* 1 at the high edge of the box, 0 at the low one */
+  uint64_t hits;  /* which are no collisions */
+  double impulse; /* sum of the magnitudes of their impulses [mass length / time] */
+} needlework_wall;
+
+/* The number of walls; 0 on failure. [handle] */
+NEEDLEWORK_API size_t needlework_wall_count(needlework_simulation* simulation);
+/* Copies what is known of a wall. NEEDLEWORK_USAGE for an index behind the last. [handle] */
+NEEDLEWORK_API int needlework_get_wall(needlework_simulation* simulation, size_t index,
+                                       needlework_wall* wall);
 
 /* ---- Data of your own ------------------------------------------------------------------------ */
 

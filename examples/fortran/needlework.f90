@@ -85,11 +85,29 @@ module needlework
     type(needlework_state_after) :: after(2)
   end type
 
+  type, bind(c) :: needlework_happening
+    integer(c_int8_t) :: kind, source
+    type(needlework_collision) :: event
+  end type
+
+  type, bind(c) :: needlework_wall
+    integer(c_int) :: axis, high
+    integer(c_int64_t) :: hits
+    real(c_double) :: impulse
+  end type
+
   abstract interface
     integer(c_int) function needlework_on_collisions(collisions, count, user) bind(c)
       import :: needlework_collision, c_size_t, c_ptr, c_int
       integer(c_size_t), value :: count
       type(needlework_collision), intent(in) :: collisions(count)
+      type(c_ptr), value :: user
+    end function
+
+    integer(c_int) function needlework_on_happenings(happenings, count, user) bind(c)
+      import :: needlework_happening, c_size_t, c_ptr, c_int
+      integer(c_size_t), value :: count
+      type(needlework_happening), intent(in) :: happenings(count)
       type(c_ptr), value :: user
     end function
   end interface
@@ -207,6 +225,28 @@ module needlework
       integer(c_size_t), value :: batch
       type(c_funptr), value :: callback
       type(c_ptr), value :: user
+    end function
+
+    ! `callback` is c_funloc() of a function like needlework_on_happenings.
+    integer(c_int) function needlework_set_happening_callback(simulation, batch, callback, user) &
+        bind(c)
+      import :: c_ptr, c_int, c_size_t, c_funptr
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: batch
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+    end function
+
+    integer(c_size_t) function needlework_wall_count(simulation) bind(c)
+      import :: c_ptr, c_size_t
+      type(c_ptr), value :: simulation
+    end function
+
+    integer(c_int) function needlework_get_wall(simulation, index, wall) bind(c)
+      import :: c_ptr, c_int, c_size_t, needlework_wall
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: index
+      type(needlework_wall), intent(out) :: wall
     end function
 
     integer(c_size_t) function needlework_count(simulation) bind(c)

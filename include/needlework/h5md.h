@@ -1,7 +1,7 @@
 // H5MD 1.1 files: writes runs, and reads initial states and finished runs.
 //
 // docs/file-format.md describes each dataset of a file that a Writer writes. F frames, S samples,
-// E collisions and N needles are stored as follows:
+// E events and N needles are stored as follows:
 //
 //   /h5md                 version [1, 1], author, creator
 //   /parameters           scene, title, version, seed, isa, accuracy, threads, epoch_length, k,
@@ -16,7 +16,8 @@
 //   /user_data            a user's own data in the order in which they were set: step, time, name,
 //                         json, begin, size, each [D]; bytes [B]
 //   /events               time, epoch, offset, normal_velocity, tc, each [E]; pair, arms, each
-//                         [E][2]; shift, impulse, each [E][3]; see Collision
+//                         [E][2]; shift, impulse, each [E][3]; see Collision; and, if there are
+//                         other events than collisions of two needles, kind [E]; see Happening
 //
 // A quantity that depends on time is an H5MD element: a group with the datasets value, step (number
 // of collisions so far) and time. All elements that belong to frames share one step and one time,
@@ -36,7 +37,7 @@
 #include <string>
 #include <vector>
 
-#include "needlework/collision.h"
+#include "needlework/happening.h"
 #include "needlework/scene.h"
 #include "needlework/series.h"
 #include "needlework/state.h"
@@ -55,6 +56,7 @@ struct RunInfo {
   std::vector<std::uint32_t> ids = {};   ///< of needles in each frame, for Writer::resume(), which
                                          ///< compares them if there are any
   std::vector<std::uint8_t> species = {};  ///< of needles in each frame; empty: all of the first
+  bool has_kinds = false;  ///< whether /events holds more than collisions of two needles
 };
 
 /// Writes one run to one file.
@@ -107,9 +109,12 @@ class Writer {
   /// Appends a frame to /particles/needles, and the totals at its time to /observables. Images are
   /// written as zeros if the state has none. All frames must have the same ids in the same order.
   void write_frame(const Totals& totals, const State& state);
-  /// Appends a collision to /events. Collisions are kept in memory and written in blocks of a few
-  /// thousand.
-  void write_event(const Collision& collision);
+  /// Appends what has happened to /events. Events are kept in memory and written in blocks of a
+  /// few thousand. Only with RunInfo::has_kinds may it be something else than a collision.
+  void write_event(const Happening& happening);
+  void write_event(const Collision& collision) {
+    write_event(Happening{Happening::pair, 0, collision});
+  }
   /// Appends to /velocities_set that all velocities have been replaced: the totals at that instant,
   /// before and after.
   void write_velocities_set(const Totals& before, const Totals& after);
@@ -188,10 +193,11 @@ State read_last_frame(const std::string& path);
 
 /// What a file holds of a run, without its frames and events.
 struct RecordedRun {
-  std::string scene;           ///< Scene::text
-  std::string version;         ///< version of the program
-  std::uint64_t needles = 0;   ///< number of needles
-  std::vector<Totals> series;  ///< empty if `with_series` was false
+  std::string scene;              ///< Scene::text
+  std::string version;            ///< version of the program
+  std::uint64_t needles = 0;      ///< number of needles
+  std::vector<Totals> series;     ///< empty if `with_series` was false
+  std::vector<WallTotals> walls;  ///< at the end; the same
 };
 
 /// Reads a file that a Writer wrote. Throws IoError if it cannot be read, and InputError if

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -131,6 +132,18 @@ struct Scene {
   Engine engine;
   Until until;
   Output output;
+
+  /// One side of the box that has a wall.
+  struct WallSide {
+    std::size_t axis = 0;   ///< 0, 1, 2 for x, y, z
+    bool is_high = false;   ///< at the edge of the box, else at 0
+    std::size_t entry = 0;  ///< in `walls`
+  };
+  /// Wherever walls are listed or indexed, they are these: in the order of `walls`, where "both"
+  /// counts as low, then high.
+  std::vector<WallSide> wall_sides() const;
+  /// Along which axes the box is periodic: those without walls.
+  std::array<bool, 3> periodic() const;
 
   /// What the gas is made of, with everything that the short form leaves unsaid.
   Composition composition() const;

@@ -102,6 +102,11 @@ class Simulation {
   std::vector<std::string> sources() const;
   /// The number of events of each of them since the start of the run.
   std::vector<std::uint64_t> events_by_source() const;
+  /// What has happened at each object of each of them.
+  std::vector<std::vector<ObjectTotals>> objects_by_source() const;
+
+  /// Of each wall, in the order of Scene::wall_sides().
+  std::vector<WallTotals> wall_totals() const;
 
   Totals totals() const;
   /// Of each species, in the order of the scene.

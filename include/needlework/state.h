@@ -12,6 +12,8 @@ namespace needlework {
 /// for each needle.
 struct State {
   std::array<double, 3> box{};                          ///< edges [L]
+  std::array<bool, 3> periodic{true, true, true};       ///< along which axes the box is; along the
+                                                        ///< others, walls or open sides end it
   std::vector<std::array<double, 3>> position;          ///< centres, inside the box or not [L]
   std::vector<std::array<double, 3>> velocity;          ///< [L / time]
   std::vector<std::array<double, 3>> orientation;       ///< unit directors [1]

@@ -13,19 +13,20 @@ read() opens files of runs, and plot draws them. docs/python.md is the guide.
 
 from . import plot, theory
 from ._core import version as __version__
-from .collisions import COLLISION, COLLISION_WITH_STATES
+from .collisions import (COLLISION, COLLISION_WITH_STATES, HAPPENING, HAPPENING_WITH_STATES,
+                         KINDS)
 from .contacts import FirstContacts, predict
 from .data import Data
 from .errors import Error, InputError, InvalidStateError, IoError
 from .frames import Frame, Frames
 from .gsd_file import to_gsd
 from .reading import Events, Recording, Series, VelocitiesSet, read
-from .simulation import Counters, SceneWarning, Simulation, SpeciesTotals, Totals
+from .simulation import Counters, SceneWarning, Simulation, SpeciesTotals, Totals, WallTotals
 from .state import State
 from .values import Table, Values
 
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "Error", "Events",
-           "FirstContacts", "Frame", "Frames", "InputError", "InvalidStateError", "IoError",
-           "Recording", "SceneWarning", "Series", "Simulation", "SpeciesTotals", "State", "Table",
-           "Totals", "Values", "VelocitiesSet", "plot", "predict", "read", "theory", "to_gsd",
+           "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
+           "InvalidStateError", "IoError", "KINDS", "Recording", "SceneWarning", "Series", "Simulation", "SpeciesTotals", "State", "Table",
+           "Totals", "Values", "VelocitiesSet", "WallTotals", "plot", "predict", "read", "theory", "to_gsd",
            "__version__"]

@@ -1,4 +1,4 @@
-"""Rows that describe collisions, as the library writes them."""
+"""Rows that describe collisions and other events, as the library writes them."""
 
 import numpy as np
 
@@ -17,10 +17,19 @@ _RECORDED = [
     ("shift", "i4", 3),
     ("tc", "?"),
 ]
-_REPORTED = [*_RECORDED, ("sin_angle", "f8"), ("energy_change", "f8")]
+_KIND = [("kind", "u1")]
+_MORE = [("sin_angle", "f8"), ("energy_change", "f8")]
+_REPORTED = [*_RECORDED, *_MORE]
+_HAPPENED = [*_RECORDED, *_KIND, *_MORE]  # kind where _REPORTED has padding
 
-RECORDED_COLLISION = np.dtype(_RECORDED)
+RECORDED_RECORDED_HAPPENING = np.dtype([*_RECORDED, *_KIND])
+"""Type of an event in a file whose scene has others than collisions of two needles."""
+
+COLLISION = np.dtype(_RECORDED)
 """Type of a collision in a file: the fields of COLLISION up to tc."""
+
+RECORDED_HAPPENING = np.dtype([*_RECORDED, *_KIND])
+"""Type of an event in a file whose scene has others than collisions of two needles."""
 
 COLLISION = np.dtype(_REPORTED, align=True)
 """Type of a collision of the needles ``pair`` (ids, the lower one first).
@@ -38,3 +47,20 @@ energy_change    of the total energy, 0 for an elastic collision [energy]
 COLLISION_WITH_STATES = np.dtype([*_REPORTED, ("after", STATE_AFTER, 2)], align=True)
 """The same with the states of both needles after the collision, such as
 ``rows["after"]["velocity"]`` of shape [E, 2, 3]."""
+
+HAPPENING = np.dtype(_HAPPENED, align=True)
+"""Type of a collision, or of an event of one needle: the fields of COLLISION and
+
+kind             KINDS says which: 0 a collision, 1 a hit on a wall, 4 velocities of a thermostat
+
+Of an event of one needle, ``pair`` is its id and the index of the wall or 0; ``arms`` are that of
+the tip and 0; ``normal_velocity`` is that of the tip relative to the surface, along the normal
+into the gas; ``shift`` is 0.
+"""
+
+HAPPENING_WITH_STATES = np.dtype([*_HAPPENED, ("after", STATE_AFTER, 2)], align=True)
+"""The same with the states after the event; the second of an event of one needle is 0."""
+
+KINDS = {0: "pair", 1: "wall", 2: "contact entered", 3: "contact ended", 4: "thermostat",
+         255: "other"}
+"""What the kinds of events are."""

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from .collisions import RECORDED_COLLISION
+from .collisions import RECORDED_COLLISION, RECORDED_HAPPENING
 from .data import value_of
 from .errors import InputError, IoError
 from .frames import Frame, Frames, find_needles, places
@@ -89,12 +89,13 @@ class VelocitiesSet(Table):
 
 
 class Events(NotPickled):
-    """Collisions in the order of their times.
+    """Collisions, and events of single needles, in the order of their times.
 
     ``events[i]`` is one of them and ``events[a:b]`` a structured array, for which nothing else is
     read; ``events["arms"]`` is one field of all, and ``events[:][mask]`` those that a mask chooses
-    from all of them. The fields are those of Simulation.on_collisions
-    without sin_angle and energy_change, which files do not hold.
+    from all of them. The fields are those of Simulation.on_collisions, or, where the scene has
+    other events than collisions, of on_happenings, with ``kind``; without sin_angle and
+    energy_change, which files do not hold.
     """
 
     _instead = "events[:], the collisions as an array, or the path of the file"
@@ -102,7 +103,7 @@ class Events(NotPickled):
     def __init__(self, group: h5py.Group) -> None:
         self._group = group
         self._count = len(group["time"])  # written last
-        self.dtype = RECORDED_COLLISION
+        self.dtype = RECORDED_HAPPENING if "kind" in group else RECORDED_COLLISION
 
     def __len__(self) -> int:
         return self._count

@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .arrays import rows_of_vectors, whole_numbers
-from .collisions import COLLISION, COLLISION_WITH_STATES
+from .collisions import (COLLISION, COLLISION_WITH_STATES, HAPPENING,
+                         HAPPENING_WITH_STATES)
 from .data import Data
 from .errors import Error, InputError
 from .progress import progress_line
@@ -57,6 +58,19 @@ class SpeciesTotals(Values):
     """Translational temperature, two thirds of the mean energy of translation."""
     t_rot: float
     """Rotational temperature, the mean energy of rotation."""
+
+
+class WallTotals(Values):
+    """Hits on one wall since the start."""
+
+    axis: str
+    """"x", "y" or "z"."""
+    side: str
+    """"low" or "high"."""
+    hits: int
+    """Number of hits, which are no collisions."""
+    impulse: float
+    """Sum of the magnitudes of their impulses."""
 
 
 class Counters(Values):
@@ -106,7 +120,8 @@ class Simulation(NotPickled):
     Raises InputError for a scene or a state that cannot be simulated, and IoError for files.
     """
 
-    _callback: Optional[Callback] = None
+    _on_collisions: Optional[Callback] = None
+    _on_happenings: Optional[Callback] = None
     _instead = ("sim.save(path) for a file that initial.file of a scene can name, "
                 "Simulation(scene, **sim.state) for another one, or sim.checkpoint() and "
                 "Simulation.resume(path) for the same run in another process")
@@ -225,14 +240,29 @@ class Simulation(NotPickled):
         The callback must not use the simulation, which is ahead of the collisions passed on;
         only interrupt() may be called.
         """
+        self._listen(self._run.on_collisions, "_on_collisions", callback, batch,
+                     COLLISION_WITH_STATES if states else COLLISION)
+
+    def on_happenings(self, callback: Callback | None, batch: int = 1024, *,
+                      states: bool = False) -> None:
+        """The same for all that happens: collisions of two needles, and events of one needle, such
+        as hits on walls.
+
+        Rows are of the type needlework.HAPPENING, whose field ``kind`` says what each is, or of
+        needlework.HAPPENING_WITH_STATES. Both functions may be set.
+        """
+        self._listen(self._run.on_happenings, "_on_happenings", callback, batch,
+                     HAPPENING_WITH_STATES if states else HAPPENING)
+
+    def _listen(self, listen: Callable[..., None], name: str, callback: Callback | None,
+                batch: int, rows: np.dtype) -> None:
         if callback is not None and not callable(callback):
             raise InputError(f"callback = {callback!r}: expected a function or None")
         size = _whole("batch", batch)
         if size is None or size < 1:
             raise InputError(f"batch = {batch!r}: expected a whole number, 1 or more")
-        self._run.on_collisions(None if callback is None else _callback_of(self), size,
-                                COLLISION_WITH_STATES if states else COLLISION)
-        self._callback = callback
+        listen(None if callback is None else _callback_of(self, name), size, rows)
+        setattr(self, name, callback)
 
     def set_velocities(self, velocity: ArrayLike, angular_velocity: ArrayLike) -> None:
         """Replaces the velocities of all needles, as arrays [N, 3] in order of id.
@@ -365,6 +395,12 @@ class Simulation(NotPickled):
         return self._run.collisions_by_pair()
 
     @property
+    def wall_totals(self) -> list[WallTotals]:
+        """Hits on each wall, in the order of the scene, where "both" counts as low, then high;
+        empty without walls. The index of a wall here is that in rows of on_happenings()."""
+        return [WallTotals(sums) for sums in self._run.wall_totals()]
+
+    @property
     def counters(self) -> Counters:
         """Counters of the work done so far."""
         return Counters(self._run.counters())
@@ -457,8 +493,8 @@ class Simulation(NotPickled):
                 line.clear()
 
 
-def _callback_of(simulation: Simulation) -> Callback:
-    """Calls the callback that the simulation holds.
+def _callback_of(simulation: Simulation, name: str) -> Callback:
+    """Calls the callback that the simulation holds under this name.
 
     The compiled part keeps this and no more. A callback that refers to its simulation would keep
     it alive there, where the garbage collector does not look.
@@ -467,8 +503,9 @@ def _callback_of(simulation: Simulation) -> Callback:
 
     def call(rows: np.ndarray) -> None:
         owner = reference()
-        if owner is not None and owner._callback is not None:
-            owner._callback(rows)
+        callback = getattr(owner, name, None)
+        if callback is not None:
+            callback(rows)
 
     return call
 

@@ -102,6 +102,30 @@ static_assert(offsetof(StateAfterCollision, position) == offsetof(After, positio
 static_assert(offsetof(StateAfterCollision, velocity) == offsetof(After, velocity));
 static_assert(offsetof(StateAfterCollision, orientation) == offsetof(After, orientation));
 static_assert(offsetof(StateAfterCollision, angular_velocity) == offsetof(After, angular_velocity));
+static_assert(std::is_standard_layout_v<Happening> && std::is_trivially_copyable_v<Happening>);
+static_assert(sizeof(Happening) == sizeof(needlework_happening));
+static_assert(offsetof(Happening, kind) == offsetof(needlework_happening, kind));
+static_assert(offsetof(Happening, source) == offsetof(needlework_happening, source));
+static_assert(offsetof(Happening, event) == offsetof(needlework_happening, event));
+static_assert(int{Happening::pair} == int{NEEDLEWORK_KIND_PAIR});
+static_assert(int{Happening::wall} == int{NEEDLEWORK_KIND_WALL});
+static_assert(int{Happening::contact_entered} == int{NEEDLEWORK_KIND_CONTACT_ENTERED});
+static_assert(int{Happening::contact_ended} == int{NEEDLEWORK_KIND_CONTACT_ENDED});
+static_assert(int{Happening::thermostat} == int{NEEDLEWORK_KIND_THERMOSTAT});
+static_assert(int{Happening::other} == int{NEEDLEWORK_KIND_OTHER});
+
+/// The function that hands batches to a callback; none for NULL, for which `batch` may be anything.
+template <class Report, class CReport>
+typename runs::Batches<Report>::Callback batches_to(size_t batch,
+                                                    int (*callback)(const CReport*, size_t, void*),
+                                                    void* user) {
+  if (!callback) return {};
+  if (batch == 0) throw UsageError("batch = 0: expected at least 1");
+  return [callback, user](std::span<const Report> reports) {
+    const auto* first = reinterpret_cast<const CReport*>(reports.data());
+    if (callback(first, reports.size(), user) != 0) throw StopRequested();
+  };
+}
 
 }  // namespace
 }  // namespace needlework::c
@@ -159,15 +183,16 @@ int needlework_close(needlework_simulation* simulation) {
 int needlework_set_callback(needlework_simulation* simulation, size_t batch,
                             needlework_on_collisions callback, void* user) {
   return c::guarded(simulation, [&](needlework_simulation& self) {
-    if (!callback) {
-      self.run.on_collisions(1, {});
-      return;
-    }
-    if (batch == 0) throw c::UsageError("batch = 0: expected at least 1");
-    self.run.on_collisions(batch, [callback, user](std::span<const Collision> collisions) {
-      const auto* first = reinterpret_cast<const needlework_collision*>(collisions.data());
-      if (callback(first, collisions.size(), user) != 0) throw c::StopRequested();
-    });
+    const auto pass_on = c::batches_to<Collision, needlework_collision>(batch, callback, user);
+    self.run.on_collisions(batch, pass_on);
+  });
+}
+
+int needlework_set_happening_callback(needlework_simulation* simulation, size_t batch,
+                                      needlework_on_happenings callback, void* user) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    const auto pass_on = c::batches_to<Happening, needlework_happening>(batch, callback, user);
+    self.run.on_happenings(batch, pass_on);
   });
 }
 

@@ -148,10 +148,10 @@ std::string contact_time_text(const Scene::Collisions& c) {
   return "off";
 }
 
-const char* name_of_axis(const WallSide& side) {
+const char* name_of_axis(const Scene::WallSide& side) {
   return side.axis == 0 ? "x" : side.axis == 1 ? "y" : "z";
 }
-const char* name_of_side(const WallSide& side) { return side.is_high ? "high" : "low"; }
+const char* name_of_side(const Scene::WallSide& side) { return side.is_high ? "high" : "low"; }
 
 std::string wall_text(const Scene::Wall& wall) {
   if (wall.temperature) return fmt::format("thermal, at temperature {:g}", *wall.temperature);

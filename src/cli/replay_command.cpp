@@ -61,6 +61,13 @@ void print_row(const char* name, const Text& text) {
   fmt::print("  {:<14}{}\n", name, text);
 }
 
+// The other needle, or what one needle meets.
+std::string partner_of(const Happening& happening) {
+  if (happening.has_two_needles()) return fmt::to_string(happening.event.second);
+  if (happening.kind != Happening::wall) return name_of(happening.kind);
+  return fmt::format("wall {}", happening.event.second);
+}
+
 void print_collisions(const runs::Replay& replay, const runs::Replayed& done) {
   const auto& failure = replay.failure();
   std::string whose = "all needles";
@@ -72,12 +79,12 @@ void print_collisions(const runs::Replay& replay, const runs::Replayed& done) {
   print_row("collisions", fmt::format("the last {} of {}", done.last.size(), whose));
   fmt::print("  {:>12}  {:>23}  {:>10}  {:>10}  {:>9} {:>9} {:>9}  {:>10}\n", "number", "time",
              "needle", "partner", "x", "y", "z", "V_n");
-  for (const runs::NumberedCollision& entry : done.last) {
-    const Collision& collision = entry.collision;
+  for (const runs::NumberedHappening& entry : done.last) {
+    const Collision& collision = entry.happening.event;
     const auto place = place_of_contact(collision, replay.run().scene().needles.box);
     fmt::print("  {:>12}  {:>23.17g}  {:>10}  {:>10}  {:>9.5g} {:>9.5g} {:>9.5g}  {:>10.3g}\n",
-               entry.number, collision.time, collision.first, collision.second, place[0], place[1],
-               place[2], collision.normal_velocity);
+               entry.number, collision.time, collision.first, partner_of(entry.happening), place[0],
+               place[1], place[2], collision.normal_velocity);
   }
 }
 
@@ -94,15 +101,21 @@ void print_result(const runs::Replay& replay, const runs::Replayed& done,
   if (!done.last.empty()) print_collisions(replay, done);
 }
 
-Json json_of(const runs::NumberedCollision& entry, const std::array<double, 3>& box) {
-  const Collision& collision = entry.collision;
-  return {{"number", entry.number},
-          {"time", collision.time},
-          {"needles", {collision.first, collision.second}},
-          {"position", place_of_contact(collision, box)},
-          {"normal_velocity", number(collision.normal_velocity)},
-          {"energy_change", number(collision.energy_change)},
-          {"tc", collision.contact_time_rule}};
+Json json_of(const runs::NumberedHappening& entry, const std::array<double, 3>& box) {
+  const Collision& collision = entry.happening.event;
+  Json out{{"number", entry.number},
+           {"time", collision.time},
+           {"needles", {collision.first, collision.second}},
+           {"position", place_of_contact(collision, box)},
+           {"normal_velocity", number(collision.normal_velocity)},
+           {"energy_change", number(collision.energy_change)},
+           {"tc", collision.contact_time_rule}};
+  if (entry.happening.is_collision()) return out;
+  out["kind"] = name_of(entry.happening.kind);
+  if (entry.happening.has_two_needles()) return out;
+  out["needles"] = {collision.first};
+  if (entry.happening.kind == Happening::wall) out["wall"] = collision.second;
+  return out;
 }
 
 Json json_of(const runs::RunFailure& failure) {

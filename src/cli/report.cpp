@@ -167,6 +167,7 @@ std::string json_of(const Report& report) {
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
   if (!scene.species.empty()) serve::add_species(json, simulation);
+  if (!scene.walls.empty()) serve::add_walls(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

@@ -125,6 +125,15 @@ std::string species_lines(const Report& report) {
   return text;
 }
 
+std::string wall_lines(const Report& report) {
+  std::string text;
+  for (const WallTotals& wall : report.simulation.wall_totals()) {
+    text += line(text.empty() ? "walls" : "", "{} {}: {} hits, impulse {:.6g}", axis_name(wall),
+                 side_name(wall), wall.hits, wall.impulse);
+  }
+  return text;
+}
+
 // The sample next to a time, if there is one within a twentieth of it.
 const Totals* sample_at(const runs::Course& course, double time) {
   const Totals* found = nullptr;
@@ -214,6 +223,7 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
   }
+  text += wall_lines(report);
   const int threads = scene.engine.threads.value_or(1);
   text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
   if (report.course.collisions > 0) {

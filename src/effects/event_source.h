@@ -7,11 +7,13 @@
 // and hashes the event, on any number of threads.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "needlework/happening.h"
 #include "src/physics/gas.h"
 
 namespace needlework {
@@ -61,6 +63,11 @@ class EventSource {
 
   /// As Simulation::sources() and reports name it.
   virtual const char* name() const = 0;
+  /// What its events are in files and reports.
+  virtual Happening::Kind kind() const { return Happening::other; }
+  /// Number of the objects of which the engine counts the events and adds up the impulses, such as
+  /// walls; the object of each event is below it, unless it is 0.
+  virtual std::size_t objects() const { return 0; }
   /// The first event of needle i at or after `now`, if it is not after `until`; never otherwise. Is
   /// called again whenever the needle searches, and must then give the same answer as long as the
   /// record and the columns are the same.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -244,9 +245,11 @@ void EventProcessor<S, M>::happen(const Event& event) {
   columns_before_.clear();
   gas_.columns.append(i, columns_before_);
   gas_.columns.count_change(i);
-  const SourceOutcome outcome = run_.sources[event.source]->happen(gas_, at, event.side);
+  EventSource& source = *run_.sources[event.source];
+  const SourceOutcome outcome = source.happen(gas_, at, event.side);
   Happening happening;
-  happening.kind = static_cast<std::uint8_t>(event.source + 1);
+  happening.kind = source.kind();
+  happening.source = static_cast<std::uint8_t>(event.source + 1);
   Collision& report = happening.event;
   set_time(report);
   report.first = gas_.ids[i].value;
@@ -271,6 +274,10 @@ void EventProcessor<S, M>::happen(const Event& event) {
     tally_.hash.add(happening);
   }
   tally_.count(tally_.by_source, event.source, run_.sources.size());
+  if (source.objects() > 0) {
+    tally_.count_object(run_.first_object[event.source] + outcome.object,
+                        std::sqrt(dot(outcome.impulse, outcome.impulse)), run_.objects);
+  }
   schedule(i, place(i));
   if (run_.listeners.any()) run_.listeners.report(gas_, happening, i, no_needle, reports);
 }

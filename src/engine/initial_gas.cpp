@@ -106,14 +106,14 @@ void set_species(Gas& gas, const State& initial, const std::vector<std::size_t>&
 // That tips are inside the walls, as they are at the start, to within rounding.
 void require_inside(const Scene& scene, const Gas& gas) {
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  const std::vector<WallSide> walls = wall_sides(scene);
+  const std::vector<Scene::WallSide> walls = scene.wall_sides();
   if (walls.empty()) return;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
     const Vec3d &r = record.flight.r, &u = record.flight.u;
     const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
     const double half = 0.5 * gas.species_of(record).length / std::hypot(u.x, u.y, u.z);
-    for (const WallSide& side : walls) {
+    for (const Scene::WallSide& side : walls) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
       const double reach = half * std::abs(director[side.axis]);
@@ -129,7 +129,7 @@ void require_inside(const Scene& scene, const Gas& gas) {
 }  // namespace
 
 void set_surroundings(Gas& gas, const Scene& scene) {
-  for (const WallSide& side : wall_sides(scene)) gas.walled[side.axis] = true;
+  for (const Scene::WallSide& side : scene.wall_sides()) gas.walled[side.axis] = true;
   gas.gravity = vector_of(scene.forces.gravity);
   gas.falls = !(gas.gravity == Vec3d{});
 }

@@ -31,7 +31,7 @@ bool is_at_rest(const Record& record) {
 // The walls in the order in which reports count them.
 std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box) {
   std::vector<Wall> out;
-  for (const WallSide& side : wall_sides(scene)) {
+  for (const Scene::WallSide& side : scene.wall_sides()) {
     const Scene::Wall& given = scene.walls[side.entry];
     Wall& wall = out.emplace_back();
     wall.plane.axis = static_cast<int>(side.axis);
@@ -174,8 +174,10 @@ Totals Run::totals() const {
 }
 
 void Run::add_source(std::unique_ptr<EventSource> source) {
-  constexpr std::size_t most = std::numeric_limits<decltype(Happening::kind)>::max();
+  constexpr std::size_t most = std::numeric_limits<decltype(Happening::source)>::max();
   if (sources.size() == most) throw InputError(fmt::format("more than {} sources of events", most));
+  first_object.push_back(objects);
+  objects += source->objects();
   sources.push_back(std::move(source));
   gas.columns.keep_changes();
   effects.sources = true;

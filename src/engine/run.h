@@ -100,6 +100,8 @@ class Run {
   double contact_time = 0;  ///< contact time of the t_c rule in this window
   std::optional<ContactTimeRule> contact_time_rule;
   std::vector<std::unique_ptr<EventSource>> sources;
+  std::vector<std::size_t> first_object;  ///< of each source, among the objects of all
+  std::size_t objects = 0;                ///< number of them
   std::optional<Kicks> kicks;
   std::uint64_t kicks_done = 0;
   double kick_energy = 0;  ///< that all kicks have given to all needles

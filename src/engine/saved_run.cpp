@@ -133,7 +133,14 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 void Run::require_consistent() const {
   require(is_time(gas.clock, now) && is_time(gas.clock, windows.end()) && now.epoch >= 0);
   require(std::isfinite(initial_energy) && initial_energy >= 0 && energy.is_sound());
-  require(tally.tc_collisions <= tally.collisions && tally.at_instant <= tally.collisions &&
+  const auto fits = [](const auto& counts, std::size_t kinds) {
+    return counts.empty() || counts.size() == kinds;
+  };
+  require(fits(tally.by_pair, gas.composition.pairs()));
+  require(fits(tally.by_source, sources.size()) && fits(tally.by_object, objects));
+  std::uint64_t happenings = tally.collisions;
+  for (const std::uint64_t events : tally.by_source) happenings += events;
+  require(tally.tc_collisions <= tally.collisions && tally.at_instant <= happenings &&
           tally.collisions < std::uint64_t{1} << 63);
   const auto is_past = [&](Time time) { return is_time(gas.clock, time) && time <= now; };
   require(std::ranges::all_of(gas.records, is_past, &Record::time));
@@ -194,7 +201,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
           tally.instant, tally.at_instant);
   if (gas.composition.is_mixture()) archive(tally.by_pair);
-  if (!sources.empty()) archive(tally.by_source);
+  if (!sources.empty()) archive(tally.by_source, tally.by_object);
   if (kicks) {
     archive(kicks_done, kick_energy);
     require(std::isfinite(kick_energy) && kicks_done < std::uint64_t{1} << 53 &&

@@ -333,6 +333,37 @@ std::vector<std::uint64_t> Simulation::events_by_source() const {
   return out;
 }
 
+std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
+  const Run& run = implementation_->run;
+  std::vector<std::vector<ObjectTotals>> out;
+  for (std::size_t n = 0; n < run.sources.size(); ++n) {
+    out.emplace_back(run.sources[n]->objects());
+    if (run.tally.by_object.empty()) continue;
+    for (std::size_t object = 0; object < out.back().size(); ++object) {
+      const ObjectTally& sums = run.tally.by_object[run.first_object[n] + object];
+      out.back()[object] = {sums.events, sums.impulse.value()};
+    }
+  }
+  return out;
+}
+
+std::vector<WallTotals> Simulation::wall_totals() const {
+  const Run& run = implementation_->run;
+  std::vector<WallTotals> out;
+  for (const Scene::WallSide& side : implementation_->scene.wall_sides()) {
+    out.push_back({.axis = static_cast<int>(side.axis), .high = side.is_high});
+  }
+  const auto by_source = objects_by_source();
+  for (std::size_t n = 0; n < by_source.size(); ++n) {
+    if (run.sources[n]->kind() != Happening::wall) continue;
+    for (std::size_t wall = 0; wall < std::min(out.size(), by_source[n].size()); ++wall) {
+      out[wall].hits = by_source[n][wall].events;
+      out[wall].impulse = by_source[n][wall].impulse;
+    }
+  }
+  return out;
+}
+
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }
 Totals Simulation::totals() const {
   const kernels::DefaultArithmetic arithmetic;
@@ -381,6 +412,7 @@ void Simulation::copy(State& into) const {
   const kernels::DefaultArithmetic arithmetic;
   const Run& run = implementation_->run;
   copy_state(run.gas, run.now, implementation_->isa, implementation_->by_id(), into);
+  into.periodic = implementation_->scene.periodic();
 }
 State Simulation::copy() const {
   State out;

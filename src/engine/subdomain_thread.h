@@ -43,7 +43,7 @@ struct SubdomainChanges final : EventSink {
 inline bool comes_before(const Happening* a, const Happening* b) {
   const auto key = [](const Happening& h) {
     const Collision& c = h.event;
-    return std::tie(c.epoch, c.offset, h.kind, c.first, c.second, c.shift);
+    return std::tie(c.epoch, c.offset, h.source, c.first, c.second, c.shift);
   };
   return key(*a) < key(*b);
 }

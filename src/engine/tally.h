@@ -9,9 +9,21 @@
 
 #include "needlework/counters.h"
 #include "src/physics/clock.h"
+#include "src/trajectory/exact_total.h"
 #include "src/trajectory/trajectory_hash.h"
 
 namespace needlework {
+
+/// What has happened at one object of a source of events, such as a wall.
+struct ObjectTally {
+  std::uint64_t events = 0;
+  ExactTotal impulse;  ///< sum of |J| [m L / time]
+
+  template <class Archive>
+  friend void transfer(Archive& archive, ObjectTally& tally) {
+    archive(tally.events, tally.impulse);
+  }
+};
 
 struct Tally {
   std::uint64_t collisions = 0, tc_collisions = 0;
@@ -24,11 +36,18 @@ struct Tally {
                                        ///< no mixture has had one
 
   std::vector<std::uint64_t> by_source;  ///< events of each source; the same
+  std::vector<ObjectTally> by_object;    ///< of all sources, by Run::first_object; the same
 
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
     if (counts.empty()) counts.resize(kinds);
     ++counts[index];
+  }
+  /// Counts an event at object `index` out of so many.
+  void count_object(std::size_t index, double impulse, std::size_t objects) {
+    if (by_object.empty()) by_object.resize(objects);
+    ++by_object[index].events;
+    by_object[index].impulse.add(impulse);
   }
 
   /// Moves the sums of `other` into this object. Not its last instant, because later events have
@@ -41,13 +60,20 @@ struct Tally {
     counters += other.counters;
     add(by_pair, other.by_pair);
     add(by_source, other.by_source);
+    add(by_object, other.by_object);
     other = {};
   }
 
  private:
-  static void add(std::vector<std::uint64_t>& to, std::vector<std::uint64_t>& from) {
+  static void add(std::uint64_t& to, std::uint64_t from) { to += from; }
+  static void add(ObjectTally& to, ObjectTally& from) {
+    to.events += from.events;
+    to.impulse.take(from.impulse);
+  }
+  template <class Sum>
+  static void add(std::vector<Sum>& to, std::vector<Sum>& from) {
     if (to.empty()) return to.swap(from);
-    for (std::size_t n = 0; n < from.size(); ++n) to[n] += from[n];
+    for (std::size_t n = 0; n < from.size(); ++n) add(to[n], from[n]);
   }
 };
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -72,6 +73,7 @@ class Overview {
   void add_particles();
   bool has_rows(const std::string& group) const;
   void add_rows(const std::string& group, const char* kind);
+  void add_events();
   void add_datasets();
   void add_group(const std::string& path, int depth);
   void add_object(const std::string& path, const std::string& name, int depth);
@@ -98,7 +100,7 @@ std::string Overview::write() {
        {std::pair("/velocities_set", "change"), {"/user_data", "value"}}) {
     if (has_rows(group)) add_rows(group, kind);
   }
-  add_rows("/events", "collision");
+  add_events();
   add_datasets();
   if (hdf5::is_group(source_.get(), "/parameters", source_.path())) add_parameters();
   return text_;
@@ -159,6 +161,23 @@ void Overview::add_rows(const std::string& group, const char* kind) {
   }
   add("{}: {}{}", group, format_count(time.rows(), kind), range);
   ranges_shown_.insert(range);
+}
+
+void Overview::add_events() {
+  const std::string kinds = "/events/kind";
+  if (!hdf5::is_dataset(source_.get(), kinds, source_.place(kinds))) {
+    return add_rows("/events", "collision");
+  }
+  add_rows("/events", "event");
+  std::map<std::uint64_t, std::uint64_t> counts;
+  const auto found = Element(source_, kinds).read<std::uint64_t>({});
+  const std::size_t rows = Element(source_, "/events/time").rows();
+  for (std::size_t n = 0; n < std::min(rows, found.size()); ++n) ++counts[found[n]];
+  for (const auto& [kind, count] : counts) {
+    const bool known = kind <= std::numeric_limits<std::uint8_t>::max();
+    add("  {} of kind {} ({})", count, kind,
+        known ? name_of(static_cast<Happening::Kind>(kind)) : "unknown");
+  }
 }
 
 void Overview::add_datasets() {

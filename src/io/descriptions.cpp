@@ -190,6 +190,46 @@ std::vector<Description> run_file_descriptions() {
   return list;
 }
 
+std::vector<Description> event_kind_descriptions() {
+  const std::string each = "[events]";
+  return {
+      {"/events", "All collisions and events of single needles in the order of their times", none,
+       none},
+      {"/events/kind",
+       "What each event is: 0 a collision of two needles, 1 a hit on a wall, 2 a contact entered, "
+       "3 a contact ended, 4 velocities drawn by a thermostat, 255 something else",
+       none, each},
+      {"/events/time", "Time of each event since the start of the run, rounded", time, each},
+      {"/events/epoch", "Number of whole epochs before each event", none, each},
+      {"/events/offset", "Time of each event since the beginning of its epoch, not rounded", time,
+       each},
+      {"/events/pair",
+       "Identities of the two needles, the lower one first; of one needle its identity and the "
+       "index of the wall that it hits, or else 0",
+       none, each + "[2]"},
+      {"/events/arms",
+       "Signed distance of the contact from the centre of each of the two needles, along its "
+       "orientation; of one needle that of its tip, and 0",
+       length, each + "[2]"},
+      {"/events/normal_velocity",
+       "Velocity of the first needle relative to the second at the contact before the event, along "
+       "the vector product of their orientations; of a hit on a wall that of the tip relative to "
+       "the surface, along the normal into the gas",
+       speed, each},
+      {"/events/tc", "1 where the contact-time rule made the event elastic, else 0", none, each},
+      {"/events/shift",
+       "Number of box edges added to the stored centre of the second needle to obtain the periodic "
+       "image that was hit; of one needle 0",
+       none, each + "[3]"},
+      {"/events/impulse", "Impulse on the first needle", momentum, each + "[3]"},
+  };
+}
+
+std::vector<Description> wall_descriptions() {
+  return {{"/particles/needles/box",
+           "Rectangular box, which is periodic along the axes without walls", none, none}};
+}
+
 std::vector<Description> mixture_descriptions() {
   const std::string each = "[species]", pairs = "[species][species]";
   return {
@@ -260,6 +300,17 @@ std::vector<Description> sweep_summary_descriptions() {
        none, "[samples]"},
   };
   append(list, totals("/results", none));
+  for (const char* axis : {"x", "y", "z"}) {
+    for (const char* side : {"low", "high"}) {
+      const std::string wall = fmt::format("_{}_{}", axis, side);
+      list.push_back(
+          {"/results/hits" + wall,
+           fmt::format("Number of hits on the wall at the {} end of the {} axis", side, axis), none,
+           none});
+      list.push_back({"/results/impulse" + wall,
+                      "Sum of the magnitudes of the impulses of these hits", momentum, none});
+    }
+  }
   append(list, totals("/series/*", none));
   return list;
 }

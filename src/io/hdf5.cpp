@@ -354,10 +354,15 @@ void write_attribute(hid_t object, const std::string& name, const std::string& v
 
 void write_attribute(hid_t object, const std::string& name, std::span<const std::string> values,
                      const std::string& place) {
+  std::size_t longest = 1;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
   std::string bytes;
-  for (const std::string& value : values) bytes += value;
+  for (const std::string& value : values) {
+    bytes += value;
+    bytes.append(longest - value.size(), '\0');
+  }
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, place);
-  check(H5Tset_size(type.get(), bytes.size() / values.size()), place);
+  check(H5Tset_size(type.get(), longest), place);
   check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), place);
   const hsize_t count = values.size();
   const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, place);

@@ -134,8 +134,8 @@ Handle open_dataset(hid_t parent, const std::string& name, const std::string& pl
 /// An object of any kind, of which only attributes are to be read.
 Handle open_object(hid_t parent, const std::string& name, const std::string& place);
 
-/// Writes an attribute of fixed-length strings, which H5MD demands: one string, or several strings
-/// of the same length.
+/// Writes an attribute of fixed-length strings, which H5MD demands: one string, or several, of
+/// which the longest gives the length.
 void write_attribute(hid_t object, const std::string& name, const std::string& value,
                      const std::string& place);
 void write_attribute(hid_t object, const std::string& name, std::span<const std::string> values,

@@ -85,11 +85,12 @@ void make_fields(hid_t series, const StepAndTime& shared, const std::vector<Seri
   }
 }
 
-Handle make_box(hid_t needles, const std::string& place) {
+Handle make_box(hid_t needles, const std::array<bool, 3>& periodic, const std::string& place) {
   Handle box = create_group(needles, "box", place);
   const std::int32_t dimension = 3;
   hdf5::write_attribute(box.get(), "dimension", std::span(&dimension, 1), {}, place);
-  const std::vector<std::string> boundary(3, "periodic");
+  std::vector<std::string> boundary;
+  for (const bool axis : periodic) boundary.emplace_back(axis ? "periodic" : "none");
   hdf5::write_attribute(box.get(), "boundary", boundary, place);
   return box;
 }
@@ -108,7 +109,7 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
     make_element(group, name, shared, type_of<double>(), row, rows, place);
   }
   // MDAnalysis reads the edges only if they are a matrix.
-  const Handle box = make_box(group, place);
+  const Handle box = make_box(group, scene.periodic(), place);
   make_element(box.get(), "edges", shared, type_of<double>(), {3, 3}, 64, place);
 
   std::vector<std::uint32_t> ids(count);
@@ -124,7 +125,7 @@ StepAndTime make_needles(hid_t group, const Scene& scene, std::vector<std::uint8
   return shared;
 }
 
-void make_events(hid_t group, const std::string& place) {
+void make_events(hid_t group, bool has_kinds, const std::string& place) {
   const auto make = [&](const char* name, hid_t type, const Shape& row) {
     Column::create(group, name, type, row, events_per_chunk, place);
   };
@@ -137,6 +138,7 @@ void make_events(hid_t group, const std::string& place) {
   make("tc", type_of<std::uint8_t>(), {});
   make("shift", type_of<std::int32_t>(), {3});
   make("impulse", type_of<double>(), {3});
+  if (has_kinds) make("kind", type_of<std::uint8_t>(), {});
 }
 
 void make_velocities_set(hid_t group, const std::string& place) {
@@ -233,10 +235,14 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   make_fields(series.get(), samples, run.series, place);
   make_velocities_set(create_group(file, "velocities_set", place).get(), place);
   make_user_data(create_group(file, "user_data", place).get(), place);
-  if (scene.output.events) make_events(create_group(file, "events", place).get(), place);
+  if (scene.output.events) {
+    make_events(create_group(file, "events", place).get(), run.has_kinds, place);
+  }
   if (scene.composition().is_mixture()) {
     write_descriptions(file, mixture_descriptions(), place);  // an object keeps its first
   }
+  if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
+  if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);
   write_descriptions(file, run_file_descriptions(), place);
   write_descriptions(file, series_descriptions(run.series), place);
 }

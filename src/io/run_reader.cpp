@@ -41,8 +41,32 @@ void read_series(const Source& source, const std::string& name, std::vector<Tota
 
 // Adding a member fails to compile here.
 static void transfer(Archive& archive, RecordedRun& run) {
-  auto& [scene, version, needles, series] = run;
-  archive(scene, version, needles, series);
+  auto& [scene, version, needles, series, walls] = run;
+  archive(scene, version, needles, series, walls);
+}
+
+static std::vector<WallTotals> read_walls(const Source& source, std::size_t samples) {
+  const std::string group = "/series/walls";
+  if (samples == 0 || !hdf5::is_group(source.get(), group, source.place(group))) return {};
+  const std::vector<double> axes = Element(source, group + "/axis").read<double>(std::nullopt);
+  const std::vector<double> high = Element(source, group + "/high").read<double>(std::nullopt);
+  const Element hits(source, group + "/hits"), impulse(source, group + "/impulse");
+  const auto require = [&](bool condition) {
+    if (!condition) throw InputError(source.place(group) + ": expected walls as run writes them");
+  };
+  require(high.size() == axes.size());
+  std::vector<WallTotals> out;
+  for (const Element* each : {&hits, &impulse}) {
+    require(each->shape().size() == 2 && each->shape()[1] == axes.size() &&
+            each->rows() >= samples);
+  }
+  const auto counts = hits.read<std::uint64_t>(samples - 1);
+  const auto sums = impulse.read<double>(samples - 1);
+  for (std::size_t n = 0; n < axes.size(); ++n) {
+    require(axes[n] == 0 || axes[n] == 1 || axes[n] == 2);
+    out.push_back({static_cast<int>(axes[n]), high[n] != 0, counts[n], sums[n]});
+  }
+  return out;
 }
 
 static RecordedRun read_run_here(const std::string& path, bool with_series) {
@@ -69,6 +93,7 @@ static RecordedRun read_run_here(const std::string& path, bool with_series) {
   read_series<double>(source, "momentum", run.series, [](Totals& sample, const double* value) {
     std::copy_n(value, 3, sample.momentum.begin());
   });
+  run.walls = read_walls(source, run.series.size());
   return run;
 }
 

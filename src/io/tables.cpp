@@ -226,7 +226,7 @@ void UserDataTable::append_steps(std::span<const DataEntry> entries) {
                             [](const DataEntry& entry, auto put) { put(entry.now.collisions); });
 }
 
-Events::Events(hid_t file, const std::string& place)
+Events::Events(hid_t file, bool has_kinds, const std::string& place)
     : time_(file, "/events/time", place),
       epoch_(file, "/events/epoch", place),
       offset_(file, "/events/offset", place),
@@ -235,27 +235,45 @@ Events::Events(hid_t file, const std::string& place)
       normal_velocity_(file, "/events/normal_velocity", place),
       tc_(file, "/events/tc", place),
       shift_(file, "/events/shift", place),
-      impulse_(file, "/events/impulse", place) {}
-
-void Events::append(std::span<const Collision> collisions) {
-  append_member<std::int64_t>(epoch_, collisions, &Collision::epoch);
-  append_member<double>(offset_, collisions, &Collision::offset);
-  append_each<std::uint32_t>(pair_, collisions, [](const Collision& collision, auto put) {
-    put(collision.first);
-    put(collision.second);
-  });
-  append_each<double>(arms_, collisions, [](const Collision& collision, auto put) {
-    put(collision.arm_first);
-    put(collision.arm_second);
-  });
-  append_member<double>(normal_velocity_, collisions, &Collision::normal_velocity);
-  append_member<std::uint8_t>(tc_, collisions, &Collision::contact_time_rule);
-  append_member(shift_, collisions, &Collision::shift);
-  append_member(impulse_, collisions, &Collision::impulse);
+      impulse_(file, "/events/impulse", place) {
+  if (has_kinds) kind_.emplace(file, "/events/kind", place);
 }
 
-void Events::append_times(std::span<const Collision> collisions) {
-  append_member<double>(time_, collisions, &Collision::time);
+void Events::append(std::span<const Happening> happenings) {
+  const auto each = [&]<class Number>(Column& column, Number, auto numbers) {
+    append_each<Number>(column, happenings, [&](const Happening& happening, auto put) {
+      for (const auto number : numbers(happening.event)) put(number);
+    });
+  };
+  const auto member = [&]<class Number>(Column& column, Number Collision::*member) {
+    each(column, Number{}, [&](const Collision& event) { return std::array{event.*member}; });
+  };
+  const auto members = [&]<class Number>(Column& column, std::array<Number, 3> Collision::*member) {
+    each(column, Number{}, [&](const Collision& event) { return event.*member; });
+  };
+  if (kind_) {
+    append_each<std::uint8_t>(*kind_, happenings, [](const Happening& happening, auto put) {
+      put(static_cast<std::uint8_t>(happening.kind));
+    });
+  }
+  member(epoch_, &Collision::epoch);
+  member(offset_, &Collision::offset);
+  each(pair_, std::uint32_t{}, [](const Collision& event) {
+    return std::array{event.first, event.second};
+  });
+  each(arms_, double{}, [](const Collision& event) {
+    return std::array{event.arm_first, event.arm_second};
+  });
+  member(normal_velocity_, &Collision::normal_velocity);
+  each(tc_, std::uint8_t{},
+       [](const Collision& event) { return std::array{event.contact_time_rule}; });
+  members(shift_, &Collision::shift);
+  members(impulse_, &Collision::impulse);
+}
+
+void Events::append_times(std::span<const Happening> happenings) {
+  append_each<double>(time_, happenings,
+                      [](const Happening& happening, auto put) { put(happening.event.time); });
 }
 
 }  // namespace needlework::io

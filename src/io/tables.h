@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "needlework/collision.h"
+#include "needlework/happening.h"
 #include "needlework/scene.h"
 #include "needlework/series.h"
 #include "needlework/state.h"
@@ -130,15 +130,17 @@ class UserDataTable {
   Column step_, time_, name_, json_, begin_, size_, bytes_;
 };
 
-/// /events: one row for each collision.
+/// /events: one row for each event.
 class Events {
  public:
-  Events(hid_t file, const std::string& place);
+  /// `has_kinds`: whether there are others than collisions of two needles.
+  Events(hid_t file, bool has_kinds, const std::string& place);
 
-  void append(std::span<const Collision> collisions);  ///< writes all columns except the times
-  void append_times(std::span<const Collision> collisions);
+  void append(std::span<const Happening> happenings);  ///< writes all columns except the times
+  void append_times(std::span<const Happening> happenings);
 
  private:
+  std::optional<Column> kind_;
   Column time_, epoch_, offset_, pair_, arms_, normal_velocity_, tc_, shift_, impulse_;
 };
 

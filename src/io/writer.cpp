@@ -48,6 +48,7 @@ struct Writer::Implementation {
 
   const std::string path;
   const std::string absolute_path;  // the process may go to another folder
+  bool has_kinds = false;
   bool failed = false;
   bool name_on_disk = false;
   Position position;
@@ -68,7 +69,7 @@ struct Writer::Implementation {
   std::vector<double> pending_numbers;
   std::vector<VelocitiesSet> pending_velocities_set;
   std::vector<DataEntry> pending_data;
-  std::vector<Collision> pending_events;
+  std::vector<Happening> pending_events;
 };
 
 void Writer::Implementation::create(bool force, const Scene& scene, const RunInfo& run) {
@@ -94,6 +95,7 @@ void Writer::Implementation::resume(const Scene& scene, const RunInfo& run, cons
 }
 
 void Writer::Implementation::open_datasets(const Scene& scene, const RunInfo& run) {
+  has_kinds = run.has_kinds;
   file->start_swmr();
   frames.emplace(file->get(), path, position.frames);
   observables.emplace(file->get(), "/observables", path);
@@ -103,7 +105,7 @@ void Writer::Implementation::open_datasets(const Scene& scene, const RunInfo& ru
   series_times.emplace(file->get(), "/series", path);
   velocities_set.emplace(file->get(), path);
   data.emplace(file->get(), path, position.data_bytes);
-  if (scene.output.events) events.emplace(file->get(), path);
+  if (scene.output.events) events.emplace(file->get(), run.has_kinds, path);
 }
 
 void Writer::Implementation::commit() {
@@ -232,10 +234,13 @@ void Writer::write_frame(const Totals& totals, const State& state) {
   });
 }
 
-void Writer::write_event(const Collision& collision) {
+void Writer::write_event(const Happening& happening) {
   use([&](Implementation& out) {
     if (!out.events) throw std::logic_error("the scene does not ask for output.events");
-    out.pending_events.push_back(collision);
+    if (!out.has_kinds && !happening.is_collision()) {
+      throw std::logic_error("an event that is no collision, in a file without kinds of events");
+    }
+    out.pending_events.push_back(happening);
     ++out.position.events;
     if (out.pending_events.size() >= block) out.commit();
   });

@@ -34,6 +34,7 @@ inline constexpr const char* speed = "length per time";
 inline constexpr const char* angular_speed = "radians per time";
 inline constexpr const char* energy = "energy";
 inline constexpr const char* angle = "radians";
+inline constexpr const char* momentum = "mass times length per time";
 }  // namespace unit
 
 /// Which species each needle is of, by its id.
@@ -81,10 +82,12 @@ GasSetting setting_of(const Scene& scene);
 std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
-/// Sums by species at one instant, and collisions of each two by Composition::pair_index.
+/// Sums by species at one instant, collisions of each two by Composition::pair_index, and hits on
+/// walls.
 struct SpeciesSums {
-  std::vector<SpeciesTotals> totals;
-  std::vector<std::uint64_t> collisions;
+  std::vector<SpeciesTotals> totals = {};
+  std::vector<std::uint64_t> collisions = {};
+  std::vector<WallTotals> walls = {};
 };
 
 /// The gas at one instant. Holds references.

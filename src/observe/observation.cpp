@@ -50,6 +50,9 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
     members_.push_back(
         {"species", "Sums by species and by pairs of them", make_species_sums(gas_.composition)});
   }
+  if (const auto walls = scene.wall_sides(); !walls.empty()) {
+    members_.push_back({"walls", "Hits of needles on walls", make_wall_sums(walls)});
+  }
   if (cooling) {
     members_.push_back({"theory",
                         "Kinetic theory of a gas that stays homogeneous, from the same "
@@ -92,7 +95,8 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                                             const SpeciesSums& species) {
   row_.clear();
   const bool is_mixture = gas_.composition.is_mixture();
-  const SpeciesSums of_all{{{gas_.count, totals.t_tr, totals.t_rot}}, {totals.collisions}};
+  const SpeciesSums of_all{
+      {{gas_.count, totals.t_tr, totals.t_rot}}, {totals.collisions}, species.walls};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);

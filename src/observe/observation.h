@@ -26,8 +26,8 @@ class Observation {
   bool reads_collisions() const;
 
   /// The values of one sample: the rows of all fields, one after the other, in the order of
-  /// groups() and without constants. Sums by species are needed if there are several. Valid until
-  /// the next call.
+  /// groups() and without constants. Sums by species are needed if there are several, and those of
+  /// walls if there are some. Valid until the next call.
   std::span<const double> sample(const State& state, const Totals& totals,
                                  const SpeciesSums& species = {});
   void collision(const Collision& collision);

@@ -69,6 +69,7 @@ void add_run(py::module_& module) {
            "energy_ratio"_a, "wall_s"_a, "show"_a)
       .def("interrupt", &Run::interrupt)
       .def("on_collisions", &Run::on_collisions)
+      .def("on_happenings", &Run::on_happenings)
       .def("set_velocities",
            [](Run& run, const Rows& velocity, const Rows& angular_velocity) {
              run.set_velocities(vectors(velocity), vectors(angular_velocity));
@@ -84,6 +85,7 @@ void add_run(py::module_& module) {
       .def("totals", &Run::totals)
       .def("species_totals", &Run::species_totals)
       .def("collisions_by_pair", &Run::collisions_by_pair)
+      .def("wall_totals", &Run::wall_totals)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

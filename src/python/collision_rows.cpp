@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <type_traits>
 
 #include "needlework/error.h"
@@ -25,6 +26,7 @@ struct Row {
   std::array<double, 3> impulse;
   std::array<std::int32_t, 3> shift;
   bool tc;
+  std::uint8_t kind;  // padding of the type of collisions
   double sin_angle;
   double energy_change;
 };
@@ -32,7 +34,7 @@ using States = decltype(Collision::after);
 static_assert(std::is_trivially_copyable_v<Row> && std::is_trivially_copyable_v<States>);
 static_assert(sizeof(Row) == 112 && sizeof(States) == 2 * 12 * sizeof(double));
 
-Row row_of(const Collision& c) {
+Row row_of(const Collision& c, std::uint8_t kind) {
   return {.time = c.time,
           .epoch = c.epoch,
           .offset = c.offset,
@@ -42,27 +44,42 @@ Row row_of(const Collision& c) {
           .impulse = c.impulse,
           .shift = c.shift,
           .tc = c.contact_time_rule,
+          .kind = kind,
           .sin_angle = c.sin_angle,
           .energy_change = c.energy_change};
 }
 
-}  // namespace
-
-py::array collision_rows(std::span<const Collision> collisions, const py::dtype& type) {
+// The event and the kind of each report are given by event_of() and kind_of().
+template <class Report, class EventOf, class KindOf>
+py::array rows(std::span<const Report> reports, const py::dtype& type, EventOf event_of,
+               KindOf kind_of) {
   const auto bytes = static_cast<std::size_t>(type.itemsize());
   const bool states = bytes == sizeof(Row) + sizeof(States);
   if (!states && bytes != sizeof(Row)) {
     throw InputError("collisions: expected the type of rows of needlework.collisions");
   }
-  py::array rows(type, static_cast<py::ssize_t>(collisions.size()));
+  py::array rows(type, static_cast<py::ssize_t>(reports.size()));
   auto* place = static_cast<std::byte*>(rows.mutable_data());
-  for (const Collision& collision : collisions) {
-    const Row row = row_of(collision);
+  for (const Report& report : reports) {
+    const Collision& event = event_of(report);
+    const Row row = row_of(event, kind_of(report));
     std::memcpy(place, &row, sizeof(Row));
-    if (states) std::memcpy(place + sizeof(Row), &collision.after, sizeof(States));
+    if (states) std::memcpy(place + sizeof(Row), &event.after, sizeof(States));
     place += bytes;
   }
   return rows;
+}
+
+}  // namespace
+
+py::array rows_of(std::span<const Collision> collisions, const py::dtype& type) {
+  return rows(collisions, type, std::identity{}, [](const Collision&) { return Happening::pair; });
+}
+
+py::array rows_of(std::span<const Happening> happenings, const py::dtype& type) {
+  return rows(
+      happenings, type, [](const Happening& what) -> const Collision& { return what.event; },
+      [](const Happening& what) { return what.kind; });
 }
 
 }  // namespace needlework::python

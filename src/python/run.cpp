@@ -37,6 +37,19 @@ std::shared_ptr<py::object> shared(const py::object& object) {
           }};
 }
 
+/// What hands reports to a function of Python as rows of this type; none for None.
+template <class Report>
+typename runs::Batches<Report>::Callback batches_to(const py::object& callback,
+                                                    const py::dtype& type) {
+  if (callback.is_none()) return {};
+  const auto function = shared(callback);
+  const auto row_type = shared(type);
+  return [function, row_type](std::span<const Report> reports) {
+    const LockTaken lock;
+    call(*function, rows_of(reports, py::reinterpret_borrow<py::dtype>(*row_type)));
+  };
+}
+
 /// Calls the function without the GIL, and lets Python handle its signals meanwhile. Throws what a
 /// handler has thrown.
 void set_up(const std::function<void()>& function) {
@@ -170,16 +183,12 @@ std::string Run::advance(const runs::Limits& limits, const py::object& show) {
 
 void Run::on_collisions(const py::object& callback, std::size_t batch, const py::dtype& type) {
   require_idle();
-  if (callback.is_none()) {
-    run_->on_collisions(batch, {});
-    return;
-  }
-  const auto function = shared(callback);
-  const auto row_type = shared(type);
-  run_->on_collisions(batch, [function, row_type](std::span<const Collision> collisions) {
-    const LockTaken lock;
-    call(*function, collision_rows(collisions, py::reinterpret_borrow<py::dtype>(*row_type)));
-  });
+  run_->on_collisions(batch, batches_to<Collision>(callback, type));
+}
+
+void Run::on_happenings(const py::object& callback, std::size_t batch, const py::dtype& type) {
+  require_idle();
+  run_->on_happenings(batch, batches_to<Happening>(callback, type));
 }
 
 void Run::set_velocities(std::vector<std::array<double, 3>> velocity,
@@ -294,6 +303,20 @@ py::dict Run::collisions_by_pair() {
     for (std::size_t b = a; b < composition.size(); ++b) {
       out[text(pair_name(composition, a, b))] = counts[composition.pair_index(a, b)];
     }
+  }
+  return out;
+}
+
+py::list Run::wall_totals() {
+  require_idle();
+  py::list out;
+  for (const WallTotals& wall : run_->simulation().wall_totals()) {
+    py::dict sums;
+    sums["axis"] = text(axis_name(wall));
+    sums["side"] = text(side_name(wall));
+    sums["hits"] = wall.hits;
+    sums["impulse"] = wall.impulse;
+    out.append(sums);
   }
   return out;
 }

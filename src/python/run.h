@@ -39,6 +39,9 @@ class Run {
   /// `callback`, unless it is None, is given arrays of up to `batch` rows of this type.
   void on_collisions(const pybind11::object& callback, std::size_t batch,
                      const pybind11::dtype& type);
+  /// The same for all that happens.
+  void on_happenings(const pybind11::object& callback, std::size_t batch,
+                     const pybind11::dtype& type);
   void set_velocities(std::vector<std::array<double, 3>> velocity,
                       std::vector<std::array<double, 3>> angular_velocity);
   /// Adds a sample of the present state to the output file, and a frame if it is wanted.
@@ -63,6 +66,8 @@ class Run {
   pybind11::list species_totals();
   /// By names such as "a-b".
   pybind11::dict collisions_by_pair();
+  /// A dictionary of each wall, in the order of the scene.
+  pybind11::list wall_totals();
   pybind11::dict counters();
   /// The scene, which does not change, and the parts of the engine in use.
   pybind11::dict facts();

@@ -142,7 +142,9 @@ std::vector<std::string> species_of(const io::Contents& contents) {
 // What the observables of a mixture are of: each species, or each two of them.
 enum class Of { all, species, pairs };
 Of what_of(const std::string& group) {
-  if (group == "totals" || group == "theory" || group == "species") return Of::all;
+  if (group == "totals" || group == "theory" || group == "species" || group == "walls") {
+    return Of::all;
+  }
   const bool of_pairs =
       group == "pair_correlation" || group == "structure_factor" || group == "collision_statistics";
   return of_pairs ? Of::pairs : Of::species;

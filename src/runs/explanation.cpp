@@ -44,7 +44,7 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   bool is_known = !loaded.initial && scene.forces.gravity == std::array<double, 3>{};
   for (const Scene::Wall& wall : scene.walls) is_known = is_known && !wall.motion;
   std::vector<ExplainedWall> out;
-  for (const WallSide& side : wall_sides(scene)) {
+  for (const Scene::WallSide& side : scene.wall_sides()) {
     walled[side.axis] = true;
     const double start = is_known ? 0 : undefined;
     out.push_back({side, start, scene.walls[side.entry].temperature ? undefined : start});

@@ -14,7 +14,7 @@ namespace needlework::runs {
 
 /// A wall, and what needles do to it at the start. NaN where that is not known exactly.
 struct ExplainedWall {
-  WallSide side;
+  Scene::WallSide side;
   double hits = 0;   ///< of all needles [1 / time]
   double force = 0;  ///< mean, of all needles [energy / L]
 };

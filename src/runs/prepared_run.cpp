@@ -373,12 +373,16 @@ Stop PreparedRun::advance(const Scene::Until& until, RunMonitor& monitor) {
   } catch (...) {
     failure = error_for_caller();
   }
-  try {
-    if (batches_) batches_->flush();
-  } catch (...) {
-    // An error of the caller does not replace that of the run.
-    if (!failure) failure = std::current_exception();
-  }
+  const auto flush = [&](auto& batches) {
+    try {
+      if (batches) batches->flush();
+    } catch (...) {
+      // An error of the caller does not replace that of the run.
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  flush(collisions_);
+  flush(happenings_);
   if (failure) std::rethrow_exception(failure);
   return stop;
 }
@@ -415,12 +419,24 @@ void PreparedRun::set_data(const std::string& name, std::optional<UserData> data
   }
 }
 
-void PreparedRun::on_collisions(std::size_t batch, CollisionBatches::Callback callback) {
-  driver_->on_collision({});
-  batches_.reset();
-  if (!callback) return;
-  batches_.emplace(simulation_, batch, std::move(callback));
-  driver_->on_collision([this](const Collision& collision) { batches_->add(collision); });
+void PreparedRun::on_collisions(std::size_t batch, Batches<Collision>::Callback callback) {
+  collisions_.reset();
+  if (callback) collisions_.emplace(simulation_, batch, std::move(callback));
+  listen();
+}
+
+void PreparedRun::on_happenings(std::size_t batch, Batches<Happening>::Callback callback) {
+  happenings_.reset();
+  if (callback) happenings_.emplace(simulation_, batch, std::move(callback));
+  listen();
+}
+
+void PreparedRun::listen() {
+  if (!collisions_ && !happenings_) return driver_->on_happening({});
+  driver_->on_happening([this](const Happening& happening) {
+    if (collisions_ && happening.is_collision()) collisions_->add(happening.event);
+    if (happenings_) happenings_->add(happening);
+  });
 }
 
 void PreparedRun::close() {

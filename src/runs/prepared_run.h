@@ -17,8 +17,8 @@
 #include "needlework/simulation.h"
 #include "needlework/user_data.h"
 #include "src/observe/observation.h"
+#include "src/runs/batches.h"
 #include "src/runs/checkpoint.h"
-#include "src/runs/collision_batches.h"
 #include "src/runs/limits.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/run_driver.h"
@@ -62,14 +62,17 @@ class PreparedRun {
   Course drive(RunMonitor& monitor, double spent = 0);
 
   /// Advances until the first of the conditions is met, which count from the start of the run. The
-  /// function of on_collisions() has seen all collisions when this returns or throws. Throws what
-  /// RunDriver::advance() throws, and else what that function has thrown. Defects of the program
+  /// functions of on_collisions() and on_happenings() have seen all that has happened when this
+  /// returns or throws. Throws what
+  /// RunDriver::advance() throws, and else what such a function has thrown. Defects of the program
   /// become an UnfinishedEventError. The message of an InvalidStateError names the bundle that has
   /// been written beside the output file, if there is one.
   Stop advance(const Scene::Until& until, RunMonitor& monitor);
   /// Sets a function that is given all collisions in order of time, `batch` at once, and at the end
-  /// of each advance those that are left; see CollisionBatches.
-  void on_collisions(std::size_t batch, CollisionBatches::Callback callback);
+  /// of each advance those that are left; see Batches. None ends it.
+  void on_collisions(std::size_t batch, Batches<Collision>::Callback callback);
+  /// The same for all that happens: collisions, and events of single needles such as hits on walls.
+  void on_happenings(std::size_t batch, Batches<Happening>::Callback callback);
   /// Replaces all velocities at the present time; see Simulation::set_velocities(). The output file
   /// says when, and by how much the energy changed; kinetic theory is left out of it from then on.
   void set_velocities(std::span<const std::array<double, 3>> velocity,
@@ -121,6 +124,7 @@ class PreparedRun {
   struct Kept;
   Kept keep_failure(const std::string& message, const InvalidStateError::Needles& needles);
   Kept keep_current_failure();
+  void listen();
   std::exception_ptr error_for_caller();
   void write_bundle(const RunFailure& failure);
   std::optional<RunCheckpoint> before_failure() const;
@@ -141,7 +145,8 @@ class PreparedRun {
   std::optional<observe::Observation> observation_;  ///< if there is a writer, or has been one
   std::optional<io::Writer> writer_;
   std::optional<RunDriver> driver_;
-  std::optional<CollisionBatches> batches_;
+  std::optional<Batches<Collision>> collisions_;
+  std::optional<Batches<Happening>> happenings_;
 };
 
 }  // namespace needlework::runs

@@ -51,26 +51,27 @@ Scene::Until Replay::end() const {
                     run_->simulation());
 }
 
-bool Replay::concerns(const Collision& collision) const {
+bool Replay::concerns(const Happening& happening) const {
   if (!failure_ || !failure_->needles) return true;
   const auto& needles = *failure_->needles;
   const auto is_one = [&](std::uint32_t id) {
     return std::find(needles.begin(), needles.end(), id) != needles.end();
   };
-  return is_one(collision.first) || is_one(collision.second);
+  const Collision& event = happening.event;
+  return is_one(event.first) || (happening.has_two_needles() && is_one(event.second));
 }
 
-void Replay::note(const Collision& collision) {
-  ++noted_;
-  if (most_ == 0 || !concerns(collision)) return;
+void Replay::note(const Happening& happening) {
+  noted_ += happening.is_collision();
+  if (most_ == 0 || !concerns(happening)) return;
   if (last_.size() == most_) last_.pop_front();
-  last_.push_back({noted_, collision});
+  last_.push_back({noted_, happening});
 }
 
 Replayed Replay::drive(RunMonitor& monitor) {
   Replayed out;
-  run_->on_collisions(1, [this](std::span<const Collision> collisions) {
-    for (const Collision& collision : collisions) note(collision);
+  run_->on_happenings(1, [this](std::span<const Happening> happenings) {
+    for (const Happening& happening : happenings) note(happening);
   });
   try {
     out.stop = run_->advance(end(), monitor);

@@ -9,16 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "needlework/collision.h"
+#include "needlework/happening.h"
 #include "src/runs/checkpoint.h"
 #include "src/runs/prepared_run.h"
 
 namespace needlework::runs {
 
-/// A collision, and which one of the run it is, counted from 1.
-struct NumberedCollision {
+/// What has happened, and which collision of the run it is, counted from 1; of an event of one
+/// needle, the number of collisions before it.
+struct NumberedHappening {
   std::uint64_t number = 0;
-  Collision collision;
+  Happening happening;
 };
 
 /// What came of a replay.
@@ -29,18 +30,18 @@ struct Replayed {
   double time = 0;
   std::uint64_t collisions = 0;
   std::string trajectory_hash;
-  /// The last collisions of the needles that the failure of the run is about, or of all needles if
-  /// none are known.
-  std::deque<NumberedCollision> last;
+  /// The last collisions, and events of single needles, of the needles that the failure of the run
+  /// is about, or of all needles if none are known.
+  std::deque<NumberedHappening> last;
 };
 
 /// Runs from a bundle, or from any checkpoint, without output. Search, calendar, threads and
 /// instruction set are those of the run, unless they are changed or missing on this machine.
 class Replay {
  public:
-  /// `last` is the number of collisions to remember; `change` may set the engine. Throws InputError
-  /// for a file that is no bundle, and what complete_scene() throws, where the run starts from
-  /// the initial.file of its scene.
+  /// `last` is the number of collisions and events to remember; `change` may set the engine. Throws
+  /// InputError for a file that is no bundle, and what complete_scene() throws, where the run
+  /// starts from the initial.file of its scene.
   Replay(const std::string& path, std::size_t last, const std::function<void(Scene&)>& change = {});
 
   /// The failure of the run; none: the file is the checkpoint of a run that has not failed.
@@ -56,8 +57,8 @@ class Replay {
 
  private:
   Scene::Until end() const;
-  bool concerns(const Collision& collision) const;
-  void note(const Collision& collision);
+  bool concerns(const Happening& happening) const;
+  void note(const Happening& happening);
 
   std::size_t most_;
   std::optional<RunFailure> failure_;
@@ -65,7 +66,7 @@ class Replay {
   double start_time_ = 0;
   std::uint64_t start_collisions_ = 0;
   std::uint64_t noted_ = 0;
-  std::deque<NumberedCollision> last_;
+  std::deque<NumberedHappening> last_;
 };
 
 }  // namespace needlework::runs

@@ -154,14 +154,14 @@ void RunDriver::take_last_totals() {
   course_.collisions = course_.last.collisions - collisions_before_;
 }
 
-void RunDriver::on_collision(std::function<void(const Collision&)> callback) {
+void RunDriver::on_happening(std::function<void(const Happening&)> callback) {
   callback_ = std::move(callback);
-  listen_to_collisions();
+  listen();
 }
 
 void RunDriver::begin(RunMonitor* monitor) {
   if (keeps_course_ && starts_in_equilibrium(scene_)) rate_.emplace(simulation_.mean_free_time());
-  listen_to_collisions();
+  listen();
   if (samples()) {
     sample(!last_sample_, !last_frame_);
     series_.pass(0);
@@ -186,7 +186,7 @@ void RunDriver::transfer(Archive& archive) {
     rate_.reset();
     course_.samples.clear();
   }
-  if (archive.reads() && begun_) listen_to_collisions();
+  if (archive.reads() && begun_) listen();
 }
 
 // Wrong schedules could take samples without end.
@@ -199,7 +199,7 @@ void RunDriver::require_restored(const Archive& archive) const {
   archive.require(!begun_ || last_sample_);
 }
 
-void RunDriver::listen_to_collisions() {
+void RunDriver::listen() {
   const bool events = output_.writer && scene_.output.events;
   const bool observes = output_.observation && output_.observation->reads_collisions();
   if (rate_) {
@@ -210,22 +210,22 @@ void RunDriver::listen_to_collisions() {
     simulation_.on_collision_times({});
   }
   if (!events && !observes) {
-    simulation_.on_collision(callback_);
+    simulation_.on_happening(callback_);
     return;
   }
-  simulation_.on_collision([this](const Collision& collision) {
-    record(collision);
-    if (callback_) callback_(collision);
+  simulation_.on_happening([this](const Happening& happening) {
+    record(happening);
+    if (callback_) callback_(happening);
   });
 }
 
-// The engine cannot continue from an exception in the middle of a collision, so it is stopped after
-// it.
-void RunDriver::record(const Collision& collision) {
+// The engine cannot continue from an exception in the middle of an event, so it is stopped after
+// it. Observables of collisions are of pairs alone.
+void RunDriver::record(const Happening& happening) {
   try {
     if (!failure_) {
-      if (output_.writer && scene_.output.events) output_.writer->write_event(collision);
-      output_.observation->collision(collision);
+      if (output_.writer && scene_.output.events) output_.writer->write_event(happening);
+      if (happening.is_collision()) output_.observation->collision(happening.event);
     }
   } catch (...) {
     failure_ = std::current_exception();
@@ -277,6 +277,7 @@ void RunDriver::sample(bool series, bool frame) {
       if (simulation_.composition().is_mixture()) {
         species = {simulation_.species_totals(), simulation_.collisions_by_pair()};
       }
+      species.walls = simulation_.wall_totals();
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }

@@ -84,9 +84,9 @@ class RunDriver {
   /// Whether nothing has happened since the last one of this process.
   bool is_saved() const;
 
-  /// Sets a function that is called for each collision, beside what the output needs; see
-  /// Simulation::on_collision().
-  void on_collision(std::function<void(const Collision&)> callback);
+  /// Sets a function that is called for all that happens, beside what the output needs; see
+  /// Simulation::on_happening().
+  void on_happening(std::function<void(const Happening&)> callback);
 
  private:
   using SteadyClock = std::chrono::steady_clock;
@@ -94,8 +94,8 @@ class RunDriver {
   bool samples() const { return output_.writer || output_.observation || keeps_course_; }
   void begin(RunMonitor* monitor);
   void schedule_if_set_in_motion();
-  void record(const Collision& collision);
-  void listen_to_collisions();
+  void record(const Happening& happening);
+  void listen();
   void require_restored(const Archive& archive) const;
   std::optional<Stop> step(const Scene::Until& until, SteadyClock::time_point start);
   void sample(bool series, bool frame);
@@ -117,8 +117,8 @@ class RunDriver {
   bool prepared_ = false;  ///< whether all needles have searched
   Schedule series_, frames_;
   std::optional<BatchRate> rate_;
-  std::function<void(const Collision&)> callback_;
-  std::exception_ptr failure_;  ///< of writing or observing a collision
+  std::function<void(const Happening&)> callback_;
+  std::exception_ptr failure_;  ///< of writing or observing an event
   Course course_;
   std::optional<Pace> pace_;  ///< of this advance, if someone follows it
   /// Time and collisions at the last checkpoint of this process.

@@ -12,7 +12,8 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
           .threads = scene.engine.threads.value_or(1),
           .epoch_length = simulation.epoch_length(),
           .accuracy = accuracy_name(scene.engine),
-          .species = simulation.species()};
+          .species = simulation.species(),
+          .has_kinds = !simulation.sources().empty()};
 }
 
 void write_state(const Simulation& simulation, const Scene& scene, const UserDataByName& data,

@@ -1,5 +1,7 @@
 #include "src/runs/sweep_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,12 +107,32 @@ Series series_over(const SeriesOf& kind, std::span<const Run> runs, std::span<co
   return series;
 }
 
-void add_estimates(PointSummary& point, std::span<const Run> runs) {
+// Hits on a wall and their impulses at the end.
+void add_wall(const WallTotals& wall, std::span<const Run> runs, PointSummary& point) {
+  const auto add = [&](const char* name, double (*value)(const WallTotals&)) {
+    std::vector<double> values;
+    for (const Run& run : runs) {
+      const auto found = std::ranges::find_if(run.walls, [&](const WallTotals& each) {
+        return each.axis == wall.axis && each.high == wall.high;
+      });
+      values.push_back(found == run.walls.end() ? undefined : value(*found));
+    }
+    point.results.push_back(
+        {fmt::format("{}_{}_{}", name, axis_name(wall), side_name(wall)), estimate(values)});
+  };
+  add("hits", [](const WallTotals& each) { return static_cast<double>(each.hits); });
+  add("impulse", [](const WallTotals& each) { return each.impulse; });
+}
+
+void add_estimates(PointSummary& point, std::span<const Run> runs,
+                   const std::vector<Scene::WallSide>& walls) {
   std::vector<double> values(runs.size());
   for (const ResultOf& result : results) {
     std::transform(runs.begin(), runs.end(), values.begin(), result.value);
     point.results.push_back({result.name, estimate(values)});
   }
+  for (const Scene::WallSide& side : walls)
+    add_wall({.axis = static_cast<int>(side.axis), .high = side.is_high}, runs, point);
   point.times = common_times(runs);
   for (const SeriesOf& kind : all_series) {
     point.series.push_back(series_over(kind, runs, point.times));
@@ -130,6 +152,7 @@ Estimate estimate(std::span<const double> values) {
 
 std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finished_run) {
   std::vector<PointSummary> summary(grid.points());
+  const auto walls = grid.members.front().scene.wall_sides();
   for (std::size_t point = 0; point < summary.size(); ++point) {
     std::vector<Run> runs;
     for (std::size_t seed = 0; seed < grid.seeds.size(); ++seed) {
@@ -138,7 +161,7 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
       summary[point].seeds.push_back(grid.seeds[seed]);
       runs.push_back(*std::move(run));
     }
-    add_estimates(summary[point], runs);
+    add_estimates(summary[point], runs, walls);
   }
   return summary;
 }

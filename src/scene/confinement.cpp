@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::array<char, 3> axis_names = {'x', 'y', 'z'};
 
-std::size_t axis_of(const Scene::Wall& wall) {
-  return wall.axis == "x" ? 0 : wall.axis == "y" ? 1 : 2;
-}
-
 // Of the surfaces of two walls along one axis, either of which may be at rest, over all times. Of
 // different frequencies, all pairs of phases occur.
 double approach_of(const Scene::WallMotion& a, const Scene::WallMotion& b) {
@@ -52,9 +48,9 @@ std::string place_of_gravity(const Scene& scene) {
 }
 
 void require_one_wall_a_side(const Scene& scene) {
-  const std::vector<WallSide> sides = wall_sides(scene);
+  const std::vector<Scene::WallSide> sides = scene.wall_sides();
   for (auto side = sides.begin(); side != sides.end(); ++side) {
-    const bool is_taken = std::any_of(sides.begin(), side, [&](const WallSide& other) {
+    const bool is_taken = std::any_of(sides.begin(), side, [&](const Scene::WallSide& other) {
       return other.axis == side->axis && other.is_high == side->is_high;
     });
     if (!is_taken) continue;
@@ -83,7 +79,7 @@ void require_thermal_walls_at_rest(const Scene& scene) {
 // Nothing holds needles back on an open side but gravity.
 void require_gravity_to_single_walls(const Scene& scene) {
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  for (const WallSide& side : wall_sides(scene)) {
+  for (const Scene::WallSide& side : scene.wall_sides()) {
     const double gravity = scene.forces.gravity[side.axis];
     if (!gaps[side.axis].is_open() || (side.is_high ? gravity > 0 : gravity < 0)) continue;
     const char axis = axis_names[side.axis];
@@ -111,16 +107,6 @@ void require_thermostat_without_gravity(const Scene& scene) {
 
 }  // namespace
 
-std::vector<WallSide> wall_sides(const Scene& scene) {
-  std::vector<WallSide> out;
-  for (std::size_t n = 0; n < scene.walls.size(); ++n) {
-    const Scene::Wall& wall = scene.walls[n];
-    if (wall.side != "high") out.push_back({axis_of(wall), false, n});
-    if (wall.side != "low") out.push_back({axis_of(wall), true, n});
-  }
-  return out;
-}
-
 double Gap::beyond(double centre, double reach, double edge) const {
   constexpr double none = -std::numeric_limits<double>::infinity();
   return std::max(has_low ? low - (centre - reach) : none,
@@ -130,7 +116,7 @@ double Gap::beyond(double centre, double reach, double edge) const {
 std::array<Gap, 3> gaps_of(const Scene& scene) {
   std::array<Gap, 3> out;
   std::array<std::array<Scene::WallMotion, 2>, 3> motions;
-  for (const WallSide& side : wall_sides(scene)) {
+  for (const Scene::WallSide& side : scene.wall_sides()) {
     Gap& gap = out[side.axis];
     (side.is_high ? gap.has_high : gap.has_low) = true;
     const auto& motion = scene.walls[side.entry].motion;

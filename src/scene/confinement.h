@@ -10,17 +10,6 @@
 
 namespace needlework {
 
-/// One wall at one edge of the box.
-struct WallSide {
-  std::size_t axis = 0;
-  bool is_high = false;   ///< at the edge of the box, else at 0
-  std::size_t entry = 0;  ///< in Scene::walls
-};
-
-/// All walls in the order in which they are listed and counted: that of the scene, and low before
-/// high where an entry is for both sides.
-std::vector<WallSide> wall_sides(const Scene& scene);
-
 /// What bounds the needles along an axis.
 struct Gap {
   bool has_low = false, has_high = false;  ///< a wall at 0, at the edge

@@ -44,6 +44,7 @@ Json summary_of(const runs::PreparedRun& run) {
               {"momentum", numbers(totals.momentum)},
               {"trajectory_hash", simulation.trajectory_hash()}};
   if (!run.scene().species.empty()) add_species(answer, simulation);
+  if (!run.scene().walls.empty()) add_walls(answer, simulation);
   return answer;
 }
 
@@ -139,28 +140,39 @@ class Monitor : public runs::RunMonitor {
   Json id_;
 };
 
-/// Sends the collisions of an advance to a front end that asks for them, up to `batch` in a line.
+/// Sends the collisions of an advance, or all that happens, to a front end that asks for them, up
+/// to `batch` in a line.
 class Stream {
  public:
   Stream(runs::PreparedRun& run, const Json& request, const Connection& connection) : run_(run) {
     const auto batch = count_in(request, "batch");
-    auto fields = names_in(request, "fields", collision_fields());
+    const bool all = flag_in(request, "happenings");
+    auto fields = names_in(request, "fields", report_fields(all));
     if (!batch) {
       if (fields) throw RequestError("fields: expected batch, too: how many collisions to send");
+      if (all) throw RequestError("happenings: expected batch, too: how many to send");
       return;
     }
     if (*batch == 0 || *batch > most) {
       throw RequestError(fmt::format("batch = {}: expected 1 to {}", *batch, most));
     }
-    if (!fields) fields = usual_collision_fields();
+    if (!fields) fields = usual_fields(all);
     const Json id = request.contains("id") ? request["id"] : Json();
-    run_.on_collisions(*batch, [fields = *fields, id, &connection](auto collisions) {
-      Json line{{"id", id}, {"batch", collisions.size()}};
-      line.update(collisions_as_arrays(collisions, fields));
+    const auto send = [fields = *fields, id, &connection](auto reports) {
+      Json line{{"id", id}, {"batch", reports.size()}};
+      line.update(as_arrays(reports, fields));
       connection.notify(line);
-    });
+    };
+    if (all) {
+      run_.on_happenings(*batch, send);
+    } else {
+      run_.on_collisions(*batch, send);
+    }
   }
-  ~Stream() { run_.on_collisions(1, {}); }
+  ~Stream() {
+    run_.on_collisions(1, {});
+    run_.on_happenings(1, {});
+  }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
@@ -254,14 +266,14 @@ Json Requests::add(std::unique_ptr<runs::PreparedRun> run) {
 
 Json Requests::advance(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
-                         "energy_ratio", "wall_s", "progress_s", "batch", "fields"});
+                         "energy_ratio", "wall_s", "progress_s", "batch", "fields", "happenings"});
   runs::PreparedRun& run = run_of(request);
   return drive(run, counted(limits_in(request), run, runs::from_now), request, connection);
 }
 
 Json Requests::run_until(const Json& request, const Connection& connection) {
   require_only(request, {"simulation", "time", "collisions", "collisions_per_needle",
-                         "energy_ratio", "wall_s", "progress_s", "batch", "fields"});
+                         "energy_ratio", "wall_s", "progress_s", "batch", "fields", "happenings"});
   runs::PreparedRun& run = run_of(request);
   const runs::Limits limits = limits_in(request);
   const Scene::Until& of_scene = run.scene().until;

@@ -6,11 +6,16 @@
 #include "src/composition/pair_name.h"
 
 namespace needlework::serve {
+namespace {
 
-void add_species(nlohmann::ordered_json& json, const Simulation& simulation) {
-  using Json = nlohmann::ordered_json;
-  // Infinity and NaN, which JSON does not have, become null.
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+using Json = nlohmann::ordered_json;
+
+// Infinity and NaN, which JSON does not have, become null.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+}  // namespace
+
+void add_species(Json& json, const Simulation& simulation) {
   const Composition& composition = simulation.composition();
   const auto totals = simulation.species_totals();
   const auto collisions = simulation.collisions_by_pair();
@@ -18,14 +23,25 @@ void add_species(nlohmann::ordered_json& json, const Simulation& simulation) {
   for (std::size_t a = 0; a < composition.size(); ++a) {
     species.push_back({{"name", composition[a].name},
                        {"count", totals[a].count},
-                       {"t_tr", number(totals[a].t_tr)},
-                       {"t_rot", number(totals[a].t_rot)}});
+                       {"t_tr", number_or_null(totals[a].t_tr)},
+                       {"t_rot", number_or_null(totals[a].t_rot)}});
     for (std::size_t b = a; b < composition.size(); ++b) {
       by_pair[pair_name(composition, a, b)] = collisions[composition.pair_index(a, b)];
     }
   }
   json["species"] = std::move(species);
   json["collisions_by_pair"] = std::move(by_pair);
+}
+
+void add_walls(Json& json, const Simulation& simulation) {
+  Json walls = Json::array();
+  for (const WallTotals& wall : simulation.wall_totals()) {
+    walls.push_back({{"axis", axis_name(wall)},
+                     {"side", side_name(wall)},
+                     {"hits", wall.hits},
+                     {"impulse", number_or_null(wall.impulse)}});
+  }
+  json["walls"] = std::move(walls);
 }
 
 }  // namespace needlework::serve

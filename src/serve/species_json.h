@@ -1,4 +1,5 @@
-// What programs are told of the species of a simulation, by a pipe and by `run --json`.
+// What programs are told of the species and the walls of a simulation, by a pipe and by `run
+// --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,5 +11,9 @@ namespace needlework::serve {
 /// Adds "species", [{name, count, t_tr, t_rot}] at the present time, and "collisions_by_pair",
 /// {"a-b": n} since the start, both in the order of the scene.
 void add_species(nlohmann::ordered_json& json, const Simulation& simulation);
+
+/// Adds "walls", [{axis, side, hits, impulse}] since the start, in the order of
+/// Scene::wall_sides().
+void add_walls(nlohmann::ordered_json& json, const Simulation& simulation);
 
 }  // namespace needlework::serve

@@ -14,6 +14,11 @@ inline void transfer(Archive& archive, Totals& totals) {
   archive(time, t_tr, t_rot, energy, momentum, collisions, tc_collisions);
 }
 
+inline void transfer(Archive& archive, WallTotals& wall) {
+  auto& [axis, high, hits, impulse] = wall;
+  archive(axis, high, hits, impulse);
+}
+
 /// Whether these can be the totals of a gas, as far as can be seen from them alone.
 inline bool are_possible(const Totals& totals) {
   const auto is_amount = [](double x) { return std::isfinite(x) && x >= 0; };

@@ -86,6 +86,34 @@ TEST(CCallback, DescribesTheCollision) {
   }
 }
 
+// In a gas without walls all that happens are collisions; one function does not replace the other.
+TEST(CCallback, OfAllThatHappensIsGivenCollisionsToo) {
+  const CSimulation simulation(cooling);
+  Seen seen;
+  std::vector<needlework_happening> happenings;
+  const auto add = [](const needlework_happening* first, std::size_t count, void* user) {
+    auto& all = *static_cast<std::vector<needlework_happening>*>(user);
+    all.insert(all.end(), first, first + count);
+    return 0;
+  };
+  EXPECT_EQ(needlework_set_callback(simulation, 7, Seen::add, &seen), NEEDLEWORK_OK);
+  EXPECT_EQ(needlework_set_happening_callback(simulation, 10, add, &happenings), NEEDLEWORK_OK);
+  EXPECT_EQ(needlework_set_happening_callback(simulation, 0, add, &happenings), NEEDLEWORK_USAGE);
+  simulation.run_to(100);
+  ASSERT_EQ(seen.collisions.size(), 100u);
+  ASSERT_EQ(happenings.size(), 100u);
+  for (std::size_t n = 0; n < 100; ++n) {
+    EXPECT_EQ(happenings[n].kind, NEEDLEWORK_KIND_PAIR);
+    EXPECT_EQ(happenings[n].source, 0);
+    EXPECT_EQ(happenings[n].event.time, seen.collisions[n].time);
+    EXPECT_EQ(happenings[n].event.after[1].velocity[2], seen.collisions[n].after[1].velocity[2]);
+  }
+  EXPECT_EQ(needlework_set_happening_callback(simulation, 0, nullptr, nullptr), NEEDLEWORK_OK);
+  simulation.run_to(150);
+  EXPECT_EQ(happenings.size(), 100u);
+  EXPECT_EQ(seen.collisions.size(), 150u);
+}
+
 TEST(CCallback, StopsTheRunWithoutALoss) {
   for (const std::size_t batch : {1, 10}) {
     const CSimulation simulation(cooling), undisturbed(cooling);

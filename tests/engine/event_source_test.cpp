@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -16,6 +17,7 @@
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
 #include "tests/support/parallel_loops.h"
+#include "tests/support/real.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
@@ -32,6 +34,7 @@ class HalfTurns final : public EventSource {
         most_(most) {}
 
   const char* name() const override { return "half turns"; }
+  std::size_t objects() const override { return 3; }
   SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const override {
     const Record& record = gas.records[i];
     if (record.flight.omega == 0) return {};
@@ -45,11 +48,14 @@ class HalfTurns final : public EventSource {
     since_[at.needle] = turns;
     serial_[at.needle] = record.serial;
     ++all_[at.needle];
-    if (turns < most_) return {};
-    return {.changes_motion = true,
-            .velocity = at.velocity,
-            .angular_velocity = at.angular_velocity * -1,
-            .object = turns};
+    SourceOutcome out;
+    out.object = std::min(turns, 2u);
+    out.impulse = at.velocity;  // of some size, so that sums of it can be compared
+    if (turns < most_) return out;
+    out.changes_motion = true;
+    out.velocity = at.velocity;
+    out.angular_velocity = at.angular_velocity * -1;
+    return out;
   }
   std::uint64_t all(Needle i) const { return all_[i]; }
 
@@ -76,6 +82,7 @@ struct Outcome {
   std::map<std::uint32_t, std::uint64_t> turns;  // by id
   std::uint64_t events = 0, redone = 0;
   std::vector<Happening> happenings;
+  std::vector<ObjectTotals> objects;
 };
 
 // Makes the loop by `make(run)`.
@@ -93,6 +100,9 @@ Outcome outcome_of(const Scene& scene, std::uint32_t most, const Make& make,
   out.hash = run.tally.hash.hex();
   out.redone = run.tally.counters.redone;
   if (!run.tally.by_source.empty()) out.events = run.tally.by_source[0];
+  for (const ObjectTally& object : run.tally.by_object) {
+    out.objects.push_back({object.events, object.impulse.value()});
+  }
   for (Needle i{0}; i < run.gas.size(); ++i) out.turns[run.gas.ids[i].value] = source.all(i);
   return out;
 }
@@ -131,7 +141,9 @@ TEST(SourceOfEvents, HasAllItsEvents) {
   std::uint64_t events = 0;
   for (const Happening& h : seen.happenings) {
     if (!h.is_collision()) {
-      EXPECT_EQ(h.kind, 1);
+      EXPECT_EQ(h.kind, Happening::other);
+      EXPECT_EQ(h.source, 1);
+      EXPECT_FALSE(h.has_two_needles());
       ++events;
       continue;
     }
@@ -148,6 +160,28 @@ TEST(SourceOfEvents, HasAllItsEvents) {
   }
   EXPECT_EQ(events, seen.events);
   EXPECT_GT(events, 300u);
+}
+
+// Counts of each object, and sums of impulses to the last bit, are those of the reports.
+TEST(SourceOfEvents, CountsAtItsObjects) {
+  const Outcome seen = outcome_of(gas(), 4, with("capsules", "bucket"));
+  std::vector<std::uint64_t> events(3);
+  std::vector<test::Wide> impulses(3);
+  for (const Happening& h : seen.happenings) {
+    if (h.is_collision()) continue;
+    ++events[h.event.second];
+    const auto& j = h.event.impulse;
+    impulses[h.event.second] += std::sqrt(j[0] * j[0] + j[1] * j[1] + j[2] * j[2]);
+  }
+  ASSERT_EQ(seen.objects.size(), 3u);
+  EXPECT_EQ(events[0], 0u);
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(seen.objects[n].events, events[n]);
+    EXPECT_EQ(seen.objects[n].impulse, static_cast<double>(impulses[n]));
+    if (n > 0) {
+      EXPECT_GT(events[n], 100u);
+    }
+  }
 }
 
 TEST(SourceOfEvents, HasOneTrajectory) {
@@ -183,6 +217,11 @@ TEST(SourceOfEvents, HasOneTrajectoryOnThreads) {
         EXPECT_EQ(other.hash, first.hash) << search << ", sight " << sight;
         EXPECT_EQ(other.turns, first.turns) << search << ", sight " << sight;
         EXPECT_EQ(other.events, first.events);
+        ASSERT_EQ(other.objects.size(), first.objects.size());
+        for (std::size_t n = 0; n < first.objects.size(); ++n) {
+          EXPECT_EQ(other.objects[n].events, first.objects[n].events) << n;
+          EXPECT_EQ(other.objects[n].impulse, first.objects[n].impulse) << n;
+        }
         ASSERT_EQ(other.happenings.size(), first.happenings.size());
         for (std::size_t n = 0; n < first.happenings.size(); ++n) {
           ASSERT_EQ(other.happenings[n].kind, first.happenings[n].kind) << n;

@@ -43,6 +43,15 @@ count = 10
 mass = 3
 """
 
+WALLED = """
+needles = { count = 30, box = 6, seed = 3 }
+until.time = 1
+output.events = true
+[[walls]]
+axis = "z"
+side = "both"
+"""
+
 
 class Row:
     def __init__(self, line):
@@ -204,11 +213,15 @@ def main(program, source):
         with open(os.path.join(folder, "mixture.toml"), "w", encoding="utf-8") as file:
             file.write(MIXTURE)
         run(["./needlework", "run", "mixture.toml", "--out", "mixture.h5", "--quiet"], folder)
+        with open(os.path.join(folder, "walled.toml"), "w", encoding="utf-8") as file:
+            file.write(WALLED)
+        run(["./needlework", "run", "walled.toml", "--out", "walled.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
+                ("walled.h5", rows_of(document, "Files with walls"), runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
                 ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:

@@ -44,7 +44,7 @@ class WritingProcess {
     for (int row = 0;; ++row) {
       writer.write_frame(make_totals(row), state);
       writer.write_series(make_totals(row));
-      writer.write_event({});
+      writer.write_event(Happening{});
       writer.flush();
     }
   }

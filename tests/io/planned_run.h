@@ -30,6 +30,7 @@ struct Plan {
   static RunInfo info() {
     using enum SeriesField::Kind;
     RunInfo run{"sse4", 1, 0.5};
+    run.has_kinds = true;
     run.series = {{"a", "First", {{"x", "Three", "", {{"3", 3}}}, {"n", "A count", "", {}, count}}},
                   {"b", "Second", {{"edges", "Edges", "", {{"2", 2}}, constant, {0.25, 1 / 3.0}}}}};
     return run;
@@ -82,6 +83,11 @@ inline Collision make_collision(int event) {
   return collision;
 }
 
+inline Happening make_happening(int event) {
+  const bool hit = event % 3 == 2;
+  return {hit ? Happening::wall : Happening::pair, hit, make_collision(event)};
+}
+
 inline State make_frame(std::size_t needles, int frame) {
   State state = make_state(needles, static_cast<unsigned>(frame % 5));
   for (auto& image : state.image) image = {frame, 1, 2};
@@ -94,7 +100,7 @@ inline void write_sample(Writer& writer, int sample) {
 }
 
 inline void write_step(Writer& writer, const Plan& plan, int step) {
-  for (int i = 0; i < plan.events; ++i) writer.write_event(make_collision(step * plan.events + i));
+  for (int i = 0; i < plan.events; ++i) writer.write_event(make_happening(step * plan.events + i));
   for (int i = 0; i < plan.samples; ++i) write_sample(writer, step * plan.samples + i);
   for (int i = 0; i < plan.frames; ++i) {
     const int frame = step * plan.frames + i;

@@ -167,6 +167,36 @@ TEST_F(Writing, EventsComeBack) {
   }
 }
 
+TEST_F(Writing, KindsOfEventsComeBackWhereThereAreSome) {
+  RunInfo with_kinds = run;
+  with_kinds.has_kinds = true;
+  Writer writer(file("kinds.h5"), false, make_scene(2, true), with_kinds);
+  Collision hit;
+  hit.first = 1, hit.second = 3, hit.arm_first = -0.5, hit.normal_velocity = -2;
+  writer.write_event(Collision());
+  writer.write_event(Happening{Happening::wall, 1, hit});
+  writer.write_event(Happening{Happening::other, 2, hit});
+  writer.close();
+  const auto numbers = [&](const char* name) { return read_numbers(file("kinds.h5"), name); };
+  EXPECT_EQ(numbers("/events/kind"), (std::vector<double>{0, 1, 255}));
+  EXPECT_EQ(numbers("/events/pair"), (std::vector<double>{0, 0, 1, 3, 1, 3}));
+  EXPECT_EQ(numbers("/events/arms"), (std::vector<double>{0, 0, -0.5, 0, -0.5, 0}));
+  const std::string text = describe(file("kinds.h5"));
+  EXPECT_NE(text.find("/events: 3 events, time 0 to 0\n  1 of kind 0 (pair)\n  1 of kind 1 (wall)\n"
+                      "  1 of kind 255 (other)\n"),
+            std::string::npos)
+      << text;
+}
+
+// Files of pairs alone are what they have always been.
+TEST_F(Writing, AFileOfPairsHasNoKinds) {
+  Writer writer(file("pairs.h5"), false, make_scene(2, true), run);
+  EXPECT_THROW(writer.write_event(Happening{Happening::wall, 1, {}}), std::logic_error);
+  writer.write_event(Collision());
+  writer.close();
+  EXPECT_EQ(describe(file("pairs.h5")).find("kind"), std::string::npos);
+}
+
 TEST_F(Writing, ExistingFileIsKeptWithoutForce) {
   std::ofstream(file("kept.h5")) << "precious";
   const auto message =

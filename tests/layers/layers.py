@@ -32,8 +32,10 @@ LAYERS = [
           ["base", "archive", "kernels"]),
     Layer("physics", ["src/physics"], ["predict.h"],
           ["base", "memory", "archive", "composition", "kernels"]),
+    # What an effect reports has a kind, as the trajectory knows it.
     Layer("effects", ["src/effects"], [],
-          ["base", "memory", "archive", "composition", "random", "kernels", "physics"]),
+          ["base", "memory", "archive", "composition", "random", "kernels", "physics"],
+          ["trajectory"]),
     Layer("search", ["src/search"], [],
           ["base", "memory", "composition", "kernels", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),

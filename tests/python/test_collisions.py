@@ -71,6 +71,21 @@ class Batches(unittest.TestCase):
         total = 200 * 2.5 + np.sum(rows["energy_change"])
         self.assertAlmostEqual(total, 200 * sim.totals.energy, places=9)
 
+    def test_all_that_happens_are_collisions_in_a_gas_without_walls(self):
+        collisions, happenings = [], []
+        sim = Simulation(GAS)
+        sim.on_collisions(collisions.append, 100, states=True)
+        sim.on_happenings(happenings.append, 30, states=True)
+        sim.run(collisions_per_needle=5)
+        expected, rows = np.concatenate(collisions), np.concatenate(happenings)
+        self.assertEqual(rows.dtype, needlework.HAPPENING_WITH_STATES)
+        self.assertTrue(np.all(rows["kind"] == 0))
+        for name in expected.dtype.names:
+            np.testing.assert_array_equal(rows[name], expected[name])
+        sim.on_happenings(None)
+        sim.advance(collisions=50)
+        self.assertEqual(len(np.concatenate(happenings)) + 50, len(np.concatenate(collisions)))
+
     def test_threads_see_the_same_collisions(self):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of fewer cores than threads

@@ -86,11 +86,11 @@ TEST(PreparedRun, StopsWhenTheCallerThrowsAndGoesOnWithoutALoss) {
 }
 
 // Several threads report many collisions after the one at which the caller has thrown.
-TEST(CollisionBatches, AreNeverLargerThanAskedForAlsoAfterAFailure) {
+TEST(Batches, AreNeverLargerThanAskedForAlsoAfterAFailure) {
   Simulation simulation(test::scene_of(50, 5));
   std::vector<std::size_t> sizes;
   bool fails = true;
-  CollisionBatches batches(simulation, 10, [&](std::span<const Collision> batch) {
+  Batches<Collision> batches(simulation, 10, [&](std::span<const Collision> batch) {
     if (fails) throw std::runtime_error("of the caller");
     sizes.push_back(batch.size());
   });

@@ -40,6 +40,23 @@ TEST(Walls, HaveDefaults) {
   EXPECT_TRUE(parse_scene(unwalled, "s.toml").walls.empty());
 }
 
+TEST(Walls, AreListedByTheirSides) {
+  const Scene scene =
+      parse_scene(with_walls("[[walls]]\naxis = 'y'\nside = 'high'\n" + both), "s.toml");
+  const auto sides = scene.wall_sides();
+  ASSERT_EQ(sides.size(), 3u);
+  const std::size_t walls[] = {0, 1, 1};
+  const std::size_t axes[] = {1, 2, 2};
+  const bool high[] = {true, false, true};
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(sides[n].entry, walls[n]);
+    EXPECT_EQ(sides[n].axis, axes[n]);
+    EXPECT_EQ(sides[n].is_high, high[n]);
+  }
+  EXPECT_EQ(scene.periodic(), (std::array{true, false, false}));
+  EXPECT_EQ(parse_scene(unwalled, "s.toml").periodic(), (std::array{true, true, true}));
+}
+
 TEST(Walls, HaveWhatTheSceneSays) {
   for (const std::string motion : {"motion = { amplitude = 0.25, frequency = 2, phase = 1.5 }",
                                    "motion.phase = 1.5\nmotion.frequency = 2\n"

@@ -208,6 +208,24 @@ TEST(Serve, SendsAllCollisionsWhereTheyAreAskedFor) {
   }
 }
 
+// In a gas without walls all that happens are collisions.
+TEST(Serve, SendsAllThatHappensWhereItIsAskedFor) {
+  auto answers =
+      answers_to({create(),
+                  {{"do", "advance"}, {"simulation", 1}, {"collisions", 9}, {"batch", 9}},
+                  create(),
+                  {{"do", "advance"},
+                   {"simulation", 2},
+                   {"collisions", 9},
+                   {"batch", 9},
+                   {"happenings", true}}});
+  ASSERT_EQ(answers.size(), 6u);
+  EXPECT_FALSE(answers[1].contains("kind"));
+  EXPECT_EQ(rows_in<std::uint8_t>(answers[4], "kind"), std::vector<std::uint8_t>(9, 0));
+  EXPECT_EQ(answers[4]["impulse"], answers[1]["impulse"]);
+  EXPECT_EQ(answers[4]["pair"], answers[1]["pair"]);
+}
+
 TEST(Serve, RefusesBatchesAndFieldsThatMeanNothing) {
   auto answers = answers_to(
       {create(),
@@ -215,10 +233,16 @@ TEST(Serve, RefusesBatchesAndFieldsThatMeanNothing) {
        {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"fields", {"time"}}},
        {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"batch", 1}, {"fields", "time"}},
        {{"do", "state"}, {"simulation", 1}, {"arrays", {"positions"}}},
+       {{"do", "advance"}, {"simulation", 1}, {"collisions", 1}, {"happenings", true}},
+       {{"do", "advance"},
+        {"simulation", 1},
+        {"collisions", 1},
+        {"batch", 1},
+        {"fields", {"kind"}}},
        {{"do", "totals"}, {"simulation", 1}}});
-  ASSERT_EQ(answers.size(), 6u);
-  for (std::size_t n = 1; n < 5; ++n) EXPECT_EQ(answers[n]["code"], 2) << answers[n];
-  EXPECT_EQ(answers[5]["collisions"], 0);
+  ASSERT_EQ(answers.size(), 8u);
+  for (std::size_t n = 1; n < 7; ++n) EXPECT_EQ(answers[n]["code"], 2) << answers[n];
+  EXPECT_EQ(answers[7]["collisions"], 0);
 }
 
 TEST(Serve, SendsTheArraysOfAStateThatAreChosen) {

@@ -36,6 +36,8 @@ class Walls final : public EventSource {
   Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeOfWalls contact_time);
 
   const char* name() const override { return "wall"; }
+  Happening::Kind kind() const override { return Happening::wall; }
+  std::size_t objects() const override { return walls_.size(); }
   SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const override;
   SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) override;
   double usual_time() const override;

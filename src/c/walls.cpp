@@ -1,0 +1,27 @@
+// What C callers learn of the walls of a simulation.
+#include <string>
+
+#include "src/c/handle.h"
+
+using namespace needlework;
+
+size_t needlework_wall_count(needlework_simulation* simulation) {
+  size_t count = 0;
+  c::guarded(simulation, [&](needlework_simulation& self) {
+    count = self.run.simulation().wall_totals().size();
+  });
+  return count;
+}
+
+int needlework_get_wall(needlework_simulation* simulation, size_t index, needlework_wall* wall) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(wall, "wall");
+    const auto walls = self.run.simulation().wall_totals();
+    if (index >= walls.size()) {
+      throw c::UsageError("index = " + std::to_string(index) + ": expected that of one of " +
+                          std::to_string(walls.size()) + " walls");
+    }
+    const WallTotals& found = walls[index];
+    *wall = {.axis = found.axis, .high = found.high, .hits = found.hits, .impulse = found.impulse};
+  });
+}
