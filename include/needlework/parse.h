@@ -42,6 +42,10 @@ struct Provided {
 Scene parse_scene(std::string_view text, std::string_view name,
                   std::span<const std::string> overrides = {}, Provided provided = {});
 
+/// Parses the text of a scene as a file of a run holds it, Scene::text: overrides are the comments
+/// at its end, and [until] may be missing. Throws InputError.
+Scene parse_recorded_scene(const std::string& text, std::string_view name);
+
 /// Replaces conditions of [until] in a scene that has been read, by overrides "until.key=value",
 /// and removes those that are "until.key=none". Throws InputError for other keys and for bad
 /// values.

@@ -42,6 +42,12 @@ io::Material read_material(const std::string& path, const io::ExportFormat& form
     print_warning(fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path,
                               material.beta[0]));
   }
+  if (!material.walls.empty()) {
+    print_warning(
+        fmt::format("{}: walls of DynamO stop balls of the needles' length around their "
+                    "centres, not tips",
+                    path));
+  }
   return material;
 }
 

@@ -41,9 +41,8 @@ void add_import_command(CLI::App& app, int& exit_code) {
       ->required();
   command->add_flag("--force", arguments->force, "replace existing files");
   command->footer(R"(Nothing is rescaled. What needles do not have, such as other interactions,
-gravity or walls, is an error that names its place. Of several frames the last is
-taken. The end of the run is not in such a file: choose one in
-[until] of scene.toml.
+is an error that names its place. Of several frames the last is taken. The end of
+the run is not in such a file: choose one in [until] of scene.toml.
 
 Examples:
   needlework import config.xml.bz2 --out lines

@@ -62,6 +62,14 @@ void warn_of_what_is_assumed(const io::Material& material, const std::string& pa
   }
 }
 
+void warn_of_walls(const io::Configuration& read, const std::string& path) {
+  if (!read.material.walls.empty() || read.state.periodic == std::array{true, true, true}) return;
+  print_warning(
+      fmt::format("{}: the box is not periodic along all axes, and nothing says what ends it: "
+                  "walls at rest with epsilon = 1 are assumed",
+                  printable(path)));
+}
+
 void warn_of_roundings(const io::Configuration& read, const std::string& path) {
   const io::Roundings& roundings = read.roundings;
   if (roundings.needles == 0) return;
@@ -102,10 +110,11 @@ std::string species_text(const Composition& composition) {
   return text;
 }
 
-std::string rule_text(const Restitution& rule) {
+std::string rule_text(const Restitution& rule, const std::optional<double>& contact_time) {
   const double smooth = Scene::Collisions{}.beta;
-  return fmt::format("epsilon = {}\n{}", rule.epsilon,
-                     rule.beta == smooth ? "" : fmt::format("beta = {}\n", rule.beta));
+  return fmt::format("epsilon = {}\n{}{}", rule.epsilon,
+                     rule.beta == smooth ? "" : fmt::format("beta = {}\n", rule.beta),
+                     contact_time ? fmt::format("tc = {}\n", *contact_time) : "");
 }
 
 // What differs from the rule of the first species.
@@ -124,10 +133,50 @@ std::string pairs_text(const Composition& composition) {
   return text;
 }
 
+// The walls that end the box. Where a file says no more than that it is not periodic along an axis,
+// they are assumed at both ends.
+std::vector<Scene::Wall> walls_of(const io::Configuration& read, const std::string& from) {
+  std::vector<Scene::Wall> walls = read.material.walls;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const char name = "xyz"[axis];
+    const bool walled =
+        io::wall_at(read.material, axis, false) || io::wall_at(read.material, axis, true);
+    if (walled != read.state.periodic[axis]) continue;
+    if (walled || !walls.empty()) {
+      throw InputError(
+          fmt::format("{}: {} along {}, with walls {}: expected walls along the axes "
+                      "that are not periodic, and no others",
+                      printable(from), walled ? "periodic" : "not periodic", name,
+                      walled ? "there" : "along others"));
+    }
+  }
+  if (!walls.empty()) return walls;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (read.state.periodic[axis]) continue;
+    Scene::Wall& wall = walls.emplace_back();
+    wall.axis = std::string(1, "xyz"[axis]);
+    wall.side = "both";
+  }
+  return walls;
+}
+
+std::string walls_text(const std::vector<Scene::Wall>& walls,
+                       const std::array<double, 3>& gravity) {
+  std::string text;
+  for (const Scene::Wall& wall : walls) {
+    text += fmt::format("[[walls]]\naxis = \"{}\"\nside = \"{}\"\n", wall.axis, wall.side);
+    text += wall.temperature ? fmt::format("temperature = {}\n\n", *wall.temperature)
+                             : fmt::format("epsilon = {}\n\n", wall.epsilon);
+  }
+  if (gravity == std::array<double, 3>{}) return text;
+  return text + fmt::format("[forces]\ngravity = [{}]\n\n", fmt::join(gravity, ", "));
+}
+
 std::string scene_text(const io::Configuration& read, const std::string& from,
                        const std::string& state_file) {
   const Composition composition = counted(read, from);
-  return fmt::format(R"(title = {}
+  return fmt::format(
+      R"(title = {}
 
 [needles]
 box = [{}]
@@ -137,13 +186,13 @@ file = {}
 
 [collisions]
 {}
-{}[until]
+{}{}[until]
 collisions_per_needle = {}  # not from the file: choose an end
 )",
-                     toml(printable("Imported from " + fs::path(from).filename().string())),
-                     fmt::join(read.state.box, ", "), species_text(composition),
-                     path_in_toml(state_file), rule_text(composition.restitution(0, 0)),
-                     pairs_text(composition), assumed_collisions_per_needle);
+      toml(printable("Imported from " + fs::path(from).filename().string())),
+      fmt::join(read.state.box, ", "), species_text(composition), path_in_toml(state_file),
+      rule_text(composition.restitution(0, 0), read.contact_time), pairs_text(composition),
+      walls_text(walls_of(read, from), read.material.gravity), assumed_collisions_per_needle);
 }
 
 io::Configuration read_configuration(const std::string& path) {
@@ -198,6 +247,10 @@ int run(const ImportArguments& arguments) {
     runs::require_writable(file, arguments.force, file);
   }
   warn_of_what_is_assumed(read.material, arguments.from);
+  warn_of_walls(read, arguments.from);
+  if (!read.note.empty()) {
+    print_warning(fmt::format("{}: {}", printable(arguments.from), read.note));
+  }
   warn_of_roundings(read, arguments.from);
   write_state(state_file, arguments.force, scene, read.state);
   io::TextFile out(scene_file, arguments.force);

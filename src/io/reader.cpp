@@ -19,8 +19,8 @@
 namespace needlework {
 
 static void transfer(Archive& archive, State& state) {
-  archive(state.box, state.position, state.velocity, state.orientation, state.angular_velocity,
-          state.image, state.id, state.species);
+  archive(state.box, state.periodic, state.position, state.velocity, state.orientation,
+          state.angular_velocity, state.image, state.id, state.species);
 }
 
 }  // namespace needlework
@@ -71,7 +71,7 @@ class FrameReader {
     return {&element, rows_->row(element, rank, frame_)};
   }
 
-  void require_periodic_box() const;
+  std::array<bool, 3> read_periodic() const;
   Vector read_box();
   bool has_row_a_frame(const Element& edges) const;
   Vector diagonal(const Slice& edges) const;
@@ -98,7 +98,7 @@ FrameReader::FrameReader(const std::string& path) : source_(path), group_(find_p
     if (has(name)) element(name);
   }
   if (!has("box/edges")) reject(source_.place(group_ + "/box/edges"), ": missing: expected edges");
-  require_periodic_box();
+  read_periodic();
 
   const Element& position = element("position");
   const Shape& shape = position.shape();
@@ -130,6 +130,7 @@ State FrameReader::read(std::size_t frame) {
   frame_ = frame;
   State state;
   state.box = read_box();
+  state.periodic = read_periodic();
   state.position = read_vectors("position");
   state.velocity = read_vectors("velocity");
   state.orientation = read_vectors("orientation");
@@ -141,17 +142,25 @@ State FrameReader::read(std::size_t frame) {
   return state;
 }
 
-// H5MD gives the edges no meaning where a boundary is "none".
-void FrameReader::require_periodic_box() const {
+// One word for each axis, or one for all.
+std::array<bool, 3> FrameReader::read_periodic() const {
+  std::array<bool, 3> periodic{true, true, true};
   const std::string path = group_ + "/box";
   const std::string where = source_.place(path);
   const hdf5::Handle box = hdf5::open_group(source_.get(), path, where);
-  if (hdf5::check(H5Aexists(box.get(), "boundary"), where) == 0) return;
-  for (const std::string& boundary : hdf5::read_strings_attribute(box.get(), "boundary", where)) {
-    if (boundary != "periodic") {
-      reject(where, fmt::format(": boundary = {}: expected periodic", boundary));
-    }
+  if (hdf5::check(H5Aexists(box.get(), "boundary"), where) == 0) return periodic;
+  const auto words = hdf5::read_strings_attribute(box.get(), "boundary", where);
+  if (words.size() != 1 && words.size() != 3) {
+    reject(where, fmt::format(": boundary of {} words: expected one for each axis", words.size()));
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string& boundary = words[words.size() == 1 ? 0 : axis];
+    if (boundary != "periodic" && boundary != "none") {
+      reject(where, fmt::format(": boundary = {}: expected periodic or none", boundary));
+    }
+    periodic[axis] = boundary == "periodic";
+  }
+  return periodic;
 }
 
 Vector FrameReader::read_box() {

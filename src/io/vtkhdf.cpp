@@ -78,6 +78,12 @@ void write_vtkhdf(const std::string& path, bool force, const State& state,
     const std::array<std::int32_t, 2> version{1, 0};
     hdf5::write_attribute(root.get(), "Version", version, {2}, path);
     hdf5::write_attribute(root.get(), "Type", std::string("UnstructuredGrid"), path);
+    if (state.periodic != std::array{true, true, true}) {
+      // Readers pass over it. Of a box that is periodic throughout, nothing is said.
+      const std::array<std::int32_t, 3> periodic{state.periodic[0], state.periodic[1],
+                                                 state.periodic[2]};
+      hdf5::write_attribute(root.get(), "periodic", periodic, {3}, path);
+    }
     write_lines(root.get(), state, lengths, path);
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }

@@ -68,6 +68,7 @@ class Painter {
 
   Vector in_box(Vector point) const {
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!state_.periodic[axis]) continue;
       point[axis] -= state_.box[axis] * std::floor(point[axis] / state_.box[axis]);
     }
     return point;
@@ -144,9 +145,17 @@ class Painter {
   void describe(const NeedleValues& values) {
     drawing_.title = count_text(state_);
     drawing_.description = fmt::format(
-        "{} of {} {:g} in a periodic box of {:g} by {:g} by {:g}", count_text(state_),
+        "{} of {} {:g} in a {}box of {:g} by {:g} by {:g}", count_text(state_),
         settings_.lengths.size() == 1 ? "length" : "lengths", fmt::join(settings_.lengths, ", "),
-        state_.box[0], state_.box[1], state_.box[2]);
+        state_.periodic == std::array{true, true, true} ? "periodic " : "", state_.box[0],
+        state_.box[1], state_.box[2]);
+    std::vector<std::string> walled;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!state_.periodic[axis]) walled.emplace_back(1, "xyz"[axis]);
+    }
+    if (!walled.empty()) {
+      drawing_.description += fmt::format(", not periodic along {}", fmt::join(walled, " and "));
+    }
     if (settings_.time) drawing_.description += fmt::format(" at time {:.6g}", *settings_.time);
     if (!values.label.empty()) {
       drawing_.description += fmt::format("; colours are {} from {:g} to {:g}", values.label,

@@ -104,7 +104,7 @@ class Neighbours {
     double squared = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double d = state_.position[i][axis] - state_.position[j][axis];
-      d -= state_.box[axis] * std::round(d / state_.box[axis]);
+      if (state_.periodic[axis]) d -= state_.box[axis] * std::round(d / state_.box[axis]);
       squared += d * d;
     }
     return squared < radius_ * radius_;

@@ -18,9 +18,23 @@ using Vector = std::array<double, 3>;
 
 float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
 
-std::uint16_t place_in_box(double x, double edge) {
-  const double share = x / edge - std::floor(x / edge);
+std::uint16_t place_in_box(double share) {
+  share -= std::floor(share);
   return static_cast<std::uint16_t>(std::min(65535.0, std::floor(share * 65536)));
+}
+
+// What is drawn along an axis: the box and, where a side is open, all centres.
+struct Extent {
+  double low, high;
+};
+Extent extent_of(const State& state, std::size_t axis) {
+  Extent out{0, state.box[axis]};
+  if (state.periodic[axis]) return out;
+  for (const Vector& centre : state.position) {
+    out.low = std::min(out.low, centre[axis]);
+    out.high = std::max(out.high, std::nextafter(centre[axis], HUGE_VAL));
+  }
+  return out;
 }
 
 // The values that needlework view draws, of the needles chosen.
@@ -36,9 +50,15 @@ Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& a
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
+  std::array<Extent, 3> drawn;
+  Vector box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    drawn[axis] = extent_of(state, axis);
+    box[axis] = drawn[axis].high - drawn[axis].low;
+  }
   for (const std::size_t i : chosen) {
-    for (int a = 0; a < 3; ++a) {
-      position.push_back(place_in_box(state.position[i][a], state.box[a]));
+    for (std::size_t a = 0; a < 3; ++a) {
+      position.push_back(place_in_box((state.position[i][a] - drawn[a].low) / box[a]));
       orientation.push_back(
           static_cast<std::int16_t>(std::lround(32767 * state.orientation[i][a])));
     }
@@ -49,7 +69,7 @@ Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& a
   const auto add = [&](const std::vector<float>& values) {
     return arrays.add(std::span<const float>(values), {n});
   };
-  return {{"box", state.box},
+  return {{"box", box},
           {"position", arrays.add(std::span<const std::uint16_t>(position), {n, 3})},
           {"orientation", arrays.add(std::span<const std::int16_t>(orientation), {n, 3})},
           {"speed", add(speed)},

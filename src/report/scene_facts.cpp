@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <vector>
 
 #include "needlework/error.h"
@@ -21,21 +20,6 @@ namespace {
 template <class Value>
 Json optional(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
-}
-
-// Those of the last lines alone: a comment of the author further up sets nothing.
-std::vector<std::string> recorded_overrides(const std::string& text) {
-  constexpr std::string_view mark = "# --set ";
-  std::vector<std::string> overrides;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(mark)) {
-      overrides.push_back(line.substr(mark.size()));
-    } else {
-      overrides.clear();
-    }
-  }
-  return overrides;
 }
 
 Json end_of(const Scene::Until& until) {
@@ -116,7 +100,7 @@ Json facts_of(const Scene& scene) {
 
 Json scene_facts(const std::string& text, const std::string& name) {
   try {
-    return facts_of(parse_scene(text, name, recorded_overrides(text)));
+    return facts_of(parse_recorded_scene(text, name));
   } catch (const InputError&) {
     return nullptr;
   }

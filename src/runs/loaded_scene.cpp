@@ -1,6 +1,9 @@
 #include "src/runs/loaded_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -42,6 +45,17 @@ State read_initial_state(const Scene& scene) {
   return reading(scene, [&] { return file->read(file->count() - 1); });
 }
 
+// A file of needles that are beyond an open side must not be taken for one of a periodic box.
+void require_walls(const Scene& scene, const State& initial) {
+  const std::array<bool, 3> periodic = scene.periodic();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (initial.periodic[axis] || !periodic[axis]) continue;
+    throw InputError(fmt::format(
+        "{}: its box is not periodic along {}: expected [[walls]] along that axis in the scene",
+        place_of(scene, "initial.file", scene.initial.file), "xyz"[axis]));
+  }
+}
+
 }  // namespace
 
 LoadedScene complete_scene(Scene given) {
@@ -49,6 +63,7 @@ LoadedScene complete_scene(Scene given) {
   require_memory(given);
   if (given.initial.file.empty()) return {.scene = std::move(given), .initial = {}};
   State initial = read_initial_state(given);
+  require_walls(given, initial);
   return complete_scene(std::move(given), std::move(initial));
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <sstream>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -442,7 +443,26 @@ void remove_end(Scene::Until& until, std::string_view key) {
   }
 }
 
+// Those of the last lines alone: a comment of the author further up sets nothing.
+std::vector<std::string> recorded_overrides(const std::string& text) {
+  constexpr std::string_view mark = "# --set ";
+  std::vector<std::string> overrides;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(mark)) {
+      overrides.push_back(line.substr(mark.size()));
+    } else {
+      overrides.clear();
+    }
+  }
+  return overrides;
+}
+
 }  // namespace
+
+Scene parse_recorded_scene(const std::string& text, std::string_view name) {
+  return parse_scene(text, name, recorded_overrides(text), {.end = true});
+}
 
 void override_until(Scene& scene, std::span<const std::string> overrides) {
   const std::vector<Override> set = of_options(overrides);

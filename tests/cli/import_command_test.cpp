@@ -49,7 +49,7 @@ TEST_F(ImportCommand, KeepsExistingFilesUnlessForced) {
 
 TEST_F(ImportCommand, WritesNothingAfterAnError) {
   write("small-box.xml", replaced(dynamo_text, "y=\"9\"", "y=\"4\""));
-  write("gravity.xml", replaced(dynamo_text, "Newtonian", "NewtonianGravity"));
+  write("gravity.xml", replaced(dynamo_text, "Newtonian", "Compression"));
   for (const auto& [arguments, exit_code, message] :
        {std::tuple("absent.xml --out a", 5, "absent.xml: cannot be read: No such file"),
         std::tuple("gravity.xml --out a", 3, "gravity.xml: line 28: Dynamics Type = Newtonian"),
@@ -63,6 +63,40 @@ TEST_F(ImportCommand, WritesNothingAfterAnError) {
     EXPECT_TRUE(outcome.complains(message));
   }
   EXPECT_FALSE(exists("a"));
+}
+
+TEST_F(ImportCommand, WritesWallsAndGravity) {
+  write("a.xyz",
+        "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+        "angular_velocity:R:3 pbc=\"T T F\" length=1 mass=1 k=6 epsilon=1 walls=z-low,z-high "
+        "wall_epsilon=0.5,1 gravity=0,0,-2\nX 1 3 3 1 0 0 1 0 0 0 1 0\n");
+  const Outcome imported = run("import a.xyz --out a");
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_EQ(imported.err, "");
+  const Scene scene = read_scene(path("a/scene.toml"));
+  ASSERT_EQ(scene.wall_sides().size(), 2u);
+  EXPECT_EQ(scene.walls[0].axis + scene.walls[0].side, "zlow");
+  EXPECT_EQ(scene.walls[0].epsilon, 0.5);
+  EXPECT_EQ(scene.forces.gravity, (std::array<double, 3>{0, 0, -2}));
+  EXPECT_EQ(io::read_last_frame(path("a/state.h5")).periodic, (std::array{true, true, false}));
+}
+
+TEST_F(ImportCommand, AssumesWallsWhereABoxIsNotPeriodic) {
+  const std::string text =
+      "1\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3:orientation:R:3:"
+      "angular_velocity:R:3 pbc=\"F T T\" length=1 mass=1 k=6 epsilon=1\nX 1 3 3 1 0 0 1 0 0 0 1 "
+      "0\n";
+  write("a.xyz", text);
+  const Outcome imported = run("import a.xyz --out a");
+  EXPECT_EQ(imported.exit_code, 0);
+  EXPECT_TRUE(imported.complains("walls at rest with epsilon = 1 are assumed"));
+  const Scene scene = read_scene(path("a/scene.toml"));
+  ASSERT_EQ(scene.walls.size(), 1u);
+  EXPECT_EQ(scene.walls[0].axis + scene.walls[0].side, "xboth");
+  write("b.xyz", replaced(text, "epsilon=1", "epsilon=1 walls=y-low,y-high"));
+  const Outcome refused = run("import b.xyz --out b");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_TRUE(refused.complains("not periodic along x, with walls along others: expected walls"));
 }
 
 TEST_F(ImportCommand, OtherCommandsNameIt) {

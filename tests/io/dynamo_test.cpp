@@ -107,7 +107,101 @@ TEST_F(Dynamo, FilesOfEarlierProgramsAreRead) {
   EXPECT_EQ(read.state.orientation, (Vectors{{0, 1, 0}, {0, 0, 1}}));
 }
 
+// A wall with this normal, through z or, for one along x, x.
+std::string wall(double x, double y, double z, double place, double epsilon,
+                 const std::string& more = "") {
+  return fmt::format(
+      "<Local Type=\"Wall\" Name=\"W\" Elasticity=\"{}\" Diameter=\"2\"{}>"
+      "<IDRange Type=\"All\"/><Norm x=\"{}\" y=\"{}\" z=\"{}\"/>"
+      "<Origin x=\"{}\" y=\"0\" z=\"{}\"/></Local>",
+      epsilon, more, x, y, z, x != 0 ? place : 0, x != 0 ? 0 : place);
+}
+
+TEST_F(Dynamo, WallsAndGravityAreRead) {
+  std::string text =
+      replaced(dynamo_text, "<Locals/>",
+               "<Locals>" + wall(0, 0, 2, -6, 0.5) + wall(0, 0, -1, 6.5, 0, " Temperature=\"3\"") +
+                   wall(-1, 0, 0, 4.5, 0.25) + "</Locals>");
+  text = replaced(text, "\"PBC\"", "\"NoXPBC\"");
+  text = replaced(text, "<Dynamics Type=\"Newtonian\"/>",
+                  "<Dynamics Type=\"NewtonianGravity\" tc=\"0.125\"><g x=\"1\" y=\"0\" "
+                  "z=\"-2\"/></Dynamics>");
+  const Configuration read = this->read(text);
+  EXPECT_EQ(read.state.periodic, (std::array{false, true, false}));
+  // Along z between the walls; along x the wall is at the edge.
+  EXPECT_EQ(read.state.box, (std::array<double, 3>{8, 9, 12.5}));
+  EXPECT_EQ(read.state.position[1], (std::array<double, 3>{1 + 3.5, 2, 3}));
+  ASSERT_EQ(read.material.walls.size(), 3u);
+  const auto& [low, high, x] =
+      std::tie(read.material.walls[0], read.material.walls[1], read.material.walls[2]);
+  EXPECT_EQ(low.axis + low.side, "zlow");
+  EXPECT_EQ(low.epsilon, 0.5);
+  EXPECT_EQ(high.axis + high.side, "zhigh");
+  EXPECT_EQ(high.temperature, 3);
+  EXPECT_EQ(x.axis + x.side, "xhigh");
+  EXPECT_EQ(x.epsilon, 0.25);
+  EXPECT_EQ(read.material.gravity, (std::array<double, 3>{1, 0, -2}));
+  EXPECT_EQ(read.contact_time, 0.125);
+  EXPECT_FALSE(read.note.empty());
+}
+
+TEST_F(Dynamo, WallsAndGravityAreWrittenAndReadAgain) {
+  Material material{{}, {1}, {2}, {6}, {0.75}};
+  Frame frame;
+  frame.state = make_state(50, 5);
+  const auto written = [&](std::vector<Scene::Wall> walls) {
+    material.walls = std::move(walls);
+    Scene scene;
+    scene.walls = material.walls;
+    frame.state.periodic = scene.periodic();
+    const auto writer = write_dynamo(file("a.xml"), true, material);
+    writer->add(frame);
+    writer->publish();
+    return read_dynamo(file("a.xml"));
+  };
+  material.gravity = {0, 0, -1.5};
+  Scene::Wall z, y, x;
+  z.axis = "z", z.side = "both", z.epsilon = 0.5;
+  y.axis = "y", y.side = "low", y.temperature = 2.5;
+  x.axis = "x", x.side = "high", x.epsilon = 0;
+  for (const auto& walls : {std::vector{z}, {x}, {y, z}, {z, y, x}}) {
+    const Configuration read = written(walls);
+    const auto expected = single_walls(walls);
+    EXPECT_EQ(read.state.periodic, frame.state.periodic);
+    EXPECT_EQ(read.state.box, frame.state.box);
+    EXPECT_EQ(read.material.gravity, material.gravity);
+    ASSERT_EQ(read.material.walls.size(), expected.size());
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+      EXPECT_EQ(read.material.walls[n].axis, expected[n].axis);
+      EXPECT_EQ(read.material.walls[n].side, expected[n].side);
+      EXPECT_EQ(read.material.walls[n].epsilon, expected[n].epsilon);
+      EXPECT_EQ(read.material.walls[n].temperature, expected[n].temperature);
+    }
+    for (std::size_t i = 0; i < 50; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(read.state.position[i][axis], frame.state.position[i][axis], 1e-14);
+      }
+    }
+  }
+  const std::string path = file("a.xml");
+  EXPECT_EQ(message_of<InputError>([&] { written({y}); }),
+            path +
+                ": an open side along y: expected walls at both ends, as DynamO has no boundary "
+                "that is open along this axis and periodic along the others");
+  Scene::Wall moving = z;
+  moving.motion = Scene::WallMotion{.amplitude = 0.1};
+  EXPECT_EQ(message_of<InputError>([&] { written({moving}); }),
+            path +
+                ": the wall z-low moves: expected walls at rest, as in a configuration of "
+                "DynamO");
+}
+
 TEST_F(Dynamo, WhatNeedlesDoNotHaveIsNamed) {
+  const auto locals = [](const std::string& walls) { return "<Locals>" + walls + "</Locals>"; };
+  const std::string oblique = locals(wall(0, 1, 1, 0, 1)), lively = locals(wall(0, 0, 1, -4, 2)),
+                    single = locals(wall(0, 0, 1, -4, 1)),
+                    twice = locals(wall(0, 0, 1, -4, 1) + wall(0, 0, 1, -3, 1)),
+                    apart = locals(wall(0, 0, 1, 4, 1) + wall(0, 0, -1, -4, 1));
   expect_complaints(
       dynamo_text,
       {
@@ -115,14 +209,28 @@ TEST_F(Dynamo, WhatNeedlesDoNotHaveIsNamed) {
           {"<DynamOconfig", "<!-- --><Dyn",
            "line 45: not well-formed XML: Start-end tags mismatch"},
           {"\"PBC\"", "\"LE\"", "line 13: BC Type = LE: expected PBC"},
-          {"\"PBC\"", "\"None\"", "line 13: BC Type = None: expected PBC"},
-          {"Type=\"Newtonian\"", "Type=\"NewtonianGravity\"",
-           "line 28: Dynamics Type = NewtonianGravity: expected Newtonian"},
+          {"\"PBC\"", "\"None\"", "line 13: BC: not periodic along x, without a wall: expected"},
+          {"Type=\"Newtonian\"", "Type=\"Compression\"",
+           "line 28: Dynamics Type = Compression: expected Newtonian or NewtonianGravity"},
+          {"Type=\"Newtonian\"", "Type=\"NewtonianGravity\"", "line 28: Dynamics: "},
+          {"<Dynamics Type=\"Newtonian\"/>",
+           "<Dynamics Type=\"NewtonianGravity\" ElasticV=\"1\"><g x=\"0\" y=\"0\" "
+           "z=\"-1\"/></Dynamics>",
+           "line 28: Dynamics ElasticV = 1: expected 0"},
           {"<SystemEvents/>",
            "<SystemEvents><System Type=\"Andersen\" Name=\"Thermostat\"/></SystemEvents>",
            "line 27: System: cannot be carried over: expected none in SystemEvents"},
-          {"<Locals/>", "<Locals><Local Type=\"Wall\"/></Locals>",
-           "line 23: Local: cannot be carried over: expected none in Locals"},
+          {"<Locals/>", "<Locals><Local Type=\"OscillatingPlate\"/></Locals>",
+           "line 23: Local Type = OscillatingPlate: expected Wall"},
+          {"<Locals/>", oblique.c_str(),
+           "line 23: Norm: (0, 1, 1): expected a normal along x, y or z"},
+          {"<Locals/>", lively.c_str(),
+           "line 23: Local Elasticity = 2: expected a number from 0 to 1"},
+          {"<Locals/>", single.c_str(),
+           "line 13: BC: periodic along z, with one wall: expected two walls, or a boundary"},
+          {"<Locals/>", twice.c_str(), "line 23: Local: a second wall with this normal"},
+          {"<Locals/>", apart.c_str(),
+           "line 23: Locals: walls along z at 4 and -4: expected the one with the normal along +z"},
           {"\"Cells\"", "\"Waker\"", "line 25: Global Type = Waker: expected Cells"},
           {"<Topology/>", "<Topology><Structure Type=\"Chain\"/></Topology>",
            "line 14: Structure: cannot be carried over: expected none in Topology"},

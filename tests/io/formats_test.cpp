@@ -323,7 +323,12 @@ TEST_F(Formats, BadExtendedXyzIsNamed) {
         "line 2: Lattice twice: expected each key once"},
        {"Lattice", "a=1 a=2 Lattice", "line 2: a twice: expected each key once"},
        {"pos:R:3", "pos:R:x", "line 2: Properties with pos:R:x: expected NAME:TYPE:COLUMNS"},
-       {"Lattice", "pbc=\"T T F\" Lattice", "line 2: pbc = T T F: expected T T T, a periodic"},
+       {"Lattice", "pbc=\"T T\" Lattice", "line 2: pbc = T T: expected T or F for each axis"},
+       {"Lattice", "pbc=\"T T x\" Lattice", "line 2: pbc = T T x: expected T or F for each axis"},
+       {"Lattice", "walls=z-top Lattice", "line 2: walls = z-top: expected such as z-low,z-high"},
+       {"Lattice", "walls=z-low wall_epsilon=2 Lattice",
+        "line 2: wall_epsilon = 2: expected a number from 0 to 1 for each of walls before"},
+       {"Lattice", "gravity=0,1 Lattice", "line 2: gravity = 0,1: expected three numbers"},
        {"Lattice", "k=nan Lattice", "line 2: k = nan: expected a finite number"},
        {"X 1 2 3 0", "X 1 2 3 0 4", "line 3: 15 columns: expected 14"},
        {"X 1 2 3 0", "X 1 2 inf 0", "line 3: position z = inf: expected a finite number"},
@@ -405,6 +410,68 @@ TEST_F(Formats, DumpsMayHoldScaledAndUnwrappedPositions) {
                   .starts_with("line 10: position x = 1e+30: expected one at most 2147483647"));
   EXPECT_TRUE(complaint(text("xs ys zs", "1.7e308 0 0"))
                   .starts_with("line 10: position x = 1.7e+308: expected a number of boxes"));
+}
+
+Scene::Wall wall(const char* axis, const char* side, double epsilon = 1) {
+  Scene::Wall out;
+  out.axis = axis;
+  out.side = side;
+  out.epsilon = epsilon;
+  return out;
+}
+
+// Between walls along y and z.
+Material walled() {
+  Material out = material;
+  out.walls = {wall("z", "both", 0.5), wall("y", "high"), wall("y", "low", 0.25)};
+  out.gravity = {0, -1, 0.5};
+  return out;
+}
+
+State between_walls() {
+  State state = completed(make_state(20, 3), true);
+  state.periodic = {true, false, false};
+  for (auto& image : state.image) image[1] = image[2] = 0;
+  return state;
+}
+
+TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
+  const State state = between_walls();
+  for (const char* name : {"a.xyz", "a.dump", "a.data"}) {
+    const Configuration read = read_configuration(put(name, {state}, walled()));
+    EXPECT_EQ(read.state.periodic, state.periodic) << name;
+    EXPECT_EQ(read.state.position, state.position) << name;
+    if (name == std::string("a.dump")) continue;  // which has no place for more
+    ASSERT_EQ(read.material.walls.size(), 4u) << name;
+    const char* sides[] = {"low", "high", "high", "low"};
+    const double epsilon[] = {0.5, 0.5, 1, 0.25};
+    for (std::size_t n = 0; n < 4; ++n) {
+      EXPECT_EQ(read.material.walls[n].axis, n < 2 ? "z" : "y");
+      EXPECT_EQ(read.material.walls[n].side, sides[n]);
+      EXPECT_EQ(read.material.walls[n].epsilon, epsilon[n]);
+    }
+    EXPECT_EQ(read.material.gravity, walled().gravity);
+  }
+  EXPECT_NE(text_of_file("a.xyz").find(" pbc=\"T F F\""), std::string::npos);
+  EXPECT_NE(text_of_file("a.dump").find("BOX BOUNDS pp ff ff\n"), std::string::npos);
+  Material open = walled();
+  open.walls = {wall("z", "low"), wall("y", "high")};
+  put("b.dump", {state}, open);
+  EXPECT_NE(text_of_file("b.dump").find("BOX BOUNDS pp sf fs\n"), std::string::npos);
+  put("c.xyz", {make_state(3)});
+  EXPECT_NE(text_of_file("c.xyz").find(" pbc=\"T T T\" length=1.7"), std::string::npos);
+  EXPECT_EQ(text_of_file("c.xyz").find("walls"), std::string::npos);
+}
+
+// Along an axis with walls, the box begins at 0.
+TEST_F(Formats, PositionsAreCountedFromTheLowWall) {
+  std::ofstream(file("a.dump"))
+      << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n-4 4\n0 9\n1 "
+         "11\nITEM: ATOMS id x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz\n"
+         "1 -1 2 3 1 1 1 4 5 6 1 0 0 0 7 8\n";
+  const State read = read_configuration(file("a.dump")).state;
+  EXPECT_EQ(read.position[0], (std::array<double, 3>{-1, 2, 2}));
+  EXPECT_EQ(read.image[0], (std::array<std::int32_t, 3>{1, 1, 0}));
 }
 
 TEST_F(Formats, BoxesWithTiltsOfZeroAreRectangular) {

@@ -382,7 +382,7 @@ TEST_F(Reading, WrongBoxesAreRefused) {
             edges + ": 2 frames: expected 4, as in /particles/all/position/value");
 }
 
-TEST_F(Reading, BoxMustBePeriodic) {
+TEST_F(Reading, BoxesSayAlongWhichAxesTheyArePeriodic) {
   const auto boundary = [](const std::vector<std::string>& values) {
     return [values](HandMade& file) {
       const hdf5::Handle group = hdf5::open_group(file.get(), "/particles/all/box", "");
@@ -390,8 +390,14 @@ TEST_F(Reading, BoxMustBePeriodic) {
     };
   };
   expect_made(read_last_frame(make(boundary({"periodic", "periodic", "periodic"}))));
-  EXPECT_EQ(complaint(boundary({"periodic", "none    ", "periodic"})),
-            "/particles/all/box: boundary = none    : expected periodic");
+  EXPECT_EQ(read_last_frame(make(boundary({"periodic", "none", "periodic"}))).periodic,
+            (std::array{true, false, true}));
+  EXPECT_EQ(read_last_frame(make(boundary({"none"}))).periodic, (std::array{false, false, false}));
+  EXPECT_EQ(read_last_frame(make([](HandMade&) {})).periodic, (std::array{true, true, true}));
+  EXPECT_EQ(complaint(boundary({"periodic", "open", "periodic"})),
+            "/particles/all/box: boundary = open: expected periodic or none");
+  EXPECT_EQ(complaint(boundary({"periodic", "none"})),
+            "/particles/all/box: boundary of 2 words: expected one for each axis");
 }
 
 TEST_F(Reading, OtherThanNumbersAreRefused) {

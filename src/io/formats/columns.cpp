@@ -137,7 +137,8 @@ void NeedleReader::read_position(const Row& row) {
   std::array<std::int32_t, 3> image{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double edge = state.box[axis], lower = columns_.lower[axis];
-    if (columns_.unwrapped) {
+    const bool periodic = state.periodic[axis];
+    if (columns_.unwrapped && periodic) {
       const double boxes = std::floor(columns_.scaled ? r[axis] : (r[axis] - lower) / edge);
       if (!(std::abs(boxes) <= most_images)) {
         row.reject(fmt::format("position {} = {}: expected one at most {} boxes away", "xyz"[axis],
@@ -147,7 +148,9 @@ void NeedleReader::read_position(const Row& row) {
       // With one rounding, so that a position comes back as it was wrapped.
       r[axis] = std::fma(-boxes, columns_.scaled ? 1 : edge, r[axis]);
     }
-    if (columns_.scaled) r[axis] = lower + r[axis] * edge;
+    // A box that is not periodic begins at 0, as walls lie at 0 and at the edge.
+    if (columns_.scaled) r[axis] = (periodic ? lower : 0) + r[axis] * edge;
+    if (!columns_.scaled && !periodic) r[axis] -= lower;
     if (!std::isfinite(r[axis])) {
       row.reject(fmt::format("position {} = {}: expected a number of boxes that a double can hold",
                              "xyz"[axis], read[axis]));
@@ -160,6 +163,7 @@ void NeedleReader::read_position(const Row& row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       image[axis] = static_cast<std::int32_t>(
           row.read_whole((*columns_.image)[axis], "image", -most_images, most_images));
+      if (!state.periodic[axis]) image[axis] = 0;
     }
     state.image.push_back(image);
   }
@@ -303,6 +307,42 @@ void set_material(Material& material, std::string_view name, std::string_view va
     require_first(material.names.empty());
     for (const std::string_view item : items_of(value)) material.names.push_back(decoded(item));
   }
+  if (name == "walls") {
+    require_first(material.walls.empty());
+    for (const std::string_view item : items_of(value)) {
+      // "z-low"
+      const bool axis = item.size() > 2 && item[0] >= 'x' && item[0] <= 'z' && item[1] == '-';
+      const std::string_view side = axis ? item.substr(2) : "";
+      if (side != "low" && side != "high") {
+        row.reject(fmt::format("walls = {}: expected such as z-low,z-high", quotation(value)));
+      }
+      Scene::Wall& wall = material.walls.emplace_back();
+      wall.axis = item.substr(0, 1);
+      wall.side = side;
+    }
+  }
+  if (name == "wall_epsilon") {
+    const std::vector<std::string_view> items = items_of(value);
+    bool good = !items.empty() && items.size() == material.walls.size();
+    for (std::size_t i = 0; good && i < items.size(); ++i) {
+      double& epsilon = material.walls[i].epsilon;
+      good = read_decimal(items[i], epsilon) == std::errc() && epsilon >= 0 && epsilon <= 1;
+    }
+    if (!good) {
+      row.reject(
+          fmt::format("wall_epsilon = {}: expected a number from 0 to 1 for each of walls "
+                      "before",
+                      quotation(value)));
+    }
+  }
+  if (name == "gravity") {
+    const std::vector<std::string_view> items = items_of(value);
+    bool good = items.size() == 3;
+    for (std::size_t axis = 0; good && axis < 3; ++axis) {
+      good = read_decimal(items[axis], material.gravity[axis]) == std::errc();
+    }
+    if (!good) row.reject(fmt::format("gravity = {}: expected three numbers", quotation(value)));
+  }
   for (const auto& [known, member] : materials) {
     if (name != known) continue;
     std::vector<double>& numbers = material.*member;
@@ -328,6 +368,17 @@ std::string text_of(const Material& material) {
     for (const Species& each : species_of(material)) names.push_back(encoded(each.name));
     add("names", names);
   }
+  if (const auto walls = single_walls(material.walls); !walls.empty()) {
+    std::vector<std::string> sides;
+    std::vector<double> epsilon;
+    for (const Scene::Wall& wall : walls) {
+      sides.push_back(wall.axis + "-" + wall.side);
+      epsilon.push_back(wall.epsilon);
+    }
+    add("walls", sides);
+    add("wall_epsilon", epsilon);
+  }
+  if (material.gravity != std::array<double, 3>{}) add("gravity", material.gravity);
   return text;
 }
 

@@ -79,13 +79,15 @@ class NeedleReader {
   std::vector<SlowRotation> slow_;
 };
 
-/// Sets numbers of the material by their name: length, mass, k, epsilon, beta or names. Several are
-/// separated by commas or blanks. Other names are left alone. Throws InputError for what is not a
-/// number, or is set already.
+/// Sets numbers of the material by their name: length, mass, k, epsilon, beta, names, walls,
+/// wall_epsilon or gravity. Several are separated by commas or blanks. Other names are left alone.
+/// Throws InputError for what is not a number, or is set already.
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row);
 /// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", or "length=1,1.5 ...
-/// names=short,long" for several species, without those that are absent.
+/// names=short,long" for several species, without those that are absent; then, where there are
+/// some, "walls=z-low,z-high wall_epsilon=1,0.9" and "gravity=0,0,-1". Temperature and motion of
+/// walls are left out.
 std::string text_of(const Material& material);
 
 }  // namespace needlework::io

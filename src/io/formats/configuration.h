@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 
 #include "needlework/state.h"
 #include "src/io/formats/material.h"
@@ -31,6 +33,8 @@ struct Configuration {
   Material material;
   State state;
   Roundings roundings;
+  std::optional<double> contact_time = {};  ///< of the t_c rule, if the file says it [time]
+  std::string note = {};                    ///< what a user should know of it; empty: nothing
 };
 
 }  // namespace needlework::io

@@ -54,6 +54,12 @@ double common_number(const XmlElement& element, const char* attribute) {
   return value;
 }
 
+double elasticity_of(const XmlElement& element) {
+  const double epsilon = common_number(element, "Elasticity");
+  if (!(epsilon >= 0 && epsilon <= 1)) element.reject("Elasticity", "a number from 0 to 1");
+  return epsilon;
+}
+
 // All particles, or all pairs: as an element, or as an attribute in files of earlier programs.
 void require_all(const XmlElement& element, const char* range, const char* earlier) {
   if (const auto child = element.first(range)) {
@@ -100,29 +106,139 @@ void read_interaction(const XmlElement& simulation, Material& material) {
   require_all(lines, "IDPairRange", "2All");
   material.length = {common_number(lines, "Length")};
   if (!(material.length[0] > 0)) lines.reject("Length", "a number > 0");
-  material.epsilon = {common_number(lines, "Elasticity")};
-  if (!(material.epsilon[0] >= 0 && material.epsilon[0] <= 1)) {
-    lines.reject("Elasticity", "a number from 0 to 1");
-  }
+  material.epsilon = {elasticity_of(lines)};
 }
 
-// Whatever acts on particles besides collisions.
+// Along which axes the boundary is periodic.
+std::array<bool, 3> read_boundary(const XmlElement& simulation) {
+  const XmlElement boundary = simulation.child("BC");
+  boundary.require_word("Type", {"PBC", "NoXPBC", "OnlyXPBC", "None", "Null"},
+                        "PBC, NoXPBC, OnlyXPBC or None: other boundaries cannot be carried over");
+  boundary.require_only({"Type"}, {});
+  const std::string_view type = boundary.text("Type");
+  const bool yz = type == "PBC" || type == "NoXPBC";
+  return {type == "PBC" || type == "OnlyXPBC", yz, yz};
+}
+
+// Gravity, and the contact time that DynamO has with it.
+void read_dynamics(const XmlElement& simulation, Configuration& configuration) {
+  const XmlElement dynamics = simulation.child("Dynamics");
+  dynamics.require_word("Type", {"Newtonian", "NewtonianGravity"},
+                        "Newtonian or NewtonianGravity: other dynamics cannot be carried over");
+  if (dynamics.text("Type") == "Newtonian") return dynamics.require_only({"Type"}, {});
+  dynamics.require_only({"Type", "ElasticV", "tc"}, {"g"});
+  if (dynamics.has("ElasticV") && dynamics.number("ElasticV") != 0) {
+    dynamics.reject("ElasticV",
+                    "0: collisions that are elastic by their speed cannot be carried "
+                    "over");
+  }
+  if (dynamics.has("tc")) configuration.contact_time = positive_number(dynamics, "tc");
+  configuration.material.gravity = read_vector(dynamics, "g");
+}
+
+// A plane normal to an axis.
+struct Plane {
+  Scene::Wall wall;
+  double place = 0;  // along the axis
+};
+
+Plane read_plane(const XmlElement& local) {
+  local.require_word("Type", {"Wall"}, "Wall: other local objects cannot be carried over");
+  local.require_only({"Type", "Name", "Elasticity", "Diameter", "Temperature", "Render", "Range"},
+                     {"IDRange", "Norm", "Origin"});
+  require_all(local, "IDRange", "All");
+  const Vector normal = read_vector(local, "Norm"), origin = read_vector(local, "Origin");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (normal[axis] == 0 || normal[(axis + 1) % 3] != 0 || normal[(axis + 2) % 3] != 0) continue;
+    Plane out;
+    out.wall.axis = std::string(1, "xyz"[axis]);
+    out.wall.side = normal[axis] > 0 ? "low" : "high";
+    out.place = origin[axis];
+    out.wall.epsilon = elasticity_of(local);
+    if (local.has("Temperature") && local.number("Temperature") != 0) {
+      out.wall.temperature = positive_number(local, "Temperature");
+      out.wall.epsilon = 1;
+    }
+    return out;
+  }
+  local.child("Norm").reject(fmt::format("({}, {}, {}): expected a normal along x, y or z",
+                                         normal[0], normal[1], normal[2]));
+}
+
+// Puts the walls of one axis at 0 and at the edge of the box, and the needles with them.
+void place_walls(const XmlElement& simulation, std::size_t axis, bool periodic, const Plane* low,
+                 const Plane* high, State& state) {
+  const char name = "xyz"[axis];
+  if (!low && !high) {
+    if (periodic) return;
+    simulation.child("BC").reject(
+        fmt::format("not periodic along {}, without a wall: expected one in Locals", name));
+  }
+  double shift = 0;
+  if (low && high) {
+    state.box[axis] = high->place - low->place;
+    if (!(state.box[axis] > 0)) {
+      simulation.child("Locals").reject(
+          fmt::format("walls along {} at {} and {}: expected the one with the normal along +{} "
+                      "below the other",
+                      name, low->place, high->place, name));
+    }
+    shift = -low->place;
+  } else {
+    if (periodic) {
+      simulation.child("BC").reject(
+          fmt::format("periodic along {}, with one wall: expected two walls, or a boundary that is "
+                      "open along {}",
+                      name, name));
+    }
+    shift = low ? -low->place : state.box[axis] - high->place;
+  }
+  state.periodic[axis] = false;
+  for (Vector& centre : state.position) centre[axis] += shift;
+}
+
+void read_walls(const XmlElement& simulation, Configuration& configuration) {
+  const std::array<bool, 3> periodic = read_boundary(simulation);
+  std::vector<Plane> planes;
+  if (simulation.first("Locals")) {
+    const XmlElement locals = simulation.child("Locals");
+    locals.require_only({}, {"Local"});
+    for (auto each = locals.first("Local"); each; each = each->next()) {
+      Plane plane = read_plane(*each);
+      for (const Plane& other : planes) {
+        if (other.wall.axis != plane.wall.axis || other.wall.side != plane.wall.side) continue;
+        each->reject("a second wall with this normal: expected one at each end of an axis");
+      }
+      planes.push_back(std::move(plane));
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto find = [&](const char* side) -> const Plane* {
+      for (const Plane& plane : planes) {
+        if (plane.wall.axis[0] == "xyz"[axis] && plane.wall.side == side) return &plane;
+      }
+      return nullptr;
+    };
+    place_walls(simulation, axis, periodic[axis], find("low"), find("high"), configuration.state);
+  }
+  for (Plane& plane : planes) configuration.material.walls.push_back(std::move(plane.wall));
+  if (planes.empty()) return;
+  configuration.note =
+      "walls of DynamO stop balls around the centres, whose diameters are left out: needles touch "
+      "walls by their tips";
+}
+
+// Whatever else acts on particles besides collisions.
 void require_nothing_else(const XmlElement& simulation) {
-  simulation.child("BC").require_word(
-      "Type", {"PBC"}, "PBC: boundaries other than periodic ones cannot be carried over");
-  simulation.child("BC").require_only({"Type"}, {});
-  simulation.child("Dynamics")
-      .require_word("Type", {"Newtonian"}, "Newtonian: other dynamics cannot be carried over");
-  simulation.child("Dynamics").require_only({"Type"}, {});
-  for (const char* name : {"Topology", "Locals", "SystemEvents"}) {
+  for (const char* name : {"Topology", "SystemEvents"}) {
     if (simulation.first(name)) simulation.child(name).require_only({}, {});
   }
   if (!simulation.first("Globals")) return;
-  // Lists of neighbours, and a guard of the boundaries, have no effect on the motion.
+  // Lists of neighbours, and guards of boundaries and of parabolas, have no effect on the motion.
   simulation.child("Globals").require_only({}, {"Global"});
   for (auto global = simulation.child("Globals").first("Global"); global; global = global->next()) {
-    global->require_word("Type", {"Cells", "PBCSentinel"},
-                         "Cells or PBCSentinel: others cannot be carried over");
+    global->require_word("Type", {"Cells", "PBCSentinel", "ParabolaSentinel"},
+                         "Cells, PBCSentinel or ParabolaSentinel: others cannot be carried over");
   }
 }
 
@@ -244,6 +360,8 @@ Configuration read_dynamo(const std::string& path) {
   material.beta = {-1};  // the impulse is normal to both lines
   configuration.state.box = read_box(simulation);
   read_particles(root, configuration);
+  read_walls(simulation, configuration);
+  read_dynamics(simulation, configuration);
   return configuration;
 }
 

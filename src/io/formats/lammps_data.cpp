@@ -56,6 +56,7 @@ class DataReader {
   Lines lines_;
   std::string path_;
   std::int64_t count_ = -1;
+  std::array<double, 3> lower_{};
   std::vector<Row> atoms_;
   std::unordered_map<std::string_view, Row> velocities_;  // by id
   Configuration configuration_;
@@ -79,9 +80,14 @@ Configuration DataReader::read() {
   for (const double edge : configuration_.state.box) require(edge > 0, "bounds of the box");
   require(count_ == 0 || !atoms_.empty(), "Atoms");
   require(count_ == 0 || !velocities_.empty(), "Velocities");
+  for (const Scene::Wall& wall : configuration_.material.walls) {
+    configuration_.state.periodic[static_cast<std::size_t>(wall.axis[0] - 'x')] = false;
+  }
   // All rows have as many columns as the first.
   const bool with_images = !atoms_.empty() && atoms_[0].fields.size() > atom_columns;
-  NeedleReader needles(columns_of(with_images), configuration_);
+  Columns columns = columns_of(with_images);
+  columns.lower = lower_;
+  NeedleReader needles(columns, configuration_);
   for (Row& row : atoms_) {
     const auto velocity = velocities_.find(row.fields[0]);
     if (velocity == velocities_.end()) {
@@ -133,7 +139,8 @@ void DataReader::read_header_line() {
   constexpr const char* upper[] = {"xhi", "yhi", "zhi"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (fields.size() < 4 || fields[3] != upper[axis]) continue;
-    const double edge = row.read(1, "upper bound") - row.read(0, "lower bound");
+    lower_[axis] = row.read(0, "lower bound");
+    const double edge = row.read(1, "upper bound") - lower_[axis];
     if (!(edge > 0)) row.reject(fmt::format("an edge of {}: expected one > 0", edge));
     configuration_.state.box[axis] = edge;
   }

@@ -19,20 +19,26 @@ constexpr std::string_view begin_of_atoms = "ITEM: ATOMS";
 constexpr ColumnNames dump_names{"x y z, xs ys zs, xu yu zu or xsu ysu zsu", "vx vy vz",
                                  "mux muy muz", "omegax omegay omegaz"};
 
+// Periodic, or fixed at both ends of an axis. Shrink-wrapped boundaries (s, m) are where the atoms
+// end, which no box of needles does.
 bool is_rectangular(const std::vector<std::string_view>& words, std::size_t first_boundary) {
   return words.size() == first_boundary + 3 &&
          std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first_boundary), words.end(),
-                     [](std::string_view word) { return word == "pp"; });
+                     [](std::string_view word) { return word == "pp" || word == "ff"; });
 }
 
-// Sets the edges and returns the lower bounds. A box with the tilts xy, xz and yz is rectangular if
-// they are 0.
+// Sets the edges and which axes are periodic, and returns the lower bounds. A box with the tilts
+// xy, xz and yz is rectangular if they are 0.
 std::array<double, 3> read_box(Lines& lines, State& state) {
   const std::vector<std::string_view> words = lines.fields();
   const bool tilted = words.size() > 5 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
   if (!is_rectangular(words, tilted ? 6 : 3)) {
-    lines.reject(fmt::format("{}: expected {} pp pp pp, a rectangular periodic box",
-                             lines.line().substr(0, 60), begin_of_box));
+    lines.reject(fmt::format(
+        "{}: expected {} pp pp pp, a rectangular box, with ff along axes between two walls",
+        lines.line().substr(0, 60), begin_of_box));
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    state.periodic[axis] = words[(tilted ? 6 : 3) + axis] == "pp";
   }
   std::array<double, 3> lower{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -115,7 +121,8 @@ PartOfFile find_last_dump_frame(InputText& file, const std::string& path) {
 
 class DumpWriter : public FrameWriter {
  public:
-  DumpWriter(const std::string& path, bool force, const Material& material) : file_(path, force) {
+  DumpWriter(const std::string& path, bool force, const Material& material)
+      : material_(material), file_(path, force) {
     const std::vector<Species> all = species_of(material);
     if (!material.length.empty()) names_ += " diameter";
     if (!material.mass.empty()) names_ += " mass";
@@ -133,9 +140,10 @@ class DumpWriter : public FrameWriter {
 
   void add(const Frame& frame) override {
     const State& state = frame.state;
-    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} pp pp pp\n0 {}\n0 {}\n0 {}\n",
-                begin_of_frame, frame.number, state.size(), begin_of_box, state.box[0],
-                state.box[1], state.box[2]);
+    const auto boundary = [&](std::size_t axis) { return lammps_boundary(state, material_, axis); };
+    file_.print("{}\n{}\nITEM: NUMBER OF ATOMS\n{}\n{} {} {} {}\n0 {}\n0 {}\n0 {}\n",
+                begin_of_frame, frame.number, state.size(), begin_of_box, boundary(0), boundary(1),
+                boundary(2), state.box[0], state.box[1], state.box[2]);
     file_.print(
         "{} id type x y z ix iy iz vx vy vz mux muy muz omegax omegay omegaz quatw quati quatj "
         "quatk shapex shapey shapez{}\n",
@@ -157,12 +165,20 @@ class DumpWriter : public FrameWriter {
   void publish() override { file_.publish(); }
 
  private:
+  Material material_;
   std::string names_;                 // of the columns in `endings_`, after the shape
   std::vector<std::string> endings_;  // of a line, for each species
   TextFile file_;
 };
 
 }  // namespace
+
+std::string lammps_boundary(const State& state, const Material& material, std::size_t axis) {
+  if (state.periodic[axis]) return "pp";
+  const bool low = wall_at(material, axis, false), high = wall_at(material, axis, true);
+  if (low == high) return "ff";
+  return low ? "fs" : "sf";
+}
 
 bool is_lammps_dump(std::string_view beginning) {
   Lines lines(beginning, "");

@@ -12,6 +12,20 @@
 #include "src/io/in_child_process.h"
 #include "src/io/source.h"
 
+namespace needlework {
+
+static void transfer(Archive& archive, Scene::WallMotion& motion) {
+  auto& [amplitude, frequency, phase] = motion;
+  archive(amplitude, frequency, phase);
+}
+
+static void transfer(Archive& archive, Scene::Wall& wall) {
+  auto& [axis, side, epsilon, temperature, motion] = wall;
+  archive(axis, side, epsilon, temperature, motion);
+}
+
+}  // namespace needlework
+
 namespace needlework::io {
 namespace {
 
@@ -63,8 +77,11 @@ void read_rules(const Source& source, Material& material) {
       hdf5::open_dataset(source.get(), path, source.place(path)).get(), source.place(path));
   if (texts.empty()) return;
   try {
-    const Composition composition = parse_scene(texts.front(), path).composition();
-    if (composition.size() != material.species()) return;
+    const Scene scene = parse_recorded_scene(texts.front(), path);
+    material.walls = scene.walls;
+    material.gravity = scene.forces.gravity;
+    const Composition composition = scene.composition();
+    if (composition.size() != material.species() || material.species() == 1) return;
     material.epsilon.clear();
     material.beta.clear();
     for (const Restitution& rule : composition.rules()) {
@@ -89,8 +106,8 @@ double value_at(const std::vector<double>& values, std::size_t i, double otherwi
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
-  auto& [names, length, mass, k, epsilon, beta] = material;
-  archive(names, length, mass, k, epsilon, beta);
+  auto& [names, length, mass, k, epsilon, beta, walls, gravity] = material;
+  archive(names, length, mass, k, epsilon, beta, walls, gravity);
 }
 
 static Material read_material_here(const std::string& path) {
@@ -103,7 +120,7 @@ static Material read_material_here(const std::string& path) {
   material.k = read_positive(source, "/parameters/k");
   material.epsilon = read_numbers(source, "/parameters/epsilon");
   material.beta = read_numbers(source, "/parameters/beta");
-  if (material.species() > 1) read_rules(source, material);
+  read_rules(source, material);
   composition_of(material, path);
   return material;
 }
@@ -125,6 +142,25 @@ std::vector<Species> species_of(const Material& material) {
     each.k = value_at(material.k, i, each.k);
   }
   return all;
+}
+
+std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls) {
+  Scene scene;
+  scene.walls = walls;
+  std::vector<Scene::Wall> out;
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    out.push_back(walls[side.entry]);
+    out.back().side = side.is_high ? "high" : "low";
+  }
+  return out;
+}
+
+const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high) {
+  for (const Scene::Wall& wall : material.walls) {
+    const bool there = wall.side == "both" || wall.side == (high ? "high" : "low");
+    if (there && wall.axis == std::string(1, "xyz"[axis])) return &wall;
+  }
+  return nullptr;
 }
 
 std::vector<double> lengths_of(const Material& material) {

@@ -1,11 +1,13 @@
 // What the needles of a file have in common by species, and the law of their collisions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "needlework/composition.h"
+#include "needlework/scene.h"
 #include "needlework/state.h"
 
 namespace needlework::io {
@@ -18,6 +20,9 @@ struct Material {
   std::vector<double> k = {};       ///< m L^2 / (2 I) of each species [1]
   /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
   std::vector<double> epsilon = {}, beta = {};
+  /// What ends the box along axes that are not periodic, and what acts on all needles.
+  std::vector<Scene::Wall> walls = {};
+  std::array<double, 3> gravity{};  ///< [L / time^2]
 
   std::size_t species() const;  ///< number of them, at least 1
 };
@@ -29,6 +34,11 @@ Composition composition_of(const Material& material, const std::string& path);
 /// The same without counts and rules, for writers.
 std::vector<Species> species_of(const Material& material);
 
+/// The walls one by one, in the order of Scene::wall_sides().
+std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls);
+/// The wall at this end of an axis (0, 1, 2 for x, y, z), none if there is none.
+const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high);
+
 /// The lengths of the species.
 std::vector<double> lengths_of(const Material& material);
 
@@ -38,9 +48,9 @@ inline std::size_t species_at(const State& state, std::size_t i) {
 }
 
 /// Reads the material of an H5MD file: the numbers in /parameters that a Writer writes or else, of
-/// the mass, those in the group of the needles; and of a mixture names and restitution in its
-/// scene. Throws IoError if the file cannot be read, and InputError if a number cannot be used or
-/// if the needles of a species have several masses.
+/// the mass, those in the group of the needles; and of its scene walls, gravity, and of a mixture
+/// names and restitution. Throws IoError if the file cannot be read, and InputError if a number
+/// cannot be used or if the needles of a species have several masses.
 Material read_material(const std::string& path);
 
 /// Throws InputError if length, mass, k or epsilon is absent. `path` is the file that was read.

@@ -44,6 +44,21 @@ void read_lattice(std::string_view text, const Lines& lines, State& state) {
   }
 }
 
+// One letter for each axis: T, or F where the box is not periodic.
+std::array<bool, 3> read_pbc(std::string_view text, const Lines& lines) {
+  const std::vector<std::string_view> words = words_of(text);
+  std::array<bool, 3> periodic{};
+  bool good = words.size() == 3;
+  for (std::size_t axis = 0; good && axis < 3; ++axis) {
+    const std::string_view word = words[axis];
+    periodic[axis] = word == "T" || word == "t" || word == "1" || word == "True" || word == "true";
+    good = periodic[axis] || word == "F" || word == "f" || word == "0" || word == "False" ||
+           word == "false";
+  }
+  if (!good) lines.reject(fmt::format("pbc = {}: expected T or F for each axis", text));
+  return periodic;
+}
+
 // "name:type:columns:name:type:columns..."
 Columns read_properties(std::string_view text, const Lines& lines) {
   Columns columns;
@@ -93,9 +108,7 @@ Columns read_comment(const Lines& lines, Configuration& configuration) {
     const std::string_view value = unquoted(word.substr(equals + 1));
     if (key == "Lattice") lattice = value;
     if (key == "Properties") properties = value;
-    if (key == "pbc" && value.find_first_of("Ff0") != value.npos) {
-      lines.reject(fmt::format("pbc = {}: expected T T T, a periodic box", value));
-    }
+    if (key == "pbc") configuration.state.periodic = read_pbc(value, lines);
     set_material(configuration.material, key, value, lines.row());
   }
   if (lattice.empty()) lines.reject("Lattice is missing: expected a box");
@@ -153,7 +166,9 @@ class XyzWriter : public FrameWriter {
         state.size(), state.box[0], state.box[1], state.box[2],
         endings_.size() > 1 ? ":needle_species:I:1" : "");
     if (frame.time) file_.print(" Time={}", *frame.time);
-    file_.print(" pbc=\"T T T\"{}{}\n", material_.empty() ? "" : " ", material_);
+    const auto letter = [&](std::size_t axis) { return state.periodic[axis] ? 'T' : 'F'; };
+    file_.print(" pbc=\"{} {} {}\"{}{}\n", letter(0), letter(1), letter(2),
+                material_.empty() ? "" : " ", material_);
     for (std::size_t i = 0; i < state.size(); ++i) {
       const auto& r = state.position[i];
       const auto& v = state.velocity[i];

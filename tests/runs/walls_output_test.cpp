@@ -1,0 +1,176 @@
+// What files, totals and reports say of hits on walls, beside collisions of two needles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "needlework/h5md.h"
+#include "src/io/contents.h"
+#include "src/runs/load_checkpoint.h"
+#include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
+#include "tests/support/real.h"
+#include "tests/support/runs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+// Between walls along z and over a wall along x, to which gravity points.
+Scene walled(const std::string& file = "") {
+  Scene scene = test::scene_of(80, 5);
+  scene.collisions.epsilon = 0.9;
+  scene.collisions.tc = 1e-4;
+  scene.forces.gravity = {-0.5, 0, 0.2};
+  scene.walls.resize(2);
+  scene.walls[0].axis = "z";
+  scene.walls[0].side = "both";
+  scene.walls[0].epsilon = 0.8;
+  scene.walls[1].axis = "x";
+  scene.walls[1].side = "low";
+  scene.output.file = file;
+  scene.output.events = true;
+  scene.output.series_every = 0.5;
+  scene.output.frame_times = {1};
+  scene.output.observables = {"collision_statistics"};
+  scene.until.time = 3;
+  return scene;
+}
+
+TEST(WallsOutput, EventsAndTotalsAreThoseOfTheReports) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.h5";
+  Silent monitor;
+  std::vector<Happening> seen;
+  std::size_t collisions = 0;
+  PreparedRun run(complete_scene(walled(file)), false);
+  run.on_happenings(16, [&](auto batch) { seen.insert(seen.end(), batch.begin(), batch.end()); });
+  run.on_collisions(5, [&](auto batch) { collisions += batch.size(); });
+  run.advance(run.scene().until, monitor);
+  run.close();
+
+  std::vector<std::uint64_t> hits(3);
+  std::vector<test::Wide> impulse(3);
+  for (const Happening& each : seen) {
+    if (each.is_collision()) continue;
+    ASSERT_EQ(each.kind, Happening::wall);
+    const Collision& hit = each.event;
+    ++hits.at(hit.second);
+    impulse[hit.second] += std::abs(hit.impulse[hit.second == 2 ? 0 : 2]);
+    EXPECT_EQ(std::abs(hit.arm_first), 0.5);
+    EXPECT_EQ(hit.arm_second, 0);
+    EXPECT_LT(hit.normal_velocity, 0);
+  }
+  const auto totals = run.simulation().wall_totals();
+  ASSERT_EQ(totals.size(), 3u);
+  const int axes[] = {2, 2, 0};
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(totals[n].axis, axes[n]);
+    EXPECT_EQ(totals[n].high, n == 1);
+    EXPECT_EQ(totals[n].hits, hits[n]);
+    EXPECT_GT(hits[n], 5u);
+    EXPECT_EQ(totals[n].impulse, static_cast<double>(impulse[n]));
+  }
+  const std::uint64_t of_pairs = run.simulation().collisions();
+  EXPECT_EQ(collisions, of_pairs);
+  EXPECT_EQ(seen.size(), of_pairs + hits[0] + hits[1] + hits[2]);
+
+  const io::Contents contents(file);
+  const auto kinds = contents.numbers("/events/kind");
+  const auto pairs = contents.numbers("/events/pair");
+  const auto arms = contents.numbers("/events/arms");
+  const auto speeds = contents.numbers("/events/normal_velocity");
+  ASSERT_EQ(kinds.size(), seen.size());
+  for (std::size_t n = 0; n < seen.size(); ++n) {
+    EXPECT_EQ(kinds[n], seen[n].kind);
+    EXPECT_EQ(pairs[2 * n], seen[n].event.first);
+    EXPECT_EQ(pairs[2 * n + 1], seen[n].event.second);
+    EXPECT_EQ(arms[2 * n], seen[n].event.arm_first);
+    EXPECT_EQ(speeds[n], seen[n].event.normal_velocity);
+  }
+  // The last row of the series is of the end.
+  const auto counted = contents.numbers("/series/walls/hits/value");
+  const auto summed = contents.numbers("/series/walls/impulse/value");
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(counted[counted.size() - 3 + n], hits[n]);
+    EXPECT_EQ(summed[summed.size() - 3 + n], totals[n].impulse);
+  }
+  const auto recorded = io::read_run(file).walls;
+  ASSERT_EQ(recorded.size(), 3u);
+  EXPECT_EQ(recorded[2].axis, 0);
+  EXPECT_EQ(recorded[1].hits, hits[1]);
+  EXPECT_EQ(contents.numbers("/series/collisions/value").back(), of_pairs);
+}
+
+// Observables of collisions are of pairs: a hit has no partner and no angle.
+TEST(WallsOutput, ObservablesOfCollisionsKnowNoHits) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.h5";
+  Silent monitor;
+  PreparedRun run(complete_scene(walled(file)), false);
+  run.advance(run.scene().until, monitor);
+  run.close();
+  const io::Contents contents(file);
+  double sum = 0;  // each row counts since the one before
+  for (const double n : contents.numbers("/series/collision_statistics/collisions/value")) sum += n;
+  EXPECT_EQ(sum, static_cast<double>(run.simulation().collisions()));
+}
+
+TEST(WallsOutput, GoesOnFromACheckpoint) {
+  const test::TemporaryFolder folder;
+  const std::string whole = folder.path() / "whole.h5", parts = folder.path() / "parts.h5";
+  Silent monitor;
+  PreparedRun undisturbed(complete_scene(walled(whole)), false);
+  undisturbed.advance(undisturbed.scene().until, monitor);
+  undisturbed.close();
+  {
+    PreparedRun first(complete_scene(walled(parts)), false);
+    Scene::Until until;
+    until.time = 1.7;
+    first.advance(until, monitor);
+    first.close();
+  }
+  PreparedRun second(load_checkpoint(parts).checkpoint);
+  second.advance(second.scene().until, monitor);
+  second.close();
+  EXPECT_EQ(second.simulation().trajectory_hash(), undisturbed.simulation().trajectory_hash());
+  const auto a = second.simulation().wall_totals(), b = undisturbed.simulation().wall_totals();
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_EQ(a[n].hits, b[n].hits);
+    EXPECT_EQ(a[n].impulse, b[n].impulse);
+  }
+  const io::Contents one(whole), two(parts);
+  for (const char* name : {"/events/kind", "/events/time", "/events/pair",
+                           "/series/walls/hits/value", "/series/walls/impulse/value"}) {
+    EXPECT_EQ(one.numbers(name), two.numbers(name)) << name;
+  }
+}
+
+TEST(WallsOutput, BoxesAreNotPeriodicAlongWalledAxes) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.h5";
+  Silent monitor;
+  PreparedRun run(complete_scene(walled(file)), false);
+  run.advance(run.scene().until, monitor);
+  run.close();
+  const io::FrameFile frames(file);
+  const State state = frames.read(frames.count() - 1);
+  EXPECT_EQ(state.periodic, (std::array{false, true, false}));
+  EXPECT_EQ(run.simulation().copy().periodic, state.periodic);
+  for (const auto& image : state.image) {
+    EXPECT_EQ(image[0], 0);
+    EXPECT_EQ(image[2], 0);
+  }
+  // It can be started from in a scene with these walls, and not without.
+  Scene again = walled();
+  again.initial.file = file;
+  again.needles.count = 0;
+  EXPECT_EQ(complete_scene(again).initial->size(), 80u);
+  again.walls.pop_back();
+  again.forces.gravity = {};
+  EXPECT_ANY_THROW(complete_scene(again));
+}
+
+}  // namespace
+}  // namespace needlework::runs
