@@ -62,9 +62,15 @@ std::vector<Body> bodies_of(const Composition& composition, double unit) {
   return out;
 }
 
-Space space_of(const State& state, const Composition& composition, double unit) {
-  Space out{.box = state.box, .longest = composition.longest() / unit};
+Space space_of(const State& state, const Setup& setup, double unit) {
+  Space out;
+  out.box = state.box;
+  out.longest = setup.composition.longest() / unit;
   for (double& edge : out.box) edge /= unit;
+  for (const Scene::Wall& wall : setup.walls) {
+    out.periodic[wall.axis == "x" ? 0 : wall.axis == "y" ? 1 : 2] = false;
+  }
+  out.gravity = vector(setup.gravity) * (setup.epoch_length * setup.epoch_length / unit);
   return out;
 }
 
@@ -97,7 +103,8 @@ const char* name(Kind kind) {
 double Findings::bound95(Kind kind) const {
   if (!is_of_collisions(kind)) return std::numeric_limits<double>::quiet_NaN();
   const bool of_all = kind == Kind::wrong_order || kind == Kind::wrong_rule;
-  const std::uint64_t n = of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0);
+  const std::uint64_t n =
+      hits + (of_all ? collisions : contacts + (kind == Kind::missed ? count(kind) : 0));
   if (n == 0) return std::numeric_limits<double>::quiet_NaN();
   return boost::math::gamma_q_inv(static_cast<double>(count(kind)) + 1, 0.05) /
          static_cast<double>(n);
@@ -107,18 +114,20 @@ Audit::Audit(const State& initial, const Setup& setup)
     : setup_(setup),
       unit_(unit_of(setup.composition)),
       bodies_(bodies_of(setup.composition, unit_)),
-      space_(space_of(initial, setup.composition, unit_)),
+      space_(space_of(initial, setup, unit_)),
       ids_(initial.id),
       needles_(needles_of(initial, bodies_, setup.epoch_length, unit_)),
+      walls_(walls_of(setup.walls, space_.box, setup.epoch_length, unit_)),
       windows_(needles_, bodies_, space_.box[0] * space_.box[1] * space_.box[2]),
-      initial_energy_(energy_of(needles_)) {
+      initial_energy_(energy()) {
   if (setup_.tc) *setup_.tc /= setup.epoch_length;
   has_collided_.assign(initial.size(), false);
+  met_.assign(initial.size(), {});
 }
 
 // An audit that was interrupted before the first collision starts from the beginning.
 void Audit::resume(Checkpoint checkpoint) {
-  if (checkpoint.findings.collisions > 0) resumed_ = std::move(checkpoint);
+  if (checkpoint.findings.events() > 0) resumed_ = std::move(checkpoint);
 }
 
 Checkpoint Audit::checkpoint() const {
@@ -150,10 +159,11 @@ Instant Audit::begin_of(Index i, Index j) const {
 Approach Audit::approach_of(Index i, Index j) const {
   const Record &a = needles_[i].record, &b = needles_[j].record;
   const Instant begin = std::max(a.time, b.time);
+  const auto age = [&](const Record& record) { return elapsed<double>(record.time, begin).middle; };
   const auto centre = [&](const Record& record) {
-    return record.r + record.v * elapsed<double>(record.time, begin).middle;
+    return record.r + (record.v + space_.gravity * (0.5 * age(record))) * age(record);
   };
-  return {centre(a) - centre(b), a.v - b.v};
+  return {centre(a) - centre(b), a.v - b.v + space_.gravity * (age(a) - age(b))};
 }
 
 void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) {
@@ -163,35 +173,47 @@ void Audit::report(Kind kind, Index i, Index j, const Instant& begin, double s) 
   findings_.listed.push_back({kind, time, ids_[std::min(i, j)], ids_[std::max(i, j)]});
 }
 
-void Audit::add(const Collision& reported) {
-  const Collision collision = in_units(reported, setup_.epoch_length, unit_);
+void Audit::report_at_wall(Kind kind, Index i, std::size_t wall, const Instant& begin, double s) {
+  ++findings_.differences[static_cast<std::size_t>(kind)];
+  if (findings_.listed.size() >= most_listed) return;
+  const double time = (since_start(begin) + s) * setup_.epoch_length;
+  findings_.listed.push_back({kind, time, ids_[i], static_cast<std::uint32_t>(wall), true});
+}
+
+void Audit::add(const Happening& reported) {
+  Happening happening = reported;
+  Collision& collision = happening.event;
+  collision = in_units(collision, setup_.epoch_length, unit_);
   const Instant now{collision.epoch, collision.offset};
-  const Index a = index_of(collision.first), b = index_of(collision.second);
   for (const std::uint64_t word :
        {std::uint64_t(collision.epoch), std::bit_cast<std::uint64_t>(collision.offset),
         std::uint64_t{collision.first} << 32 | collision.second}) {
     fingerprint_ = mixed(fingerprint_ ^ word);
   }
-  ++findings_.collisions;
+  switch (happening.kind) {
+    case Happening::pair:
+      ++findings_.collisions;
+      break;
+    case Happening::wall:
+      ++findings_.hits;
+      if (collision.second < walls_.size()) break;
+      throw InputError("hit on wall " + std::to_string(collision.second) +
+                       ": expected one of the scene");
+    case Happening::thermostat:
+      ++findings_.draws;
+      break;
+    default:
+      throw InputError(std::string("event of the kind ") + name_of(happening.kind) +
+                       ": expected collisions, hits on walls and draws of a thermostat");
+  }
   if (setup_.tc_relative) windows_.advance(now, needles_);
   last_energy_change_ = collision.energy_change;
   if (!resumed_) {
-    check_order(now, collision);
-    const bool backwards = now < needles_[a].record.time || now < needles_[b].record.time;
-    if (!backwards) {
-      check_rule(a, b, now, collision);
-      for (Index other = 0; other < needles_.size(); ++other) {
-        if (other == a || other == b) continue;
-        for (const Index mine : {a, b}) {
-          check_flight(mine, other, now);
-          go_on_from_contact(mine, other, now);
-        }
-      }
-      if (is_chosen(a, b)) check_contact(a, b, now);
-    }
+    check_order(now, happening);
+    happening.is_collision() ? check_pair(now, collision) : check_single(now, happening);
   }
-  follow(a, b, now, collision);
-  if (resumed_ && findings_.collisions == resumed_->findings.collisions) {
+  follow(now, happening);
+  if (resumed_ && findings_.events() == resumed_->findings.events()) {
     if (fingerprint_ != resumed_->fingerprint) {
       throw InputError(
           "the collisions are not those of the interrupted audit: expected the same "
@@ -203,18 +225,94 @@ void Audit::add(const Collision& reported) {
   }
 }
 
-void Audit::follow(Index a, Index b, const Instant& now, const Collision& collision) {
-  for (const int i : {0, 1}) {
-    const Index index = i == 0 ? a : b;
-    const StateAfterCollision& after = collision.after[i];
+// The flights of a needle that end now, with all others but one.
+void Audit::check_partners(Index mine, Index besides, const Instant& now) {
+  for (Index other = 0; other < needles_.size(); ++other) {
+    if (other == mine || other == besides) continue;
+    check_flight(mine, other, now);
+    go_on_from_contact(mine, other, now);
+  }
+}
+
+void Audit::check_pair(const Instant& now, const Collision& collision) {
+  const Index a = index_of(collision.first), b = index_of(collision.second);
+  if (now < needles_[a].record.time || now < needles_[b].record.time) return;
+  check_rule(a, b, now, collision);
+  check_partners(a, b, now);
+  check_partners(b, a, now);
+  for (const Index i : {a, b}) check_walls(i, now, nullptr);
+  if (is_chosen(a, b)) check_contact(a, b, now);
+}
+
+void Audit::check_single(const Instant& now, const Happening& happening) {
+  const Collision& event = happening.event;
+  const Index i = index_of(event.first);
+  if (now < needles_[i].record.time) return;
+  if (happening.kind == Happening::wall) {
+    check_hit(i, now, event);
+  } else if (excess_over_flight(needles_[i], space_.gravity, now, event.after[0], space_) > 1) {
+    report(Kind::wrong_rule, i, i, now);
+  }
+  check_partners(i, i, now);
+  check_walls(i, now, happening.kind == Happening::wall ? &event : nullptr);
+}
+
+// Rule and place of a hit: its tip is at the wall, and comes nearer.
+void Audit::check_hit(Index i, const Instant& now, const Collision& hit) {
+  const Needle& needle = needles_[i];
+  const Wall& wall = walls_[hit.second];
+  const bool by_contact_time = hit.contact_time_rule;
+  const double time = since_start(now) * setup_.epoch_length;
+  if (excess_over_wall_rule(needle, space_.gravity, wall, now, hit, space_) > 1 ||
+      by_contact_time != (!wall.draws && contact_time_is_due(i, i, now, by_contact_time)) ||
+      std::abs(hit.time - time) > 0x1p-50 * time) {
+    report_at_wall(Kind::wrong_rule, i, hit.second, now, 0);
+  }
+  const double duration = elapsed<double>(needle.record.time, now).middle;
+  const TipFlight tip(needle, space_.gravity, wall, hit.arm_first > 0 ? 1 : -1);
+  const double height = tip.height(duration), rate = tip.rate(duration);
+  const double off =
+      tip_tolerance() + std::abs(rate) * (relative_tolerance * duration + 2 * resolution);
+  if (height <= off) return;  // one that is too low is found as one that crossed the wall
+  const bool soon = rate < 0 && height < -rate * early_reach;
+  report_at_wall(soon ? Kind::early : Kind::spurious, i, hit.second, now, 0);
+}
+
+// Neither tip has been in a wall since the record. The hit that ends the flight, if there is one,
+// is late if its own tip has.
+void Audit::check_walls(Index i, const Instant& now, const Collision* hit) {
+  if (walls_.empty()) return;
+  const Needle& needle = needles_[i];
+  const double duration = elapsed<double>(needle.record.time, now).middle;
+  if (!(duration > 0)) return;
+  ++findings_.at_walls;
+  for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
+    for (const int tip : {1, -1}) {
+      const TipFlight flight(needle, space_.gravity, walls_[wall], tip);
+      const auto crossing = flight.crossing(0, duration, tip_tolerance());
+      if (!crossing) continue;
+      const bool is_of_hit = hit && hit->second == wall && (hit->arm_first > 0) == (tip > 0);
+      report_at_wall(is_of_hit ? Kind::late : Kind::missed, i, wall, needle.record.time, *crossing);
+    }
+  }
+}
+
+void Audit::follow(const Instant& now, const Happening& happening) {
+  const Collision& event = happening.event;
+  const int needles = happening.has_two_needles() ? 2 : 1;
+  for (int i = 0; i < needles; ++i) {
+    const Index index = index_of(i == 0 ? event.first : event.second);
+    const StateAfterCollision& after = event.after[static_cast<std::size_t>(i)];
     needles_[index] = Needle(Record{now, vector(after.position), vector(after.velocity),
                                     vector(after.orientation), vector(after.angular_velocity)},
                              needles_[index].body);
+    if (happening.kind == Happening::thermostat) continue;  // which does not count for t_c
     has_collided_[index] = true;
+    met_[index] = now;
   }
   last_ = {now,
-           {collision.first, collision.second, collision.shift[0], collision.shift[1],
-            collision.shift[2]}};
+           {happening.source, event.first, happening.has_two_needles() ? event.second : event.first,
+            event.shift[0], event.shift[1], event.shift[2]}};
 }
 
 bool Audit::finish(double time, const std::function<bool()>& stop) {
@@ -229,6 +327,7 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   bool stopped = false;
   slack_ = 0x1p-51 * epochs;
   for (Index i = 0; i < needles_.size() && !stopped; ++i) {
+    check_walls(i, end, nullptr);
     for (Index j = i + 1; j < needles_.size() && !stopped; ++j) {
       stopped = stop && stop();
       if (!stopped) check_flight(i, j, end);
@@ -242,11 +341,14 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
   return !stopped;
 }
 
-void Audit::check_order(const Instant& now, const Collision& collision) {
-  const std::pair<Instant, std::array<std::int64_t, 5>> key = {
+void Audit::check_order(const Instant& now, const Happening& happening) {
+  const Collision& collision = happening.event;
+  const bool two = happening.has_two_needles();
+  // Of one needle, the wall that it hits has no place in the order.
+  const std::pair<Instant, std::array<std::int64_t, 6>> key = {
       now,
-      {collision.first, collision.second, collision.shift[0], collision.shift[1],
-       collision.shift[2]}};
+      {happening.source, collision.first, two ? collision.second : collision.first,
+       collision.shift[0], collision.shift[1], collision.shift[2]}};
   // A collision may cause another one at the same instant, with lower ids.
   const auto just_had = [&](std::uint32_t id) {
     const Index i = index_of(id);
@@ -254,9 +356,10 @@ void Audit::check_order(const Instant& now, const Collision& collision) {
   };
   const bool follows =
       !last_ || *last_ < key ||
-      (last_->first == now && (just_had(collision.first) || just_had(collision.second)));
-  if (!(collision.first < collision.second && follows)) {
-    report(Kind::wrong_order, index_of(collision.first), index_of(collision.second), now);
+      (last_->first == now && (just_had(collision.first) || (two && just_had(collision.second))));
+  if (two ? !(collision.first < collision.second && follows) : !follows) {
+    const Index i = index_of(collision.first);
+    report(Kind::wrong_order, i, two ? index_of(collision.second) : i, now);
   }
 }
 
@@ -275,13 +378,15 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
 
 bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {
   if (!setup_.tc && !setup_.tc_relative) return false;
-  if (!setup_.tc && !windows_.are_certain()) return reported;
+  // Windows of gases with walls or gravity are not followed.
+  const bool followed = walls_.empty() && norm(space_.gravity) == 0;
+  if (!setup_.tc && !(followed && windows_.are_certain())) return reported;
   const double tc = setup_.tc ? *setup_.tc : *setup_.tc_relative * windows_.mean_free_time();
   const double tolerance = setup_.tc ? 0x1p-50 : Windows::tolerance;
   bool undecided = false;
   for (const Index i : {a, b}) {
     if (!has_collided_[i]) continue;
-    const double age = elapsed<double>(needles_[i].record.time, now).middle;
+    const double age = elapsed<double>(met_[i], now).middle;
     const bool near = std::abs(age - tc) <= tolerance * tc;
     undecided |= near;
     if (!near && age < tc) return true;
@@ -322,7 +427,7 @@ void Audit::check_flight(Index i, Index j, const Instant& now) {
   std::optional<Continuation> continuation;
   if (!continuations_.empty()) continuation = take_continuation(i, j);
   const double reach = reach_of(needles_[i].body, needles_[j].body);
-  for_each_encounter(approach, reach, duration, space_.box, [&](const Encounter& encounter) {
+  for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     check_apart({i, j, approach, encounter, duration,
                  start_of(separation(approach, 0, encounter.shift, space_.box), continuation)});
   });
@@ -347,12 +452,12 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   const Vector<double> r = separation(approach, duration, {}, space_.box);
   Shift nearest;
   for (int axis = 0; axis < 3; ++axis) {
-    nearest[axis] = static_cast<std::int32_t>(std::round(r[axis] / space_.box[axis]));
+    nearest[axis] = static_cast<std::int32_t>(space_.boxes_along<double>(axis, r[axis]));
   }
   const std::optional<Continuation> continuation = take_continuation(a, b);
   const double reach = reach_of(needles_[a].body, needles_[b].body);
   bool met = false;
-  for_each_encounter(approach, reach, duration, space_.box, [&](const Encounter& encounter) {
+  for_each_encounter(approach, reach, duration, space_, [&](const Encounter& encounter) {
     const Flown flown{
         a,        b,
         approach, encounter,

@@ -20,6 +20,7 @@
 #include "src/audit/encounters.h"
 #include "src/audit/pair_flight.h"
 #include "src/audit/rule.h"
+#include "src/audit/walls.h"
 #include "src/audit/windows.h"
 
 namespace needlework::audit {
@@ -41,11 +42,15 @@ struct Difference {
   Kind kind;
   double time = 0;  ///< of the collision, or of the contact that was missed [time]
   std::uint32_t first = 0, second = 0;  ///< ids of the needles, if it is of collisions
+  bool at_wall = false;                 ///< whether `second` is the index of a wall
 };
 
 /// The results of an audit so far.
 struct Findings {
   std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
+  std::uint64_t hits = 0;        ///< hits on walls received; the same
+  std::uint64_t draws = 0;       ///< events of a thermostat received; their rule is not checked
+  std::uint64_t at_walls = 0;    ///< flights of a needle that are checked against all walls
   std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
   std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
                                  ///< next
@@ -54,10 +59,12 @@ struct Findings {
   std::array<std::uint64_t, kinds.size()> differences{};
   std::vector<Difference> listed;  ///< the first differences
 
+  std::uint64_t events() const { return collisions + hits + draws; }
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
-  /// Upper limit, with 95 % confidence, on the fraction of collisions that differ in this way: a
-  /// Poisson limit, 3 / n if none of n does. NaN without collisions, and if it is not of them.
+  /// Upper limit, with 95 % confidence, on the fraction of collisions and hits that differ in this
+  /// way: a Poisson limit, 3 / n if none of n does. NaN without collisions, and if it is not of
+  /// them.
   double bound95(Kind kind) const;
 };
 
@@ -79,8 +86,10 @@ struct Setup {
   Composition composition;            ///< with the counts of the state
   std::optional<double> tc;           ///< absolute contact time
   std::optional<double> tc_relative;  ///< the same in present mean free times
-  double share = 1;                   ///< fraction of all pairs that are checked
-  std::uint64_t seed = 0;             ///< selects these pairs
+  std::vector<Scene::Wall> walls = {};
+  std::array<double, 3> gravity{};  ///< [L / time^2]
+  double share = 1;                 ///< fraction of all pairs that are checked
+  std::uint64_t seed = 0;           ///< selects these pairs
 };
 
 class Audit {
@@ -100,7 +109,10 @@ class Audit {
 
   /// Adds the next collision. Throws InputError if an audit is continued with collisions of
   /// another run.
-  void add(const Collision& collision);
+  void add(const Collision& collision) { add(Happening{Happening::pair, 0, collision}); }
+  /// The same for all that happens. Of a thermostat it is checked that the needle goes on from
+  /// where it was, not which velocities it gets. Throws InputError for events of other kinds.
+  void add(const Happening& happening);
   /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
@@ -128,7 +140,12 @@ class Audit {
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records
   Approach approach_of(Index i, Index j) const;
-  void check_order(const Instant& now, const Collision& collision);
+  void check_order(const Instant& now, const Happening& happening);
+  void check_pair(const Instant& now, const Collision& collision);
+  void check_single(const Instant& now, const Happening& happening);
+  void check_hit(Index i, const Instant& now, const Collision& hit);
+  void check_walls(Index i, const Instant& now, const Collision* hit);
+  void check_partners(Index mine, Index besides, const Instant& now);
   void check_rule(Index a, Index b, const Instant& now, const Collision& collision);
   bool contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const;
   void check_flight(Index i, Index j, const Instant& now);
@@ -140,12 +157,17 @@ class Audit {
   void keep_continuation(const Flown& flown, const Start& start);
   void settle(const PairFlight& pair, bool undecided);
   double tolerance(PairFlight& pair, double s) const;
+  /// How far rounding may move a tip into a wall. [L]
+  double tip_tolerance() const { return space_.continued(); }
   void report(Kind kind, Index i, Index j, const Instant& begin, double s = 0);
   void report(Kind kind);
   bool is_proper(const Needle& needle) const;
   bool is_as_given(const Needle& needle, const State& given, std::size_t i) const;
   bool is_at_rest() const;
-  void follow(Index a, Index b, const Instant& now, const Collision& collision);
+  bool is_inside(const Needle& needle) const;
+  void report_at_wall(Kind kind, Index i, std::size_t wall, const Instant& begin, double s);
+  void follow(const Instant& now, const Happening& happening);
+  double energy() const;
 
   Setup setup_;
   double unit_;               ///< of lengths: a power of two that no needle is longer than
@@ -153,12 +175,14 @@ class Audit {
   Space space_;
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
-  std::vector<bool> has_collided_;
+  std::vector<Wall> walls_;
+  std::vector<bool> has_collided_;  ///< or hit a wall
+  std::vector<Instant> met_;        ///< when a needle last did
   Windows windows_;
   double initial_energy_;          ///< of all needles, in the units of the audit
   double last_energy_change_ = 0;  ///< in the last collision
   std::unordered_map<std::uint64_t, Continuation> continuations_;
-  std::optional<std::pair<Instant, std::array<std::int64_t, 5>>> last_;
+  std::optional<std::pair<Instant, std::array<std::int64_t, 6>>> last_;
   Findings findings_;
   std::uint64_t fingerprint_ = 0;
   std::optional<Checkpoint> resumed_;

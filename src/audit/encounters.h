@@ -36,8 +36,9 @@ inline double reach_of(const Body& first, const Body& second) {
 
 /// Calls `found` for each encounter in [0, duration].
 template <class Found>
-void for_each_encounter(const Approach& approach, double reach, double duration,
-                        const std::array<double, 3>& box, Found&& found) {
+void for_each_encounter(const Approach& approach, double reach, double duration, const Space& space,
+                        Found&& found) {
+  const std::array<double, 3>& box = space.box;
   const double flown = norm(approach.v) * duration;
   const double pieces = std::max(1.0, std::ceil(flown));
   std::vector<Shift> seen;  // images found in more than one piece of the flight
@@ -51,7 +52,11 @@ void for_each_encounter(const Approach& approach, double reach, double duration,
       const double r = approach.r[axis] + approach.v[axis] * middle;
       first[axis] = static_cast<int>(std::ceil((r - near) / box[axis]));
       last[axis] = static_cast<int>(std::floor((r + near) / box[axis]));
-      none = first[axis] > last[axis];
+      if (!space.periodic[static_cast<std::size_t>(axis)]) {
+        none = std::abs(r) > near;
+        first[axis] = last[axis] = 0;
+      }
+      none = none || first[axis] > last[axis];
     }
     if (none) continue;
     for (int x = first[0]; x <= last[0]; ++x) {

@@ -26,11 +26,30 @@ bool near(const Vector<double>& a, const Vector<double>& b, double size) {
 // velocities normal to them.
 bool Audit::is_proper(const Needle& needle) const {
   const Record& record = needle.record;
+  if (!is_inside(needle)) return false;
   for (int axis = 0; axis < 3; ++axis) {
+    if (!space_.periodic[static_cast<std::size_t>(axis)]) continue;
     if (!(record.r[axis] >= 0 && record.r[axis] < space_.box[axis])) return false;
   }
   return near(dot(record.u, record.u), 1, rounding) &&
          std::abs(dot(record.u, record.w)) <= rounding * norm(record.w);
+}
+
+// Neither tip is in a wall.
+bool Audit::is_inside(const Needle& needle) const {
+  return std::ranges::all_of(walls_, [&](const Wall& wall) {
+    return TipFlight(needle, space_.gravity, wall, 1).height(0) >= -tip_tolerance() &&
+           TipFlight(needle, space_.gravity, wall, -1).height(0) >= -tip_tolerance();
+  });
+}
+
+// With the potential energy, which a flight keeps.
+double Audit::energy() const {
+  long double sum = energy_of(needles_);
+  for (const Needle& needle : needles_) {
+    sum -= needle.body.mass * dot(space_.gravity, needle.record.r);
+  }
+  return static_cast<double>(sum);
 }
 
 bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i) const {
@@ -45,7 +64,9 @@ bool Audit::is_as_given(const Needle& needle, const State& given, std::size_t i)
     const double position = given.position[i][axis] / unit_;
     const double boxes = (position - record.r[axis]) / space_.box[axis];
     const double size = std::abs(position) / space_.box[axis] + 1;
-    if (!(std::abs(boxes - std::round(boxes)) <= rounding * size)) return false;
+    const bool periodic = space_.periodic[static_cast<std::size_t>(axis)];
+    const double whole = periodic ? std::round(boxes) : 0;
+    if (!(std::abs(boxes - whole) <= rounding * size)) return false;
   }
   const bool of_species =
       given.species.empty() || bodies_.size() == 1 || given.species[i] == needle.body.species;
@@ -98,11 +119,13 @@ void Audit::check_start(const Scene& scene, const State* given) {
             (needles_.size() < 2 || norm(momentum) <= sums * most);
   }
   const double free = windows_.mean_free_time();
-  if (std::isfinite(free)) right &= free > 1 - Windows::tolerance && free < 2 + Windows::tolerance;
+  const bool followed = walls_.empty() && norm(space_.gravity) == 0;
+  if (followed && std::isfinite(free))
+    right &= free > 1 - Windows::tolerance && free < 2 + Windows::tolerance;
   if (!right) report(Kind::wrong_start);
 }
 
-// The energy changes by collisions only.
+// The energy, with that in gravity, changes by events only.
 void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   const double count = static_cast<double>(needles_.size());
   const double collisions = static_cast<double>(findings_.collisions);
@@ -110,7 +133,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   const double latest = until.time.value_or(infinity);
   const double most = until.collisions_per_needle.value_or(infinity) * count / 2;
   const double least_energy = until.energy_ratio.value_or(-1) * initial_energy_;
-  const double energy = energy_of(needles_);
+  const double energy = this->energy();
   const double before = energy - last_energy_change_;
   const double last = last_ ? since_start(last_->first) * setup_.epoch_length : 0;
   const double slack = sums * initial_energy_ * std::min(1.0, until.energy_ratio.value_or(0));
@@ -118,7 +141,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   // No condition was met before the last collision, or in the flight after it.
   bool right = last <= latest * (1 + rounding) && time <= latest * (1 + rounding) &&
                last <= time * (1 + rounding);
-  if (findings_.collisions > 0) right &= collisions - 1 < most && before > least_energy - slack;
+  if (findings_.events() > 0) right &= collisions - 1 < most && before > least_energy - slack;
   switch (reason) {
     case Stop::time:
       right &= until.time && near(time, latest, rounding);
@@ -144,6 +167,7 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
 
 // Whether no two needles can ever meet: none turns, and all move alike.
 bool Audit::is_at_rest() const {
+  if (!walls_.empty() || norm(space_.gravity) != 0) return needles_.empty();
   if (needles_.size() < 2) return true;
   const Vector<double>& v = needles_.front().record.v;
   return std::ranges::all_of(needles_, [&](const Needle& needle) {

@@ -21,6 +21,20 @@ Vector<Number> separation(const Flight<Number>& first, const Flight<Number>& sec
   return r + (first.v * t1 - second.v * t2);
 }
 
+// A needle that has fallen for the time `delay` since its record, as one that flies freely: centre
+// and velocity then are those of the parabola. What gravity does from then on, it does to all.
+template <class Real>
+Flight<Ball<Real>> without_gravity(Flight<Ball<Real>> flight, const Vector<double>& gravity,
+                                   const Ball<Real>& delay) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (gravity[axis] == 0) continue;
+    const Ball<Real> gained = Ball<Real>(gravity[axis]) * delay;
+    flight.v[axis] = flight.v[axis] + gained;
+    flight.r[axis] = flight.r[axis] - gained * delay * Ball<Real>(0.5);
+  }
+  return flight;
+}
+
 template <class Real>
 Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& second,
                 const std::array<Ball<Real>, 2>& delay, const Vector<double>& shift,
@@ -62,15 +76,23 @@ PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& s
                        const Space& space, const Start& start)
     : first_(first),
       second_(second),
+      flights_{first.flight, second.flight},
       shift_{{double(shift[0]), double(shift[1]), double(shift[2])}},
       space_(space),
       start_(start),
       half_lengths_{first.body.length / 2, second.body.length / 2} {
   const Instant begin = std::max(first.record.time, second.record.time);
   delay_ = {elapsed<double>(first.record.time, begin), elapsed<double>(second.record.time, begin)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    flights_[i] = without_gravity(flights_[i], space.gravity, delay_[i]);
+  }
   omega_ = {upper(first.flight.omega), upper(second.flight.omega)};
-  velocity_ = {norm(first.record.v) * upward, norm(second.record.v) * upward};
-  speed_ = upper(norm(first.flight.v - second.flight.v));
+  // With what gravity adds to them, or takes away, since the record.
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Record& record = i == 0 ? first.record : second.record;
+    velocity_[i] = (norm(record.v) + 2 * norm(space.gravity) * upper(delay_[i])) * upward;
+  }
+  speed_ = upper(norm(flights_[0].v - flights_[1].v));
   spin_ = omega_[0] + omega_[1];
   distance_ = sample(0).distance;
   if (start.kind == Start::collided) {
@@ -87,17 +109,19 @@ PairFlight::PairFlight(const Needle& first, const Needle& second, const Shift& s
 }
 
 Sample PairFlight::sample(double s) const {
-  return evaluate(first_.flight, second_.flight, delay_, shift_, space_.box, half_lengths_, offset_,
+  return evaluate(flights_[0], flights_[1], delay_, shift_, space_.box, half_lengths_, offset_,
                   slope_, s);
 }
 
 const PairFlight::Precise& PairFlight::in_quad() {
   if (!precise_) {
     const Instant begin = std::max(first_.record.time, second_.record.time);
-    precise_.emplace(Precise{
-        Flight<Ball<Quad>>(first_.record),
-        Flight<Ball<Quad>>(second_.record),
-        {elapsed<Quad>(first_.record.time, begin), elapsed<Quad>(second_.record.time, begin)}});
+    const std::array delay = {elapsed<Quad>(first_.record.time, begin),
+                              elapsed<Quad>(second_.record.time, begin)};
+    const auto flight = [&](const Needle& needle, std::size_t i) {
+      return without_gravity(Flight<Ball<Quad>>(needle.record), space_.gravity, delay[i]);
+    };
+    precise_.emplace(Precise{flight(first_, 0), flight(second_, 1), delay});
   }
   return *precise_;
 }
@@ -151,7 +175,7 @@ PairFlight::Uncertainty PairFlight::uncertainty(double s) const {
   // Lengths whose rounding matters: the separation at s = 0, including the flight of the older
   // record until then, and the flight since.
   Uncertainty out{0, {}, distance_ + speed_ * std::abs(s)};
-  bool renewed = false;
+  bool renewed = norm(space_.gravity) > 0;  // sooner than others
   for (int i = 0; i < 2; ++i) {
     const double delay = upper(delay_[i]), age = delay + std::abs(s);
     out.lengths += velocity_[i] * delay;

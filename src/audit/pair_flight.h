@@ -47,7 +47,16 @@ struct Start {
 struct Space {
   std::array<double, 3> box{};
   double longest = 1;  ///< length of the longest needle
+  std::array<bool, 3> periodic{true, true, true};
+  Vector<double> gravity{};  ///< acceleration of all needles [L / time^2]
 
+  /// The number of boxes nearest to a distance along an axis; 0 where there are no images.
+  template <class Real>
+  Real boxes_along(int axis, const Real& distance) const {
+    using std::floor;
+    if (!periodic[static_cast<std::size_t>(axis)]) return Real(0);
+    return floor(distance / Real(box[static_cast<std::size_t>(axis)]) + Real(0.5));
+  }
   /// Largest change of a contact function by rounding a new record. [L]
   double rounding() const { return 0x1p-51 * (1 + box[0] + box[1] + box[2]); }
   /// If |f| is below this and contact points are on the needles or within `beside` of them, f is
@@ -131,6 +140,8 @@ class PairFlight {
 
   const Needle& first_;
   const Needle& second_;
+  /// Of both, as if they flew freely: gravity moves both alike from s = 0 on.
+  std::array<Flight<Ball<double>>, 2> flights_;
   Vector<double> shift_;
   Space space_;
   Start start_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/audit/excess.h"
+
 namespace needlework::audit {
 namespace {
 
@@ -10,10 +12,6 @@ using Number = Ball<Quad>;
 using Vector3 = Vector<Quad>;
 
 Vector3 middle(const Vector<Number>& a) { return {{a[0].middle, a[1].middle, a[2].middle}}; }
-Quad nearest(const Quad& a) {
-  using std::floor;
-  return floor(a + Quad(0.5));
-}
 
 /// The solution of M x = b for a well-conditioned M, given by its columns.
 Vector3 solve(const std::array<Vector3, 3>& m, const Vector3& b) {
@@ -38,9 +36,10 @@ double difference(const Vector3& a, const std::array<double, 3>& b) {
 struct Partner {
   Vector3 r, u, v, w;
   double flown;                           ///< distance since its record
+  double fastest;                         ///< bound on its speed since then
   double age_in_lengths, age_in_radians;  ///< the same in lengths, and angle turned
 
-  Partner(const Needle& needle, const Instant& now) {
+  Partner(const Needle& needle, const Instant& now, const Vector<double>& gravity) {
     const Flight<Number> flight(needle.record);
     const Number age = elapsed<Quad>(needle.record.time, now);
     const Pose<Number> pose = flight.at(age);
@@ -48,36 +47,33 @@ struct Partner {
     u = middle(pose.u);
     v = middle(flight.v);
     w = middle(cross(pose.u, pose.du));
-    flown = magnitude(Quad(norm(v) * age.middle));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Quad gained = Quad(gravity[axis]) * age.middle;
+      v[axis] += gained;
+      r[axis] += gained * age.middle / 2;
+    }
+    fastest = magnitude(norm(middle(flight.v))) + norm(gravity) * magnitude(age.middle);
+    flown = magnitude(Quad(norm(v) * age.middle)) +
+            norm(gravity) * magnitude(Quad(age.middle * age.middle));
     age_in_lengths = flown / needle.body.length;
     age_in_radians = magnitude(Quad(flight.omega.middle * age.middle));
   }
   bool may_be_renewed() const { return std::max(age_in_lengths, age_in_radians) > longest_record; }
 };
 
-class Excess {
- public:
-  void add(double deviation, double explained) {
-    const double excess = deviation == 0 ? 0 : deviation / explained;
-    most_ = excess <= most_ ? most_ : std::isnan(excess) ? HUGE_VAL : excess;
-  }
-  double most() const { return most_; }
-
- private:
-  double most_ = 0;
-};
-
 }  // namespace
 
 double excess_over_rule(const Needle& first, const Needle& second, const Instant& now,
                         const Collision& collision, const Rule& rule, const Space& space) {
-  const std::array<Partner, 2> needles = {Partner(first, now), Partner(second, now)};
+  const std::array<Partner, 2> needles = {Partner(first, now, space.gravity),
+                                          Partner(second, now, space.gravity)};
   const auto& [a, b] = needles;
-  const bool renewed = a.may_be_renewed() || b.may_be_renewed();
+  // Records of needles that fall are renewed sooner.
+  const bool renewed = a.may_be_renewed() || b.may_be_renewed() || norm(space.gravity) > 0;
   bool right_image = true;
   Vector3 r = a.r - b.r;
   for (int axis = 0; axis < 3; ++axis) {
-    const Quad boxes = nearest(Quad(r[axis] / Quad(space.box[axis])));
+    const Quad boxes = space.boxes_along<Quad>(axis, r[axis]);
     r[axis] -= Quad(space.box[axis]) * boxes;
     right_image = right_image && boxes == collision.shift[axis];
   }
@@ -117,8 +113,8 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const double flown = a.flown + b.flown;
   const double turned = a.age_in_radians + b.age_in_radians;
   const double flexible = 8 * unit * (2 + flown + turned) / magnitude(sine);
-  const double speed = magnitude(
-      Quad(norm(a.v) + norm(b.v) + norm(a.w) * bodies[0].length + norm(b.w) * bodies[1].length));
+  const double speed = a.fastest + b.fastest +
+                       magnitude(Quad(norm(a.w) * bodies[0].length + norm(b.w) * bodies[1].length));
   // Twice the ratio of the largest and the smallest M, which has its tips.
   const auto at_tip = [&](int i) { return bodies[i].k / 2 * magnitude(inverse_mass[i]); };
   const double least_mass = magnitude(masses);
@@ -130,7 +126,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   const double share = geometry / std::min(bodies[0].length, bodies[1].length);
   Excess excess;
   // Renewals wrap centres, and the shift changes with them.
-  excess.add(right_image || renewed ? 0 : NAN, 1);
+  excess.add(right_image || renewed ? 0.0 : NAN, 1);
   excess.add(magnitude(Quad(s12 - collision.arm_first)), geometry);
   excess.add(magnitude(Quad(s21 - collision.arm_second)), geometry);
   excess.add(magnitude(Quad(sine - collision.sin_angle)), geometry);
@@ -150,7 +146,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     const StateAfterCollision& after = collision.after[i];
     Vector3 moved = before.r - to<Quad>(vector(after.position));
     for (int axis = 0; axis < 3; ++axis) {
-      moved[axis] -= Quad(space.box[axis]) * nearest(Quad(moved[axis] / Quad(space.box[axis])));
+      moved[axis] -= Quad(space.box[axis]) * space.boxes_along<Quad>(axis, moved[axis]);
     }
     excess.add(difference(moved, {}), space.rounding() + 8 * unit * before.flown);
     excess.add(difference(before.u, after.orientation), 8 * unit * (2 + before.age_in_radians));

@@ -47,6 +47,8 @@ audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, doubl
           .composition = scene.composition(),
           .tc = collisions.tc,
           .tc_relative = collisions.tc_relative,
+          .walls = scene.walls,
+          .gravity = scene.forces.gravity,
           .share = arguments.share,
           .seed = arguments.seed};
 }
@@ -101,6 +103,9 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
     json["bound95"][audit::name(kind)] = number(findings.bound95(kind));
   }
   json["collisions"] = findings.collisions;
+  json["hits"] = findings.hits;
+  json["at_walls"] = findings.at_walls;
+  json["draws"] = findings.draws;
   json["contacts"] = findings.contacts;
   json["escalated"] = findings.escalated;
   json["share"] = arguments.share;
@@ -112,6 +117,11 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
     json["differences"].push_back(
         {{"kind", audit::name(difference.kind)}, {"time", difference.time}});
     if (!is_of_collisions(difference.kind)) continue;
+    if (difference.at_wall) {
+      json["differences"].back()["needle"] = difference.first;
+      json["differences"].back()["wall"] = difference.second;
+      continue;
+    }
     json["differences"].back()["pair"] = {difference.first, difference.second};
   }
   return json;
@@ -129,6 +139,16 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
       fmt::format("{} flights of pairs checked{}, {} collisions, in {}\n", findings.checked,
                   arguments.share < 1 ? fmt::format(" ({:g} of all pairs)", arguments.share) : "",
                   findings.collisions, runs::duration_text(outcome.clock.wall()));
+  if (findings.at_walls > 0) {
+    text += fmt::format("{} flights of needles between walls checked, {} hits\n", findings.at_walls,
+                        findings.hits);
+  }
+  if (findings.draws > 0) {
+    text += fmt::format(
+        "{} draws of the thermostat: that needles go on from where they were; the "
+        "velocities that they get are not checked\n",
+        findings.draws);
+  }
   for (const audit::Kind kind : audit::kinds) {
     if (!is_of_collisions(kind)) continue;
     const double bound = findings.bound95(kind);
@@ -144,8 +164,9 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
       text += fmt::format("{}: {}\n", audit::name(difference.kind), meaning_of(difference.kind));
       continue;
     }
-    text += fmt::format("{}: needles {} and {} at time {:.17g}\n", audit::name(difference.kind),
-                        difference.first, difference.second, difference.time);
+    text += fmt::format("{}: needle{} {} and {}{} at time {:.17g}\n", audit::name(difference.kind),
+                        difference.at_wall ? "" : "s", difference.first,
+                        difference.at_wall ? "wall " : "", difference.second, difference.time);
   }
   return text;
 }
@@ -175,6 +196,12 @@ int run(const AuditArguments& arguments) {
   }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
+  if (scene.driving.kicks) {
+    throw InputError(fmt::format(
+        "{}: kicks change all needles at once, which the audit cannot follow: expected a scene "
+        "without them",
+        place_of(scene, "driving.kicks.every", fmt::to_string(scene.driving.kicks->every))));
+  }
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);
@@ -189,7 +216,7 @@ int run(const AuditArguments& arguments) {
     }
   }
   audit.check_start(scene, loaded.initial ? &*loaded.initial : nullptr);
-  simulation.on_collision([&](const Collision& collision) { audit.add(collision); });
+  simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
   SignalGuard guard;
   guard.interrupt(simulation);
   const Outcome outcome = follow(simulation, audit, scene, arguments.quiet);

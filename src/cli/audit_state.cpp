@@ -29,11 +29,14 @@ Json checkpoint_json(const audit::Checkpoint& checkpoint) {
   }
   Json listed = Json::array();
   for (const audit::Difference& difference : findings.listed) {
-    listed.push_back(
-        {static_cast<int>(difference.kind), difference.time, difference.first, difference.second});
+    listed.push_back({static_cast<int>(difference.kind), difference.time, difference.first,
+                      difference.second, static_cast<int>(difference.at_wall)});
   }
   return {{"fingerprint", std::to_string(checkpoint.fingerprint)},
           {"collisions", findings.collisions},
+          {"hits", findings.hits},
+          {"draws", findings.draws},
+          {"at_walls", findings.at_walls},
           {"contacts", findings.contacts},
           {"checked", findings.checked},
           {"escalated", findings.escalated},
@@ -47,10 +50,14 @@ audit::Checkpoint checkpoint_of(const Json& from) {
   audit::Checkpoint out;
   out.fingerprint = std::stoull(from.at("fingerprint").get<std::string>());
   audit::Findings& findings = out.findings;
-  for (const char* key : {"collisions", "contacts", "checked", "escalated", "undecided"}) {
+  for (const char* key : {"collisions", "hits", "draws", "at_walls", "contacts", "checked",
+                          "escalated", "undecided"}) {
     if (!from.at(key).is_number_unsigned()) throw std::out_of_range(key);
   }
   from.at("collisions").get_to(findings.collisions);
+  from.at("hits").get_to(findings.hits);
+  from.at("draws").get_to(findings.draws);
+  from.at("at_walls").get_to(findings.at_walls);
   from.at("contacts").get_to(findings.contacts);
   from.at("checked").get_to(findings.checked);
   from.at("escalated").get_to(findings.escalated);
@@ -59,7 +66,7 @@ audit::Checkpoint checkpoint_of(const Json& from) {
   for (const Json& row : from.at("listed")) {
     findings.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()),
                                row.at(1).get<double>(), row.at(2).get<std::uint32_t>(),
-                               row.at(3).get<std::uint32_t>()});
+                               row.at(3).get<std::uint32_t>(), row.at(4).get<int>() != 0});
   }
   for (const Json& row : from.at("touches")) {
     audit::Continuation continuation;

@@ -13,6 +13,8 @@ inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double 
   setup.composition = scene.composition();
   setup.tc = c.tc;
   setup.tc_relative = c.tc_relative;
+  setup.walls = scene.walls;
+  setup.gravity = scene.forces.gravity;
   setup.share = share;
   return setup;
 }

@@ -22,6 +22,7 @@ class Andersen final : public EventSource {
   Andersen(Gas& gas, const Parameters& parameters);
 
   const char* name() const override { return "thermostat"; }
+  Happening::Kind kind() const override { return Happening::thermostat; }
   void begin(const Gas& gas) override;
   SourceEvent next(const Gas& gas, Needle i, Time now, Time until) const override;
   SourceOutcome happen(const Gas& gas, const NeedleAt& at, std::int8_t detail) override;

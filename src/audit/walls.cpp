@@ -1,0 +1,197 @@
+#include "src/audit/walls.h"
+
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+
+#include "src/audit/excess.h"
+
+namespace needlework::audit {
+namespace {
+
+constexpr double two_pi = 2 * boost::math::constants::pi<double>();
+constexpr double unit = 0x1p-53;
+
+// The phase of a wall's motion at this time, below one turn but for its own phase, with the digits
+// that a time of any age has.
+double phase_at(const Wall& wall, const Instant& time) {
+  const auto part = [](const Quad& turns) {
+    using std::floor;
+    return Quad(turns - floor(turns));
+  };
+  const Quad turns = part(Quad(wall.frequency) * Quad(static_cast<double>(time.epoch))) +
+                     Quad(wall.frequency) * Quad(time.offset);
+  return two_pi * static_cast<double>(part(turns)) + wall.phase;
+}
+
+// A needle at one time after its record, in 113 bits.
+struct There {
+  Vector<Quad> r, u, v, w;
+  double flown, turned;  ///< distance, and angle
+
+  There(const Needle& needle, const Vector<double>& gravity, const Instant& now) {
+    const Flight<Ball<Quad>> flight(needle.record);
+    const Ball<Quad> age = elapsed<Quad>(needle.record.time, now);
+    const Pose<Ball<Quad>> pose = flight.at(age);
+    const Vector<Ball<Quad>> spin = cross(pose.u, pose.du);
+    const Quad t = age.middle;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Quad g = gravity[axis];
+      r[axis] = pose.r[axis].middle + g * t * t / 2;
+      v[axis] = flight.v[axis].middle + g * t;
+      u[axis] = pose.u[axis].middle;
+      w[axis] = spin[axis].middle;
+    }
+    flown = magnitude(Quad(norm(v) * t)) + norm(gravity) * magnitude(t) * magnitude(t);
+    turned = magnitude(Quad(flight.omega.middle * t));
+  }
+};
+
+void add_place(Excess& excess, const There& there, const StateAfterCollision& after,
+               const Space& space) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Quad moved = there.r[axis] - Quad(after.position[axis]);
+    moved -= Quad(space.box[axis]) * space.boxes_along<Quad>(axis, moved);
+    excess.add(moved, space.rounding() + 16 * unit * there.flown);
+    excess.add(there.u[axis] - Quad(after.orientation[axis]), 8 * unit * (2 + there.turned));
+  }
+}
+
+}  // namespace
+
+std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::array<double, 3>& box,
+                           double epoch_length, double length_unit) {
+  std::vector<Wall> out;
+  for (const Scene::Wall& each : walls) {
+    Wall wall;
+    wall.axis = each.axis == "x" ? 0 : each.axis == "y" ? 1 : 2;
+    wall.epsilon = each.epsilon;
+    wall.draws = each.temperature.has_value();
+    if (each.motion) {
+      wall.amplitude = each.motion->amplitude / length_unit;
+      wall.frequency = each.motion->frequency * epoch_length;
+      wall.phase = each.motion->phase;
+    }
+    for (const bool high : {false, true}) {
+      if (each.side == (high ? "low" : "high")) continue;
+      wall.high = high;
+      wall.place = high ? box[static_cast<std::size_t>(wall.axis)] : 0;
+      out.push_back(wall);
+    }
+  }
+  return out;
+}
+
+TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip)
+    : sign_(wall.sign()),
+      centre_(needle.record.r[wall.axis] - wall.place),
+      speed_(needle.record.v[wall.axis]),
+      half_fall_(gravity[wall.axis] / 2),
+      arm_(tip * needle.body.length / 2),
+      along_(needle.flight.u[wall.axis].middle),
+      across_(needle.flight.side[wall.axis].middle),
+      omega_(needle.flight.omega.middle),
+      amplitude_(wall.amplitude),
+      turn_(two_pi * wall.frequency),
+      angle_(wall.amplitude > 0 ? phase_at(wall, needle.record.time) : 0),
+      bend_(2 * std::abs(half_fall_) +
+            std::abs(arm_) * omega_ * omega_ * std::hypot(along_, across_) +
+            amplitude_ * turn_ * turn_) {}
+
+double TipFlight::height(double s) const {
+  const double tip = arm_ * (along_ * std::cos(omega_ * s) + across_ * std::sin(omega_ * s));
+  const double surface = amplitude_ > 0 ? amplitude_ * std::sin(phase(s)) : 0;
+  return sign_ * (centre_ + (speed_ + half_fall_ * s) * s + tip - surface);
+}
+
+double TipFlight::rate(double s) const {
+  const double tip =
+      arm_ * omega_ * (across_ * std::cos(omega_ * s) - along_ * std::sin(omega_ * s));
+  const double surface = amplitude_ > 0 ? amplitude_ * turn_ * std::cos(phase(s)) : 0;
+  return sign_ * (speed_ + 2 * half_fall_ * s + tip - surface);
+}
+
+// Halves intervals until bounds on the first and second derivatives show that the tip stays out.
+std::optional<double> TipFlight::crossing(double from, double to, double tolerance) const {
+  struct Stretch {
+    double begin, end;
+  };
+  std::vector<Stretch> stretches{{from, to}};
+  while (!stretches.empty()) {
+    const Stretch stretch = stretches.back();
+    stretches.pop_back();
+    const double half = 0.5 * (stretch.end - stretch.begin), middle = stretch.begin + half;
+    const double h = height(middle);
+    if (h < -tolerance) return middle;
+    if (h - (std::abs(rate(middle)) + 0.5 * bend_ * half) * half >= -tolerance) continue;
+    if (half <= 0x1p-51 * std::max(std::abs(stretch.begin), std::abs(stretch.end))) continue;
+    stretches.push_back({middle, stretch.end});
+    stretches.push_back({stretch.begin, middle});
+  }
+  return std::nullopt;
+}
+
+double excess_over_flight(const Needle& needle, const Vector<double>& gravity, const Instant& now,
+                          const StateAfterCollision& after, const Space& space) {
+  Excess excess;
+  add_place(excess, There(needle, gravity, now), after, space);
+  return excess.most();
+}
+
+double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity, const Wall& wall,
+                             const Instant& now, const Collision& hit, const Space& space) {
+  const There there(needle, gravity, now);
+  const Body& body = needle.body;
+  const Quad n = wall.sign(), arm = hit.arm_first;
+  Excess excess;
+  add_place(excess, there, hit.after[0], space);
+  // Of a tip, and of no other needle.
+  const double half = body.length / 2;
+  excess.add(Quad(std::abs(hit.arm_first) - half), 4 * unit * half);
+  const bool alone = hit.arm_second == 0 && hit.shift == std::array<std::int32_t, 3>{};
+  excess.add(alone ? 0.0 : NAN, 1);
+
+  // V_n = (v + s w x u) . n relative to the surface, and 1/m + (L^2 / 4 I)(1 - (u . n)^2).
+  const double phase = phase_at(wall, now);
+  const Quad surface = wall.amplitude * two_pi * wall.frequency * std::cos(phase);
+  const Quad lift = there.u[wall.axis];
+  const Vector<Quad> turn = cross(there.w, there.u);
+  const Quad tip = n * (there.v[wall.axis] + turn[wall.axis] * arm);
+  const Quad vn = tip - n * surface;
+  const Quad inverse_mass = Quad(1) / Quad(body.mass);
+  const Quad inverse_inertia = 2 * Quad(body.k) * inverse_mass / (Quad(body.length) * body.length);
+  const Quad give = inverse_mass + inverse_inertia * arm * arm * (1 - lift * lift);
+
+  // What rounding explains: directors are off by half units, which grow with the angle turned; the
+  // phase of the wall likewise.
+  const double speed = magnitude(norm(there.v)) + magnitude(norm(there.w)) * body.length +
+                       magnitude(surface) +
+                       norm(gravity) * magnitude(elapsed<Quad>(needle.record.time, now).middle);
+  const double shaken = wall.amplitude * two_pi * wall.frequency * 16 * unit *
+                        (1 + std::abs(phase)) * (1 + two_pi * wall.frequency);
+  const double off = 32 * unit * (2 + there.turned + there.flown / body.length) * speed + shaken;
+  const double push = 2 * body.mass;  // of an impulse that changes the speed of the tip by 1
+  const double stiffness = 1 + body.k;
+  excess.add(vn - Quad(hit.normal_velocity), off);
+  if (wall.draws) return excess.most();
+
+  const Quad epsilon = hit.contact_time_rule ? 1 : wall.epsilon;
+  const Quad impulse = -(1 + epsilon) * vn / give;
+  const Quad energy = impulse * (tip + impulse * give / 2);
+  excess.add(energy - Quad(hit.energy_change), push * stiffness * off * (speed + off));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Quad along = axis == wall.axis ? Quad(impulse * n) : Quad(0);
+    excess.add(along - Quad(hit.impulse[axis]), push * off);
+    excess.add(there.v[axis] + along * inverse_mass - Quad(hit.after[0].velocity[axis]), 4 * off);
+  }
+  Vector<Quad> kick{{Quad(0), Quad(0), Quad(0)}};
+  kick[wall.axis] = impulse * n;
+  const Vector<Quad> spun = there.w + cross(there.u, kick) * Quad(inverse_inertia * arm);
+  for (int axis = 0; axis < 3; ++axis) {
+    excess.add(spun[axis] - Quad(hit.after[0].angular_velocity[axis]),
+               4 * stiffness * off / body.length);
+  }
+  return excess.most();
+}
+
+}  // namespace needlework::audit

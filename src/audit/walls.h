@@ -1,0 +1,62 @@
+// Tips of needles and walls: where a needle must not be between its events, and what a hit does.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "needlework/scene.h"
+#include "needlework/simulation.h"
+#include "src/audit/pair_flight.h"
+
+namespace needlework::audit {
+
+/// One wall at an end of an axis, in the units of the audit: times in epochs.
+struct Wall {
+  int axis = 0;
+  bool high = false;
+  double place = 0;      ///< along the axis, of the surface at rest [L]
+  double amplitude = 0;  ///< of its motion [L]
+  double frequency = 0;  ///< [cycles / epoch]
+  double phase = 0;      ///< [radians]
+  double epsilon = 1;
+  bool draws = false;  ///< all velocities, from a distribution; no rule tells them
+
+  /// Of the normal into the gas, along the axis.
+  double sign() const { return high ? -1 : 1; }
+};
+
+/// The walls of a scene one by one, `both` as low, then high.
+std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::array<double, 3>& box,
+                           double epoch_length, double unit);
+
+/// Height and speed of one tip of a needle over a wall, from the needle's record on.
+class TipFlight {
+ public:
+  /// `tip` is 1 for the tip at which the director points, else -1.
+  TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip);
+
+  double height(double s) const;  ///< [L]
+  double rate(double s) const;    ///< its derivative
+  /// The first time in [from, to] at which the tip is further in the wall than `tolerance`.
+  std::optional<double> crossing(double from, double to, double tolerance) const;
+
+ private:
+  double phase(double s) const { return angle_ + turn_ * s; }
+
+  double sign_, centre_, speed_, half_fall_, arm_, along_, across_, omega_;
+  double amplitude_, turn_, angle_;
+  double bend_;  ///< bound on the second derivative
+};
+
+/// Largest difference of a reported hit and of the record after it from the rule, in units of what
+/// rounding may explain; a value above 1 is an error. `needle` is that before, `now` the time of
+/// the hit.
+double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity, const Wall& wall,
+                             const Instant& now, const Collision& hit, const Space& space);
+
+/// The same for an event that changes velocities in a way that is not checked: place and director
+/// of the needle go on.
+double excess_over_flight(const Needle& needle, const Vector<double>& gravity, const Instant& now,
+                          const StateAfterCollision& after, const Space& space);
+
+}  // namespace needlework::audit

@@ -1,0 +1,98 @@
+// The audit finds nothing wrong with hits of the engine on walls, under gravity and a thermostat.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/audit/audit.h"
+#include "tests/support/audit_setup.h"
+#include "tests/support/by_build.h"
+#include "tests/support/runs.h"
+
+namespace needlework::test {
+namespace {
+
+using audit::Findings;
+using audit::Kind;
+
+constexpr int thin = by_build(1, 5);
+
+Findings audited(const Scene& scene, double time) {
+  Simulation simulation(scene);
+  audit::Audit audit(simulation.copy(), audit_setup(scene, simulation.epoch_length()));
+  audit.check_start(scene, nullptr);
+  simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
+  const Scene::Until until = until_time(time / thin);
+  const Stop stop = simulation.advance(until);
+  audit.finish(simulation.time());
+  audit.check_end(until, stop, simulation.time());
+  return audit.findings();
+}
+
+void expect_clean(const Findings& findings, const std::string& what) {
+  std::string text;
+  for (const Kind kind : audit::kinds) {
+    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
+  }
+  for (const auto& each : findings.listed) {
+    text += "\n" + std::string(audit::name(each.kind)) + " " + std::to_string(each.time) + " " +
+            std::to_string(each.first) + (each.at_wall ? " wall " : " ") +
+            std::to_string(each.second);
+  }
+  EXPECT_TRUE(findings.clean()) << what << ": " << text;
+  EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000) << what << ": " << text;
+}
+
+Scene::Wall wall(const char* axis, const char* side, double epsilon = 1) {
+  Scene::Wall out;
+  out.axis = axis;
+  out.side = side;
+  out.epsilon = epsilon;
+  return out;
+}
+
+TEST(AuditOfWalls, FindsNothingWrongWithTheEngineBetweenWalls) {
+  Scene elastic = scene_of(80, 4);
+  elastic.walls = {wall("z", "both")};
+  Scene cooling = scene_of(80, 4);
+  cooling.walls = {wall("x", "both", 0.8), wall("y", "low", 0.9), wall("y", "high")};
+  cooling.collisions.epsilon = 0.9;
+  cooling.collisions.tc = 1e-4;
+  for (const Scene& scene : {elastic, cooling}) {
+    const Findings findings = audited(scene, 10);
+    expect_clean(findings, name_of(scene));
+    EXPECT_GT(findings.hits, 100u / thin);
+    EXPECT_GT(findings.contacts, 50u / thin);
+  }
+}
+
+TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
+  Scene falling = scene_of(60, 4);
+  falling.walls = {wall("z", "low")};
+  falling.forces.gravity = {0, 0, -1};
+  Scene vibrated = falling;
+  vibrated.walls[0].epsilon = 0.9;
+  vibrated.walls[0].motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 1.3, .phase = 0.7};
+  vibrated.collisions.epsilon = 0.9;
+  vibrated.collisions.beta = 0.2;
+  vibrated.collisions.tc = 1e-4;
+  for (const Scene& scene : {falling, vibrated}) {
+    const Findings findings = audited(scene, 10);
+    expect_clean(findings, name_of(scene));
+    EXPECT_GT(findings.hits, 100u / thin);
+    EXPECT_GT(findings.contacts, 50u / thin);
+  }
+}
+
+TEST(AuditOfWalls, FindsNothingWrongWithThermalWallsAndMixtures) {
+  Scene scene = scene_of(0, 4);
+  scene.species = {{.name = "short", .count = 50, .length = 0.6, .mass = 0.5, .k = 4},
+                   {.name = "long", .count = 12, .length = 1.5, .mass = 7, .k = 6, .t_tr = 0.3}};
+  scene.walls = {wall("z", "low"), wall("z", "high")};
+  scene.walls[0].temperature = 2;
+  const Findings findings = audited(scene, 10);
+  expect_clean(findings, "a mixture");
+  EXPECT_GT(findings.hits, 50u / thin);
+}
+
+}  // namespace
+}  // namespace needlework::test
