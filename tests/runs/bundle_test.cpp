@@ -47,8 +47,8 @@ TEST_F(Bundle, OfAnEventThatCannotBeShowsItAgain) {
   const Replayed again = replay.drive(monitor);
   EXPECT_TRUE(again.same);
   EXPECT_EQ(again.failure, course.failure);
-  for (const NumberedCollision& entry : again.last) {
-    EXPECT_TRUE(entry.collision.first == 7 || entry.collision.second == 7);
+  for (const NumberedHappening& entry : again.last) {
+    EXPECT_TRUE(entry.happening.event.first == 7 || entry.happening.event.second == 7);
   }
 }
 
