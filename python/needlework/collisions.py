@@ -22,10 +22,7 @@ _MORE = [("sin_angle", "f8"), ("energy_change", "f8")]
 _REPORTED = [*_RECORDED, *_MORE]
 _HAPPENED = [*_RECORDED, *_KIND, *_MORE]  # kind where _REPORTED has padding
 
-RECORDED_RECORDED_HAPPENING = np.dtype([*_RECORDED, *_KIND])
-"""Type of an event in a file whose scene has others than collisions of two needles."""
-
-COLLISION = np.dtype(_RECORDED)
+RECORDED_COLLISION = np.dtype(_RECORDED)
 """Type of a collision in a file: the fields of COLLISION up to tc."""
 
 RECORDED_HAPPENING = np.dtype([*_RECORDED, *_KIND])

@@ -41,8 +41,9 @@ TEST(Walls, HaveDefaults) {
 }
 
 TEST(Walls, AreListedByTheirSides) {
-  const Scene scene =
-      parse_scene(with_walls("[[walls]]\naxis = 'y'\nside = 'high'\n" + both), "s.toml");
+  const Scene scene = parse_scene(
+      with_walls("forces.gravity = [0, 2, 0]\n[[walls]]\naxis = 'y'\nside = 'high'\n" + both),
+      "s.toml");
   const auto sides = scene.wall_sides();
   ASSERT_EQ(sides.size(), 3u);
   const std::size_t walls[] = {0, 1, 1};
