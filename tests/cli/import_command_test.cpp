@@ -52,7 +52,7 @@ TEST_F(ImportCommand, WritesNothingAfterAnError) {
   write("gravity.xml", replaced(dynamo_text, "Newtonian", "Compression"));
   for (const auto& [arguments, exit_code, message] :
        {std::tuple("absent.xml --out a", 5, "absent.xml: cannot be read: No such file"),
-        std::tuple("gravity.xml --out a", 3, "gravity.xml: line 28: Dynamics Type = Newtonian"),
+        std::tuple("gravity.xml --out a", 3, "gravity.xml: line 28: Dynamics Type = Compression"),
         std::tuple("small-box.xml --out a", 3,
                    "small-box.xml: cannot be run: scene.toml: line 4: "),
         std::tuple("small.toml --out a", 3, "which needlework run small.toml runs"),
