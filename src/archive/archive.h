@@ -100,7 +100,8 @@ class Archive {
       value.reset();
       return;
     }
-    if (!value) value.emplace();
+    if (!value)
+      value = T{};  // clang 14 cannot emplace() what a class nested in another one contains
     pass(*value);
   }
   template <class Key, class Value, class Less>

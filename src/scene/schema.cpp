@@ -142,17 +142,23 @@ std::optional<std::array<double, 3>> acceleration(const Value& value) {
 }
 
 // The tables of keys, made by the first key of theirs that is read.
+// clang 14 does not know that emplace() can make what a class nested in another one contains.
+template <class T>
+T& made(std::optional<T>& value) {
+  if (!value) value = T{};
+  return *value;
+}
 Scene::WallMotion& motion_of(Scene& scene) {
   auto& motion = scene.walls.back().motion;
-  return motion ? *motion : motion.emplace();
+  return made(motion);
 }
 Scene::Kicks& kicks_of(Scene& scene) {
   auto& kicks = scene.driving.kicks;
-  return kicks ? *kicks : kicks.emplace();
+  return made(kicks);
 }
 Scene::Andersen& andersen_of(Scene& scene) {
   auto& andersen = scene.driving.andersen;
-  return andersen ? *andersen : andersen.emplace();
+  return made(andersen);
 }
 
 std::optional<std::vector<double>> increasing_times(const Value& value) {

@@ -21,7 +21,7 @@ class Kicks {
   explicit Kicks(const Parameters& parameters) : parameters_(parameters) {}
 
   double every() const { return parameters_.every; }
-  /// Of kick number n, from 1 on: n times the interval, to the resolution of the clock.
+  /// Of kick number n, from 1 on: n times the interval, rounded to a double.
   Time time(const Clock& clock, std::uint64_t n) const;
 
   struct Change {
