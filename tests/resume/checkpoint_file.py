@@ -122,6 +122,21 @@ class Fields:
         self.several("collisions", "f64", 2)
         for name in ("tc", "tc_relative"):
             self.optional(f"collisions.{name}", self.f64)
+
+        def three(name):
+            self.several(name, "f64", 3)
+
+        def wall(name):
+            self.text(f"{name}.axis")
+            self.text(f"{name}.side")
+            self.f64(f"{name}.epsilon")
+            self.optional(f"{name}.temperature", self.f64)
+            self.optional(f"{name}.motion", three)
+
+        self.sequence("walls", wall)
+        self.several("forces.gravity", "f64", 3)
+        self.optional("driving.kicks", three)
+        self.optional("driving.andersen", lambda name: self.several(name, "f64", 2))
         for name in ("search", "queue", "accuracy"):
             self.text(f"engine.{name}")
         for name in ("isolation", "escalation", "filter"):
