@@ -7,6 +7,7 @@
 
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
+#include "needlework/theory.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -47,9 +48,10 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
       EXPECT_NEAR(exact.force, 0.6667, 5e-5);
     }
     constexpr std::uint64_t count = 1000;
-    Mean hits, force;
+    constexpr double side = 30;
+    Mean hits, force, pairs;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      Scene scene = between_walls(count, 30, height, seed);
+      Scene scene = between_walls(count, side, height, seed);
       scene.needles.k = k;
       Simulation gas(scene);
       std::uint64_t all = 0;
@@ -71,11 +73,19 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
       const double temperature = 2 * per_needle * count / (5.0 * count - 2);
       hits.add(static_cast<double>(all) / (2 * count * time) / std::sqrt(temperature));
       force.add(impulse / (2 * count * time) / temperature);
+      pairs.add(2.0 * static_cast<double>(totals.collisions) / (count * time) /
+                std::sqrt(temperature));
     }
     EXPECT_TRUE(agrees(hits.measured(), exact.hits, 3)) << "k = " << k;
     EXPECT_TRUE(agrees(force.measured(), exact.force, 3)) << "k = " << k;
     EXPECT_LT(hits.measured().error, 0.003 * exact.hits);
     EXPECT_LT(force.measured().error, 0.003 * exact.force);
+    if (height < 2) continue;  // the law is for walls two lengths apart
+    const double room = height - 0.5;
+    const double rate = theory::collision_rate((count - 1) / (side * side * room), {1, 1}, k) *
+                        ((height - theory::pair_depletion(1, k)) / room);
+    EXPECT_TRUE(agrees(pairs.measured(), rate, 3));
+    EXPECT_LT(pairs.measured().error, 0.003 * rate);
   }
 }
 
