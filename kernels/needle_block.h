@@ -53,7 +53,7 @@ struct WordFormat {
   }
   std::uint32_t with_director(double coordinate, double director) const {
     // What is nearest must not be too large for 32 bits.
-    constexpr double most = 0x1p31 - places / 2;
+    constexpr double most = 0x1p31 - 0.5 * places;
     const auto number = static_cast<std::int64_t>(std::clamp(director * 0x1p31, -most, most - 1));
     return static_cast<std::uint32_t>(nearest(number, place_of(coordinate)));
   }

@@ -28,6 +28,7 @@ ExactTotal total_of(const std::vector<double>& terms) {
 
 std::vector<double> positive_terms(Random& random, int count, double least, double largest) {
   std::vector<double> terms;
+  terms.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) terms.push_back(random.log_uniform(least, largest));
   return terms;
 }
