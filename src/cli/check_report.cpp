@@ -12,6 +12,7 @@
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/resources.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::cli {
 namespace {
@@ -316,7 +317,7 @@ std::string json_of(const runs::Explanation& e) {
   json["tc"] = optional_number(scene.collisions.tc);
   json["tc_relative"] = optional_number(scene.collisions.tc_relative);
   if (!e.walls.empty()) json["walls"] = walls_json(e);
-  if (scene.forces.gravity != std::array<double, 3>{}) json["gravity"] = scene.forces.gravity;
+  if (has_gravity(scene)) json["gravity"] = scene.forces.gravity;
   if (scene.driving.kicks || scene.driving.andersen) json["driving"] = driving_json(e);
   json["until"] = {{"time", optional_number(scene.until.time)},
                    {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
@@ -363,7 +364,7 @@ std::string text_of(const runs::Explanation& e) {
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += wall_lines(e);
-  if (scene.forces.gravity != std::array<double, 3>{})
+  if (has_gravity(scene))
     text += line("gravity", fmt::format("({:g})", fmt::join(scene.forces.gravity, ", ")));
   text += driving_lines(e);
   text += line("ends", until_text(scene.until));

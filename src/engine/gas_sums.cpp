@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "src/composition/total_mass.h"
 #include "src/engine/exact_sums.h"
 #include "src/physics/mean_free_time.h"
 
@@ -98,11 +99,7 @@ double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
 }
 
 double energy_of_low_edges(const Gas& gas) {
-  double mass = 0;
-  for (const Species& each : gas.composition.species()) {
-    mass += each.mass * static_cast<double>(each.count);
-  }
-  return mass * dot(gas.gravity, lowest(gas));
+  return total_mass(gas.composition) * dot(gas.gravity, lowest(gas));
 }
 
 Totals totals_of(const Gas& gas, Time now, int threads) {

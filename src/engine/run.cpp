@@ -11,6 +11,7 @@
 
 #include "kernels/in_parallel.h"
 #include "needlework/error.h"
+#include "src/composition/total_mass.h"
 #include "src/effects/driving/andersen.h"
 #include "src/effects/walls/walls.h"
 #include "src/engine/exact_sums.h"
@@ -253,11 +254,7 @@ ReplacedRecords Run::kick() {
     const Vec3d momentum = changes[i].velocity * gas.species_of(record).mass;
     return std::array{momentum.x, momentum.y, momentum.z};
   });
-  double mass = 0;
-  for (const Species& each : gas.composition.species()) {
-    mass += each.mass * static_cast<double>(each.count);
-  }
-  const Vec3d of_all = Vec3d{x, y, z} * (1 / mass);
+  const Vec3d of_all = Vec3d{x, y, z} * (1 / total_mass(gas.composition));
   find_next_kick();
   ReplacedRecords replaced = replace_velocities(
       [&](Needle i) {

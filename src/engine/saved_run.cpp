@@ -132,7 +132,9 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
 // known twice.
 void Run::require_consistent() const {
   require(is_time(gas.clock, now) && is_time(gas.clock, windows.end()) && now.epoch >= 0);
-  require(std::isfinite(initial_energy) && initial_energy >= 0 && energy.is_sound());
+  // A needle may be below the edge from which heights count, where its wall moves.
+  const auto is_energy = [&](double x) { return std::isfinite(x) && (gas.falls || x >= 0); };
+  require(is_energy(initial_energy) && is_energy(energy.at_opening()) && energy.is_sound());
   const auto fits = [](const auto& counts, std::size_t kinds) {
     return counts.empty() || counts.size() == kinds;
   };

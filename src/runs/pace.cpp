@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/composition/total_mass.h"
 #include "src/observe/completion.h"
 
 namespace needlework::runs {
@@ -19,12 +20,7 @@ double momentum_drift(const Totals& initial, const Totals& now, const Scene& sce
     const double change = now.momentum[axis] - initial.momentum[axis];
     square += change * change;
   }
-  double mass = 0;
-  const Composition composition = scene.composition();
-  for (const Species& each : composition.species()) {
-    mass += static_cast<double>(each.count) * each.mass;
-  }
-  const double scale = std::sqrt(mass * now.t_tr);
+  const double scale = std::sqrt(total_mass(scene.composition()) * now.t_tr);
   return scale > 0 ? std::sqrt(square) / scale : 0;
 }
 

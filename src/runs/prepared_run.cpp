@@ -170,10 +170,13 @@ PreparedRun::PreparedRun(RunCheckpoint saved, Saves saves)
 
 void PreparedRun::require_consistent(const RunCheckpoint& saved) const {
   const double energy = simulation_.initial_energy();
+  // That of heights may cancel the rest.
+  const double scale = std::max(std::abs(energy), 1.5 * initial_.t_tr + initial_.t_rot);
   const bool consistent =
-      simulation_.needles() == scene_.needles.count && are_possible(initial_) &&
-      initial_.time == 0 && initial_.collisions == 0 &&
-      (scene_.needles.count == 0 || std::abs(initial_.energy - energy) <= 1e-9 * energy);
+      simulation_.needles() == scene_.needles.count &&
+      are_possible(initial_, has_gravity(scene_)) && initial_.time == 0 &&
+      initial_.collisions == 0 &&
+      (scene_.needles.count == 0 || std::abs(initial_.energy - energy) <= 1e-9 * scale);
   if (!consistent) throw_damaged(saved.origin);
 }
 

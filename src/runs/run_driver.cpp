@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/runs/loaded_scene.h"
+#include "src/scene/confinement.h"
 #include "src/trajectory/saved_totals.h"
 
 namespace needlework::runs {
@@ -194,7 +195,9 @@ void RunDriver::require_restored(const Archive& archive) const {
   const double now = simulation_.time() * (1 - 0x1p-50);
   archive.require(series_.is_rest_of(series_schedule(scene_.output, 1), now) &&
                   frames_.is_rest_of(frame_schedule(scene_.output, 1), now));
-  archive.require(std::ranges::all_of(course_.samples, are_possible));
+  const bool falls = has_gravity(scene_);
+  archive.require(std::ranges::all_of(
+      course_.samples, [&](const Totals& sample) { return are_possible(sample, falls); }));
   // A run begins with a sample, with which that of its end is compared.
   archive.require(!begun_ || last_sample_);
 }

@@ -170,9 +170,9 @@ bool exchanges_energy(const Scene& scene) {
          scene.driving.andersen;
 }
 
-bool is_pushed(const Scene& scene) {
-  return exchanges_energy(scene) || scene.forces.gravity != std::array<double, 3>{};
-}
+bool is_pushed(const Scene& scene) { return exchanges_energy(scene) || has_gravity(scene); }
+
+bool has_gravity(const Scene& scene) { return scene.forces.gravity != std::array<double, 3>{}; }
 
 std::string name_of(const Scene::Wall& wall) { return wall.axis + "-" + wall.side; }
 

@@ -52,6 +52,7 @@ bool exchanges_energy(const Scene& scene);
 /// Whether anything changes the motion of needles so that a gas does not just cool or stay as it
 /// is.
 bool is_pushed(const Scene& scene);
+bool has_gravity(const Scene& scene);
 
 /// "x-low": how messages and `--set` name an entry [[walls]].
 std::string name_of(const Scene::Wall& wall);

@@ -1,0 +1,17 @@
+// The mass of all needles.
+#pragma once
+
+#include "needlework/composition.h"
+
+namespace needlework {
+
+/// Of all needles of all species. [m]
+inline double total_mass(const Composition& composition) {
+  double out = 0;
+  for (const Species& each : composition.species()) {
+    out += each.mass * static_cast<double>(each.count);
+  }
+  return out;
+}
+
+}  // namespace needlework
