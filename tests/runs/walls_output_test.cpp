@@ -147,6 +147,22 @@ TEST(WallsOutput, GoesOnFromACheckpoint) {
   }
 }
 
+// Heights count from the low edges, and gravity may point to a high wall.
+TEST(WallsOutput, GoesOnWhereHeightsMakeTheEnergyNegative) {
+  const test::TemporaryFolder folder;
+  Silent monitor;
+  Scene scene = walled(folder.path() / "run.h5");
+  scene.forces.gravity[2] = 5;
+  PreparedRun first(complete_scene(scene), false);
+  EXPECT_LT(first.simulation().initial_energy(), 0);
+  Scene::Until until;
+  until.time = 0.5;
+  first.advance(until, monitor);
+  first.close();
+  PreparedRun second(load_checkpoint(scene.output.file).checkpoint);
+  EXPECT_EQ(second.simulation().trajectory_hash(), first.simulation().trajectory_hash());
+}
+
 TEST(WallsOutput, BoxesAreNotPeriodicAlongWalledAxes) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path() / "run.h5";
