@@ -7,6 +7,7 @@
 #include "tests/support/audit_setup.h"
 #include "tests/support/by_build.h"
 #include "tests/support/runs.h"
+#include "tests/support/wall.h"
 
 namespace needlework::test {
 namespace {
@@ -42,12 +43,12 @@ void expect_clean(const Findings& findings, const std::string& what) {
   EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000) << what << ": " << text;
 }
 
-Scene::Wall wall(const char* axis, const char* side, double epsilon = 1) {
-  Scene::Wall out;
-  out.axis = axis;
-  out.side = side;
-  out.epsilon = epsilon;
-  return out;
+// Whether the audit finds nothing, in a gas with hits and collisions enough.
+void expect_clean_gas(const Scene& scene) {
+  const Findings findings = audited(scene, 10);
+  expect_clean(findings, name_of(scene));
+  EXPECT_GT(findings.hits, 100u / thin);
+  EXPECT_GT(findings.contacts, 50u / thin);
 }
 
 TEST(AuditOfWalls, FindsNothingWrongWithTheEngineBetweenWalls) {
@@ -57,12 +58,7 @@ TEST(AuditOfWalls, FindsNothingWrongWithTheEngineBetweenWalls) {
   cooling.walls = {wall("x", "both", 0.8), wall("y", "low", 0.9), wall("y", "high")};
   cooling.collisions.epsilon = 0.9;
   cooling.collisions.tc = 1e-4;
-  for (const Scene& scene : {elastic, cooling}) {
-    const Findings findings = audited(scene, 10);
-    expect_clean(findings, name_of(scene));
-    EXPECT_GT(findings.hits, 100u / thin);
-    EXPECT_GT(findings.contacts, 50u / thin);
-  }
+  for (const Scene& scene : {elastic, cooling}) expect_clean_gas(scene);
 }
 
 TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
@@ -75,12 +71,7 @@ TEST(AuditOfWalls, FindsNothingWrongWithGravityAndMotion) {
   vibrated.collisions.epsilon = 0.9;
   vibrated.collisions.beta = 0.2;
   vibrated.collisions.tc = 1e-4;
-  for (const Scene& scene : {falling, vibrated}) {
-    const Findings findings = audited(scene, 10);
-    expect_clean(findings, name_of(scene));
-    EXPECT_GT(findings.hits, 100u / thin);
-    EXPECT_GT(findings.contacts, 50u / thin);
-  }
+  for (const Scene& scene : {falling, vibrated}) expect_clean_gas(scene);
 }
 
 TEST(AuditOfWalls, FindsNothingWrongWithThermalWallsAndMixtures) {

@@ -1,0 +1,54 @@
+// A folder of exported files.
+#pragma once
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "src/io/formats/export_formats.h"
+#include "src/io/formats/read_configuration.h"
+#include "tests/io/complaints.h"
+#include "tests/io/support.h"
+
+namespace needlework::io {
+
+inline const Material material{{"needles"}, {1.7}, {2.5}, {3.3}, {0.9}, {-0.25}};
+
+class Formats : public InFolder {
+ protected:
+  // Writes these frames under the name, in the format that its ending means.
+  std::string put(const std::string& name, const std::vector<State>& states,
+                  const Material& of = material) const {
+    const ExportFormat* format = find_export_format("", name, false);
+    const auto writer = format->open(file(name), true, of);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      writer->add({i, 0.1 * static_cast<double>(i), states[i]});
+    }
+    writer->publish();
+    return file(name);
+  }
+  std::string text_of_file(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(file(name), std::ios::binary).rdbuf();
+    return text.str();
+  }
+  std::string complaint(const std::string& text) const {
+    std::ofstream(file("bad"), std::ios::binary) << text;
+    const std::string message = message_of<InputError>([&] { read_configuration(file("bad")); });
+    EXPECT_TRUE(message.starts_with(file("bad") + ": ")) << message;
+    return message.substr(std::min(message.size(), file("bad").size() + 2));
+  }
+};
+
+// Exports have no empty lists of ids and images.
+inline State completed(State state, bool with_images) {
+  state.image.resize(with_images ? state.size() : 0);
+  if (state.id.empty()) {
+    for (std::uint32_t i = 0; i < state.size(); ++i) state.id.push_back(i);
+  }
+  return state;
+}
+
+}  // namespace needlework::io
