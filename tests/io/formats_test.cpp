@@ -1,7 +1,6 @@
 // Exports of frames: what is written is read back bit for bit, what cannot be read is named, and
 // nothing is left after a failure.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <fstream>
@@ -13,7 +12,6 @@
 #include "src/io/formats/read_configuration.h"
 #include "src/io/formats/xyz.h"
 #include "tests/io/complaints.h"
-#include "tests/io/compressed.h"
 #include "tests/io/dynamo_text.h"
 #include "tests/io/exported_files.h"
 #include "tests/io/support.h"
