@@ -52,8 +52,8 @@ LAYERS = [
           ["base", "composition", "scene", "engine"]),
     Layer("audit", ["src/audit"], [], [], ["base", "composition", "trajectory", "scene", "engine"]),
     Layer("runs", ["src/runs"], [],
-          ["base", "machine", "archive", "kernels", "trajectory", "scene", "search", "calendar",
-           "observe", "io"],
+          ["base", "machine", "archive", "composition", "kernels", "trajectory", "scene", "search",
+           "calendar", "observe", "io"],
           ["theory", "engine"]),
     Layer("picture", ["src/picture"], [], ["base", "scene"]),
     # Front ends for other programs: C, Python, a pipe.
