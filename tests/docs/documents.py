@@ -1,5 +1,5 @@
-"""Links among the documents lead somewhere, files and tests that they name exist, and the front page
-stays short."""
+"""Links among the documents lead somewhere, files and tests that they name exist, tables are tables,
+the container is built as the front page says, which stays short."""
 
 import re
 import unittest
@@ -59,6 +59,15 @@ def missing_files(path):
             yield f"{path.relative_to(ROOT)}: {name}: expected a file"
 
 
+def tables_without_head(path):
+    """Rows that a blank line cuts off from the head of their table, so that they are shown as text."""
+    text = re.sub(r"^```.*?^```", "", path.read_text(), flags=re.M | re.S)
+    for table in re.findall(r"(?:^\|.*\n?)+", text, flags=re.M):
+        rows = table.splitlines()
+        if len(rows) < 2 or not re.fullmatch(r"[|: -]+", rows[1]):
+            yield f"{path.relative_to(ROOT)}: {rows[0]}: expected a head and a line below it"
+
+
 # A test by its name, such as `ResumeCommand` or `resume.20_kills`; not `output.file`.
 TEST = re.compile(r"`((?:[A-Z][a-z]+)+|(?:cli|python|resume)\.\w+)`")
 
@@ -92,6 +101,14 @@ class Documents(unittest.TestCase):
         missing = [path.name for path in (ROOT / "docs").glob("*.md")
                    if path.name != "README.md" and f"({path.name})" not in index]
         self.assertEqual(missing, [])
+
+    def test_tables_have_heads(self):
+        self.assertEqual([row for path in documents() for row in tables_without_head(path)], [])
+
+    def test_container_is_built_by_the_command_of_the_front_page(self):
+        command = re.search(r"^RUN (\S+)", (ROOT / "Containerfile").read_text(), re.M)[1]
+        start = re.search(r"^## Start\n(.*?)^## ", (ROOT / "README.md").read_text(), re.M | re.S)[1]
+        self.assertIn(f"\n    {command}\n", start)
 
     def test_front_page_is_short(self):
         text = (ROOT / "README.md").read_text()
