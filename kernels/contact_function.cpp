@@ -34,13 +34,6 @@ Vec3dd separation(const Pair& pair) {
   return pair.fall ? out + pair.fall->place : out;
 }
 
-// v1 - v2 from s = 0 on, of needles that have fallen. What they have gained may nearly cancel the
-// rest. Kept out of the code of those that do not fall.
-[[gnu::noinline]] Vec3dd falling_velocity(const Pair& pair) {
-  const Vec3d &a = pair.first->v, &b = pair.second->v;
-  return Vec3dd{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)} + pair.fall->velocity;
-}
-
 template <class T>
 void set_half_lengths(Frame<T>& frame, const Pair& pair, const PairScale& scale) {
   frame.half[0] = pair.half_first * scale.per_length;
@@ -65,6 +58,12 @@ template <class T>
 }
 
 }  // namespace
+
+// Kept out of the code of needles that do not fall.
+[[gnu::noinline]] Vec3dd falling_velocity(const Pair& pair) {
+  const Vec3d &a = pair.first->v, &b = pair.second->v;
+  return Vec3dd{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)} + pair.fall->velocity;
+}
 
 void set_rotation(Flight& flight) {
   const double size = largest(flight.w);

@@ -75,6 +75,10 @@ struct Pair {
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
 };
 
+/// v1 - v2 from s = 0 on, of a pair that has fallen. What it has gained may nearly cancel the rest.
+/// [L / time]
+Vec3dd falling_velocity(const Pair& pair);
+
 /// Powers of two that scale a pair: lengths times `per_length` make the sum of the half lengths lie
 /// in [1, 2); times times `per_time`, and rates (1 / time) times `per_rate`, make the pair's rate
 /// of change about 1.

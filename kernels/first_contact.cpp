@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kernels/closest_approach.h"
+#include "kernels/sphere_overlap.h"
 #include "kernels/stretches.h"
 
 namespace needlework::kernels {
@@ -333,31 +334,6 @@ std::optional<Root> RootFinder<isolation, escalation>::search_interval(const Int
   }
   if (auto root = search_interval({interval.begin, middle, interval.depth + 1})) return root;
   return search_interval({middle, interval.end, interval.depth + 1});
-}
-
-// The times at which |r + v s| <= reach, with a margin; empty when begin > end.
-struct TimeSpan {
-  double begin, end;
-};
-
-TimeSpan sphere_overlap(const Vec3d& r, const Vec3d& v, double reach) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double r2 = dot(r, r);
-  // The second term covers the rounding of r x v and of r . r, for needles far apart.
-  const double radius2 = reach * reach * (1 + 0x1p-20) + 0x1p-48 * r2;
-  const double c = r2 - radius2;
-  const double b = dot(r, v);
-  const double a = dot(v, v);
-  const Vec3d n = cross(r, v);
-  const double d = a * radius2 - dot(n, n);
-  if (c > 0 && (b >= 0 || !(d > 0))) return {infinity, -infinity};
-  if (!(d > 0)) return {-infinity, infinity};
-  const double root = std::sqrt(d);
-  // The two roots of a s^2 + 2 b s + c without cancellation.
-  const double q = b > 0 ? -(b + root) : root - b;
-  if (q == 0) return {-infinity, infinity};
-  const double s1 = c / q, s2 = a > 0 ? q / a : std::copysign(infinity, q);
-  return {std::min(s1, s2), std::max(s1, s2)};
 }
 
 template <Isolation isolation, Escalation escalation>

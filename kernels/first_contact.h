@@ -37,6 +37,9 @@ struct Contact {
   bool side_unknown = false;
   /// The pair has just collided and returns at once, below what velocities in double resolve.
   bool unresolvable = false;
+  /// Bodies that exclude a volume: they are nearer at s = 0 than rounding explains, see
+  /// rod_contact().
+  bool overlap = false;
   DoubleDouble
       elapsed;   ///< time since s = 0 [time]; the low part only where double-double refined it
   int side = 0;  ///< sign of f before the contact

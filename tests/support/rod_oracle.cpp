@@ -1,0 +1,238 @@
+#include "tests/support/rod_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "tests/support/vector.h"
+
+namespace needlework::test {
+namespace {
+
+template <class Real>
+Vec<Real> rod_vector(const Vec3d& a) {
+  return {Real(a.x), Real(a.y), Real(a.z)};
+}
+template <class Real>
+Real rod_number(const DoubleDouble& a) {
+  return Real(a.hi) + Real(a.lo);
+}
+template <class Real>
+Vec<Real> rod_vector(const Vec3dd& a) {
+  return {rod_number<Real>(a.x), rod_number<Real>(a.y), rod_number<Real>(a.z)};
+}
+
+// The relative motion of two rods in numbers of type Real.
+template <class Real>
+struct RodMotion {
+  Vec<Real> r, v;
+  Vec<Real> u[2], p[2];
+  Real omega[2], delay[2], half[2];
+  Real speed;  // of a point of one axis relative to one of the other, not below
+
+  explicit RodMotion(const RodCase& rods) {
+    const kernels::Flight* flights[2] = {&rods.first, &rods.second};
+    delay[0] = rod_number<Real>(rods.pair.elapsed_first);
+    delay[1] = rod_number<Real>(rods.pair.elapsed_second);
+    half[0] = rods.pair.half_first;
+    half[1] = rods.pair.half_second;
+    Vec<Real> centre[2];
+    for (int i = 0; i < 2; ++i) {
+      const kernels::Flight& flight = *flights[i];
+      centre[i] = rod_vector<Real>(flight.r) + delay[i] * rod_vector<Real>(flight.v);
+      const Vec<Real> w = rod_vector<Real>(flight.w);
+      omega[i] = norm(w);
+      u[i] = rod_vector<Real>(flight.u);
+      p[i] = {Real(0), Real(0), Real(0)};
+      if (omega[i] > 0) p[i] = Real(1 / omega[i]) * cross(w, u[i]);
+    }
+    r = (centre[0] - centre[1]) - rod_vector<Real>(rods.pair.shift);
+    v = rod_vector<Real>(rods.first.v) - rod_vector<Real>(rods.second.v);
+    if (rods.pair.fall) {
+      r = r + rod_vector<Real>(rods.pair.fall->place);
+      v = v + rod_vector<Real>(rods.pair.fall->velocity);
+    }
+    speed = (norm(v) + half[0] * omega[0] + half[1] * omega[1]) * (1 + Real(1e-9));
+  }
+
+  Real distance(const Real& s) const {
+    using std::abs;
+    using std::cos;
+    using std::max;
+    using std::min;
+    using std::sin;
+    using std::sqrt;
+    Vec<Real> d[2];
+    for (int i = 0; i < 2; ++i) {
+      const Real phase = omega[i] * (s + delay[i]);
+      d[i] = Real(cos(phase)) * u[i] + Real(sin(phase)) * p[i];
+    }
+    const Vec<Real> between = r + s * v;
+    // Each tip with the other axis; `from` leads from the centre of that one to the tip.
+    std::optional<Real> least;
+    const auto consider = [&](const Real& square) {
+      if (!least || square < *least) least = square;
+    };
+    for (int i = 0; i < 2; ++i) {
+      const Real sign = i == 0 ? 1 : -1;
+      for (const int end : {-1, 1}) {
+        const Vec<Real> from = sign * between + Real(end * half[i]) * d[i];
+        const Real along = max(Real(-half[1 - i]), min(half[1 - i], dot(from, d[1 - i])));
+        const Vec<Real> off = from - along * d[1 - i];
+        consider(dot(off, off));
+      }
+    }
+    // Both inside.
+    const Vec<Real> x = cross(d[0] - d[1], Real(0.5) * (d[0] + d[1]));
+    const Real xx = dot(x, x);
+    if (xx > 0) {
+      const Real s12 = dot(cross(d[1], between), x) / xx, s21 = dot(cross(d[0], between), x) / xx;
+      if (abs(s12) < half[0] && abs(s21) < half[1]) {
+        const Real f = dot(between, x);
+        consider(f * f / xx);
+      }
+    }
+    return sqrt(*least);
+  }
+};
+
+using Extended = long double;
+
+class RodOracle {
+ public:
+  explicit RodOracle(const RodCase& rods)
+      : coarse_(rods), fine_(rods), speed_(fine_.speed), contact_(rods.pair.distance) {
+    size_ = static_cast<Extended>(norm(fine_.r) + fine_.half[0] + fine_.half[1] + contact_ +
+                                  fine_.speed * rods.horizon);
+    for (int i = 0; i < 2; ++i) {
+      const Quad phase = fine_.omega[i] * (fine_.delay[i] + rods.horizon);
+      size_ += static_cast<Extended>(fine_.half[i] * phase);
+    }
+  }
+
+  RodAnswer run(const RodCase& rods) {
+    const Quad start = fine_.distance(0);
+    const Quad above = start - contact_;
+    const Quad horizon = rods.horizon;
+    if (above < Quad(1e-12) * Quad(size_)) {  // the records touch
+      if (above < 0) contact_ = start;
+      const Quad least = Quad(1e-27) * Quad(size_) / (speed_ > 0 ? speed_ : Quad(1));
+      if (excess<Quad>(least) < 0) {
+        answer_.contact = true;
+        return answer_;
+      }
+      if (least >= horizon) return answer_;
+      for (Quad from = least; from < horizon; from *= 2) {
+        const Quad to = from * 2 < horizon ? Quad(from * 2) : horizon;
+        if (search_in(from, to)) return answer_;
+      }
+      return answer_;
+    }
+    search_in(0, horizon);
+    return answer_;
+  }
+
+ private:
+  template <class Real>
+  const RodMotion<Real>& motion() const {
+    if constexpr (std::is_same_v<Real, Quad>)
+      return fine_;
+    else
+      return coarse_;
+  }
+  template <class Real>
+  Real excess(const Real& s) {
+    ++answer_.evaluations;
+    return motion<Real>().distance(s) - Real(contact_);
+  }
+  bool search_in(const Quad& from, const Quad& to) {
+    if (Quad(to - from) * speed_ < fine_limit()) {
+      return search<Quad>(from, excess<Quad>(from), to, excess<Quad>(to));
+    }
+    const auto a = static_cast<Extended>(from), b = static_cast<Extended>(to);
+    return search<Extended>(a, excess<Extended>(a), b, excess<Extended>(b));
+  }
+  Quad fine_limit() const { return Quad(1e-9) * Quad(size_); }
+
+  // The first time in [a, b] at which the excess falls below 0; it is not below at a.
+  template <class Real>
+  bool search(const Real& a, const Real& at_a, const Real& b, const Real& at_b) {
+    constexpr bool is_quad = std::is_same_v<Real, Quad>;
+    const Real h = b - a, way = Real(speed_) * h;
+    const Real noise = Real(is_quad ? Quad(1e-32) : Quad(1e-17)) * Real(size_);
+    if (at_a + at_b - way > noise) return false;
+    if constexpr (!is_quad) {
+      if (Quad(way) < fine_limit()) {
+        return search<Quad>(a, excess<Quad>(a), b, excess<Quad>(b));
+      }
+    } else {
+      if (at_a > 0 && at_b < 0 && crosses_once(a, at_a, b, at_b)) return true;
+      if (way < noise || !(a + h / 2 > a && a + h / 2 < b)) {
+        if (at_b < -noise) {
+          answer_.contact = true;
+          answer_.time = b;
+          return true;
+        }
+        answer_.undecided = true;
+        return false;
+      }
+    }
+    const Real middle = a + h / 2, at_middle = excess<Real>(middle);
+    return search<Real>(a, at_a, middle, at_middle) || search<Real>(middle, at_middle, b, at_b);
+  }
+
+  // Regula falsi (Illinois) where the slopes at both ends of a short interval agree with the chord.
+  bool crosses_once(Quad a, Quad at_a, Quad b, Quad at_b) {
+    const Quad h = b - a, chord = (at_b - at_a) / h, step = h / 1024;
+    const Quad first = (excess<Quad>(a + step) - at_a) / step;
+    const Quad last = (at_b - excess<Quad>(b - step)) / step;
+    if (abs(first - chord) > abs(chord) / 4 || abs(last - chord) > abs(chord) / 4) return false;
+    int side = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Quad s = b - at_b * (b - a) / (at_b - at_a), at = excess<Quad>(s);
+      answer_.time = s;
+      if (at == 0 || abs(b - a) < Quad(1e-31) * s) break;
+      if (at < 0) {
+        if (b - s < Quad(1e-31) * s) break;
+        b = s;
+        at_b = at;
+        if (side == 1) at_a /= 2;
+        side = 1;
+      } else {
+        if (s - a < Quad(1e-31) * s) break;
+        a = s;
+        at_a = at;
+        if (side == -1) at_b /= 2;
+        side = -1;
+      }
+      if (abs(at) < Quad(1e-33) * Quad(size_)) break;
+    }
+    answer_.contact = true;
+    return true;
+  }
+
+  RodMotion<Extended> coarse_;
+  RodMotion<Quad> fine_;
+  Quad speed_, contact_;
+  Extended size_;
+  RodAnswer answer_;
+};
+
+}  // namespace
+
+RodCase RodCase::exchanged() const {
+  RodCase out = *this;
+  std::swap(out.first, out.second);
+  std::swap(out.pair.elapsed_first, out.pair.elapsed_second);
+  std::swap(out.pair.half_first, out.pair.half_second);
+  out.pair.shift = -pair.shift;
+  if (pair.fall) out.pair.fall = kernels::Fall{-pair.fall->velocity, -pair.fall->place};
+  return out;
+}
+
+RodAnswer first_rod_contact(const RodCase& rods) { return RodOracle(rods).run(rods); }
+
+Quad rod_distance(const RodCase& rods, const Quad& s) { return RodMotion<Quad>(rods).distance(s); }
+
+}  // namespace needlework::test
