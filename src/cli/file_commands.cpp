@@ -172,6 +172,9 @@ void add_view_command(CLI::App& app, int& exit_code) {
   command->add_flag("--force", arguments->force, "replace existing files");
   command->footer(R"(Needles are drawn whole where they reach across a side of the periodic box,
 with their centres inside. Far ones are thinner and closer to the ground.
+Walls are lattices where one looks at them from inside, else outlines, at the
+place of that time. A side that is open has no edges, and the picture reaches to
+the needle that is farthest beyond it.
 
 Colours:
   speed, spin  speed and angular speed, as multiples of the root mean square

@@ -30,6 +30,7 @@ std::string synopsis(const OptionHelp& option) {
 // Text as troff takes it: no hyphens made of minus signs, no line that begins with a request.
 std::string troff(const std::string& text) {
   std::string out = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+  out = replaced(out, "|", "|\\:");  // where a line may end: choices can be longer than one
   if (out.starts_with('.') || out.starts_with('\'')) out.insert(0, "\\&");
   return replaced(replaced(out, "\n.", "\n\\&."), "\n'", "\n\\&'");
 }
@@ -140,6 +141,7 @@ std::string man_page(const ProgramHelp& program) {
   std::string out = ".\\\" Printed by needlework --print-reference man.\n";
   out += fmt::format(".TH NEEDLEWORK 1 \"\" \"needlework {}\" \"User Commands\"\n",
                      NEEDLEWORK_VERSION);
+  out += ".ad l\n";  // choices have no spaces that could be widened
   out += fmt::format(".SH NAME\nneedlework \\- {}\n", troff(program.description));
   out += ".SH SYNOPSIS\n\\fBneedlework\\fR \\fICOMMAND\\fR [\\fIOPTIONS\\fR] [\\fIFILE\\fR]\n";
   out += ".SH COMMANDS\n";

@@ -63,7 +63,9 @@ int run(const ViewArguments& arguments) {
   picture::NeedlePicture settings = arguments.picture;
   settings.camera.orthographic = arguments.projection == "orthographic";
   settings.dark = arguments.background == "dark";
-  settings.lengths = io::lengths_of(io::read_material(arguments.from));
+  const io::Material material = io::read_material(arguments.from);
+  settings.lengths = io::lengths_of(material);
+  settings.walls = io::single_walls(material.walls);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     settings.time = file->time(i);
     const picture::Drawing drawing = picture::drawing_of(file->read(i), settings);

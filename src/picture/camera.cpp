@@ -7,11 +7,12 @@
 namespace needlework::picture {
 namespace {
 
-// Corner 0 to 7 of a box with a margin; bit i of the number is for axis i.
-Vector corner(const Vector& box, std::size_t number, double margin = 0) {
+// Corner 0 to 7 of a region with a margin; bit i of the number is for axis i.
+Vector corner(const Region& region, std::size_t number, double margin = 0) {
   Vector point;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    point[axis] = (number >> axis & 1) != 0 ? box[axis] + margin : -margin;
+    point[axis] =
+        (number >> axis & 1) != 0 ? region.high[axis] + margin : region.low[axis] - margin;
   }
   return point;
 }
@@ -20,21 +21,25 @@ Vector corner(const Vector& box, std::size_t number, double margin = 0) {
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Camera::Camera(const Vector& box, double margin, const CameraSettings& settings,
+Camera::Camera(const Region& region, double margin, const CameraSettings& settings,
                const Frame& frame) {
   const double degree = std::numbers::pi / 180;
   const double a = settings.azimuth * degree, e = settings.elevation * degree;
   axes_ = {Vector{-std::sin(a), std::cos(a), 0},
            Vector{-std::sin(e) * std::cos(a), -std::sin(e) * std::sin(a), std::cos(e)},
            Vector{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}};
-  for (std::size_t axis = 0; axis < 3; ++axis) middle_[axis] = box[axis] / 2;
+  Vector edges;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    middle_[axis] = (region.low[axis] + region.high[axis]) / 2;
+    edges[axis] = region.high[axis] - region.low[axis];
+  }
   // Far enough for every corner to be in front of the camera.
-  if (!settings.orthographic) distance_ = 1.4 * (std::sqrt(dot(box, box)) + 2 * margin);
+  if (!settings.orthographic) distance_ = 1.4 * (std::sqrt(dot(edges, edges)) + 2 * margin);
 
   Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
   for (std::size_t i = 0; i < 8; ++i) {
-    nearest_ = std::max(nearest_, turned(corner(box, i))[2]);
-    const Point place = unscaled(corner(box, i, margin)).place;
+    nearest_ = std::max(nearest_, turned(corner(region, i))[2]);
+    const Point place = unscaled(corner(region, i, margin)).place;
     low = {std::min(low.x, place.x), std::min(low.y, place.y)};
     high = {std::max(high.x, place.x), std::max(high.y, place.y)};
   }
@@ -64,10 +69,15 @@ Seen Camera::see(const Vector& point) const {
   return seen;
 }
 
-std::vector<std::pair<Vector, Vector>> edges_of(const Vector& box, const Camera& camera) {
+bool Camera::is_above(std::size_t axis, double place) const {
+  const double towards = axes_[2][axis];
+  return distance_ == 0 ? towards > 0 : middle_[axis] + distance_ * towards > place;
+}
+
+std::vector<std::pair<Vector, Vector>> edges_of(const Region& region, const Camera& camera) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < 8; ++i) {
-    const auto nearness = [&](std::size_t n) { return camera.see(corner(box, n)).nearness; };
+    const auto nearness = [&](std::size_t n) { return camera.see(corner(region, n)).nearness; };
     if (nearness(i) > nearness(nearest)) nearest = i;
   }
   std::vector<std::pair<Vector, Vector>> edges;
@@ -75,7 +85,7 @@ std::vector<std::pair<Vector, Vector>> edges_of(const Vector& box, const Camera&
     for (std::size_t i = 0; i < 8; ++i) {
       for (const std::size_t j : {i | 1, i | 2, i | 4}) {
         if (i == j || (i == nearest || j == nearest) != last) continue;
-        edges.emplace_back(corner(box, i), corner(box, j));
+        edges.emplace_back(corner(region, i), corner(region, j));
       }
     }
   }

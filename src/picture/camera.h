@@ -1,7 +1,8 @@
-// How a box is seen from outside.
+// How a rectangular region, such as the box, is seen from outside.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,12 @@ struct CameraSettings {
   bool orthographic = false;
 };
 
-/// A part of the picture that the box has to fit into [pixels].
+/// A rectangular part of space, between two corners [L].
+struct Region {
+  Vector low{}, high{};
+};
+
+/// A part of the picture that the region has to fit into [pixels].
 struct Frame {
   double left, top, right, bottom;
 };
@@ -28,16 +34,18 @@ struct Frame {
 struct Seen {
   Point place;          ///< in the picture [pixels]
   double scale = 1;     ///< pixels per unit of length at its distance
-  double nearness = 0;  ///< 0 and 1 in the farthest and the nearest corner of the box
+  double nearness = 0;  ///< 0 and 1 in the farthest and the nearest corner of the region
 };
 
-/// Looks at the middle of a box; z points upwards.
+/// Looks at the middle of a region; z points upwards.
 class Camera {
  public:
-  /// The box with a margin of this width around it fills the frame in one direction.
-  Camera(const Vector& box, double margin, const CameraSettings& settings, const Frame& frame);
+  /// The region with a margin of this width around it fills the frame in one direction.
+  Camera(const Region& region, double margin, const CameraSettings& settings, const Frame& frame);
 
   Seen see(const Vector& point) const;
+  /// Whether a plane normal to this axis is seen from its side of larger coordinates.
+  bool is_above(std::size_t axis, double place) const;
 
  private:
   /// Across, up and towards the camera, before the picture is scaled.
@@ -52,7 +60,7 @@ class Camera {
   Point shift_;
 };
 
-/// The twelve edges of the box; those of its corner nearest to the camera are the last three.
-std::vector<std::pair<Vector, Vector>> edges_of(const Vector& box, const Camera& camera);
+/// The twelve edges of the region; those of its corner nearest to the camera are the last three.
+std::vector<std::pair<Vector, Vector>> edges_of(const Region& region, const Camera& camera);
 
 }  // namespace needlework::picture

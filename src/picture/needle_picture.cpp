@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "src/picture/needle_values.h"
+#include "src/picture/stroke_font.h"
+#include "src/picture/walls.h"
 
 namespace needlework::picture {
 namespace {
@@ -16,14 +18,26 @@ constexpr double thickness = 0.07;   // of a needle in the middle of the box, in
 constexpr double thinnest = 0.7;     // [pixels]
 constexpr double faintest = 0.4;     // share of its colour that the farthest needle keeps
 constexpr double least_unit = 0.55;  // letters of smaller pictures could not be read
+constexpr double lattice = 8;        // lines across the longer edge of a wall
 
 struct Theme {
   Colour ground, text, outline, needle;
+  std::array<Colour, 3> walls;  // by their kind
 };
 
 Theme theme_of(bool dark) {
-  if (dark) return {{11, 16, 32}, {230, 234, 245}, {74, 86, 128}, {150, 190, 255}};
-  return {{255, 255, 255}, {34, 34, 34}, {150, 156, 170}, {40, 80, 150}};
+  if (dark) {
+    return {{11, 16, 32},
+            {230, 234, 245},
+            {74, 86, 128},
+            {150, 190, 255},
+            {{{150, 162, 190}, {70, 190, 160}, {240, 130, 80}}}};
+  }
+  return {{255, 255, 255},
+          {34, 34, 34},
+          {150, 156, 170},
+          {40, 80, 150},
+          {{{100, 108, 126}, {0, 128, 100}, {196, 70, 16}}}};
 }
 
 std::string count_text(const State& state) {
@@ -37,19 +51,24 @@ class Painter {
         settings_(settings),
         theme_(theme_of(settings.dark)),
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
-        camera_(state.box, std::ranges::max(settings.lengths) / 2, settings.camera, frame()) {}
+        walls_(surfaces_of(settings.walls, state.box, settings.time)),
+        region_(region_of(state, walls_)),
+        camera_(region_, std::ranges::max(settings.lengths) / 2, settings.camera, frame()) {}
 
   Drawing drawing() {
     const NeedleValues values = values_of(settings_.colour, state_, settings_.dark);
     drawing_.width = settings_.width;
     drawing_.height = settings_.height;
     drawing_.ground = theme_.ground;
-    const auto edges = edges_of(state_.box, camera_);
+    const auto edges = edges_of(region_, camera_);
     for (std::size_t i = 0; i < 9; ++i) draw_edge(edges[i]);
+    draw_walls(true);
     draw_needles(values);
     for (std::size_t i = 9; i < 12; ++i) draw_edge(edges[i]);
+    draw_walls(false);
     if (!values.label.empty()) draw_legend(values);
     draw_caption();
+    draw_kinds_of_walls();
     describe(values);
     return std::move(drawing_);
   }
@@ -58,12 +77,66 @@ class Painter {
   // What the legend leaves for the box.
   Frame frame() const {
     const double edge = 14 * unit_;
-    return {edge, edge, settings_.width - edge, settings_.height - 76 * unit_};
+    const double top = settings_.walls.empty() ? edge : edge + 26 * unit_;
+    return {edge, top, settings_.width - edge, settings_.height - 76 * unit_};
+  }
+
+  void draw_line(const Vector& from, const Vector& to, double width, Colour colour) {
+    drawing_.strokes.push_back(
+        {camera_.see(from).place, camera_.see(to).place, width * unit_, colour});
   }
 
   void draw_edge(const std::pair<Vector, Vector>& edge) {
-    const Seen from = camera_.see(edge.first), to = camera_.see(edge.second);
-    drawing_.strokes.push_back({from.place, to.place, 1.3 * unit_, theme_.outline});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (edge.first[axis] != edge.second[axis]) continue;
+      if (is_open(walls_, axis, edge.first[axis] == region_.high[axis])) return;
+    }
+    draw_line(edge.first, edge.second, 1.3, theme_.outline);
+  }
+
+  void draw_walls(bool seen_from_the_gas) {
+    for (const WallSurface& wall : walls_) {
+      const bool is_behind = camera_.is_above(wall.axis, wall.place) != wall.is_high;
+      if (is_behind == seen_from_the_gas) draw_wall(wall, is_behind);
+    }
+  }
+
+  void draw_wall(const WallSurface& wall, bool with_lattice) {
+    const Colour colour = theme_.walls[static_cast<std::size_t>(wall.kind)];
+    const std::size_t a = (wall.axis + 1) % 3, b = (wall.axis + 2) % 3;
+    const double cell =
+        std::max(region_.high[a] - region_.low[a], region_.high[b] - region_.low[b]) / lattice;
+    for (const auto& [across, along] : {std::pair(a, b), std::pair(b, a)}) {
+      const double edge = region_.high[across] - region_.low[across];
+      const int lines = with_lattice ? std::max(1, static_cast<int>(std::lround(edge / cell))) : 1;
+      for (int n = 0; n <= lines; ++n) {
+        Vector from = region_.low;
+        from[wall.axis] = wall.place;
+        from[across] += edge * n / lines;
+        Vector to = from;
+        to[along] = region_.high[along];
+        const bool is_outline = n == 0 || n == lines;
+        draw_line(from, to, is_outline ? 2.2 : 0.9,
+                  is_outline ? colour : mixed(colour, theme_.ground, 0.55));
+      }
+    }
+  }
+
+  // A line for each kind of wall that there is, and what it is called.
+  void draw_kinds_of_walls() {
+    double x = 16 * unit_;
+    const double y = 26 * unit_;
+    for (const WallKind kind : {WallKind::resting, WallKind::moving, WallKind::thermal}) {
+      const auto is_of_kind = [&](const WallSurface& wall) { return wall.kind == kind; };
+      if (std::ranges::none_of(walls_, is_of_kind)) continue;
+      const double level = y - 6 * unit_;
+      drawing_.strokes.push_back({{x, level},
+                                  {x + 26 * unit_, level},
+                                  2.2 * unit_,
+                                  theme_.walls[static_cast<std::size_t>(kind)]});
+      write(name_of(kind), {x + 36 * unit_, y}, Words::Anchor::start);
+      x += 36 * unit_ + length_of(drawing_.words.back()) + 24 * unit_;
+    }
   }
 
   Vector in_box(Vector point) const {
@@ -156,6 +229,10 @@ class Painter {
     if (!walled.empty()) {
       drawing_.description += fmt::format(", not periodic along {}", fmt::join(walled, " and "));
     }
+    for (const Scene::Wall& wall : settings_.walls) {
+      drawing_.description += fmt::format(
+          "{} {}", &wall == settings_.walls.data() ? ", walls:" : ",", description_of(wall));
+    }
     if (settings_.time) drawing_.description += fmt::format(" at time {:.6g}", *settings_.time);
     if (!values.label.empty()) {
       drawing_.description += fmt::format("; colours are {} from {:g} to {:g}", values.label,
@@ -168,6 +245,8 @@ class Painter {
   const NeedlePicture& settings_;
   Theme theme_;
   double unit_;  // of what is drawn, in pixels: 1 in a picture of the usual size
+  std::vector<WallSurface> walls_;
+  Region region_;
   Camera camera_;
   Drawing drawing_;
 };

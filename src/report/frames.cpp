@@ -7,6 +7,7 @@
 
 #include "needlework/h5md.h"
 #include "src/picture/needle_values.h"
+#include "src/picture/walls.h"
 
 namespace needlework::report {
 
@@ -18,23 +19,11 @@ using Vector = std::array<double, 3>;
 
 float length_of(const Vector& a) { return static_cast<float>(std::hypot(a[0], a[1], a[2])); }
 
-std::uint16_t place_in_box(double share) {
-  share -= std::floor(share);
-  return static_cast<std::uint16_t>(std::min(65535.0, std::floor(share * 65536)));
-}
-
-// What is drawn along an axis: the box and, where a side is open, all centres.
-struct Extent {
-  double low, high;
-};
-Extent extent_of(const State& state, std::size_t axis) {
-  Extent out{0, state.box[axis]};
-  if (state.periodic[axis]) return out;
-  for (const Vector& centre : state.position) {
-    out.low = std::min(out.low, centre[axis]);
-    out.high = std::max(out.high, std::nextafter(centre[axis], HUGE_VAL));
-  }
-  return out;
+// Between the ends of what is drawn along an axis, in units of its length / 65536.
+std::uint16_t place_between(double low, double high, double place, bool periodic) {
+  double share = (place - low) / (high - low);
+  if (periodic) share -= std::floor(share);
+  return static_cast<std::uint16_t>(std::clamp(std::floor(share * 65536), 0.0, 65535.0));
 }
 
 // The values that needlework view draws, of the needles chosen.
@@ -46,19 +35,16 @@ std::vector<float> chosen_values(const char* quantity, const State& state,
   return values;
 }
 
-Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& arrays) {
+Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
+              std::span<const std::size_t> chosen, Arrays& arrays) {
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
-  std::array<Extent, 3> drawn;
-  Vector box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    drawn[axis] = extent_of(state, axis);
-    box[axis] = drawn[axis].high - drawn[axis].low;
-  }
+  const picture::Region drawn = picture::region_of(state, walls);
   for (const std::size_t i : chosen) {
     for (std::size_t a = 0; a < 3; ++a) {
-      position.push_back(place_in_box((state.position[i][a] - drawn[a].low) / box[a]));
+      position.push_back(
+          place_between(drawn.low[a], drawn.high[a], state.position[i][a], state.periodic[a]));
       orientation.push_back(
           static_cast<std::int16_t>(std::lround(32767 * state.orientation[i][a])));
     }
@@ -69,13 +55,27 @@ Json frame_of(const State& state, std::span<const std::size_t> chosen, Arrays& a
   const auto add = [&](const std::vector<float>& values) {
     return arrays.add(std::span<const float>(values), {n});
   };
-  return {{"box", box},
+  Json places = Json::array();
+  for (const picture::WallSurface& wall : walls) places.push_back(wall.place);
+  return {{"low", drawn.low},
+          {"high", drawn.high},
+          {"walls", places},
           {"position", arrays.add(std::span<const std::uint16_t>(position), {n, 3})},
           {"orientation", arrays.add(std::span<const std::int16_t>(orientation), {n, 3})},
           {"speed", add(speed)},
           {"spin", add(spin)},
           {"alignment", add(chosen_values("alignment", state, chosen))},
           {"density", add(chosen_values("density", state, chosen))}};
+}
+
+// What stays as it is from frame to frame.
+Json drawn_walls(std::span<const picture::WallSurface> walls) {
+  Json out = Json::array();
+  for (const picture::WallSurface& wall : walls) {
+    out.push_back(
+        {{"axis", wall.axis}, {"high", wall.is_high}, {"kind", picture::name_of(wall.kind)}});
+  }
+  return out;
 }
 
 std::vector<float> shares_of_length(const State& state, std::span<const std::size_t> chosen,
@@ -90,8 +90,8 @@ std::vector<float> shares_of_length(const State& state, std::span<const std::siz
 
 }  // namespace
 
-Json frames_of(const std::string& path, std::span<const double> lengths, const Limits& limits,
-               Arrays& arrays) {
+Json frames_of(const std::string& path, std::span<const double> lengths,
+               std::span<const Scene::Wall> walls, const Limits& limits, Arrays& arrays) {
   const io::FrameFile file(path);
   const State first = file.read(0);
   const std::size_t needles = first.size();
@@ -100,6 +100,9 @@ Json frames_of(const std::string& path, std::span<const double> lengths, const L
   const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
   const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
   Json out = {{"length", length},
+              {"box", first.box},
+              {"periodic", first.periodic},
+              {"walls", drawn_walls(picture::surfaces_of(walls, first.box, {}))},
               {"needles_in_file", needles},
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
@@ -110,8 +113,10 @@ Json frames_of(const std::string& path, std::span<const double> lengths, const L
   }
   for (const std::size_t frame : frames) {
     Json one = {{"number", frame}, {"time", nullptr}};
-    if (const auto time = file.time(frame)) one["time"] = *time;
-    one.update(frame_of(file.read(frame), chosen, arrays));
+    const auto time = file.time(frame);
+    if (time) one["time"] = *time;
+    const State state = file.read(frame);
+    one.update(frame_of(state, picture::surfaces_of(walls, state.box, time), chosen, arrays));
     out["frames"].push_back(std::move(one));
   }
   return out;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/io/formats/material.h"
 #include "src/report/frames.h"
 #include "src/report/scene_facts.h"
 
@@ -197,7 +198,9 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
                  Arrays& arrays) {
   Json out = {{"kind", "run"}, {"file", path}, {"parameters", parameters_of(contents)}};
   const auto text = contents.texts("/parameters/scene");
-  out["scene"] = text && text->size() == 1 ? scene_facts(text->front(), path) : Json(nullptr);
+  std::optional<Scene> scene;
+  if (text && text->size() == 1) scene = recorded_scene(text->front(), path);
+  out["scene"] = scene ? scene_facts(*scene) : Json(nullptr);
   // When a caller has replaced the velocities, after which the gas does what no theory says.
   const bool has_changes =
       contents.has("/velocities_set/time") && contents.shape("/velocities_set/time").at(0) > 0;
@@ -215,7 +218,8 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
   }
   const auto lengths = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
                                                           : std::vector<double>{1.0};
-  out["frames"] = frames_of(path, lengths, limits, arrays);
+  const auto walls = io::single_walls(scene ? scene->walls : std::vector<Scene::Wall>{});
+  out["frames"] = frames_of(path, lengths, walls, limits, arrays);
   return out;
 }
 

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
 #include "needlework/theory.h"
 #include "src/composition/pair_name.h"
+#include "src/io/formats/material.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::report {
 
@@ -30,9 +32,10 @@ Json end_of(const Scene::Until& until) {
 }
 
 // The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool,
-// and for mixtures, whose species have each its own.
-Json ratio_of_theory(const Composition& composition) {
-  if (composition.is_mixture()) return nullptr;
+// for mixtures, whose species have each its own, and where something else than collisions of pairs
+// acts on the gas.
+Json ratio_of_theory(const Scene& scene, const Composition& composition) {
+  if (composition.is_mixture() || acts_on_single_needles(scene)) return nullptr;
   const Restitution& rule = composition.restitution(0, 0);
   const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double ratio = theory::asymptotic_ratio(gas);
@@ -67,8 +70,41 @@ Json pairs_of(const Composition& composition, const Restitution& usual) {
   return out;
 }
 
+Json walls_of(const Scene& scene) {
+  Json out = Json::array();
+  for (const Scene::Wall& wall : io::single_walls(scene.walls)) {
+    Json motion = nullptr;
+    if (wall.motion) {
+      motion = {{"amplitude", wall.motion->amplitude},
+                {"frequency", wall.motion->frequency},
+                {"phase", wall.motion->phase}};
+    }
+    out.push_back({{"axis", wall.axis},
+                   {"side", wall.side},
+                   {"epsilon", wall.epsilon},
+                   {"temperature", optional(wall.temperature)},
+                   {"motion", std::move(motion)}});
+  }
+  return out;
+}
+
+Json driving_of(const Scene::Driving& driving) {
+  Json out = {{"kicks", nullptr}, {"andersen", nullptr}};
+  if (const auto& kicks = driving.kicks) {
+    out["kicks"] = {{"every", kicks->every},
+                    {"translational", kicks->translational},
+                    {"rotational", kicks->rotational}};
+  }
+  if (const auto& andersen = driving.andersen) {
+    out["andersen"] = {{"rate", andersen->rate}, {"temperature", andersen->temperature}};
+  }
+  return out;
+}
+
+}  // namespace
+
 // Of a mixture the longest length and the mean mass; what belongs to each species is with it.
-Json facts_of(const Scene& scene) {
+Json scene_facts(const Scene& scene) {
   const Composition composition = scene.composition();
   const Species& needle = composition[0];
   const bool one = !composition.is_mixture();
@@ -90,19 +126,20 @@ Json facts_of(const Scene& scene) {
           {"beta", scene.collisions.beta},
           {"tc", optional(scene.collisions.tc)},
           {"tc_relative", optional(scene.collisions.tc_relative)},
+          {"walls", walls_of(scene)},
+          {"gravity", scene.forces.gravity},
+          {"driving", driving_of(scene.driving)},
           {"search", scene.engine.search},
           {"queue", scene.engine.queue},
           {"until", end_of(scene.until)},
-          {"ratio_of_theory", ratio_of_theory(composition)}};
+          {"ratio_of_theory", ratio_of_theory(scene, composition)}};
 }
 
-}  // namespace
-
-Json scene_facts(const std::string& text, const std::string& name) {
+std::optional<Scene> recorded_scene(const std::string& text, const std::string& name) {
   try {
-    return facts_of(parse_recorded_scene(text, name));
+    return parse_recorded_scene(text, name);
   } catch (const InputError&) {
-    return nullptr;
+    return {};
   }
 }
 

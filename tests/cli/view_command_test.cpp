@@ -1,6 +1,9 @@
 // What `needlework view` does with files; tests/picture judges the pictures.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <pugixml.hpp>
+
 #include "tests/cli/program.h"
 
 namespace needlework {
@@ -42,6 +45,34 @@ TEST_F(ViewCommand, ShowsTheFrameThatIsAskedFor) {
   EXPECT_EQ(beyond.exit_code, 3);
   EXPECT_TRUE(beyond.complains("--frame 3: expected a number from 0 to 2, as there are 3 frames"));
   EXPECT_FALSE(exists("b.svg"));
+}
+
+TEST_F(ViewCommand, ShowsWallsWhereTheyAreAtTheTimeOfTheFrame) {
+  write("shaken.toml",
+        "needles = { count = 5, box = [5, 5, 3] }\nuntil.time = 0.75\nforces.gravity = [0, 0, -1]\n"
+        "output = { file = \"a.h5\", frames = [0.25], checkpoint_every = 0 }\n"
+        "[[walls]]\naxis = \"z\"\nside = \"low\"\nmotion = { amplitude = 0.5, frequency = 1 }\n");
+  ASSERT_EQ(run("run shaken.toml --quiet").exit_code, 0);
+  // The lowest line of the outline of the floor, at the height of the box from the side.
+  const auto floor = [&](const char* frame) {
+    const std::string options = "--projection orthographic --elevation 0 --colour none";
+    EXPECT_EQ(
+        run(fmt::format("view a.h5 -o a.svg --force --frame {} {}", frame, options)).exit_code, 0);
+    pugi::xml_document picture;
+    EXPECT_TRUE(picture.load_string(read("a.svg").c_str()));
+    double lowest = 0, box = 0;
+    for (const auto& line : picture.select_nodes("//line")) {
+      const double y = line.node().attribute("y1").as_double();
+      const std::string colour = line.node().attribute("stroke").value();
+      if (colour == "#46bea0") lowest = std::max(lowest, y);
+      if (colour == "#4a5680") box = std::max(box, y);
+    }
+    return box - lowest;
+  };
+  EXPECT_NE(floor("0"), floor("1"));
+  EXPECT_GT(floor("1"), 20);         // at its highest
+  EXPECT_NEAR(floor("2"), 0, 0.11);  // at its lowest, where the box is drawn to
+  EXPECT_NE(read("a.svg").find(">moving wall<"), std::string::npos);
 }
 
 TEST_F(ViewCommand, NumbersThePicturesOfASeries) {

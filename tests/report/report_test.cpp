@@ -32,9 +32,11 @@ class Report : public testing::Test {
 
   // A run of `needles` needles with samples and frames whose numbers follow from their places.
   void write_run(const std::string& name, const std::string& title = "known numbers",
-                 std::uint64_t needles = 3, int frames = 2) const {
-    Scene scene = parse_scene("title = " + nlohmann::json(title).dump() + "\nneedles = { count = " +
-                                  std::to_string(needles) + ", box = [4, 5, 6] }\nuntil.time = 1\n",
+                 std::uint64_t needles = 3, int frames = 2,
+                 const std::string& surroundings = "") const {
+    Scene scene = parse_scene("title = " + nlohmann::json(title).dump() +
+                                  "\nneedles = { count = " + std::to_string(needles) +
+                                  ", box = [4, 5, 6] }\nuntil.time = 1\n" + surroundings,
                               "scene", std::vector<std::string>{"collisions.epsilon=0.75"});
     scene.needles.count = needles;
     io::RunInfo info{"scalar", 2, 1.0};
@@ -140,7 +142,11 @@ TEST_F(Report, DrawsNeedlesWhereTheyAre) {
   ASSERT_EQ(frames["frames"].size(), 2);
   const json& frame = frames["frames"][1];
   EXPECT_EQ(frame["time"], 0.1);
-  EXPECT_EQ(frame["box"], json({4.0, 5.0, 6.0}));
+  EXPECT_EQ(frames["box"], json({4.0, 5.0, 6.0}));
+  EXPECT_EQ(frames["periodic"], json({true, true, true}));
+  EXPECT_EQ(frames["walls"], json::array());
+  EXPECT_EQ(frame["low"], json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(frame["high"], json({4.0, 5.0, 6.0}));
   const auto position = page.numbers<std::uint16_t>(frame["position"]);
   ASSERT_EQ(position.size(), 9);
   EXPECT_EQ(position[0], 3 * 65536 / 4);  // -1 is 3 in a box of 4
@@ -153,6 +159,38 @@ TEST_F(Report, DrawsNeedlesWhereTheyAre) {
   EXPECT_EQ(page.numbers<float>(frame["spin"])[0], 2);
   EXPECT_FLOAT_EQ(page.numbers<float>(frame["alignment"])[0], 2);  // flies along itself
   EXPECT_NEAR(page.numbers<float>(frames["frames"][0]["alignment"])[0], 0, 1e-6);  // at rest
+}
+
+TEST_F(Report, ShowsWallsWhereTheyAreAndNeedlesBeyondOpenSides) {
+  write_run("run.h5", "walls", 3, 2,
+            "forces.gravity = [1, 0, -2]\n"
+            "driving = { kicks = { every = 0.5, translational = 2 } }\n"
+            "[[walls]]\naxis = \"z\"\nside = \"low\"\nepsilon = 0.5\n"
+            "motion = { amplitude = 0.25, frequency = 2.5, phase = 0 }\n"
+            "[[walls]]\naxis = \"x\"\nside = \"both\"\ntemperature = 3\n");
+  const test::PageData page = page_of({"run.h5"});
+  const json& frames = page.json["sections"][0]["frames"];
+  EXPECT_EQ(frames["periodic"], json({false, true, false}));
+  EXPECT_EQ(frames["walls"], json::parse(R"([
+      {"axis": 2, "high": false, "kind": "moving wall"},
+      {"axis": 0, "high": false, "kind": "thermal wall"},
+      {"axis": 0, "high": true, "kind": "thermal wall"}])"));
+  // Centres are at x = -1, and the floor has made a quarter of a turn at the second frame.
+  EXPECT_EQ(frames["frames"][0]["walls"], json({0.0, 0.0, 4.0}));
+  EXPECT_EQ(frames["frames"][0]["low"], json({-1.0, 0.0, 0.0}));
+  EXPECT_NEAR(frames["frames"][1]["walls"][0].get<double>(), 0.25, 1e-12);
+  EXPECT_EQ(frames["frames"][1]["high"], json({4.0, 5.0, 6.0}));
+  // Along walled axes nothing is wrapped.
+  EXPECT_EQ(page.numbers<std::uint16_t>(frames["frames"][1]["position"])[0], 0);
+  const json& scene = page.json["sections"][0]["scene"];
+  EXPECT_EQ(scene["gravity"], json({1.0, 0.0, -2.0}));
+  EXPECT_EQ(scene["walls"][0], json::parse(R"({"axis": "z", "side": "low", "epsilon": 0.5,
+      "temperature": null, "motion": {"amplitude": 0.25, "frequency": 2.5, "phase": 0.0}})"));
+  EXPECT_EQ(scene["walls"][2]["side"], "high");
+  EXPECT_EQ(scene["walls"][2]["temperature"], 3);
+  EXPECT_EQ(scene["driving"], json::parse(R"({"andersen": null,
+      "kicks": {"every": 0.5, "translational": 2.0, "rotational": 0.0}})"));
+  EXPECT_EQ(scene["ratio_of_theory"], nullptr);
 }
 
 TEST_F(Report, ThinsFramesNeedlesAndSamplesAndSaysSo) {

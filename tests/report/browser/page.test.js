@@ -34,6 +34,36 @@ out = "sweep"
     machine: "a machine",
     cases: [1, 2, 4].flatMap((n) => ["capsules", "linked-cells"].map((search) => ({ name: `n=${n},N=10/${search}/auto`, us_per_collision: [n, 2 * n] }))),
   }));
+  write("shaken.toml", `title = "Shaken"
+needles = { count = 60, box = [5, 5, 3] }
+forces.gravity = [0, 0, -1]
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until.time = 20
+output = { file = "shaken.h5", series_every = 0.5, frames = [0.25, 0.75] }
+[[walls]]
+axis = "z"
+side = "low"
+epsilon = 0.95
+motion = { amplitude = 0.5, frequency = 1 }
+`);
+  needlework("run", "shaken.toml", "--quiet");
+  needlework("report", "shaken.h5", "-o", "shaken.html");
+  write("between.toml", `needles = { count = 60, box = [5, 5, 3] }
+until.time = 2
+output.file = "between.h5"
+[[walls]]
+axis = "x"
+side = "both"
+temperature = 2
+[[walls]]
+axis = "z"
+side = "low"
+[[walls]]
+axis = "z"
+side = "high"
+`);
+  needlework("run", "between.toml", "--quiet");
+  needlework("report", "between.h5", "-o", "between.html");
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -114,6 +144,78 @@ test("all needles are drawn in one draw call, beside that of the box", async () 
   assert.equal(needles, 300);
   assert.equal(drawCalls, 2);
   assert.ok((await colours(page)) > 50);
+  await close();
+});
+
+test("walls are drawn where they are, and what bounds the box is said", async () => {
+  const { page, complaints, close } = await open(browser, "shaken.html");
+  const { drawCalls } = await drawn(page);
+  assert.equal(drawCalls, 4); // needles, box, sheet and lattice
+  const heights = await view(page).evaluate((figure) => [0, 1, 2].map((n) => {
+    figure.view.showFrame(n);
+    const { low, high } = figure.view.frames.frames[n];
+    return figure.view.scene.walls[0].sheet.position.z + (low[2] + high[2]) / 2;
+  }));
+  [0, 0.5, -0.5].forEach((height, n) => assert.ok(Math.abs(heights[n] - height) < 1e-9, `${heights}`));
+  const caption = await view(page).locator("figcaption").textContent();
+  assert.match(caption, /periodic along x and y, with a moving wall at z low, open at z high/);
+  assert.match(await view(page).locator("canvas").getAttribute("aria-label"), /60 needles in a box that is periodic along x and y/);
+  // The edges of the open side are left out: 8 of 12.
+  assert.equal(await view(page).evaluate((figure) => figure.view.scene.box.geometry.getAttribute("position").count), 16);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test("the place of a needle in the table is that in the box, whatever is drawn", async () => {
+  const { page, close } = await open(browser, "shaken.html");
+  await drawn(page);
+  const { least, high } = await view(page).evaluate((figure) => {
+    const columns = figure.view.columns();
+    return { least: Math.min(...columns[2].values), high: figure.view.frames.frames.at(-1).high[2] };
+  });
+  assert.ok(least > -0.5 && least < high);
+  const low = await view(page).evaluate((figure) => {
+    figure.view.showFrame(2);
+    return [figure.view.frames.frames[2].low[2], Math.min(...figure.view.columns()[2].values)];
+  });
+  assert.equal(low[0], -0.5);
+  assert.ok(low[1] > -0.5);
+  await close();
+});
+
+test("hits, forces and what acts on the gas are told", async () => {
+  const { page, close } = await open(browser, "shaken.html");
+  const facts = await page.locator(".facts").first().textContent();
+  for (const part of ["Boundariesperiodic along x and y", "Wall at z lowε = 0.95, moves by 0.5 sin(2π 1 t)", "Gravity0, 0, −1"]) {
+    assert.ok(facts.includes(part), `${part}: ${facts}`);
+  }
+  assert.ok(!facts.includes("Density"));
+  const figures = await page.locator(".figures").textContent();
+  assert.match(figures, /Hits at z low[\d\s.]+ [\d.]+ per needle and time/);
+  assert.match(figures, /Force at z low[\d.]+ weight: 60/);
+  for (const title of ["Hits on walls", "Force on walls"]) assert.equal(await chart(page, title).count(), 1, title);
+  const force = chart(page, "Force on walls");
+  assert.match(await force.locator(".legend").textContent(), /z low.*weight/);
+  assert.match(await chart(page, "Cooling curve").locator("figcaption").textContent(), /that of the weight/);
+  const momentum = await chart(page, "Conservation of momentum").locator("figcaption").textContent();
+  assert.match(momentum, /along the periodic axes/);
+  await close();
+});
+
+test("walls on two axes are four, and nothing is open", async () => {
+  const { page, close } = await open(browser, "between.html");
+  assert.equal((await drawn(page)).drawCalls, 10);
+  const facts = await page.locator(".facts").first().textContent();
+  assert.ok(facts.includes("periodic along y, with a thermal wall at x low, a thermal wall at x high, a wall at z low and a wall at z high"), facts);
+  assert.ok(facts.includes("Wall at x lowtemperature 2"));
+  assert.ok(facts.includes("Density"));
+  assert.equal(await chart(page, "Hits on walls").getAttribute("data-points").then((points) => points.split(" ").length), 4);
+  await close();
+});
+
+test("a periodic box is called so", async () => {
+  const { page, close } = await open(browser, "gas.html");
+  assert.match(await view(page).locator("figcaption").textContent(), /Drawn in the box, which is periodic, at the places/);
   await close();
 });
 

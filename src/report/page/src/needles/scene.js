@@ -1,7 +1,10 @@
-// The needles of one frame in three dimensions: one draw call for all of them, one for the box.
+// The needles of one frame in three dimensions: one draw call for all of them, one for the box, and
+// two for each wall.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { openSides } from "../boundaries.js";
 import { numbers } from "../data.js";
+import { Wall } from "./wall.js";
 
 // A needle is a ribbon of four corners that faces the viewer. The GPU places it, so that another frame
 // or another colour is another array and nothing else. Each corner has the data of its needle: drawing
@@ -62,7 +65,8 @@ function drawnByCpu() {
 
 /** Draws on the canvas. Throws if there is no WebGL. */
 export class NeedleScene {
-  constructor(canvas, { length, share_of_length: shares }) {
+  constructor(canvas, frames) {
+    const { length, share_of_length: shares } = frames;
     this.shares = shares && numbers(shares);
     this.renderer = new three.WebGLRenderer({ canvas, antialias: !drawnByCpu(), powerPreference: "low-power" });
     this.camera = new three.PerspectiveCamera(35, 1, 0.1, 1000);
@@ -89,16 +93,18 @@ export class NeedleScene {
     });
     this.needles = new three.Mesh(this.geometry, material);
     this.needles.frustumCulled = false;
-    this.box = new three.LineSegments(
-      new three.EdgesGeometry(new three.BoxGeometry(1, 1, 1)),
-      new three.LineBasicMaterial(),
-    );
-    this.scene.add(this.needles, this.box);
+    this.box = new three.LineSegments(edgesWithout(openSides(frames)), new three.LineBasicMaterial());
+    this.walls = frames.walls.map((wall) => new Wall(wall));
+    this.scene.add(this.needles, this.box, ...this.walls.flatMap(({ parts }) => parts));
   }
 
-  /** Arrays of a frame: `position` in units of edge / 65536, `orientation` in units of 1 / 32767. */
-  showFrame({ box, position, orientation }) {
+  /** What is drawn lies between the corners `low` and `high`, its middle in the origin. Arrays of a
+   * frame: `position` between the corners in units of 1 / 65536, `orientation` in units of 1 / 32767;
+   * `walls`: the place of each along its axis. */
+  showFrame({ low, high, walls, position, orientation }) {
+    const box = high.map((end, axis) => end - low[axis]);
     const sameBox = this.box.scale.equals(new three.Vector3(...box));
+    this.walls.forEach((wall, n) => wall.place(walls[n], low, high));
     this.uniforms.box.value.set(...box);
     this.box.scale.set(...box);
     this.setCount(position.length / 3);
@@ -154,6 +160,11 @@ export class NeedleScene {
     this.uniforms.background.value.setStyle(background, three.LinearSRGBColorSpace);
     this.scene.background = new three.Color().setStyle(background);
     this.box.material.color.setStyle(line);
+  }
+
+  /** `colourOf(kind)`: of walls of a kind, in CSS. */
+  showWallColours(colourOf) {
+    for (const wall of this.walls) wall.colour(colourOf(wall.kind));
   }
 
   /** Puts the camera where the whole box is seen. */
@@ -212,6 +223,25 @@ export class NeedleScene {
     const { calls } = this.renderer.info.render;
     return { drawCalls: calls, needles: this.count };
   }
+}
+
+// The edges of a cube of side 1 around the origin, without those of these sides.
+function edgesWithout(sides) {
+  const ends = [];
+  for (let axis = 0; axis < 3; ++axis) {
+    const others = [0, 1, 2].filter((other) => other !== axis);
+    for (const [a, b] of [[0, 0], [0, 1], [1, 0], [1, 1]]) {
+      const highs = { [others[0]]: a === 1, [others[1]]: b === 1 };
+      if (sides.some((side) => highs[side.axis] === side.high)) continue;
+      for (const along of [-0.5, 0.5]) {
+        const point = [0, 0, 0];
+        point[axis] = along;
+        for (const other of others) point[other] = highs[other] ? 0.5 : -0.5;
+        ends.push(...point);
+      }
+    }
+  }
+  return new three.BufferGeometry().setAttribute("position", new three.Float32BufferAttribute(ends, 3));
 }
 
 function repeated(numbers, count) {

@@ -1,6 +1,7 @@
 // The three-dimensional view with its controls: turning, frames, colours.
 import { choice, element, freshId, slider, toggle, whenNear } from "../dom.js";
 import { decode } from "../data.js";
+import { boundaryText, openSides } from "../boundaries.js";
 import { numberText } from "../numbers.js";
 import { gradientOf, scales } from "../charts/colours.js";
 import { figureOf } from "../charts/figure.js";
@@ -14,6 +15,9 @@ const colourings = {
   alignment: { text: "alignment with the velocity", unit: "Q = 3 cos² − 1", range: () => [-1, 2] },
   density: { text: "local density", unit: "of the mean", range: () => [0, 2] },
 };
+
+/** Of walls, as variables of the page's style. */
+const colourOfKind = { "wall": "--muted", "moving wall": "--curve-2", "thermal wall": "--curve-1" };
 
 function rootMeanSquare(values) {
   const sum = values.reduce((total, value) => total + value * value, 0);
@@ -43,7 +47,7 @@ class NeedlesView {
     this.figure = figureOf(
       {
         title: "Needles",
-        caption: "Drawn inside the periodic box, at the places of their centres; those that cross a face stand out of it.",
+        caption: captionOf(frames),
         notes: notesOf(frames),
         wide: true,
       },
@@ -130,7 +134,9 @@ class NeedlesView {
     this.loadFrame(n);
     const frame = this.frames.frames[n];
     this.scene?.showFrame({
-      box: frame.box,
+      low: frame.low,
+      high: frame.high,
+      walls: frame.walls,
       position: decode(frame.position),
       orientation: decode(frame.orientation),
     });
@@ -146,6 +152,7 @@ class NeedlesView {
     if (this.scene) {
       const palette = Array.from({ length: 256 }, (_, n) => scales.needles(from + ((to - from) * n) / 255));
       this.scene.showPalette(palette, colourOfTheme("--stage"), colourOfTheme("--muted"));
+      this.scene.showWallColours((kind) => colourOfTheme(colourOfKind[kind]));
       this.scene.showColours(values, [low, high]);
       this.scene.draw();
     }
@@ -161,7 +168,7 @@ class NeedlesView {
   describe() {
     const { needles_shown: shown } = this.frames;
     const { text } = colourings[this.colouring];
-    const description = `${numberText(shown)} needles in a periodic box, frame ${this.textOf(this.current)}, coloured by ${text}`;
+    const description = `${numberText(shown)} needles in a box that is ${boundaryText(this.frames)}, frame ${this.textOf(this.current)}, coloured by ${text}`;
     this.canvas.setAttribute("aria-label", description);
     this.print.alt = description;
   }
@@ -244,11 +251,12 @@ class NeedlesView {
     const frame = this.frames.frames[this.current];
     const position = decode(frame.position);
     const orientation = decode(frame.orientation);
-    const part = (values, axis, factor) =>
-      Float64Array.from({ length: values.length / 3 }, (_, n) => values[3 * n + axis] * factor);
+    const part = (values, axis, factor, from = 0) =>
+      Float64Array.from({ length: values.length / 3 }, (_, n) => from + values[3 * n + axis] * factor);
     const axes = ["x", "y", "z"];
+    const unit = (axis) => (frame.high[axis] - frame.low[axis]) / 65536;
     return [
-      ...axes.map((name, axis) => ({ name, values: part(position, axis, frame.box[axis] / 65536) })),
+      ...axes.map((name, axis) => ({ name, values: part(position, axis, unit(axis), frame.low[axis]) })),
       ...axes.map((name, axis) => ({ name: `u_${name}`, values: part(orientation, axis, 1 / 32767) })),
       ...Object.entries(colourings).map(([key, { text }]) => ({ name: text, values: this.valuesOf(key) })),
     ];
@@ -263,6 +271,15 @@ class NeedlesView {
 // Yellow on white and dark blue on black cannot be told from the ground.
 function paletteRange() {
   return colourOfTheme("--stage-is-dark").trim() === "1" ? [0.3, 1] : [0, 0.82];
+}
+
+function captionOf(frames) {
+  const { periodic, walls } = frames;
+  const text = `Drawn in the box, which is ${boundaryText(frames)}, at the places of their centres.`;
+  const across = periodic.includes(true) ? " Needles that cross a periodic side stand out of it." : "";
+  const where = walls.length ? " Walls are where they are at the time of the frame." : "";
+  const above = openSides(frames).length ? " The edges reach to the needle that is farthest beyond an open side." : "";
+  return text + across + where + above;
 }
 
 function notesOf(frames) {

@@ -1,6 +1,7 @@
 // What was run, and what came out, as lists of facts.
 import { element } from "../dom.js";
 import { column, numbers, rowOf } from "../data.js";
+import { boundaryText, openSides, sideName } from "../boundaries.js";
 import { numberText } from "../numbers.js";
 
 /** A list of [name, value, remark] as large figures or as lines. */
@@ -49,6 +50,65 @@ function speciesFact({ name, count, length, mass, k, t_tr, t_rot }) {
   return [`Species ${name}`, `${numberText(count)} needles: ${text.join(", ")}`];
 }
 
+function wallFact({ axis, side, epsilon, temperature, motion }) {
+  const parts = [temperature === null ? `ε = ${numberText(epsilon)}` : `temperature ${numberText(temperature)}`];
+  if (motion?.amplitude > 0) {
+    const phase = motion.phase ? ` + ${numberText(motion.phase)}` : "";
+    parts.push(`moves by ${numberText(motion.amplitude)} sin(2π ${numberText(motion.frequency)} t${phase})`);
+  }
+  return [`Wall at ${axis} ${side}`, parts.join(", ")];
+}
+
+function drivingFacts({ kicks, andersen }) {
+  return [
+    kicks && [
+      "Kicks",
+      `every ${numberText(kicks.every)}, ξ_tr = ${numberText(kicks.translational)}, ξ_rot = ${numberText(kicks.rotational)}`,
+    ],
+    andersen && ["Thermostat", `T = ${numberText(andersen.temperature)} at the rate ${numberText(andersen.rate)} of each needle`],
+  ].filter(Boolean);
+}
+
+function gravityText(gravity) {
+  return gravity.some((g) => g !== 0) ? gravity.map((g) => numberText(g)).join(", ") : null;
+}
+
+/** The weight that a wall bears in the mean over time: that of all needles, where it is the only wall
+ * of its axis; null otherwise. */
+export function weightOn({ axis, high }, { scene, frames }) {
+  const gravity = scene?.gravity[axis] ?? 0;
+  const bears = high ? gravity > 0 : gravity < 0;
+  const alone = openSides(frames).some((side) => side.axis === axis);
+  return bears && alone ? frames.needles_in_file * scene.mass * Math.abs(gravity) : null;
+}
+
+/** The walls of the series, in its order, as sides. */
+export function wallsOf({ groups }) {
+  const { axis, high } = groups.walls.datasets;
+  return Array.from(numbers(axis), (n, index) => ({ axis: n, high: numbers(high)[index] === 1 }));
+}
+
+// Since the first sample.
+function resultsAtWalls(run) {
+  const { groups, frames } = run;
+  if (!groups.walls) return [];
+  const { datasets, time } = groups.walls;
+  const since = numbers(time).at(-1) - numbers(time)[0];
+  const gained = (name, n) => {
+    const values = column(datasets[name], n);
+    return values.at(-1) - values[0];
+  };
+  return wallsOf(run).flatMap((wall, n) => {
+    const hits = gained("hits", n);
+    if (!(since > 0)) return [[`Hits at ${sideName(wall)}`, hits]];
+    const weight = weightOn(wall, run);
+    return [
+      [`Hits at ${sideName(wall)}`, hits, `${numberText(hits / since / frames.needles_in_file)} per needle and time`],
+      [`Force at ${sideName(wall)}`, gained("impulse", n) / since, weight ? `weight: ${numberText(weight)}` : "mean over time"],
+    ];
+  });
+}
+
 // Temperatures of each species at the last sample, and collisions of each two.
 function resultsBySpecies({ groups, scene }) {
   if (!groups.species || !scene?.species.length) return [];
@@ -73,10 +133,14 @@ export function factsOfRun({ scene, parameters, frames }) {
   const value = (name) => parameters[name]?.value;
   const facts = [["Needles", frames.needles_in_file]];
   if (scene) {
-    const volume = frames.frames[0].box.reduce((a, b) => a * b, 1);
+    const volume = frames.box.reduce((a, b) => a * b, 1);
     facts.push(
-      ["Box", frames.frames[0].box.map((edge) => numberText(edge)).join(" × ")],
-      ["Density n L³", (frames.needles_in_file * scene.length ** 3) / volume],
+      ["Box", frames.box.map((edge) => numberText(edge)).join(" × ")],
+      ["Boundaries", boundaryText(frames)],
+      ...scene.walls.map(wallFact),
+      ["Gravity", gravityText(scene.gravity)],
+      ...drivingFacts(scene.driving),
+      ["Density n L³", openSides(frames).length ? null : (frames.needles_in_file * scene.length ** 3) / volume],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
       ...scene.pairs.map(({ name, epsilon, beta }) => [`Restitution of ${name}`, `${numberText(epsilon)}, ${numberText(beta)}`]),
       ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
@@ -116,6 +180,7 @@ export function resultsOfRun(run) {
     ["Collisions", collisions, `${numberText((2 * collisions) / frames.needles_in_file)} per needle`],
     ["Elastic by the t_c rule", last("tc_collisions"), collisions ? `${numberText((100 * last("tc_collisions")) / collisions, 3)} %` : ""],
     ["S", order],
+    ...resultsAtWalls(run),
     ...resultsBySpecies(run),
   ];
 }

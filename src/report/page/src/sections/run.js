@@ -45,7 +45,7 @@ function atOneTime(run) {
     const { fields } = groups;
     if (!fields) continue;
     const notes = name ? [`Of ${name}.`, ...notesOf(fields)] : notesOf(fields);
-    const figure = fieldMap(fields, run.frames.frames[0].box, notes);
+    const figure = fieldMap(fields, run.frames.box, notes);
     charts.push({ figure, group: fields, show: figure.show });
   }
   if (!charts.length) return [];

@@ -1,6 +1,7 @@
 // Charts of a run over time, as a table: what each shows of which datasets.
 import { column, numbers } from "../data.js";
-import { pairNames } from "./facts.js";
+import { sideName } from "../boundaries.js";
+import { pairNames, wallsOf, weightOn } from "./facts.js";
 
 // Where a run has needles, each of these is a function of its groups. A chart is shown if the group
 // it is about is in the file.
@@ -90,15 +91,16 @@ function rateOfCollisions({ groups, count }) {
   return [{ name: "rate / √T_tr", x: t, y: rate, colour: 0, points: true }];
 }
 
-function momentum({ groups, count, scene }) {
+// Along the axes along which nothing from outside acts: walls do along theirs, and a thermostat along
+// all. Kicks leave the total as it is.
+function momentum({ groups, count, scene, frames }) {
+  const free = scene?.driving.andersen ? [] : [0, 1, 2].filter((axis) => frames.periodic[axis]);
+  if (free.length === 0) return [];
   const { t, of } = totals(groups);
   const mass = scene?.mass ?? 1;
-  const first = [0, 1, 2].map((axis) => of("momentum", axis)[0]);
+  const components = free.map((axis) => of("momentum", axis));
   const thermal = of("t_tr").map((temperature) => Math.sqrt(count * mass * temperature));
-  const drift = t.map((_, n) => {
-    const d = first.map((value, axis) => of("momentum", axis)[n] - value);
-    return Math.hypot(...d) / thermal[0];
-  });
+  const drift = t.map((_, n) => Math.hypot(...components.map((values) => values[n] - values[0])) / thermal[0]);
   return [{ name: "|P − P(0)| / √(N m T_tr(0))", x: t, y: drift, colour: 0 }];
 }
 
@@ -130,6 +132,30 @@ function ofPairs({ groups, scene }) {
   const { datasets, time } = groups.species;
   const names = pairNames((scene?.species ?? []).map(({ name }) => name));
   return names.map((name, n) => ({ name, x: numbers(time), y: column(datasets.collisions, n), colour: n, points: true }));
+}
+
+// Of each wall what its counter has gained since the sample before, per time and `unit`.
+function ratesAtWalls(run, name, unit) {
+  const { datasets, time } = run.groups.walls;
+  const x = numbers(time);
+  return wallsOf(run).map((wall, n) => {
+    const values = column(datasets[name], n);
+    const y = x.map((t, row) => (row ? (values[row] - values[row - 1]) / (t - x[row - 1]) / unit : NaN));
+    return { name: sideName(wall), x, y, colour: n, points: true };
+  });
+}
+
+function forces(run) {
+  const x = numbers(run.groups.walls.time);
+  const weight = wallsOf(run).map((wall) => weightOn(wall, run)).find(Boolean);
+  return [...ratesAtWalls(run, "impulse", 1), weight && { name: "weight", x, y: x.map(() => weight), colour: -1, dashed: true }];
+}
+
+// That of the weight is counted, too.
+function coolingCaption({ scene, groups }) {
+  const whole = scene?.gravity.some((g) => g !== 0);
+  const energy = whole ? "Kinetic energy and that of the weight, heights from the low edges of the box," : "Kinetic energy";
+  return `${energy} per needle, divided by that at the start${groups.theory ? ", and kinetic theory of a gas that stays homogeneous" : ""}.`;
 }
 
 function cellsOf({ groups, count }) {
@@ -228,11 +254,11 @@ function pairsOfLag(lags, values, stride) {
 const timelines = [
   {
     group: "totals", title: "Cooling curve", y: "E/E(0)", log: "xy", curves: cooling,
-    caption: "Kinetic energy per needle, divided by that at the start, and kinetic theory of a gas that stays homogeneous.",
+    caption: coolingCaption,
   },
   {
     group: "totals", title: "Temperatures", y: "energy", log: "xy", curves: temperatures,
-    caption: "Translational and rotational temperature with kinetic theory.",
+    caption: ({ groups }) => `Translational and rotational temperature${groups.theory ? " with kinetic theory" : ""}.`,
   },
   {
     group: "totals", title: "Ratio of the temperatures", y: "T_tr/T_rot", log: "xy", curves: ratio,
@@ -252,7 +278,16 @@ const timelines = [
   },
   {
     group: "totals", title: "Conservation of momentum", y: "thermal momenta", log: "x", curves: momentum,
-    caption: "Change of the total momentum since the start, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
+    caption: "Change of the total momentum since the start along the periodic axes, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
+  },
+  {
+    group: "walls", title: "Hits on walls", y: "hits per needle and time", log: "x",
+    curves: (run) => ratesAtWalls(run, "hits", run.count),
+    caption: "Since the sample before.",
+  },
+  {
+    group: "walls", title: "Force on walls", y: "force", log: "x", curves: forces,
+    caption: "Impulses per time since the sample before, as the sum of their magnitudes: those along the surface, which thermal walls give, count too.",
   },
   {
     group: "species", title: "Translational temperature of each species", y: "energy", log: "xy",
@@ -333,7 +368,7 @@ function timelinesOfGroups(run, groups, count) {
     .filter(({ group }) => groups[group] && (samples || group === "displacement"))
     .map(({ group, title, caption, x = "time", y, log, always, robust, curves }) => ({
       title,
-      caption,
+      caption: typeof caption === "function" ? caption(context) : caption,
       notes: notesOf(groups[group]),
       robust,
       x: { label: x, log: (always || overDecades) && log.includes("x") },
