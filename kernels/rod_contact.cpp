@@ -16,9 +16,10 @@ namespace {
 
 // Interval length in scaled time; a power of two.
 constexpr double rod_grid = 0.5;
-// Roots whose bound of error in double is above this share of the time since s = 0 are refined in
-// double-double. The bound is some eight times the largest error.
-constexpr double rod_polish_above = 0x1p-41;
+// Roots in double are refined in double-double where the bound of their error is above this share
+// of the time since s = 0, or that of the distance above this share of the reach. The bounds are at
+// least three times the error, and fifty times what it is mostly.
+constexpr double rod_polish_above = 0x1p-42, rod_largest_error = 0x1p-46;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double rod_velocity_noise = 0x1p-46;
 // What the rounding of records may move rods by, as a share of the numbers in them, where the pair
@@ -116,7 +117,8 @@ struct Instant {
   RodSample<T> rods;
   double distance;
   double excess, error;
-  double rate;  // of the excess
+  double rate;   // of the excess
+  double speed;  // of a point of one axis relative to one of the other, not below
 };
 
 Contact overlap_found() {
@@ -158,8 +160,16 @@ class RodSearch {
   template <class T>
   bool solve(std::optional<DoubleDouble>& root);
 
-  double curvature(double distance) const {
-    return 2 * (rates_.velocity * rates_.velocity + distance * rates_.acceleration) * roundup;
+  double largest_speed(const Vec3d& first_turn, const Vec3d& second_turn) const;
+  // The second derivative of the square of the distance is not above this where the speed and the
+  // distance are not.
+  double curvature(double speed, double distance) const {
+    return 2 * (speed * speed + distance * rates_.acceleration) * roundup;
+  }
+  // Speeds and distances between a and b are not above these.
+  template <class T>
+  double speed_between(const Instant<T>& a, const Instant<T>& b) const {
+    return 0.5 * ((a.speed + b.speed) + rates_.acceleration * std::abs(to_double(b.s - a.s)));
   }
   template <class T>
   bool starts_at(const Instant<T>& a) const {
@@ -170,8 +180,9 @@ class RodSearch {
   bool stays_above_chord(const Instant<T>& a, const Instant<T>& b, double noise) const;
   template <class T>
   bool stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, bool starts);
+  bool stays_apart_for(const Instant<double>& a, double h) const;
   template <class T>
-  bool falls(const Instant<T>& a, double h) const;
+  bool falls(const Instant<T>& a, const Instant<T>& b) const;
   template <class T>
   bool is_below(const Instant<T>& a);
   template <class T>
@@ -182,7 +193,9 @@ class RodSearch {
   template <class T>
   DoubleDouble root(const Instant<T>& a, const Instant<T>& b);
   template <class T>
-  Instant<T> refine(const Instant<T>& a, const Instant<T>& b);
+  double guess_between(const Instant<T>& a, const Instant<T>& b, double contact) const;
+  template <class T>
+  Instant<T> refine(const T& begin, const T& end, const T& start);
 
   const RodPair& pair_;
   PairScale scale_;
@@ -238,7 +251,18 @@ Instant<T> RodSearch::at(const T& s) {
   out.error = (2 * out.distance + length) * length + 4 * unit_roundoff<T> * square;
   if constexpr (std::is_same_v<T, double>) out.error += threshold_error_;
   out.rate = to_double(out.rods.rate);
+  out.speed = largest_speed(to_double(out.rods.turn[0]), to_double(out.rods.turn[1]));
   return out;
+}
+
+// That of two tips, since the velocity is linear in the places on both axes.
+double RodSearch::largest_speed(const Vec3d& first_turn, const Vec3d& second_turn) const {
+  const Vec3d v = to_double(frame_.v);
+  const double half0 = frame_.half[0], half1 = frame_.half[1];
+  const double v0 = half0 * dot(v, first_turn), v1 = half1 * dot(v, second_turn),
+               both = half0 * half1 * dot(first_turn, second_turn);
+  const double most = std::max(std::abs(v0 + v1) + both, std::abs(v0 - v1) - both);
+  return std::sqrt((rates_.squares + 2 * most) * roundup);
 }
 
 // Whether the excess stays above 0 between a and b, for the chord and the curvature. `noise` times
@@ -246,8 +270,8 @@ Instant<T> RodSearch::at(const T& s) {
 template <class T>
 bool RodSearch::stays_above_chord(const Instant<T>& a, const Instant<T>& b, double noise) const {
   const double h = to_double(b.s - a.s);
-  const double most = 0.5 * (a.distance + b.distance + rates_.velocity * h);
-  const double c = curvature(most);
+  const double speed = speed_between(a, b);
+  const double c = curvature(speed, 0.5 * (a.distance + b.distance + speed * h));
   const double after = b.excess - noise * b.error;
   if (starts_at(a)) return after > 0.5 * c * h * h;
   const double before = a.excess - noise * a.error;
@@ -294,10 +318,26 @@ bool RodSearch::stays_beyond_plane(const Instant<T>& a, const Instant<T>& b, boo
   return least - noise > 0.125 * bend * h * h * roundup;
 }
 
-// Whether the distance falls throughout, for a time h from a on.
+// Whether the rods stay apart for a time h from a on, for the plane through the nearest points at
+// a.
+bool RodSearch::stays_apart_for(const Instant<double>& a, double h) const {
+  if (!(a.excess > a.error)) return false;
+  const Vec3d n = a.rods.gap * (1 / a.distance);
+  double beyond = dot(n, a.rods.r) + dot(n, frame_.v) * h, bend = 0;
+  for (int i = 0; i < 2; ++i) {
+    const double half = frame_.half[i], omega = frame_.omega[i];
+    const double along = dot(n, a.rods.u[i]), turn = dot(n, a.rods.turn[i]);
+    beyond -= half * std::abs(along + turn * h);
+    bend += half * omega * std::sqrt(omega * along * (omega * along) + turn * turn);
+  }
+  const double noise = 0x1p-40 * (frame_.r_norm + rates_.velocity * (std::abs(a.s) + h));
+  return beyond - 0.5 * bend * h * h * roundup > distance_ * roundup + 4 * a.rods.error + noise;
+}
+
+// Whether the distance falls throughout from a to b.
 template <class T>
-bool RodSearch::falls(const Instant<T>& a, double h) const {
-  return 0.75 * a.rate + curvature(a.distance) * h < 0;
+bool RodSearch::falls(const Instant<T>& a, const Instant<T>& b) const {
+  return 0.75 * a.rate + curvature(speed_between(a, b), a.distance) * to_double(b.s - a.s) < 0;
 }
 
 template <class T>
@@ -310,7 +350,8 @@ bool RodSearch::is_below(const Instant<T>& a) {
 template <class T>
 bool RodSearch::is_limited_by_rounding(const Instant<T>& a, const Instant<T>& b) const {
   const double h = to_double(b.s - a.s), error = std::max(a.error, b.error);
-  const double bend = 0.125 * curvature(std::max(a.distance, b.distance)) * h * h;
+  const double bend =
+      0.125 * curvature(speed_between(a, b), std::max(a.distance, b.distance)) * h * h;
   if (rod_least_share * bend < error) return true;
   const double enough = 1 / rod_least_share;
   return std::abs(a.excess) < enough * a.error && std::abs(b.excess) < enough * b.error;
@@ -326,7 +367,7 @@ std::optional<DoubleDouble> RodSearch::search(const Instant<T>& a, const Instant
   const bool starts = starts_at(a);
   if (stays_above_chord(a, b, is_double || starts ? 1 : -2)) return std::nullopt;
   const bool below = is_below(b);
-  if (!starts && falls(a, h)) {
+  if (!starts && falls(a, b)) {
     if (!below) return std::nullopt;
     return root(a, b);
   }
@@ -353,17 +394,33 @@ std::optional<DoubleDouble> RodSearch::search(const Instant<T>& a, const Instant
   return search(m, b);
 }
 
-// Newton's iteration, safeguarded: at a the excess is not below 0, at b it is.
+// The share of the time from a to b at which the distance is about that at contact, by a cubic.
 template <class T>
-Instant<T> RodSearch::refine(const Instant<T>& a, const Instant<T>& b) {
+double RodSearch::guess_between(const Instant<T>& a, const Instant<T>& b, double contact) const {
+  const double h = to_double(b.s - a.s);
+  const double before = std::max(a.excess, 0.0) / (a.distance + contact),
+               after = b.excess / (b.distance + contact), change = after - before;
+  double at = before / -change;
+  if (a.distance > 0 && b.distance > 0) {
+    const double begin = 0.5 * h * a.rate / a.distance, end = 0.5 * h * b.rate / b.distance;
+    const double c3 = begin + end - 2 * change, c2 = 3 * change - 2 * begin - end;
+    for (int i = 0; i < 3; ++i) {
+      const double slope = begin + at * (2 * c2 + 3 * at * c3);
+      const double next = at - (before + at * (begin + at * (c2 + at * c3))) / slope;
+      if (!(next >= 0 && next <= 1)) break;
+      at = next;
+    }
+  }
+  return std::clamp(at, 0x1p-10, 1 - 0x1p-10);
+}
+
+// Newton's iteration, safeguarded: at the begin the excess is not below 0, at the end it is.
+template <class T>
+Instant<T> RodSearch::refine(const T& begin, const T& end, const T& start) {
   const double share =
       std::is_same_v<T, double> ? std::max(0x1p-52, accuracy_.root_tolerance) : 0x1p-98;
   const double contact = std::sqrt(to_double(threshold<T>()));
-  T low = a.s, high = b.s;
-  const double before = std::max(a.excess, 0.0) / (a.distance + contact),
-               after = b.excess / (b.distance + contact);
-  const T width = high - low;
-  T s = low + width * T(std::clamp(before / (before - after), 0x1p-10, 1 - 0x1p-10));
+  T low = begin, high = end, s = start;
   Instant<T> now;
   for (int i = 0; i < 200; ++i) {
     now = at(s);
@@ -371,11 +428,17 @@ Instant<T> RodSearch::refine(const Instant<T>& a, const Instant<T>& b) {
     // The length of the gap is nearer to linear than its square.
     const double step = -now.excess / (now.distance + contact) * (2 * now.distance / now.rate);
     const T next = s + T(step);
-    const bool is_inside = now.rate < 0 && to_double(next - a.s) >= 0 && to_double(b.s - next) >= 0;
-    if (std::abs(now.excess) <= (std::is_same_v<T, double> ? 0x1p-4 : 1) * now.error) {
-      if (is_inside) now.s = next;
+    const bool is_inside =
+        now.rate < 0 && to_double(next - begin) >= 0 && to_double(end - next) >= 0;
+    // What the step leaves is of second order. The curvature downwards grows as rods become
+    // parallel.
+    const double rest = 4 * curvature(now.speed, now.distance) * (step * step);
+    const double xx = to_double(dot(now.rods.x, now.rods.x));
+    if (is_inside && (rest <= now.error * xx || std::abs(now.excess) <= 0x1p-4 * now.error)) {
+      now.s = next;
       return now;
     }
+    if (std::abs(now.excess) <= 0x1p-4 * now.error) return now;
     const bool inside = is_inside && to_double(next - low) > 0 && to_double(high - next) > 0;
     const T target = inside ? next : low + (high - low) * T(0.5);
     const double moved = std::abs(to_double(target - s));
@@ -388,12 +451,15 @@ Instant<T> RodSearch::refine(const Instant<T>& a, const Instant<T>& b) {
 
 template <class T>
 DoubleDouble RodSearch::root(const Instant<T>& a, const Instant<T>& b) {
-  const Instant<T> found = refine(a, b);
+  const double contact = std::sqrt(to_double(threshold<T>()));
+  const T start = a.s + (b.s - a.s) * T(guess_between(a, b, contact));
+  const Instant<T> found = refine(a.s, b.s, start);
   if constexpr (std::is_same_v<T, double>) {
     const double enough = std::max(rod_polish_above, accuracy_.root_tolerance);
-    if (found.error <= enough * found.s * -found.rate) return found.s;
-    const Instant<DoubleDouble> fine = refine(at(DoubleDouble(a.s)), at(DoubleDouble(b.s)));
-    return fine.s;
+    const bool is_known = found.error <= enough * found.s * -found.rate &&
+                          found.rods.error <= std::max(rod_largest_error, accuracy_.root_tolerance);
+    if (is_known) return found.s;
+    return refine<DoubleDouble>(a.s, b.s, found.s).s;
   } else {
     return found.s;
   }
@@ -461,6 +527,7 @@ Contact RodSearch::run(double from, double until) {
   if (first_begin == 0 && touching_) a = at(0.0);
   if (first_begin > 0 && overlaps(a)) return overlap_found();
   for (double s = first_begin; s <= last_; s += rod_grid) {
+    if (stays_apart_for(a, last_ - s)) return {};
     Instant<double> b = at(s + rod_grid);
     const auto found = accuracy_.escalation == Escalation::always
                            ? search(at(DoubleDouble(a.s)), at(DoubleDouble(b.s)))

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/closest_approach.h"
 #include "kernels/contact_function.h"
 #include "kernels/double_double.h"
 #include "kernels/inline.h"
@@ -20,13 +21,15 @@ namespace needlework::kernels {
 struct RodRates {
   double velocity = 0;      ///< of a point of one axis relative to one of the other
   double acceleration = 0;  ///< the same
+  double squares = 0;       ///< sum of those of the velocities of the centres and of both tips
 };
 template <class T>
 RodRates rod_rates(const Frame<T>& frame) {
   const double w0 = to_double(frame.omega[0]), w1 = to_double(frame.omega[1]);
   const double tip0 = frame.half[0] * w0, tip1 = frame.half[1] * w1;
   return {.velocity = (frame.v_length + (tip0 + tip1)) * roundup,
-          .acceleration = (tip0 * w0 + tip1 * w1) * roundup};
+          .acceleration = (tip0 * w0 + tip1 * w1) * roundup,
+          .squares = frame.v_length * frame.v_length + (tip0 * tip0 + tip1 * tip1)};
 }
 
 /// Both rods at one time.
@@ -42,10 +45,7 @@ struct RodSample {
   double error;           ///< of the length of the gap, from rounding
 };
 
-inline double within(double a, double half) {
-  const double low = a > -half ? a : -half;
-  return low < half ? low : half;
-}
+inline double within(double a, double half) { return minimum(maximum(a, -half), half); }
 inline DoubleDouble within(const DoubleDouble& a, double half) {
   if (a.hi > half || (a.hi == half && a.lo > 0)) return half;
   if (a.hi < -half || (a.hi == -half && a.lo < 0)) return -half;

@@ -153,6 +153,8 @@ class RodOracle {
     const auto a = static_cast<Extended>(from), b = static_cast<Extended>(to);
     return search<Extended>(a, excess<Extended>(a), b, excess<Extended>(b));
   }
+  // Intervals shorter than this, in lengths that are travelled, may be seen to have one crossing.
+  static Quad crossing_limit() { return Quad(1e-4); }
   Quad fine_limit() const { return Quad(1e-9) * Quad(size_); }
 
   // The first time in [a, b] at which the excess falls below 0; it is not below at a.
@@ -162,12 +164,14 @@ class RodOracle {
     const Real h = b - a, way = Real(speed_) * h;
     const Real noise = Real(is_quad ? Quad(1e-32) : Quad(1e-17)) * Real(size_);
     if (at_a + at_b - way > noise) return false;
+    const bool may_cross =
+        at_a > noise && at_b < -noise && way < Real(crossing_limit()) * Real(size_);
+    if (may_cross && crosses_once<Real>(a, at_a, b, at_b, noise)) return true;
     if constexpr (!is_quad) {
       if (Quad(way) < fine_limit()) {
         return search<Quad>(a, excess<Quad>(a), b, excess<Quad>(b));
       }
     } else {
-      if (at_a > 0 && at_b < 0 && crosses_once(a, at_a, b, at_b)) return true;
       if (way < noise || !(a + h / 2 > a && a + h / 2 < b)) {
         if (at_b < -noise) {
           answer_.contact = true;
@@ -182,32 +186,34 @@ class RodOracle {
     return search<Real>(a, at_a, middle, at_middle) || search<Real>(middle, at_middle, b, at_b);
   }
 
-  // Regula falsi (Illinois) where the slopes at both ends of a short interval agree with the chord.
-  bool crosses_once(Quad a, Quad at_a, Quad b, Quad at_b) {
-    const Quad h = b - a, chord = (at_b - at_a) / h, step = h / 1024;
-    const Quad first = (excess<Quad>(a + step) - at_a) / step;
-    const Quad last = (at_b - excess<Quad>(b - step)) / step;
+  // Regula falsi (Illinois) where the slopes at both ends of a short interval agree with the chord,
+  // if Real has enough digits for its root.
+  template <class Real>
+  bool crosses_once(Real a, Real at_a, Real b, Real at_b, const Real& noise) {
+    constexpr bool is_quad = std::is_same_v<Real, Quad>;
+    using std::abs;
+    const Real h = b - a, chord = (at_b - at_a) / h, step = h / 1024;
+    if (!is_quad && noise > Real(1e-15) * -chord * a) return false;
+    const Real first = (excess<Real>(a + step) - at_a) / step;
+    const Real last = (at_b - excess<Real>(b - step)) / step;
     if (abs(first - chord) > abs(chord) / 4 || abs(last - chord) > abs(chord) / 4) return false;
+    const Real enough = is_quad ? Real(1e-31) : Real(1e-18);
     int side = 0;
+    Real s = b;
     for (int i = 0; i < 200; ++i) {
-      const Quad s = b - at_b * (b - a) / (at_b - at_a), at = excess<Quad>(s);
-      answer_.time = s;
-      if (at == 0 || abs(b - a) < Quad(1e-31) * s) break;
-      if (at < 0) {
-        if (b - s < Quad(1e-31) * s) break;
-        b = s;
-        at_b = at;
-        if (side == 1) at_a /= 2;
-        side = 1;
-      } else {
-        if (s - a < Quad(1e-31) * s) break;
-        a = s;
-        at_a = at;
-        if (side == -1) at_b /= 2;
-        side = -1;
-      }
-      if (abs(at) < Quad(1e-33) * Quad(size_)) break;
+      s = b - at_b * (b - a) / (at_b - at_a);
+      const Real at = excess<Real>(s);
+      if (abs(at) < noise / 10) break;
+      Real& end = at < 0 ? b : a;
+      const bool is_done = abs(end - s) < enough * s;
+      end = s;
+      (at < 0 ? at_b : at_a) = at;
+      const int now = at < 0 ? 1 : -1;
+      if (side == now) (at < 0 ? at_a : at_b) /= 2;
+      side = now;
+      if (is_done) break;
     }
+    answer_.time = s;
     answer_.contact = true;
     return true;
   }
