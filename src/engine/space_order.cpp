@@ -1,9 +1,10 @@
 #include "src/engine/space_order.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 #include "src/machine/stop_request.h"
+#include "src/search/box_cells.h"
 #include "src/search/choice.h"
 
 namespace needlework {
@@ -45,21 +46,13 @@ std::vector<Needle> order_in_space(const Gas& gas, Time now) {
   const double longest = std::max({gas.box[0], gas.box[1], gas.box[2]});
   const double length = mean_length(gas.composition) * gas.longest;
   const double steps = std::min(2 * longest / length, 0x1p21 - 1);
-  std::vector<std::uint64_t> keys;
-  keys.reserve(gas.size());
-  for (const Record& record : gas.records) {
-    StopRequest::check_in_turn(keys.size());
-    const Vec3d r = gas.motion_from(record, now).centre();
-    const double position[3] = {r.x, r.y, r.z};
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double wrapped =
-          position[axis] - std::floor(position[axis] / gas.box[axis]) * gas.box[axis];
-      const double step = std::clamp(wrapped / longest * steps, 0.0, 0x1p21 - 1);
-      key |= spread(static_cast<std::uint64_t>(step)) << axis;
-    }
-    keys.push_back(key);
-  }
+  std::array<double, 3> cells;
+  for (std::size_t axis = 0; axis < 3; ++axis) cells[axis] = gas.box[axis] / longest * steps;
+  std::size_t turn = 0;
+  const std::vector<std::uint64_t> keys = keys_of_cells(gas, now, cells, [&](const BoxCell& cell) {
+    StopRequest::check_in_turn(turn++);
+    return spread(cell[0]) | spread(cell[1]) << 1 | spread(cell[2]) << 2;
+  });
   std::vector<Needle> order(gas.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = Needle(i);
   sort_by(keys, order);

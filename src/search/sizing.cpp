@@ -1,9 +1,11 @@
 #include "src/search/sizing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "src/search/box_cells.h"
 #include "src/search/lengths.h"
 
 namespace needlework {
@@ -26,24 +28,14 @@ constexpr double side_in_lengths = 2;
 // sorting, not in a grid, so that a box of any size will do.
 double density_around(const Gas& gas, Time now) {
   const double length = gas.longest, side = side_in_lengths * length;
-  double volume = 1, count[3];
-  for (int axis = 0; axis < 3; ++axis) {
+  double volume = 1;
+  std::array<double, 3> count;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     count[axis] = std::clamp(std::floor(gas.box[axis] / side), 1.0, 0x1p20);
     volume *= gas.box[axis] / length / count[axis];
   }
-  std::vector<std::uint64_t> cells;
-  cells.reserve(gas.size());
-  for (const Record& record : gas.records) {
-    const Vec3d r = gas.motion_from(record, now).centre();
-    const double place[3] = {r.x, r.y, r.z};
-    std::uint64_t cell = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double share = place[axis] / gas.box[axis];
-      const auto c = static_cast<std::uint64_t>((share - std::floor(share)) * count[axis]);
-      cell = (cell << 21) | c;
-    }
-    cells.push_back(cell);
-  }
+  std::vector<std::uint64_t> cells = keys_of_cells(
+      gas, now, count, [](const BoxCell& cell) { return cell[0] << 42 | cell[1] << 21 | cell[2]; });
   std::sort(cells.begin(), cells.end());
   double pairs = 0, before = 0;  // in this cell
   for (std::size_t n = 1; n < cells.size(); ++n) {
