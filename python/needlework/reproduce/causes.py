@@ -12,9 +12,8 @@ from ..values import Table
 from . import style
 from .alignment import frame_near
 from .cells import flow_order as flow_order_of
-from .course import (SHOWN_COLLISIONS, Measured, at_collisions, cooling_theory, mean_and_error,
-                     measure)
-from .dense import flow_order, second_moment
+from .course import SHOWN_COLLISIONS, Measured, cooling_theory, mean_and_error, measure
+from .dense import curve, draw_growth, flow_order_growth, second_moment
 from .figure import Result, parts
 from .runs import FinishedRun, PaperRuns, Point
 
@@ -80,10 +79,8 @@ def measure_contact_time_dense(runs: PaperRuns) -> Result:
     result = Result(("tc_relative", "collisions", "s", "s_error", "moment", "moment_error"))
     places = np.linspace(0, STANDARD_COLLISIONS, 41)
     for name, point in _cases(runs, "dense-tc", "dense"):
-        s = mean_and_error([at_collisions(run, flow_order(run) / flow_order(run)[0], places)
-                            for run in point.runs])
-        moment = mean_and_error([at_collisions(run, second_moment(run), places)
-                                 for run in point.runs])
+        s = curve(point, flow_order_growth, places)
+        moment = curve(point, second_moment, places)
         result.add_rows(point.conditions.tc_relative, places, *s, *moment)
         at = f"test, {name}, at {STANDARD_COLLISIONS:g}"
         for claim, (mean, error) in (("flow-order-growth", s), ("moment-growth", moment)):
@@ -94,15 +91,8 @@ def measure_contact_time_dense(runs: PaperRuns) -> Result:
 
 def draw_contact_time_dense(table: Table) -> Figure:
     """S and the second moment against collisions per needle."""
-    figure, axes = style.panels("The dense gas with another contact time", 2, width=4.2)
-    for (tc_relative,), part in parts(table, "tc_relative"):
-        for panel, name in zip(axes, ("s", "moment")):
-            style.band(panel, part.collisions, part[name], part[f"{name}_error"],
-                       label=_label(tc_relative))
-    style.label(axes[0], "collisions per needle", "$S$ / start", "Order of the flow")
-    style.label(axes[1], "collisions per needle", "second moment / start",
-                "Second moment of the density")
-    return figure
+    return draw_growth(table, "tc_relative", _label, "The dense gas with another contact time",
+                       "$S$ / start")
 
 
 def _cases(runs: PaperRuns, name: str, reference: str) -> Iterator[tuple[str, Point]]:

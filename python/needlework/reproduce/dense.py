@@ -39,6 +39,12 @@ def flow_order(run: FinishedRun) -> np.ndarray:
     return run.observable("flow_order", "translational")
 
 
+def flow_order_growth(run: FinishedRun) -> np.ndarray:
+    """S at the samples over that at the start."""
+    order = flow_order(run)
+    return order / order[0]
+
+
 def second_moment(run: FinishedRun) -> np.ndarray:
     """Second moment of the density at the samples, over that at the start."""
     moment = run.observable("flow_order", "second_moment")
@@ -69,8 +75,7 @@ def measure_flow_order(runs: PaperRuns) -> Result:
             result.add("flow-order", measure(
                 point, lambda run: at_collisions(run, flow_order(run), collisions)), at)
             result.add("flow-order-growth", measure(
-                point, lambda run: at_collisions(run, flow_order(run), collisions)
-                / flow_order(run)[0]), at)
+                point, lambda run: at_collisions(run, flow_order_growth(run), collisions)), at)
         result.add("tc-instances", measure(point, log_tc_collisions), f"dense, {start}")
     return result
 
@@ -160,8 +165,8 @@ def measure_box_sizes(runs: PaperRuns) -> Result:
         point = runs.points(name)[0]
         box = point.conditions.box[0]
         places = _places(point)
-        result.add_rows(box, point.conditions.count, places, *_curve(point, flow_order, places),
-                        *_curve(point, second_moment, places))
+        result.add_rows(box, point.conditions.count, places, *curve(point, flow_order, places),
+                        *curve(point, second_moment, places))
         for collisions in SIZES_AT:
             if collisions > _last_collisions(point):
                 continue
@@ -177,12 +182,20 @@ def measure_box_sizes(runs: PaperRuns) -> Result:
 
 def draw_box_sizes(table: Table) -> Figure:
     """S and the second moment against collisions per needle."""
-    figure, axes = style.panels("The dense gas in boxes of several sizes", 2, width=4.2)
-    for (box,), part in parts(table, "box"):
+    return draw_growth(table, "box", lambda box: f"box {box:g}",
+                       "The dense gas in boxes of several sizes", "$S$")
+
+
+def draw_growth(table: Table, by: str, label: Callable[[float], str], title: str,
+                s_label: str) -> Figure:
+    """S and the second moment against collisions per needle, a curve for each value of the column
+    ``by``, which ``label`` words."""
+    figure, axes = style.panels(title, 2, width=4.2)
+    for (value,), part in parts(table, by):
         for panel, name in zip(axes, ("s", "moment")):
             style.band(panel, part.collisions, part[name], part[f"{name}_error"],
-                       label=f"box {box:g}")
-    style.label(axes[0], "collisions per needle", "$S$", "Order of the flow")
+                       label=label(value))
+    style.label(axes[0], "collisions per needle", s_label, "Order of the flow")
     style.label(axes[1], "collisions per needle", "second moment / start",
                 "Second moment of the density")
     return figure
@@ -199,15 +212,15 @@ def _places(point: Point) -> np.ndarray:
     return np.linspace(0, last, int(last / STEP) + 1)
 
 
-def _curve(point: Point, quantity: Quantity,
-           places: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+def curve(point: Point, quantity: Quantity,
+          places: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """The mean over seeds of a quantity at so many collisions per needle, with its error."""
     return mean_and_error([at_collisions(run, quantity(run), places) for run in point.runs])
 
 
 def _add_curve(result: Result, point: Point, quantity: Quantity) -> None:
     gas, places = point.conditions, _places(point)
-    result.add_rows(gas.k, gas.t_rot, places, *_curve(point, quantity, places))
+    result.add_rows(gas.k, gas.t_rot, places, *curve(point, quantity, places))
 
 
 def _draw_order(table: Table, title: str, label: str) -> Figure:
