@@ -152,11 +152,10 @@ TEST_F(Accuracy, RunsDifferByAccuracyAndByNothingElse) {
 // The filter is no part of what a contact is.
 TEST_F(Accuracy, TheFilterChangesNoBit) {
   write("gas.toml", "needles = {count = 300, box = 5}\nuntil.collisions_per_needle = 4\n");
-  const needlework::Outcome one = run("run gas.toml --json --quiet");
-  const needlework::Outcome two = run("run gas.toml --json --quiet --set engine.filter=double");
-  ASSERT_EQ(two.exit_code, 0) << two.err;
-  EXPECT_EQ(one.json().at("trajectory_hash"), two.json().at("trajectory_hash"));
-  EXPECT_EQ(two.json().at("stats").at("isolated"), 0);
+  const auto one = json_of("run gas.toml --json --quiet");
+  const auto two = json_of("run gas.toml --json --quiet --set engine.filter=double");
+  EXPECT_EQ(one.at("trajectory_hash"), two.at("trajectory_hash"));
+  EXPECT_EQ(two.at("stats").at("isolated"), 0);
 }
 
 }  // namespace

@@ -37,9 +37,8 @@ class BenchCommand : public ProgramTest {
 
   // The verdict on the one case of new.json that is not the baseline, against old.json.
   std::string verdict(int expected_exit_code) const {
-    const Outcome outcome = run("bench --results new.json --compare old.json --json");
-    EXPECT_EQ(outcome.exit_code, expected_exit_code) << outcome.err;
-    const json comparison = outcome.json()["comparison"];
+    const json comparison = json_of("bench --results new.json --compare old.json --json", "",
+                                    expected_exit_code)["comparison"];
     EXPECT_EQ(comparison.size(), 1u);
     EXPECT_EQ(comparison[0]["name"], case_name);
     return comparison[0]["verdict"];
@@ -104,11 +103,9 @@ constexpr const char* own_scene =
 
 TEST_F(BenchCommand, MeasuresASceneOfTheUserWithTheStrategiesAskedFor) {
   write("own.toml", own_scene);
-  const Outcome outcome =
-      run("bench --scene own.toml --set needles.count=120 --searches linked-cells,all-pairs "
-          "--queues bucket,lazy-heap,bucket --isa scalar --repetitions 6 --min-time 0 --json");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const json object = outcome.json();
+  const json object = json_of(
+      "bench --scene own.toml --set needles.count=120 --searches linked-cells,all-pairs "
+      "--queues bucket,lazy-heap,bucket --isa scalar --repetitions 6 --min-time 0 --json");
   EXPECT_EQ(object["subset"], "own.toml");
   ASSERT_EQ(object["cases"].size(), 5u);
   const json& baseline = object["cases"][0];
@@ -165,11 +162,10 @@ TEST_F(BenchCommand, TakesWallTimesOfThreadsAndLeavesOutWhatNeedsOne) {
 TEST_F(BenchCommand, StartsFromTheStateThatASceneNames) {
   ASSERT_EQ(run("run small.toml --quiet --out start.h5").exit_code, 0);
   write("own.toml", "initial.file = 'start.h5'\n");
-  const Outcome outcome = run("bench --scene own.toml --repetitions 1 --min-time 0 --json");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const json other = run("bench --scene small.toml --repetitions 1 --min-time 0 --json").json();
-  EXPECT_EQ(outcome.json()["cases"][0]["needles"], 50);
-  EXPECT_NE(outcome.json()["cases"][0]["warm_up_hash"], other["cases"][0]["warm_up_hash"]);
+  const json own = json_of("bench --scene own.toml --repetitions 1 --min-time 0 --json");
+  const json other = json_of("bench --scene small.toml --repetitions 1 --min-time 0 --json");
+  EXPECT_EQ(own["cases"][0]["needles"], 50);
+  EXPECT_NE(own["cases"][0]["warm_up_hash"], other["cases"][0]["warm_up_hash"]);
 }
 
 TEST_F(BenchCommand, WritesATableWithAFieldForEachPartOfAName) {

@@ -24,11 +24,6 @@ class MixtureCommand : public ProgramTest {
     write("elastic.toml", "needles.box = 7\nuntil.collisions_per_needle = 60\n" + species);
   }
 
-  json result(const std::string& arguments) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.json();
-  }
   void expect_parts(const std::string& out, std::initializer_list<const char*> parts) const {
     for (const char* part : parts) {
       EXPECT_NE(out.find(part), std::string::npos) << part << " in\n" << out;
@@ -48,7 +43,7 @@ TEST_F(MixtureCommand, IsExplainedBySpeciesAndPairs) {
 }
 
 TEST_F(MixtureCommand, IsExplainedInJson) {
-  const json check = result("check cooling.toml --json");
+  const json check = json_of("check cooling.toml --json");
   EXPECT_TRUE(check["k"].is_null());
   EXPECT_TRUE(check["epsilon"].is_null());
   EXPECT_EQ(check["species"][1]["name"], "heavy");
@@ -64,7 +59,7 @@ TEST_F(MixtureCommand, IsExplainedInJson) {
   EXPECT_NEAR(400 / (2 * (rate("light-light") + rate("light-heavy") + rate("heavy-heavy"))),
               check["mean_free_time"].get<double>(), 1e-12);
   // What is forecast is what happens, as far as so few needles go.
-  const json done = result("run cooling.toml --json");
+  const json done = json_of("run cooling.toml --json");
   EXPECT_NEAR(check["expected"]["time"].get<double>() / done["time"].get<double>(), 1, 0.2);
   EXPECT_NEAR(check["expected"]["collisions"].get<double>() / done["collisions"].get<double>(), 1,
               0.2);
@@ -81,7 +76,7 @@ TEST_F(MixtureCommand, EndsWithASummaryBySpecies) {
 }
 
 TEST_F(MixtureCommand, ComparesItsRunWithTheory) {
-  const json cooled = result("run cooling.toml --json");
+  const json cooled = json_of("run cooling.toml --json");
   const json& theory = cooled["theory"];
   EXPECT_NEAR(theory["energy"].get<double>() / cooled["energy"].get<double>(), 1, 0.15);
   for (const std::size_t n : {0, 1}) {
@@ -91,13 +86,13 @@ TEST_F(MixtureCommand, ComparesItsRunWithTheory) {
         0.35);
   }
   // 12000 collisions: within four standard errors, which are those of a Poisson law and more.
-  const json elastic = result("run elastic.toml --json");
+  const json elastic = json_of("run elastic.toml --json");
   const double exact = elastic["collision_rate_exact"];
   EXPECT_NEAR(elastic["collision_rate"].get<double>() / exact, 1, 0.06);
 }
 
 TEST_F(MixtureCommand, HasATheoryByTime) {
-  const json theory = result("theory --json --time 0 --time 2.5 cooling.toml");
+  const json theory = json_of("theory --json --time 0 --time 2.5 cooling.toml");
   const Scene scene = read_scene(path("cooling.toml"));
   const std::vector<theory::Temperatures> initial(2, {1, 1});
   const std::vector times{0.0, 2.5};
@@ -119,7 +114,7 @@ TEST_F(MixtureCommand, HasATheoryByTime) {
 }
 
 TEST_F(MixtureCommand, IsAudited) {
-  const json audit = result(
+  const json audit = json_of(
       "audit --json --set until.energy_ratio=none --set until.collisions_per_needle=4 "
       "cooling.toml");
   EXPECT_EQ(audit["wrong_rule"], 0);

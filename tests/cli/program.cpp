@@ -43,6 +43,17 @@ Outcome ProgramTest::run(const std::string& arguments, const std::string& before
   return shell(before + " '" + NEEDLEWORK_PROGRAM + "' " + arguments, out);
 }
 
+nlohmann::json ProgramTest::json_of(const std::string& arguments, const std::string& before,
+                                    int exit_code) const {
+  const Outcome outcome = run(arguments, before);
+  EXPECT_EQ(outcome.exit_code, exit_code) << arguments << '\n' << outcome.err;
+  return outcome.json();
+}
+
+std::string ProgramTest::hash_of(const std::string& arguments, const std::string& before) const {
+  return json_of(arguments + " --json --quiet", before)["trajectory_hash"];
+}
+
 Outcome ProgramTest::shell(const std::string& command, const std::string& out) const {
   const test::TemporaryFolder temporary;
   const fs::path& streams = temporary.path();

@@ -32,6 +32,11 @@ class ProgramTest : public testing::Test {
   /// such as VARIABLE=value; stdout goes to `out` if that is given.
   Outcome run(const std::string& arguments, const std::string& before = "",
               const std::string& out = "") const;
+  /// The one object that `needlework ARGUMENTS` prints. Another exit code fails the test.
+  nlohmann::json json_of(const std::string& arguments, const std::string& before = "",
+                         int exit_code = 0) const;
+  /// The hash of a run, of `needlework ARGUMENTS --json --quiet`.
+  std::string hash_of(const std::string& arguments, const std::string& before = "") const;
   /// Runs any command of the shell.
   Outcome shell(const std::string& command, const std::string& out = "") const;
   /// Runs a command in the background, waits until another one, `event`, succeeds, and sends the

@@ -27,9 +27,7 @@ output = { events = true, observables = ["displacement", "collision_statistics"]
     return failed;
   }
   json replayed(const std::string& arguments, int exit_code) const {
-    const Outcome replay = run("replay --json --quiet " + arguments);
-    EXPECT_EQ(replay.exit_code, exit_code) << replay.err;
-    return replay.json();
+    return json_of("replay --json --quiet " + arguments, "", exit_code);
   }
   // Changes what the bundle says of the failure.
   template <class Change>

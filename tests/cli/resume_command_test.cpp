@@ -19,11 +19,6 @@ output = { frames = 2, events = true, observables = ["displacement", "collision_
 )");
   }
 
-  std::string hash_of(const std::string& arguments) const {
-    const Outcome done = run(arguments + " --json --quiet");
-    EXPECT_EQ(done.exit_code, 0) << done.err;
-    return done.exit_code == 0 ? done.json()["trajectory_hash"] : "";
-  }
   std::string whole_hash() const { return hash_of("run gas.toml --out whole.h5"); }
 };
 

@@ -38,9 +38,7 @@ time = 1e12
   }
 
   json result(const std::string& arguments, const std::string& before = "") const {
-    const Outcome outcome = run("run --json " + arguments, before);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.json();
+    return json_of("run --json " + arguments, before);
   }
 };
 

@@ -12,16 +12,11 @@ class StandardStreams : public ProgramTest {
   Outcome run_with(const std::string& redirections, const std::string& arguments) const {
     return shell("( '" NEEDLEWORK_PROGRAM "' " + arguments + " " + redirections + " )");
   }
-  std::string hash_of(const std::string& file) const {
-    const Outcome outcome = run("resume " + file + " --json --quiet");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.exit_code == 0 ? outcome.json()["trajectory_hash"] : "";
-  }
 };
 
 TEST_F(StandardStreams, WhereTheyAreClosedNoFileTakesTheirPlace) {
   ASSERT_EQ(run("run small.toml --quiet --out whole.h5").exit_code, 0);
-  const std::string whole = hash_of("whole.h5");
+  const std::string whole = hash_of("resume whole.h5");
   for (const std::string closed :
        {"2>&-", "1>&-", "0<&-", "1>&- 2>&-", "0<&- 2>&-", "0<&- 1>&- 2>&-"}) {
     // Every stream is written to: progress, a warning of the name, and the summary.
@@ -29,7 +24,7 @@ TEST_F(StandardStreams, WhereTheyAreClosedNoFileTakesTheirPlace) {
         run_with(closed, "run small.toml --force --progress-every 0 --out run.data");
     EXPECT_EQ(outcome.exit_code, 0) << closed << outcome.err;
     EXPECT_EQ(run("info run.data").exit_code, 0) << closed;
-    EXPECT_EQ(hash_of("run.data"), whole) << closed;
+    EXPECT_EQ(hash_of("resume run.data"), whole) << closed;
   }
 }
 

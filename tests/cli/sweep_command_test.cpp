@@ -46,9 +46,7 @@ seeds = [1, 2, 3, 4, 5, 6]
   }
 
   json result(const std::string& arguments, const std::string& before = "") const {
-    const Outcome outcome = run("sweep --json " + arguments, before);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.json();
+    return json_of("sweep --json " + arguments, before);
   }
   std::size_t count_of_files(const std::string& folder, const std::string& ending) const {
     const std::filesystem::directory_iterator files(path(folder));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernels/first_contact.h"
+#include "tests/kernels/planar_pair.h"
 #include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
 #include "tests/support/pair_families.h"
@@ -15,6 +16,7 @@ namespace {
 
 using test::flight;
 using test::KernelPair;
+using test::nearly_planar;
 using test::Random;
 using test::vec3;
 
@@ -71,27 +73,12 @@ TEST(FirstContactCost, IsSmallForAllFamiliesOfPairs) {
   }
 }
 
-KernelPair planar_for_long(Random& random, double tilt, double speed) {
-  const auto needle = [&] {
-    const double angle = random.uniform(0, 6.3);
-    return flight(
-        {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), tilt * random.normal()},
-        {std::cos(angle), std::sin(angle), tilt * random.normal()},
-        {speed * random.normal(), speed * random.normal(), speed * tilt * random.normal()},
-        {tilt * random.normal(), tilt * random.normal(), random.normal()});
-  };
-  KernelPair pair;
-  pair.first = needle();
-  pair.second = needle();
-  return pair;
-}
-
 TEST(FirstContactCost, IsBoundedForNeedlesCloseToOnePlane) {
   Random random(cost_seed);
   double worst = 0;
   for (const double tilt : {1e-3, 1e-6, 1e-9, 1e-13, 1e-17, 1e-20}) {
     for (int n = 0; n < 500 / cost_thin; ++n) {
-      worst = std::max(worst, expect_soon(planar_for_long(random, tilt, 0.3), 20));
+      worst = std::max(worst, expect_soon(nearly_planar(random, tilt, 0.3), 20));
     }
   }
   std::printf("most %.0f\n", worst);
@@ -100,15 +87,15 @@ TEST(FirstContactCost, IsBoundedForNeedlesCloseToOnePlane) {
 TEST(FirstContactCost, IsBoundedForNeedlesInOnePlane) {
   Random random(cost_seed);
   for (int n = 0; n < 500 / cost_thin; ++n) {
-    EXPECT_FALSE(cost(planar_for_long(random, 0, 0.3), 20).contact.found);
-    EXPECT_LT(cost(planar_for_long(random, 0, 0.3), 1e6).spent, 200);
+    EXPECT_FALSE(cost(nearly_planar(random, 0, 0.3), 20).contact.found);
+    EXPECT_LT(cost(nearly_planar(random, 0, 0.3), 1e6).spent, 200);
   }
 }
 
 TEST(FirstContactCost, IsBoundedForALongLife) {
   Random random(cost_seed);
   for (int n = 0; n < 100 / cost_thin; ++n) {
-    KernelPair pair = planar_for_long(random, 1, 1);
+    KernelPair pair = nearly_planar(random, 1, 1);
     for (Flight* needle : {&pair.first, &pair.second}) {
       needle->w = needle->w * 1e6;
       set_rotation(*needle);
@@ -123,7 +110,7 @@ TEST(FirstContactCost, IsBoundedForALongLife) {
 TEST(FirstContactCost, DoesNotGrowWithTheHorizonOncePastEachOther) {
   Random random(cost_seed);
   for (int n = 0; n < 300 / cost_thin; ++n) {
-    const KernelPair pair = planar_for_long(random, 1, 1);
+    const KernelPair pair = nearly_planar(random, 1, 1);
     EXPECT_EQ(cost(pair, 1e6).spent, cost(pair, 1e300).spent) << "seed " << cost_seed << ", " << n;
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kernels/first_contact.h"
+#include "tests/kernels/planar_pair.h"
 #include "tests/kernels/sampled_contact.h"
 #include "tests/support/by_build.h"
 #include "tests/support/kernel_pair.h"
@@ -16,6 +17,7 @@ namespace {
 
 using test::flight;
 using test::KernelPair;
+using test::nearly_planar;
 using test::Random;
 using test::vec3;
 
@@ -31,21 +33,6 @@ Answer answer_of(const KernelPair& pair, double from, double until) {
   EvaluationCounters counters;
   const Contact contact = first_contact(pair.view(), from, until, counters);
   return {contact, counters.evaluated + counters.escalated};
-}
-
-KernelPair nearly_planar(Random& random, double tilt, double speed) {
-  const auto needle = [&] {
-    const double angle = random.uniform(0, 6.3);
-    return flight(
-        {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), tilt * random.normal()},
-        {std::cos(angle), std::sin(angle), tilt * random.normal()},
-        {speed * random.normal(), speed * random.normal(), speed * tilt * random.normal()},
-        {tilt * random.normal(), tilt * random.normal(), random.normal()});
-  };
-  KernelPair pair;
-  pair.first = needle();
-  pair.second = needle();
-  return pair;
 }
 
 // Centres meet at s = 0 and leave each other slowly: f = s v . (u1 x u2) grows with time.
