@@ -344,10 +344,15 @@ NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simu
 /* Hits on one wall since the start. Walls are indexed in the order of the scene, where "both"
  * counts as low, then high. */
 typedef struct needlework_wall {
-  int axis;       /* 0, 1, 2 for x, y, z */
-  int high;       /* 1 at the high edge of the box, 0 at the low one */
-  uint64_t hits;  /* which are no collisions */
-  double impulse; /* sum of the magnitudes of their impulses [mass length / time] */
+  int axis;              /* 0, 1, 2 for x, y, z */
+  int high;              /* 1 at the high edge of the box, 0 at the low one */
+  uint64_t hits;         /* which are no collisions */
+  double impulse;        /* sum of the magnitudes of their impulses [mass length / time] */
+  double normal_impulse; /* the same of their components along the normal, with their signs; over
+                            area and time it is the pressure */
+  double area;           /* of the face of the box */
+  double phase;          /* of its motion, in radians from 0 to 2 pi; NaN at rest */
+  double energy;         /* that hits have put into the gas, per needle; negative: taken out */
 } needlework_wall;
 
 /* The number of walls; 0 on failure. [handle] */
@@ -393,6 +398,20 @@ typedef struct needlework_totals {
 /* Sums over all needles at the present time. [handle] */
 NEEDLEWORK_API int needlework_get_totals(needlework_simulation* simulation,
                                          needlework_totals* totals);
+
+/* What each effect has put into the energy per needle since the start; negative: taken out. The sum
+ * is the change of the energy, up to rounding. 0 for effects that the scene has not. */
+typedef struct needlework_energy_budget {
+  double pairs;          /* collisions of two needles */
+  double walls;          /* hits on all walls; see needlework_wall.energy */
+  double thermostat;     /* the thermostat */
+  double kicks;          /* kicks */
+  double velocities_set; /* velocities that the caller has replaced */
+} needlework_energy_budget;
+
+/* The budget of energy at the present time. [handle] */
+NEEDLEWORK_API int needlework_get_energy_budget(needlework_simulation* simulation,
+                                                needlework_energy_budget* budget);
 /* The hash of all collisions so far, in 32 hexadecimal digits and a zero. [handle] */
 NEEDLEWORK_API int needlework_get_hash(needlework_simulation* simulation, char hash[33]);
 /* The names of the counters of work done, by index from 0; NULL behind the last. [any] */

@@ -3,12 +3,14 @@
 // that a sample of any observable but collision_statistics needs once.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "needlework/simulation.h"
 #include "src/observe/observation.h"
 #include "src/observe/registry.h"
+#include "src/scene/observable_names.h"
 
 namespace needlework {
 namespace {
@@ -35,12 +37,18 @@ void copy(benchmark::State& state) {
 void sample(benchmark::State& state, const std::string& name) {
   Scene scene = dense_scene(state.range(0));
   scene.output.observables = {name};
+  if (std::ranges::find(wall_observable_names, name) != wall_observable_names.end()) {
+    scene.walls = {{.axis = "z", .side = "both"}};
+  }
   const Simulation simulation(scene);
   const State needles = simulation.copy();
   const Totals totals = simulation.totals();
+  observe::SpeciesSums sums;
+  sums.walls = simulation.wall_totals();
+  sums.energy = simulation.energy_budget();
   observe::Observation observation(scene);
-  for (int n = 0; n < 8; ++n) observation.sample(needles, totals);  // all references
-  for (auto _ : state) benchmark::DoNotOptimize(observation.sample(needles, totals).data());
+  for (int n = 0; n < 8; ++n) observation.sample(needles, totals, sums);  // all references
+  for (auto _ : state) benchmark::DoNotOptimize(observation.sample(needles, totals, sums).data());
   show_per_needle(state);
 }
 

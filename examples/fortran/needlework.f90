@@ -93,7 +93,11 @@ module needlework
   type, bind(c) :: needlework_wall
     integer(c_int) :: axis, high
     integer(c_int64_t) :: hits
-    real(c_double) :: impulse
+    real(c_double) :: impulse, normal_impulse, area, phase, energy
+  end type
+
+  type, bind(c) :: needlework_energy_budget
+    real(c_double) :: pairs, walls, thermostat, kicks, velocities_set
   end type
 
   abstract interface
@@ -247,6 +251,12 @@ module needlework
       type(c_ptr), value :: simulation
       integer(c_size_t), value :: index
       type(needlework_wall), intent(out) :: wall
+    end function
+
+    integer(c_int) function needlework_get_energy_budget(simulation, budget) bind(c)
+      import :: c_ptr, c_int, needlework_energy_budget
+      type(c_ptr), value :: simulation
+      type(needlework_energy_budget), intent(out) :: budget
     end function
 
     integer(c_size_t) function needlework_count(simulation) bind(c)

@@ -107,6 +107,7 @@ class Simulation {
 
   /// Of each wall, in the order of Scene::wall_sides().
   std::vector<WallTotals> wall_totals() const;
+  EnergyBudget energy_budget() const;
 
   Totals totals() const;
   /// Of each species, in the order of the scene.

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace needlework {
 
@@ -28,7 +30,8 @@ struct SpeciesTotals {
 /// What has happened at one object of a source of events, such as a wall, since the start of a run.
 struct ObjectTotals {
   std::uint64_t events = 0;
-  double impulse = 0;  ///< sum of |J| [m L / time]
+  double impulse = 0;         ///< sum of |J| [m L / time]
+  double normal_impulse = 0;  ///< sum of their components along the normal of the object
 };
 
 /// Hits of needles on one wall since the start of a run.
@@ -36,7 +39,35 @@ struct WallTotals {
   int axis = 0;       ///< 0, 1, 2 for x, y, z
   bool high = false;  ///< at the high edge of the box, else at the low one
   std::uint64_t hits = 0;
-  double impulse = 0;  ///< sum of |J| [m L / time]
+  double impulse = 0;         ///< sum of |J| [m L / time]
+  double normal_impulse = 0;  ///< sum of J along the normal into the gas, which thermal walls may
+                              ///< draw negative; over area and time it is the pressure
+  double area = 0;            ///< of its face of the box [L^2]
+  double phase = 0;           ///< of its motion now, in radians from 0 to 2 pi; NaN at rest
+
+  /// Mean over the time since the start. [energy / L^3]
+  double pressure(double time) const { return normal_impulse / (area * time); }
+};
+
+/// What each effect has put into the energy of the needles since the start of a run, as energy per
+/// needle; negative where it has taken energy out. The sum is the change of Totals::energy, up to
+/// the rounding of needles' motion (Simulation::energy_drift).
+struct EnergyBudget {
+  double pairs = 0;                  ///< collisions of two needles
+  std::vector<double> walls;         ///< hits on each wall, in the order of wall_totals()
+  std::optional<double> thermostat;  ///< if there is one
+  std::optional<double> kicks;       ///< if there are some
+  double velocities_set = 0;         ///< velocities that a caller has replaced
+
+  /// Calls visit(name, value) for each that there is; the value of walls is an array.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    visit("pairs", pairs);
+    if (!walls.empty()) visit("walls", walls);
+    if (thermostat) visit("thermostat", *thermostat);
+    if (kicks) visit("kicks", *kicks);
+    visit("velocities_set", velocities_set);
+  }
 };
 
 /// "x", "y" or "z", and "low" or "high", as in scenes.

@@ -21,12 +21,13 @@ from .errors import Error, InputError, InvalidStateError, IoError
 from .frames import Frame, Frames
 from .gsd_file import to_gsd
 from .reading import Events, Recording, Series, VelocitiesSet, read
-from .simulation import Counters, SceneWarning, Simulation, SpeciesTotals, Totals, WallTotals
+from .simulation import (Counters, EnergyBudget, SceneWarning, Simulation, SpeciesTotals, Totals,
+                         WallTotals)
 from .state import State
 from .values import Table, Values
 
-__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "Error", "Events",
-           "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
-           "InvalidStateError", "IoError", "KINDS", "Recording", "SceneWarning", "Series", "Simulation", "SpeciesTotals", "State", "Table",
-           "Totals", "Values", "VelocitiesSet", "WallTotals", "plot", "predict", "read", "theory", "to_gsd",
-           "__version__"]
+__all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
+           "Events", "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
+           "InvalidStateError", "IoError", "KINDS", "Recording", "SceneWarning", "Series",
+           "Simulation", "SpeciesTotals", "State", "Table", "Totals", "Values", "VelocitiesSet",
+           "WallTotals", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

@@ -22,11 +22,13 @@ from .collisions import RECORDED_COLLISION, RECORDED_HAPPENING
 from .data import value_of
 from .errors import InputError, IoError
 from .frames import Frame, Frames, find_needles, places
+from .phases import mean_by_phase
 from .values import NotPickled, Table, Values, html_table, pandas_table
 
 if TYPE_CHECKING:
     import h5py
     import pandas
+    from numpy.typing import ArrayLike
 
 TOTALS = ("t_tr", "t_rot", "energy", "momentum", "collisions", "tc_collisions")
 
@@ -167,6 +169,29 @@ class Recording(NotPickled):
         samples = len(self._group("series", "a file of a run with a series")["step"])
         return Values({field: item["value"][:samples] if hasattr(item, "keys") else item[:]
                        for field, item in group.items()})
+
+    def by_phase(self, values: ArrayLike, bins: int = 16, wall: int | None = None,
+                 weights: ArrayLike | None = None, since: float = 0) -> Values:
+        """Means of values over the samples at each phase of the motion of a wall.
+
+        ``values`` has a row for each sample, [S, ...], as fields of observable() and columns of
+        the series have. ``wall`` is the index of a wall in motion, as in wall_totals; without it,
+        the first one. ``weights``, [S] or of the shape of the values, weight them, such as
+        temperatures of slabs by densities. Samples before the time ``since`` are left out, and so
+        are values that are NaN.
+
+        Returns phase, [bins]: the middles of the bins, multiples of 2 pi / bins; mean,
+        [bins, ...], NaN where there is nothing; and samples, [bins]: how many each bin has.
+        """
+        walls = self.observable("walls")
+        moving = ([] if "phase" not in walls else
+                  np.flatnonzero(~np.isnan(walls.phase).any(axis=0)).tolist())
+        if not moving or wall not in (None, *moving):
+            expected = f"that of one in motion, {moving}" if moving else "walls in motion"
+            raise InputError(f"{self.path}: by_phase(): wall = {wall}: expected {expected}")
+        phase = walls.phase[:, moving[0] if wall is None else wall]
+        counted = self.series.time >= since
+        return mean_by_phase(phase, values, bins, weights, counted)
 
     @cached_property
     def velocities_set(self) -> VelocitiesSet:

@@ -71,6 +71,31 @@ class WallTotals(Values):
     """Number of hits, which are no collisions."""
     impulse: float
     """Sum of the magnitudes of their impulses."""
+    pressure: float
+    """Mean over the run: impulse along the normal over area and time; NaN at its start."""
+    phase: float
+    """Of its motion at present, in radians from 0 to 2 pi; NaN if it is at rest."""
+
+
+class EnergyBudget(Values):
+    """Energy per needle that each effect has put in since the start; negative: taken out. The sum
+    is the change of Totals.energy, up to rounding. Effects that the scene has not are missing."""
+
+    pairs: float
+    """By collisions of two needles."""
+    walls: np.ndarray
+    """By hits on each wall, in the order of wall_totals, [walls]."""
+    thermostat: float
+    """By the thermostat."""
+    kicks: float
+    """By kicks."""
+    velocities_set: float
+    """By set_velocities()."""
+
+    @property
+    def total(self) -> float:
+        """The sum."""
+        return float(sum(np.sum(energy) for energy in self.values()))
 
 
 class Counters(Values):
@@ -399,6 +424,11 @@ class Simulation(NotPickled):
         """Hits on each wall, in the order of the scene, where "both" counts as low, then high;
         empty without walls. The index of a wall here is that in rows of on_happenings()."""
         return [WallTotals(sums) for sums in self._run.wall_totals()]
+
+    @property
+    def energy_budget(self) -> EnergyBudget:
+        """What has put energy into the needles, or taken it out, since the start."""
+        return EnergyBudget(self._run.energy_budget())
 
     @property
     def counters(self) -> Counters:

@@ -1,4 +1,5 @@
-// What C callers learn of the walls of a simulation.
+// What C callers learn of the walls of a simulation, and of where its energy has come from.
+#include <numeric>
 #include <string>
 
 #include "src/c/handle.h"
@@ -22,6 +23,26 @@ int needlework_get_wall(needlework_simulation* simulation, size_t index, needlew
                           std::to_string(walls.size()) + " walls");
     }
     const WallTotals& found = walls[index];
-    *wall = {.axis = found.axis, .high = found.high, .hits = found.hits, .impulse = found.impulse};
+    *wall = {.axis = found.axis,
+             .high = found.high,
+             .hits = found.hits,
+             .impulse = found.impulse,
+             .normal_impulse = found.normal_impulse,
+             .area = found.area,
+             .phase = found.phase,
+             .energy = self.run.simulation().energy_budget().walls.at(index)};
+  });
+}
+
+int needlework_get_energy_budget(needlework_simulation* simulation,
+                                 needlework_energy_budget* budget) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(budget, "budget");
+    const EnergyBudget found = self.run.simulation().energy_budget();
+    *budget = {.pairs = found.pairs,
+               .walls = std::accumulate(found.walls.begin(), found.walls.end(), 0.0),
+               .thermostat = found.thermostat.value_or(0),
+               .kicks = found.kicks.value_or(0),
+               .velocities_set = found.velocities_set};
   });
 }

@@ -168,6 +168,7 @@ std::string json_of(const Report& report) {
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
   if (!scene.species.empty()) serve::add_species(json, simulation);
   if (!scene.walls.empty()) serve::add_walls(json, simulation);
+  if (acts_on_single_needles(scene)) serve::add_energy_budget(json, simulation);
   json["theory"] = nullptr;
   if (const auto theory = report.theory_at(last)) {
     json["theory"] = {{"energy", number(theory->energy())},

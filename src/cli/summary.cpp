@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <type_traits>
 
 #include "src/cli/messages.h"
 #include "src/cli/report.h"
@@ -10,6 +12,7 @@
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/loaded_scene.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::cli {
 namespace {
@@ -128,10 +131,32 @@ std::string species_lines(const Report& report) {
 std::string wall_lines(const Report& report) {
   std::string text;
   for (const WallTotals& wall : report.simulation.wall_totals()) {
-    text += line(text.empty() ? "walls" : "", "{} {}: {} hits, impulse {:.6g}", axis_name(wall),
-                 side_name(wall), wall.hits, wall.impulse);
+    text += line(text.empty() ? "walls" : "", "{} {}: {} hits, impulse {:.6g}, pressure {:.5g}",
+                 axis_name(wall), side_name(wall), wall.hits, wall.impulse,
+                 wall.pressure(report.course.last.time));
   }
   return text;
+}
+
+// What has put energy into the needles, or taken it out.
+std::string budget_line(const Report& report) {
+  if (!acts_on_single_needles(report.scene)) return {};
+  std::string text;
+  const auto add = [&](const std::string& name, double energy) {
+    text += fmt::format("{}{} {:+.5g}", text.empty() ? "" : ", ", name, energy);
+  };
+  const auto walls = report.simulation.wall_totals();
+  report.simulation.energy_budget().for_each([&](const char* name, const auto& energy) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
+      const bool is_of_caller = std::string_view(name) == "velocities_set";
+      if (!is_of_caller || energy != 0) add(name, energy);
+    } else {
+      for (std::size_t n = 0; n < walls.size(); ++n) {
+        add(fmt::format("wall {} {}", axis_name(walls[n]), side_name(walls[n])), energy[n]);
+      }
+    }
+  });
+  return line("energy from", "{} per needle", text);
 }
 
 // The sample next to a time, if there is one within a twentieth of it.
@@ -224,6 +249,7 @@ std::string summary_of(const Report& report) {
                         per_cent(last.collisions ? share : 0));
   }
   text += wall_lines(report);
+  text += budget_line(report);
   const int threads = scene.engine.threads.value_or(1);
   text += line("took", "{} of wall time", runs::duration_text(report.course.loop.wall()));
   if (report.course.collisions > 0) {

@@ -48,6 +48,7 @@ struct SourceOutcome {
   double arm = 0;              ///< where on the needle it happens [L]
   double normal_velocity = 0;  ///< before the event [L / time]
   Vec3d impulse;               ///< on the needle [m L / time]
+  double normal_impulse = 0;   ///< its component along the normal of the object, such as a wall
   bool contact_time_rule = false;
 };
 
@@ -65,8 +66,9 @@ class EventSource {
   virtual const char* name() const = 0;
   /// What its events are in files and reports.
   virtual Happening::Kind kind() const { return Happening::other; }
-  /// Number of the objects of which the engine counts the events and adds up the impulses, such as
-  /// walls; the object of each event is below it, unless it is 0.
+  /// Number of the objects of which the engine counts the events and adds up the impulses, also
+  /// along their normals, and the energy put in, such as walls; the object of each event is below
+  /// it, unless it is 0.
   virtual std::size_t objects() const { return 0; }
   /// The first event of needle i at or after `now`, if it is not after `until`; never otherwise. Is
   /// called again whenever the needle searches, and must then give the same answer as long as the

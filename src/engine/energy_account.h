@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "kernels/double_double.h"
 #include "kernels/power_of_two.h"
 
 namespace needlework {
@@ -36,6 +37,13 @@ class EnergyAccount {
   std::uint64_t in_quanta(double energy) const {
     return static_cast<std::uint64_t>(
         static_cast<std::int64_t>(energy * per_quantum_ + (energy < 0 ? -0.5 : 0.5)));
+  }
+  /// So many quanta as an energy, exactly.
+  DoubleDouble of_quanta(std::uint64_t quanta) const {
+    const auto whole = static_cast<std::int64_t>(quanta);
+    const double low = static_cast<double>(static_cast<std::uint32_t>(whole));
+    const DoubleDouble sum = two_sum(static_cast<double>(whole >> 32) * 0x1p32, low);
+    return {quantum_ * sum.hi, quantum_ * sum.lo};
   }
   /// The energy at which it was opened last.
   double at_opening() const { return energy_; }

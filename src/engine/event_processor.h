@@ -270,13 +270,17 @@ void EventProcessor<S, M>::happen(const Event& event) {
       --tally_.at_instant;
       throw;
     }
-    tally_.energy += run_.energy.in_quanta(outcome.energy_change);
     tally_.hash.add(happening);
   }
-  tally_.count(tally_.by_source, event.source, run_.sources.size());
+  const std::uint64_t quanta =
+      outcome.changes_motion ? run_.energy.in_quanta(outcome.energy_change) : 0;
+  tally_.energy += quanta;
+  tally_.count_source(event.source, quanta, run_.sources.size());
   if (source.objects() > 0) {
-    tally_.count_object(run_.first_object[event.source] + outcome.object,
-                        std::sqrt(dot(outcome.impulse, outcome.impulse)), run_.objects);
+    tally_.count_object(
+        run_.first_object[event.source] + outcome.object,
+        {quanta, std::sqrt(dot(outcome.impulse, outcome.impulse)), outcome.normal_impulse},
+        run_.objects);
   }
   schedule(i, place(i));
   if (run_.listeners.any()) run_.listeners.report(gas_, happening, i, no_needle, reports);

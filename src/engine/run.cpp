@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "kernels/in_parallel.h"
@@ -122,6 +121,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
 void Run::open_window() {
   const std::vector<SumsOfSquares> sums = sums_of_squares(gas, now, team.threads());
   expect_energy();
+  energy_shares.settle(energy, tally);
   energy.open(energy_of(gas, sums), tally.energy);
   windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
@@ -155,7 +155,9 @@ void Run::pass_window() {
   }
   open_window();
   energy.note_drift_from(by_account);
-  windows.count(tally.collisions + std::reduce(tally.by_source.begin(), tally.by_source.end()));
+  std::uint64_t events = tally.collisions;
+  for (const SourceTally& source : tally.by_source) events += source.events;
+  windows.count(events);
 }
 
 void Run::set_contact_time() {
@@ -171,6 +173,24 @@ Totals Run::totals() const {
   out.time = gas.clock.since_start(now);
   out.collisions = tally.collisions;
   out.tc_collisions = tally.tc_collisions;
+  return out;
+}
+
+EnergyBudget Run::energy_budget() const {
+  EnergyBudget out;
+  const double needles = static_cast<double>(std::max<std::size_t>(gas.size(), 1));
+  out.pairs = energy_shares.pairs(energy, tally) / needles;
+  out.velocities_set = energy_shares.velocities_set() / needles;
+  if (kicks) out.kicks = energy_shares.kicks() / needles;
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    if (sources[n]->kind() == Happening::thermostat) {
+      out.thermostat = energy_shares.source(n, energy, tally) / needles;
+    }
+    if (sources[n]->kind() != Happening::wall) continue;
+    for (std::size_t wall = 0; wall < sources[n]->objects(); ++wall) {
+      out.walls.push_back(energy_shares.object(first_object[n] + wall, energy, tally) / needles);
+    }
+  }
   return out;
 }
 
@@ -214,6 +234,14 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
         gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).length});
   }
   open_window();
+  return replaced;
+}
+
+ReplacedRecords Run::set_velocities(const std::function<Vec3d(Needle)>& velocity,
+                                    const std::function<Vec3d(Needle)>& angular_velocity) {
+  const double before = present_energy();
+  ReplacedRecords replaced = replace_velocities(velocity, angular_velocity);
+  energy_shares.velocities_set(before, energy.at_opening());
   return replaced;
 }
 
@@ -264,7 +292,7 @@ ReplacedRecords Run::kick() {
         return gas.motion_from(gas.records[i], now).angular_velocity() +
                changes[i].angular_velocity;
       });
-  kick_energy += energy.at_opening() - before;
+  energy_shares.kicked(before, energy.at_opening());
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InvalidStateError(fmt::format("kick {}: {}", number, reason));
   return replaced;

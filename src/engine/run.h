@@ -11,6 +11,7 @@
 #include "src/effects/driving/kicks.h"
 #include "src/effects/event_source.h"
 #include "src/engine/energy_account.h"
+#include "src/engine/energy_shares.h"
 #include "src/engine/gas_sums.h"
 #include "src/engine/listeners.h"
 #include "src/engine/replaced_records.h"
@@ -43,6 +44,8 @@ class Run {
   Checkpoint save(const Scene& scene, const std::vector<Needle>& by_id);
 
   Totals totals() const;
+  /// See Simulation::energy_budget().
+  EnergyBudget energy_budget() const;
   /// Energy of all needles, updated at each collision.
   double present_energy() const { return energy.now(tally.energy); }
   /// See Simulation::energy_drift().
@@ -74,24 +77,25 @@ class Run {
   /// of squares, of which parts along the directors may be too much, or if needles would collide at
   /// times that the clock of this run does not tell apart; and as require_images() does.
   void require_followable(const std::vector<SumsOfSquares>& sums, bool moves) const;
-  /// Replaces the velocities of all needles at the present time and opens a new window. The event
-  /// loop must be made again afterwards. `velocity(i)` and `angular_velocity(i)` are indexed by
-  /// place in storage. Returns the previous records.
-  ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
-                                     const std::function<Vec3d(Needle)>& angular_velocity);
+  /// Replaces the velocities of all needles at the present time by those of a caller, and opens a
+  /// new window. The event loop must be made again afterwards. `velocity(i)` and
+  /// `angular_velocity(i)` are indexed by place in storage. Returns the previous records.
+  ReplacedRecords set_velocities(const std::function<Vec3d(Needle)>& velocity,
+                                 const std::function<Vec3d(Needle)>& angular_velocity);
 
   /// When all needles are kicked next; never where there are no kicks. What happens at the same
   /// instant happens before.
   Time next_kick() const { return kicks ? kicks->time(gas.clock, kicks_done + 1) : Time::never(); }
   /// The first time after it, up to which contacts need to be searched.
   Time after_next_kick() const { return after_next_kick_; }
-  /// Kicks all needles now, and replaces their records; see replace_velocities().
+  /// Kicks all needles now, and replaces their records; see set_velocities().
   ReplacedRecords kick();
 
   Gas gas;
   Time now;
   Windows windows;
   EnergyAccount energy;
+  EnergyShares energy_shares;
   Tally tally;
   Accuracy accuracy;
   Effects effects;  ///< effects that the scene requires
@@ -104,12 +108,14 @@ class Run {
   std::size_t objects = 0;                ///< number of them
   std::optional<Kicks> kicks;
   std::uint64_t kicks_done = 0;
-  double kick_energy = 0;  ///< that all kicks have given to all needles
   Listeners listeners;
   TeamAtHand team;
   std::atomic<bool> interrupted = false;
 
  private:
+  /// Whoever does it; see set_velocities().
+  ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
+                                     const std::function<Vec3d(Needle)>& angular_velocity);
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);
   /// Makes what the effects of the scene need besides.

@@ -141,7 +141,7 @@ void Run::require_consistent() const {
   require(fits(tally.by_pair, gas.composition.pairs()));
   require(fits(tally.by_source, sources.size()) && fits(tally.by_object, objects));
   std::uint64_t happenings = tally.collisions;
-  for (const std::uint64_t events : tally.by_source) happenings += events;
+  for (const SourceTally& source : tally.by_source) happenings += source.events;
   require(tally.tc_collisions <= tally.collisions && tally.at_instant <= happenings &&
           tally.collisions < std::uint64_t{1} << 63);
   const auto is_past = [&](Time time) { return is_time(gas.clock, time) && time <= now; };
@@ -205,11 +205,11 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   if (gas.composition.is_mixture()) archive(tally.by_pair);
   if (!sources.empty()) archive(tally.by_source, tally.by_object);
   if (kicks) {
-    archive(kicks_done, kick_energy);
-    require(std::isfinite(kick_energy) && kicks_done < std::uint64_t{1} << 53 &&
-            now <= next_kick());
+    archive(kicks_done);
+    require(kicks_done < std::uint64_t{1} << 53 && now <= next_kick());
     find_next_kick();
   }
+  energy_shares.transfer(archive, sources.size(), objects);
   if (archive.reads()) require_consistent();
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "kernels/default_arithmetic.h"
@@ -90,6 +92,16 @@ std::string name_effects(const Run& run) {
   return out;
 }
 
+// In radians, as exact as a double at any age of the run.
+double phase_of(const std::optional<Scene::WallMotion>& motion, const Clock& clock, Time now) {
+  if (!motion) return std::numeric_limits<double>::quiet_NaN();
+  constexpr double turn = 2 * std::numbers::pi;
+  const DoubleDouble turns =
+      clock.turns(now, motion->frequency) + DoubleDouble(motion->phase / turn);
+  const double rest = to_double(turns - DoubleDouble(std::floor(turns.hi)));
+  return rest > 0 && rest < 1 ? turn * rest : 0;
+}
+
 }  // namespace
 
 struct Simulation::Implementation {
@@ -150,9 +162,8 @@ struct Simulation::Implementation {
     // On which sides needles are that touch now is known once all have searched.
     if (loop) loop->prepare(nullptr);
     loop.reset();  // all of its contents depend on the velocities
-    replaced =
-        run.replace_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
-                               [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
+    replaced = run.set_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
+                                  [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
     begin_loop();
   }
 
@@ -328,8 +339,10 @@ std::vector<std::string> Simulation::sources() const {
 }
 
 std::vector<std::uint64_t> Simulation::events_by_source() const {
-  std::vector<std::uint64_t> out = implementation_->run.tally.by_source;
-  out.resize(implementation_->run.sources.size());
+  const Run& run = implementation_->run;
+  std::vector<std::uint64_t> out;
+  for (const SourceTally& source : run.tally.by_source) out.push_back(source.events);
+  out.resize(run.sources.size());
   return out;
 }
 
@@ -341,17 +354,24 @@ std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
     if (run.tally.by_object.empty()) continue;
     for (std::size_t object = 0; object < out.back().size(); ++object) {
       const ObjectTally& sums = run.tally.by_object[run.first_object[n] + object];
-      out.back()[object] = {sums.events, sums.impulse.value()};
+      out.back()[object] = {sums.events, sums.impulse.value(), sums.normal_impulse.value()};
     }
   }
   return out;
 }
 
 std::vector<WallTotals> Simulation::wall_totals() const {
+  const kernels::DefaultArithmetic arithmetic;
   const Run& run = implementation_->run;
+  const Scene& scene = implementation_->scene;
+  const auto& box = run.gas.box;
   std::vector<WallTotals> out;
-  for (const Scene::WallSide& side : implementation_->scene.wall_sides()) {
-    out.push_back({.axis = static_cast<int>(side.axis), .high = side.is_high});
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    WallTotals& wall = out.emplace_back();
+    wall.axis = static_cast<int>(side.axis);
+    wall.high = side.is_high;
+    wall.area = box[(side.axis + 1) % 3] * box[(side.axis + 2) % 3];
+    wall.phase = phase_of(scene.walls[side.entry].motion, run.gas.clock, run.now);
   }
   const auto by_source = objects_by_source();
   for (std::size_t n = 0; n < by_source.size(); ++n) {
@@ -359,9 +379,15 @@ std::vector<WallTotals> Simulation::wall_totals() const {
     for (std::size_t wall = 0; wall < std::min(out.size(), by_source[n].size()); ++wall) {
       out[wall].hits = by_source[n][wall].events;
       out[wall].impulse = by_source[n][wall].impulse;
+      out[wall].normal_impulse = by_source[n][wall].normal_impulse;
     }
   }
   return out;
+}
+
+EnergyBudget Simulation::energy_budget() const {
+  const kernels::DefaultArithmetic arithmetic;
+  return implementation_->run.energy_budget();
 }
 
 void Simulation::interrupt() noexcept { implementation_->run.interrupted = true; }

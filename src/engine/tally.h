@@ -14,14 +14,27 @@
 
 namespace needlework {
 
+/// What a source of events has done.
+struct SourceTally {
+  std::uint64_t events = 0;
+  std::uint64_t energy = 0;  ///< change of the energy of all needles, as Tally::energy
+
+  template <class Archive>
+  friend void transfer(Archive& archive, SourceTally& tally) {
+    archive(tally.events, tally.energy);
+  }
+};
+
 /// What has happened at one object of a source of events, such as a wall.
 struct ObjectTally {
   std::uint64_t events = 0;
-  ExactTotal impulse;  ///< sum of |J| [m L / time]
+  std::uint64_t energy = 0;         ///< the same
+  ExactTotal impulse;               ///< sum of |J| [m L / time]
+  SignedExactTotal normal_impulse;  ///< of components along its normal
 
   template <class Archive>
   friend void transfer(Archive& archive, ObjectTally& tally) {
-    archive(tally.events, tally.impulse);
+    archive(tally.events, tally.energy, tally.impulse, tally.normal_impulse);
   }
 };
 
@@ -35,19 +48,34 @@ struct Tally {
   std::vector<std::uint64_t> by_pair;  ///< collisions by Composition::pair_index; empty as long as
                                        ///< no mixture has had one
 
-  std::vector<std::uint64_t> by_source;  ///< events of each source; the same
-  std::vector<ObjectTally> by_object;    ///< of all sources, by Run::first_object; the same
+  std::vector<SourceTally> by_source;  ///< the same of events of sources
+  std::vector<ObjectTally> by_object;  ///< of all sources, by Run::first_object; the same
 
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
     if (counts.empty()) counts.resize(kinds);
     ++counts[index];
   }
-  /// Counts an event at object `index` out of so many.
-  void count_object(std::size_t index, double impulse, std::size_t objects) {
+  /// Counts an event of source `index` out of so many, which has changed the energy by so many
+  /// quanta.
+  void count_source(std::size_t index, std::uint64_t quanta, std::size_t sources) {
+    if (by_source.empty()) by_source.resize(sources);
+    ++by_source[index].events;
+    by_source[index].energy += quanta;
+  }
+  /// An event at an object.
+  struct AtObject {
+    std::uint64_t quanta;
+    double impulse, normal_impulse;
+  };
+  /// Counts one at object `index` out of so many.
+  void count_object(std::size_t index, const AtObject& event, std::size_t objects) {
     if (by_object.empty()) by_object.resize(objects);
-    ++by_object[index].events;
-    by_object[index].impulse.add(impulse);
+    ObjectTally& object = by_object[index];
+    ++object.events;
+    object.energy += event.quanta;
+    object.impulse.add(event.impulse);
+    object.normal_impulse.add(event.normal_impulse);
   }
 
   /// Moves the sums of `other` into this object. Not its last instant, because later events have
@@ -66,9 +94,15 @@ struct Tally {
 
  private:
   static void add(std::uint64_t& to, std::uint64_t from) { to += from; }
+  static void add(SourceTally& to, const SourceTally& from) {
+    to.events += from.events;
+    to.energy += from.energy;
+  }
   static void add(ObjectTally& to, ObjectTally& from) {
     to.events += from.events;
+    to.energy += from.energy;
     to.impulse.take(from.impulse);
+    to.normal_impulse.take(from.normal_impulse);
   }
   template <class Sum>
   static void add(std::vector<Sum>& to, std::vector<Sum>& from) {

@@ -124,47 +124,7 @@ class OfSpecies : public Observable {
   Composition composition_;
 };
 
-class OfWalls : public Observable {
- public:
-  explicit OfWalls(const std::vector<Scene::WallSide>& walls) {
-    for (const Scene::WallSide& wall : walls) {
-      axes_.push_back(static_cast<double>(wall.axis));
-      high_.push_back(wall.is_high);
-    }
-  }
-
-  std::vector<SeriesField> fields() const override {
-    using enum SeriesField::Kind;
-    const std::vector<SeriesField::Extent> each{{"walls", axes_.size()}};
-    return {
-        {"axis", "Axis to which each wall is normal: 0 x, 1 y, 2 z", unit::none, each, constant,
-         axes_},
-        {"high", "1 for a wall at the high edge of the box, 0 at the low one", unit::none, each,
-         constant, high_},
-        {"hits",
-         "Number of hits on each wall since the start of the run, in the order of the scene, where "
-         "both counts as low, then high",
-         unit::none, each, count},
-        {"impulse", "Sum of the magnitudes of the impulses of these hits", unit::momentum, each},
-    };
-  }
-
-  void sample(const Snapshot& now, Row& row) override {
-    for (const WallTotals& each : now.species.walls) row.put(static_cast<double>(each.hits));
-    for (const WallTotals& each : now.species.walls) row.put(each.impulse);
-  }
-
-  bool reads_state() const override { return false; }
-
- private:
-  std::vector<double> axes_, high_;
-};
-
 }  // namespace
-
-ObservablePointer make_wall_sums(const std::vector<Scene::WallSide>& walls) {
-  return std::make_unique<OfWalls>(walls);
-}
 
 ObservablePointer make_species_sums(const Composition& composition) {
   return std::make_unique<OfSpecies>(composition);

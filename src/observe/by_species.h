@@ -47,9 +47,6 @@ class BySpecies : public Observable {
   std::vector<ObservablePointer> members_;
 };
 
-/// Hits on these walls and their impulses, which the series of a gas with walls always has.
-ObservablePointer make_wall_sums(const std::vector<Scene::WallSide>& walls);
-
 /// Totals by species and collisions of each two, which the series of a mixture always has.
 ObservablePointer make_species_sums(const Composition& composition);
 

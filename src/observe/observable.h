@@ -19,6 +19,7 @@
 #include "src/archive/archive.h"
 #include "src/observe/grid.h"
 #include "src/observe/vector.h"
+#include "src/observe/wall_slabs.h"
 
 namespace needlework::observe {
 
@@ -34,6 +35,7 @@ inline constexpr const char* speed = "length per time";
 inline constexpr const char* angular_speed = "radians per time";
 inline constexpr const char* energy = "energy";
 inline constexpr const char* angle = "radians";
+inline constexpr const char* pressure = "energy per volume";
 inline constexpr const char* momentum = "mass times length per time";
 }  // namespace unit
 
@@ -67,6 +69,7 @@ struct GasSetting {
   double length = 1, mass = 1;  ///< of several species the longest length, and no mass
   double inertia = 1;           ///< I = m L^2 / (2 k)
   std::array<int, 3> cells{1, 1, 1};
+  std::vector<Slabs> wall_slabs;  ///< across each axis with walls
   Composition composition;
   SpeciesById species_by_id;
 
@@ -82,12 +85,13 @@ GasSetting setting_of(const Scene& scene);
 std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
-/// Sums by species at one instant, collisions of each two by Composition::pair_index, and hits on
-/// walls.
+/// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
+/// walls, and what has changed the energy.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
   std::vector<WallTotals> walls = {};
+  EnergyBudget energy = {};
 };
 
 /// The gas at one instant. Holds references.

@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/observe/effect_sums.h"
+#include "src/scene/confinement.h"
+
 namespace needlework::observe {
 
 GasSetting setting_of(const Scene& scene) {
@@ -12,6 +15,7 @@ GasSetting setting_of(const Scene& scene) {
   gas.count = gas.all = scene.needles.count;
   gas.box = scene.needles.box;
   gas.cells = scene.output.grid.value_or(default_cells(gas.box, gas.count));
+  gas.wall_slabs = wall_slabs(scene);
   gas.composition = scene.composition();
   if (!gas.composition.is_mixture()) {
     gas.composition.set_count(0, gas.count);
@@ -50,8 +54,14 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
     members_.push_back(
         {"species", "Sums by species and by pairs of them", make_species_sums(gas_.composition)});
   }
-  if (const auto walls = scene.wall_sides(); !walls.empty()) {
-    members_.push_back({"walls", "Hits of needles on walls", make_wall_sums(walls)});
+  if (!scene.walls.empty()) {
+    members_.push_back({"walls", "Hits of needles on walls", make_wall_sums(scene)});
+  }
+  if (acts_on_single_needles(scene)) {
+    members_.push_back({"energy_budget",
+                        "What each effect has put into the energy per needle, whose change is the "
+                        "sum of them all",
+                        make_energy_budget(scene)});
   }
   if (cooling) {
     members_.push_back({"theory",
@@ -95,8 +105,10 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                                             const SpeciesSums& species) {
   row_.clear();
   const bool is_mixture = gas_.composition.is_mixture();
-  const SpeciesSums of_all{
-      {{gas_.count, totals.t_tr, totals.t_rot}}, {totals.collisions}, species.walls};
+  const SpeciesSums of_all{{{gas_.count, totals.t_tr, totals.t_rot}},
+                           {totals.collisions},
+                           species.walls,
+                           species.energy};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);

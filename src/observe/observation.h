@@ -27,7 +27,7 @@ class Observation {
 
   /// The values of one sample: the rows of all fields, one after the other, in the order of
   /// groups() and without constants. Sums by species are needed if there are several, and those of
-  /// walls if there are some. Valid until the next call.
+  /// walls and the budget of energy if there are walls or driving. Valid until the next call.
   std::span<const double> sample(const State& state, const Totals& totals,
                                  const SpeciesSums& species = {});
   void collision(const Collision& collision);

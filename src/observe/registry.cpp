@@ -28,6 +28,9 @@ constexpr Entry entries[] = {
      "Displacement and rotation since reference times, of which a bounded number is kept",
      make_displacement},
     {"collision_statistics", "Collisions since the sample before", make_collision_statistics, true},
+    {"wall_profiles", "Density, temperatures and order in slabs between walls, or over one",
+     make_wall_profiles},
+    {"centre_of_mass", "Centre of mass along the axes with walls", make_centre_of_mass, true},
 };
 
 static_assert(std::ranges::equal(entries, observable_names, {}, &Entry::name),

@@ -86,6 +86,7 @@ void add_run(py::module_& module) {
       .def("species_totals", &Run::species_totals)
       .def("collisions_by_pair", &Run::collisions_by_pair)
       .def("wall_totals", &Run::wall_totals)
+      .def("energy_budget", &Run::energy_budget)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

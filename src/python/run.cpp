@@ -5,6 +5,7 @@
 #include <exception>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "needlework/counters.h"
@@ -316,8 +317,23 @@ py::list Run::wall_totals() {
     sums["side"] = text(side_name(wall));
     sums["hits"] = wall.hits;
     sums["impulse"] = wall.impulse;
+    sums["pressure"] = wall.pressure(run_->simulation().time());
+    sums["phase"] = wall.phase;
     out.append(sums);
   }
+  return out;
+}
+
+py::dict Run::energy_budget() {
+  require_idle();
+  py::dict out;
+  run_->simulation().energy_budget().for_each([&](const char* name, const auto& energy) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
+      out[text(name)] = energy;
+    } else {
+      out[text(name)] = py::array_t<double>(static_cast<py::ssize_t>(energy.size()), energy.data());
+    }
+  });
   return out;
 }
 

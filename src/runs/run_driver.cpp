@@ -281,6 +281,7 @@ void RunDriver::sample(bool series, bool frame) {
         species = {simulation_.species_totals(), simulation_.collisions_by_pair()};
       }
       species.walls = simulation_.wall_totals();
+      species.energy = simulation_.energy_budget();
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }

@@ -12,6 +12,7 @@
 #include "needlework/error.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/check.h"
+#include "src/scene/observable_names.h"
 
 namespace needlework {
 namespace {
@@ -181,6 +182,15 @@ void require_compatible_effects(const Scene& scene) {
   require_thermal_walls_at_rest(scene);
   require_gravity_to_single_walls(scene);
   require_thermostat_without_gravity(scene);
+}
+
+void require_walls_to_observe(const Scene& scene) {
+  if (!scene.walls.empty()) return;
+  for (const std::string& name : scene.output.observables) {
+    if (std::ranges::find(wall_observable_names, name) == wall_observable_names.end()) continue;
+    refuse_at(place_of(scene, "output.observables", quoted(name)),
+              fmt::format("an entry [[walls]] for {}, which is along axes with walls", name));
+  }
 }
 
 }  // namespace needlework

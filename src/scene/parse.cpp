@@ -423,6 +423,7 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   if (box_given && !walled) require_room(scene, document, box);
   require_what_is_needed(scene, document, given, provided);
   require_compatible_effects(scene);
+  require_walls_to_observe(scene);
   if (box_given && walled) require_room(scene, document, box);
   adopt_species(scene);
   if (!provided.state && scene.initial.file.empty()) require_followable(scene, name);

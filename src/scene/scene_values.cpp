@@ -199,6 +199,7 @@ void require_valid(const Scene& scene) {
   require_in_range(scene, [](std::string_view, std::string_view) { return true; });
   require_one_contact_time(scene.collisions);
   require_compatible_effects(scene);
+  require_walls_to_observe(scene);
   require_room(scene);
   require_names(scene);
   const Composition composition = scene.composition();

@@ -16,6 +16,7 @@
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
 #include "src/runs/state_file.h"
+#include "src/scene/confinement.h"
 #include "src/scene/printable.h"
 #include "src/serve/arrays.h"
 #include "src/serve/collisions.h"
@@ -45,6 +46,7 @@ Json summary_of(const runs::PreparedRun& run) {
               {"trajectory_hash", simulation.trajectory_hash()}};
   if (!run.scene().species.empty()) add_species(answer, simulation);
   if (!run.scene().walls.empty()) add_walls(answer, simulation);
+  if (acts_on_single_needles(run.scene())) add_energy_budget(answer, simulation);
   return answer;
 }
 

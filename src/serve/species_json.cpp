@@ -39,9 +39,16 @@ void add_walls(Json& json, const Simulation& simulation) {
     walls.push_back({{"axis", axis_name(wall)},
                      {"side", side_name(wall)},
                      {"hits", wall.hits},
-                     {"impulse", number_or_null(wall.impulse)}});
+                     {"impulse", number_or_null(wall.impulse)},
+                     {"pressure", number_or_null(wall.pressure(simulation.time()))}});
   }
   json["walls"] = std::move(walls);
+}
+
+void add_energy_budget(Json& json, const Simulation& simulation) {
+  Json& budget = json["energy_budget"];
+  simulation.energy_budget().for_each(
+      [&](const char* name, const auto& energy) { budget[name] = energy; });
 }
 
 }  // namespace needlework::serve

@@ -1,5 +1,5 @@
-// What programs are told of the species and the walls of a simulation, by a pipe and by `run
-// --json`.
+// What programs are told of the species, the walls and the energy of a simulation, by a pipe and by
+// `run --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,8 +12,12 @@ namespace needlework::serve {
 /// {"a-b": n} since the start, both in the order of the scene.
 void add_species(nlohmann::ordered_json& json, const Simulation& simulation);
 
-/// Adds "walls", [{axis, side, hits, impulse}] since the start, in the order of
+/// Adds "walls", [{axis, side, hits, impulse, pressure}] since the start, in the order of
 /// Scene::wall_sides().
 void add_walls(nlohmann::ordered_json& json, const Simulation& simulation);
+
+/// Adds "energy_budget", {pairs, walls: [], thermostat, kicks, velocities_set}, of those that there
+/// are.
+void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulation);
 
 }  // namespace needlework::serve

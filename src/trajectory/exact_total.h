@@ -1,8 +1,9 @@
-// An exact sum of positive numbers of any size, which does not depend on the order of its terms.
+// Exact sums of numbers of any size, which do not depend on the order of their terms.
 #pragma once
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -82,6 +83,25 @@ class ExactTotal {
   // The largest double ends in digit 65; sums of 2^64 of them have two more.
   std::array<std::uint64_t, 68> digits_{};
   std::uint64_t terms_ = 0;  // no digit is larger than this times 2^32
+};
+
+/// The same for terms of either sign: a sum of the positive ones less one of the others.
+class SignedExactTotal {
+ public:
+  void add(double term) { term < 0 ? below_.add(-term) : above_.add(std::abs(term)); }
+  void take(SignedExactTotal& other) {
+    above_.take(other.above_);
+    below_.take(other.below_);
+  }
+  double value() const { return above_.value() - below_.value(); }
+
+  template <class Archive>
+  friend void transfer(Archive& archive, SignedExactTotal& total) {
+    archive(total.above_, total.below_);
+  }
+
+ private:
+  ExactTotal above_, below_;
 };
 
 }  // namespace needlework

@@ -15,8 +15,8 @@ inline void transfer(Archive& archive, Totals& totals) {
 }
 
 inline void transfer(Archive& archive, WallTotals& wall) {
-  auto& [axis, high, hits, impulse] = wall;
-  archive(axis, high, hits, impulse);
+  auto& [axis, high, hits, impulse, normal_impulse, area, phase] = wall;
+  archive(axis, high, hits, impulse, normal_impulse, area, phase);
 }
 
 /// Whether these can be the totals of a gas, as far as can be seen from them alone. `falls`: their

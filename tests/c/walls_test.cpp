@@ -41,11 +41,43 @@ TEST(CWalls, CountHitsAndImpulses) {
     EXPECT_EQ(wall.hits, hits[n]);
     EXPECT_GT(wall.hits, 5u);
     EXPECT_NEAR(wall.impulse, impulse[n], 1e-12 * impulse[n]);
+    EXPECT_EQ(wall.normal_impulse, wall.impulse);
+    EXPECT_EQ(wall.area, 25);
+    EXPECT_TRUE(std::isnan(wall.phase));
+    EXPECT_NEAR(wall.energy, 0, 1e-14);
   }
   needlework_wall none{};
   EXPECT_EQ(needlework_get_wall(gas, 2, &none), NEEDLEWORK_USAGE);
   EXPECT_EQ(gas.message(), "index = 2: expected that of one of 2 walls");
   EXPECT_EQ(needlework_get_wall(gas, 0, nullptr), NEEDLEWORK_USAGE);
+}
+
+TEST(CEnergyBudget, IsTheChangeOfTheEnergy) {
+  const CSimulation gas(
+      "needles = { count = 60, box = 5 }\ncollisions = { epsilon = 0.8, tc_relative = 1e-3 }\n"
+      "driving.kicks = { every = 0.05, translational = 1, rotational = 1 }\n"
+      "driving.andersen = { rate = 0.5, temperature = 2 }\n"
+      "[[walls]]\naxis = \"y\"\nside = \"both\"\n"
+      "motion = { amplitude = 0.1, frequency = 1 }\n");
+  gas.run_to(100);
+  needlework_energy_budget budget{};
+  ASSERT_EQ(needlework_get_energy_budget(gas, &budget), NEEDLEWORK_OK) << gas.error.message;
+  const needlework_totals totals = gas.totals();
+  EXPECT_NEAR(
+      budget.pairs + budget.walls + budget.thermostat + budget.kicks + budget.velocities_set,
+      totals.energy - totals.initial_energy, 1e-12);
+  EXPECT_LT(budget.pairs, 0);
+  EXPECT_GT(budget.kicks, 0);
+  EXPECT_NE(budget.thermostat, 0);
+  EXPECT_EQ(budget.velocities_set, 0);
+  needlework_wall low{}, high{};
+  EXPECT_EQ(needlework_get_wall(gas, 0, &low), NEEDLEWORK_OK);
+  EXPECT_EQ(needlework_get_wall(gas, 1, &high), NEEDLEWORK_OK);
+  EXPECT_EQ(low.energy + high.energy, budget.walls);
+  EXPECT_NE(budget.walls, 0);
+  EXPECT_NEAR(low.phase, std::fmod(2 * 3.14159265358979323846 * totals.time, 6.283185307179586),
+              1e-9);
+  EXPECT_EQ(needlework_get_energy_budget(gas, nullptr), NEEDLEWORK_USAGE);
 }
 
 TEST(CWalls, AreNoneInAPeriodicBox) {

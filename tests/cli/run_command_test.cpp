@@ -79,6 +79,13 @@ TEST_F(RunCommand, PrintsWhatItsDocumentDescribes) {
   std::vector<std::string> all = described["Result"];
   for (const std::string& key : described["Result with species"]) all.push_back(key);
   EXPECT_EQ(keys_of(result("species.toml")), sorted(all));
+  write("driven.toml",
+        "needles = { count = 5, box = 4 }\nuntil.time = 1\n[[walls]]\naxis = 'x'\nside = 'both'\n"
+        "[driving]\nkicks = { every = 1, translational = 1, rotational = 1 }\n"
+        "andersen = { rate = 1, temperature = 1 }\n");
+  const json driven = result("driven.toml");
+  EXPECT_EQ(keys_of(driven["walls"][1]), sorted(described["Result with walls"]));
+  EXPECT_EQ(keys_of(driven["energy_budget"]), sorted(described["Result with walls or driving"]));
 }
 
 TEST_F(RunCommand, ReportsConsistentNumbers) {
@@ -412,6 +419,40 @@ TEST_F(RunCommand, WatchesOnATerminalOnly) {
   const Outcome both = run("run small.toml --watch --quiet");
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_TRUE(both.complains("--watch"));
+}
+
+// In JSON and in the summary, also through resume; and not where nothing but needles exchanges it.
+TEST_F(RunCommand, SaysWhereTheEnergyHasComeFrom) {
+  write("shaken.toml",
+        "needles = { count = 60, box = 4 }\ncollisions = { epsilon = 0.8, tc_relative = 1e-3 }\n"
+        "forces.gravity = [0, 0, -1]\ndriving.kicks = { every = 0.3, translational = 1, "
+        "rotational = 0 }\nuntil.time = 2\n[[walls]]\naxis = 'z'\nside = 'low'\n"
+        "motion = { amplitude = 0.1, frequency = 1 }\n");
+  const auto result = run("run shaken.toml --json --quiet --out shaken.h5").json();
+  const auto resumed = run("resume shaken.h5 --json --quiet --set until.time=3").json();
+  const auto longer = run("run shaken.toml --json --quiet --set until.time=3").json();
+  for (const auto& json : {result, resumed}) {
+    const auto& budget = json["energy_budget"];
+    EXPECT_EQ(budget.size(), 4u) << budget;
+    double sum = 0;
+    for (const char* name : {"pairs", "kicks", "velocities_set"}) sum += budget[name].get<double>();
+    ASSERT_EQ(budget["walls"].size(), 1u);
+    sum += budget["walls"][0].get<double>();
+    EXPECT_LT(budget["pairs"], 0);
+    EXPECT_EQ(budget["velocities_set"], 0);
+    EXPECT_NEAR(sum, json["energy"].get<double>() - json["energy_initial"].get<double>(), 1e-12);
+    const auto& wall = json["walls"][0];
+    EXPECT_NEAR(wall["pressure"].get<double>(),
+                wall["impulse"].get<double>() / (16 * json["time"].get<double>()), 1e-12);
+  }
+  EXPECT_EQ(resumed["energy_budget"], longer["energy_budget"]);
+  const std::string summary = run("run shaken.toml").out;
+  for (const char* part : {"pressure", "energy from", "pairs -", "wall z low ", "kicks +"}) {
+    EXPECT_NE(summary.find(part), std::string::npos) << part << " in\n" << summary;
+  }
+  EXPECT_EQ(summary.find("velocities_set"), std::string::npos);
+  EXPECT_FALSE(run(std::string("run ") + small + " --json").json().contains("energy_budget"));
+  EXPECT_EQ(run(std::string("run ") + small).out.find("energy from"), std::string::npos);
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Outcome outcome_of(const Scene& scene, std::uint32_t most, const Make& make,
   EXPECT_EQ(loop->advance(Limits(run, until)), until.time ? Stop::time : Stop::collisions);
   out.hash = run.tally.hash.hex();
   out.redone = run.tally.counters.redone;
-  if (!run.tally.by_source.empty()) out.events = run.tally.by_source[0];
+  if (!run.tally.by_source.empty()) out.events = run.tally.by_source[0].events;
   for (const ObjectTally& object : run.tally.by_object) {
     out.objects.push_back({object.events, object.impulse.value()});
   }

@@ -62,7 +62,7 @@ Course course_of(const Scene& scene, const Make& make, double time) {
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   const auto loop = make(run);
   EXPECT_EQ(loop->advance(Limits(run, until_time(time))), Stop::time);
-  return {run.tally.hash.hex(), run.tally.by_source.at(0), run.tally.collisions};
+  return {run.tally.hash.hex(), run.tally.by_source.at(0).events, run.tally.collisions};
 }
 
 TEST(WallsAndGravity, HaveOneTrajectory) {

@@ -47,8 +47,15 @@ WALLED = """
 needles = { count = 30, box = 6, seed = 3 }
 until.time = 1
 output.events = true
+output.observables = ["wall_profiles", "centre_of_mass"]
+driving.kicks = { every = 0.3, translational = 1, rotational = 1 }
+driving.andersen = { rate = 1, temperature = 1 }
 [[walls]]
 axis = "z"
+side = "both"
+motion = { amplitude = 0.1, frequency = 1, phase = 0 }
+[[walls]]
+axis = "x"
 side = "both"
 """
 
@@ -221,7 +228,8 @@ def main(program, source):
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
-                ("walled.h5", rows_of(document, "Files with walls"), runs),
+                ("walled.h5", rows_of(document, "Files with walls") +
+                 rows_of(observables, "Datasets of axes with walls"), runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),
                 ("run.vtkhdf", rows_of(document, "Exports for ParaView and VTK"), ())]:
             with h5py.File(os.path.join(folder, name), "r") as file:

@@ -114,7 +114,7 @@ TEST(BySpecies, IsWhatEachSpeciesHasAlone) {
       }
     }
   }
-  EXPECT_EQ(seen, 8);
+  EXPECT_EQ(seen, 9);
 }
 
 TEST(BySpecies, SumsAreThoseOfTheSimulation) {

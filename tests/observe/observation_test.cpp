@@ -35,7 +35,10 @@ std::vector<std::uint64_t> rows_of(const Scene& scene, const State& initial) {
   std::vector<std::uint64_t> bits;
   for (const double time : {0.0, 0.5, 1.0, 2.0, 4.0}) {
     simulation.advance(test::until_time(time));
-    for (const double value : observation.sample(simulation.copy(), simulation.totals())) {
+    SpeciesSums sums;
+    sums.walls = simulation.wall_totals();
+    sums.energy = simulation.energy_budget();
+    for (const double value : observation.sample(simulation.copy(), simulation.totals(), sums)) {
       bits.emplace_back();
       std::memcpy(&bits.back(), &value, sizeof value);
     }
@@ -53,6 +56,22 @@ TEST(Observation, DoesNotDependOnThreadsAndStorage) {
   scene.engine.storage = "sorted";
   scene.engine.search = "capsules";
   for (const int threads : {1, 3}) {
+    scene.engine.threads = threads;
+    scene.engine.team = "all";
+    EXPECT_EQ(rows_of(scene, initial), expected) << threads << " threads";
+  }
+}
+
+// The same between a wall of a temperature and one in motion, kicked.
+TEST(Observation, OfWallsDoesNotDependOnThreads) {
+  Scene scene = cooling_scene();
+  scene.walls = {{.axis = "z", .side = "low"}, {.axis = "z", .side = "high", .temperature = 2}};
+  scene.walls[0].motion = {.amplitude = 0.1, .frequency = 0.5, .phase = 0};
+  scene.driving.kicks = {.every = 0.3, .translational = 1, .rotational = 1};
+  const State initial = draw_initial_state(scene);
+  const auto expected = rows_of(scene, initial);
+  for (const int threads : {1, 3}) {
+    scene.engine.search = "capsules";
     scene.engine.threads = threads;
     scene.engine.team = "all";
     EXPECT_EQ(rows_of(scene, initial), expected) << threads << " threads";

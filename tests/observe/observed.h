@@ -50,26 +50,39 @@ inline Totals totals_of(const State& state, double inertia, double time = 0) {
   return totals;
 }
 
+/// Sums of a gas in which nothing has happened yet, as the scene calls for them.
+inline SpeciesSums no_sums(const Scene& scene) {
+  SpeciesSums sums;
+  sums.walls.resize(scene.wall_sides().size());
+  sums.energy.walls.resize(sums.walls.size());
+  if (scene.driving.andersen) sums.energy.thermostat = 0;
+  if (scene.driving.kicks) sums.energy.kicks = 0;
+  return sums;
+}
+
 /// The observation of one observable.
 class Observed {
  public:
-  explicit Observed(const Scene& scene) : inertia_(setting_of(scene).inertia), all_(scene) {}
+  explicit Observed(const Scene& scene)
+      : inertia_(setting_of(scene).inertia), sums_(no_sums(scene)), all_(scene) {}
 
   Values sample(const State& state, double time = 0) {
     return sample(state, totals_of(state, inertia_, time));
   }
   Values sample(const State& state, const Totals& totals) {
-    const auto row = all_.sample(state, totals);
+    const auto row = all_.sample(state, totals, sums_);
     Values out;
     auto next = row.begin();
-    const SeriesGroup group = all_.groups().at(0);
-    for (const SeriesField& field : group.fields) {
-      if (field.kind == SeriesField::Kind::constant) {
-        EXPECT_EQ(field.values.size(), field.width()) << field.name;
-        out[field.name] = field.values;
-      } else {
-        out[field.name].assign(next, next + static_cast<std::ptrdiff_t>(field.width()));
-        next += static_cast<std::ptrdiff_t>(field.width());
+    for (const SeriesGroup& group : all_.groups()) {
+      out.clear();  // the observable is the last, behind what every file of such a gas has
+      for (const SeriesField& field : group.fields) {
+        if (field.kind == SeriesField::Kind::constant) {
+          EXPECT_EQ(field.values.size(), field.width()) << field.name;
+          out[field.name] = field.values;
+        } else {
+          out[field.name].assign(next, next + static_cast<std::ptrdiff_t>(field.width()));
+          next += static_cast<std::ptrdiff_t>(field.width());
+        }
       }
     }
     return out;
@@ -78,6 +91,7 @@ class Observed {
 
  private:
   double inertia_;
+  SpeciesSums sums_;
   Observation all_;
 };
 

@@ -51,6 +51,28 @@ TEST(KickPower, IsExact) {
   expect_power(scene, 200, 10);
 }
 
+// Whatever collisions take meanwhile, which is a share of its own in the budget of energy.
+TEST(KickPower, IsExactForInelasticNeedles) {
+  Scene scene = test::scene_of(400, 8, 4000);
+  scene.collisions.epsilon = 0.7;
+  scene.collisions.tc_relative = 1e-3;
+  scene.initial.t_tr = scene.initial.t_rot = 0.05;
+  scene.driving.kicks = {.every = 0.05, .translational = 1.5, .rotational = 4};
+  constexpr double time = 1;
+  double taken = 0;
+  const test::Measured power =
+      mean_of(scene, 130, time, [&](const Simulation& simulation, double before) {
+        const EnergyBudget budget = simulation.energy_budget();
+        taken -= budget.pairs / 130;
+        EXPECT_NEAR(budget.pairs + *budget.kicks, simulation.totals().energy - before, 1e-12);
+        return *budget.kicks / time;
+      });
+  const double expected = theory::kick_power(scene.composition(), 1.5, 4);
+  EXPECT_TRUE(agrees(power, expected, 3));
+  EXPECT_LT(power.error, 0.003 * expected);
+  EXPECT_GT(taken, 0.03 * expected);
+}
+
 // The momentum that is taken off is a quarter of what kicks give to four needles.
 TEST(KickPower, IsExactForFewNeedles) {
   Scene scene = test::scene_of(4, 3, 1000);

@@ -50,5 +50,110 @@ class Walls(unittest.TestCase):
         self.assertEqual(Simulation({"needles": {"count": 9, "box": 5.0}}).wall_totals, [])
 
 
+# A needle on end that bounces on a floor in motion and hits it at its highest, where it is at rest:
+# its height is known at each phase.
+AMPLITUDE = 0.005
+BOUNCING = {"needles": {"count": 1, "box": 3.0},
+            "walls": [{"axis": "z", "side": "low",
+                       "motion": {"amplitude": AMPLITUDE, "frequency": 1, "phase": -np.pi / 2}}],
+            "forces": {"gravity": [0, 0, -1]},
+            "output": {"observables": ["centre_of_mass", "wall_profiles"], "series_every": 1 / 16}}
+START = {"position": [[1, 1, 0.5 + AMPLITUDE + 1 / 8]], "velocity": [[0, 0, 0]],
+         "orientation": [[0, 0, 1]], "angular_velocity": [[0, 0, 0]]}
+
+
+class Phases(unittest.TestCase):
+    def test_means_by_phase_are_those_of_a_periodic_orbit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "run.h5")
+            scene = {**BOUNCING, "output": {**BOUNCING["output"], "file": str(file)}}
+            with Simulation(scene, **START) as sim:
+                sim.run(time=2.5)
+                sim.checkpoint()
+            with Simulation.resume(file) as sim:
+                sim.run(time=10)
+                hits, = sim.wall_totals
+                self.assertEqual(hits.hits, 10)
+                self.assertAlmostEqual(hits.phase, 3 * np.pi / 2, places=12)
+                self.assertAlmostEqual(hits.pressure, 10 * 1 / (9 * 10), places=12)
+            with needlework.read(file) as recording:
+                height = recording.observable("centre_of_mass").position[:, 0]
+                folded = recording.by_phase(height)
+                late = recording.by_phase(height, bins=4, since=9)
+                profiles = recording.observable("wall_profiles")
+                slabs = recording.by_phase(profiles.t_normal[:, 0], weights=profiles.density[:, 0])
+                pressure = recording.observable("walls").pressure[:, 0]
+                for arguments in ({"values": height[1:]}, {"values": height, "bins": 0},
+                                  {"values": height, "wall": 1},
+                                  {"values": height, "weights": [1, 2]}):
+                    with self.assertRaises(needlework.InputError):
+                        recording.by_phase(**arguments)
+        np.testing.assert_allclose(folded.phase, np.arange(16) * np.pi / 8)
+        self.assertEqual(folded.samples.sum(), 161)
+        self.assertEqual(sorted(folded.samples), [10] * 15 + [11])
+        turns = (folded.phase / (2 * np.pi) - 0.25) % 1  # since the hit
+        np.testing.assert_allclose(folded.mean, 0.5 + AMPLITUDE + turns * (1 - turns) / 2,
+                                   atol=1e-9)
+        self.assertEqual(late.samples.sum(), 17)
+        # Twice the mean energy of the motion along the axis, (1/2 - turns)^2, in one slab each.
+        found = np.nansum(slabs.mean, axis=1)
+        apart = np.abs(turns - 0.5) > 1e-3
+        self.assertEqual(slabs.mean.shape, (16, len(profiles.position[0])))
+        self.assertTrue(np.all(np.isclose(found, (0.5 - turns) ** 2) | ~apart), found)
+        # A hit turns the momentum 1/2 around; each is in one interval of 1/16.
+        self.assertTrue(np.isnan(pressure[0]))
+        self.assertEqual(np.sum(pressure[1:] > 0), 10)
+        np.testing.assert_allclose(np.sum(pressure[1:]) / 16, 10 * 1 / 9)
+
+    def test_walls_at_rest_have_no_phase(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "run.h5")
+            with Simulation({**WALLED, "output": {"file": str(file)}}) as sim:
+                self.assertTrue(np.isnan(sim.wall_totals[0].phase))
+                sim.run(time=0.1)
+            with needlework.read(file) as recording:
+                with self.assertRaises(needlework.InputError):
+                    recording.by_phase(recording.series.t_tr)
+
+
+class Budget(unittest.TestCase):
+    def test_is_the_change_of_the_energy_at_each_sample(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "run.h5")
+            scene = {"needles": {"count": 80, "box": 5.0, "seed": 3},
+                     "collisions": {"epsilon": 0.8, "tc_relative": 1e-3},
+                     "walls": [{"axis": "z", "side": "low", "epsilon": 0.9, "motion": {
+                                    "amplitude": 0.1, "frequency": 2}},
+                               {"axis": "x", "side": "both", "temperature": 2.0}],
+                     "driving": {"kicks": {"every": 0.1, "translational": 1, "rotational": 1}},
+                     "forces": {"gravity": [0, 0, -2]}, "output": {"file": str(file)}}
+            with Simulation(scene) as sim:
+                sim.run(time=1)
+                sim.set_velocities(2 * sim.velocity, sim.angular_velocity)
+                sim.checkpoint()
+            with Simulation.resume(file) as sim:
+                sim.run(time=3)
+                budget, energy = sim.energy_budget, sim.totals.energy
+            with needlework.read(file) as recording:
+                series, rows = recording.series, recording.observable("energy_budget")
+        self.assertEqual(set(budget), {"pairs", "walls", "kicks", "velocities_set"})
+        self.assertEqual(len(budget.walls), 3)
+        self.assertGreater(budget.velocities_set, 1)
+        self.assertLess(budget.pairs, -1)
+        self.assertAlmostEqual(budget.total, energy - series.energy[0], places=11)
+        total = sum(rows[name].reshape(series.rows, -1).sum(axis=1) for name in rows)
+        np.testing.assert_allclose(total, series.energy - series.energy[0], atol=2e-11)
+        for name in budget:
+            np.testing.assert_array_equal(budget[name], rows[name][-1])
+
+    def test_has_pairs_alone_in_a_gas_without_effects(self):
+        with Simulation({"needles": {"count": 60, "box": 4.0},
+                         "collisions": {"epsilon": 0.8, "tc_relative": 1e-3}}) as sim:
+            start = sim.totals.energy
+            sim.run(time=2)
+            self.assertAlmostEqual(sim.energy_budget.pairs, sim.totals.energy - start, places=12)
+            self.assertEqual(set(sim.energy_budget), {"pairs", "velocities_set"})
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 4 of "), mark
+    assert mark.startswith(b"needlework checkpoint 5 of "), mark
     return mark
 
 
@@ -202,6 +202,9 @@ class Fields:
         self.several("counters", "u64", 24)
         self.time("instant")
         self.one("at_instant", "u64")
+        self.several("share_of_pairs", "f64", 2)
+        self.one("share_of_pairs.quanta", "u64")
+        self.several("shares_of_kicks_and_callers", "f64", 4)
         assert self.at == end
 
     def user_data(self, name):

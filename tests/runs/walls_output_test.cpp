@@ -33,7 +33,7 @@ Scene walled(const std::string& file = "") {
   scene.output.events = true;
   scene.output.series_every = 0.5;
   scene.output.frame_times = {1};
-  scene.output.observables = {"collision_statistics"};
+  scene.output.observables = {"collision_statistics", "wall_profiles", "centre_of_mass"};
   scene.until.time = 3;
   return scene;
 }
@@ -103,6 +103,56 @@ TEST(WallsOutput, EventsAndTotalsAreThoseOfTheReports) {
   EXPECT_EQ(contents.numbers("/series/collisions/value").back(), of_pairs);
 }
 
+// At each sample, and the pressure is that of the impulses between samples.
+TEST(WallsOutput, BudgetAndPressureAreThoseOfTheReports) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.path() / "run.h5";
+  Silent monitor;
+  Scene scene = walled(file);
+  scene.driving.kicks = {.every = 0.2, .translational = 1, .rotational = 1};
+  scene.walls[1].temperature = 2;  // tangential impulses, and normal ones of either sign
+  scene.output.observables.clear();
+  PreparedRun run(complete_scene(scene), false);
+  std::vector<std::vector<double>> impulses(3, std::vector<double>(7));  // by wall and sample
+  run.on_happenings(1, [&](auto batch) {
+    for (const Happening& h : batch) {
+      if (h.is_collision()) continue;
+      const auto sample = static_cast<std::size_t>(std::ceil(h.event.time / 0.5));
+      const double sign = h.event.second == 1 ? -1 : 1;
+      impulses.at(h.event.second).at(sample) += sign * h.event.impulse[h.event.second == 2 ? 0 : 2];
+    }
+  });
+  run.advance(run.scene().until, monitor);
+  run.close();
+  const io::Contents contents(file);
+  const auto energy = contents.numbers("/series/energy/value");
+  const auto time = contents.numbers("/series/time");
+  const auto pairs = contents.numbers("/series/energy_budget/pairs/value");
+  const auto walls = contents.numbers("/series/energy_budget/walls/value");
+  const auto kicks = contents.numbers("/series/energy_budget/kicks/value");
+  const auto callers = contents.numbers("/series/energy_budget/velocities_set/value");
+  const auto pressure = contents.numbers("/series/walls/pressure/value");
+  ASSERT_EQ(energy.size(), 7u);
+  EXPECT_FALSE(contents.has("/series/energy_budget/thermostat"));
+  EXPECT_FALSE(contents.has("/series/walls/phase"));
+  for (std::size_t n = 0; n < energy.size(); ++n) {
+    const double sum =
+        pairs[n] + kicks[n] + callers[n] + walls[3 * n] + walls[3 * n + 1] + walls[3 * n + 2];
+    EXPECT_NEAR(sum, energy[n] - energy[0], 1e-12);
+    EXPECT_EQ(time[n], 0.5 * static_cast<double>(n));
+    for (std::size_t wall = 0; wall < 3; ++wall) {
+      const double found = pressure[3 * n + wall];
+      if (n == 0) {
+        EXPECT_TRUE(std::isnan(found));
+      } else {
+        EXPECT_NEAR(found, impulses[wall][n] / (25 * 0.5), 1e-12) << n << ", wall " << wall;
+      }
+    }
+  }
+  EXPECT_LT(pairs.back(), -0.01);
+  EXPECT_GT(kicks.back(), 0.5);
+}
+
 // Observables of collisions are of pairs: a hit has no partner and no angle.
 TEST(WallsOutput, ObservablesOfCollisionsKnowNoHits) {
   const test::TemporaryFolder folder;
@@ -141,9 +191,18 @@ TEST(WallsOutput, GoesOnFromACheckpoint) {
     EXPECT_EQ(a[n].impulse, b[n].impulse);
   }
   const io::Contents one(whole), two(parts);
-  for (const char* name : {"/events/kind", "/events/time", "/events/pair",
-                           "/series/walls/hits/value", "/series/walls/impulse/value"}) {
-    EXPECT_EQ(one.numbers(name), two.numbers(name)) << name;
+  for (const char* name :
+       {"/events/kind", "/events/time", "/events/pair", "/series/walls/hits/value",
+        "/series/walls/impulse/value", "/series/walls/pressure/value",
+        "/series/energy_budget/pairs/value", "/series/energy_budget/walls/value",
+        "/series/wall_profiles/density/value", "/series/wall_profiles/p2/value",
+        "/series/centre_of_mass/position/value"}) {
+    const std::vector<double> a = one.numbers(name), b = two.numbers(name);
+    ASSERT_EQ(a.size(), b.size()) << name;
+    EXPECT_GT(a.size(), 3u);
+    for (std::size_t n = 0; n < a.size(); ++n) {
+      EXPECT_TRUE(a[n] == b[n] || (std::isnan(a[n]) && std::isnan(b[n]))) << name << ", " << n;
+    }
   }
 }
 

@@ -50,6 +50,7 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
       "expected an array of names among \"fields\", \"profiles\", \"flow_order\", "
       "\"distributions\", \"alignment\", \"velocity_moments\", \"temperature_by_axis\", "
       "\"pair_correlation\", \"structure_factor\", \"displacement\", \"collision_statistics\", "
+      "\"wall_profiles\", \"centre_of_mass\", "
       "\"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", \"tc_collisions\"";
   const BadLine table[] = {
       {"needles", "count = -1", count},

@@ -141,6 +141,7 @@ TEST(RestoredScene, IsRefusedIfNoFileCouldDescribeIt) {
   expect("output.frames = ", rich, [](Scene& s) { s.output.frame_times = {2, 1}; });
   expect("output.grid = ", rich, [](Scene& s) { s.output.grid = {10000, 10000, 1}; });
   expect("output.observables = ", rich, [](Scene& s) { s.output.observables = {"x"}; });
+  expect("output.observables = ", rich, [](Scene& s) { s.output.observables = {"wall_profiles"}; });
   expect("species: expected the count", species, [](Scene& s) { s.needles.count = 8; });
   expect("species.length = ", species, [](Scene& s) { s.species[0].length = 0; });
   expect("needles.box = [9, 9, 9]: expected edges of at least 10.05", species,

@@ -260,5 +260,17 @@ TEST(BadWalls, LeaveNoRoom) {
             "which has walls (one needle length)");
 }
 
+// What is along axes with walls cannot be observed without any.
+TEST(Walls, AreNeededByTheirObservables) {
+  const std::string observed = "output.observables = ['energy', 'wall_profiles']\n";
+  EXPECT_EQ(message(unwalled + observed),
+            "s.toml: line 4: output.observables = ['energy', 'wall_profiles']: expected an entry "
+            "[[walls]] for wall_profiles, which is along axes with walls");
+  EXPECT_EQ(message(unwalled, {"output.observables=['centre_of_mass']"}),
+            "--set output.observables=['centre_of_mass']: expected an entry [[walls]] for "
+            "centre_of_mass, which is along axes with walls");
+  EXPECT_EQ(parse_scene(with_walls(observed + both), "s.toml").output.observables.size(), 2u);
+}
+
 }  // namespace
 }  // namespace needlework

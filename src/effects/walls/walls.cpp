@@ -155,6 +155,7 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   }
   if (wall.temperature > 0) {
     leave_with_temperature(at, wall, normal, arm, out);
+    out.normal_impulse = dot(out.impulse, normal);
   } else {
     const double share = component(at.director, wall.plane.axis), inertia = species.inertia();
     const double mobility = 1 / species.mass + arm * arm / inertia * (1 - share * share);
@@ -164,6 +165,7 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     out.angular_velocity =
         at.angular_velocity + cross(at.director, normal) * (arm * impulse / inertia);
     out.impulse = normal * impulse;
+    out.normal_impulse = impulse;
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
   }
   // Tips that have hit walls at this instant are still there.

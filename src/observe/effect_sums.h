@@ -1,0 +1,14 @@
+// What the series of a gas with walls or driving always has.
+#pragma once
+
+#include "src/observe/observable.h"
+
+namespace needlework::observe {
+
+/// Hits on the walls of the scene, their impulses and pressure, and the phase of walls in motion.
+ObservablePointer make_wall_sums(const Scene& scene);
+
+/// What each effect of the scene has put into the energy of the needles.
+ObservablePointer make_energy_budget(const Scene& scene);
+
+}  // namespace needlework::observe

@@ -1,0 +1,125 @@
+// Profiles along axes with walls: the needles whose centres are in each slab across such an axis e
+// (src/observe/wall_slabs.h), n of them in the volume A d, with directors u:
+//
+//   density       n / (A d)
+//   flow          <v . e>
+//   t_tr, t_rot   m <v^2> / 3, I <w^2> / 2
+//   t_normal      m <(v . e)^2>
+//   p2            <(3 (u . e)^2 - 1) / 2>
+//   outside       number of needles in no slab
+//
+// Temperatures are those of the whole motion, as /series/t_tr is, so that means over slabs,
+// weighted by the density, are those of the gas. That relative to the flow is
+// t_tr - m flow^2 / 3.
+#include <algorithm>
+#include <limits>
+
+#include "src/observe/registry.h"
+
+namespace needlework::observe {
+namespace {
+
+// Sums over the needles in one slab.
+struct SlabSums {
+  double count = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0;
+};
+
+class WallProfiles : public Observable {
+ public:
+  explicit WallProfiles(const GasSetting& gas) : gas_(gas) {}
+
+  std::vector<SeriesField> fields() const override {
+    constexpr auto constant = SeriesField::Kind::constant;
+    const std::vector<Slabs>& slabs = gas_.wall_slabs;
+    const std::size_t count = slabs.empty() ? 0 : slabs.front().count;
+    const std::vector<SeriesField::Extent> axes{{"walled axes", slabs.size()}};
+    auto each = axes;
+    each.push_back({"slabs", count});
+    std::vector<double> axis, thickness, middles;
+    for (const Slabs& of : slabs) {
+      axis.push_back(static_cast<double>(of.axis));
+      thickness.push_back(of.thickness);
+      for (std::size_t n = 0; n < count; ++n) middles.push_back(of.middle(n));
+    }
+    return {
+        {"density",
+         "Number of needles in each slab across each axis with walls, divided by its "
+         "volume",
+         unit::density, each},
+        {"flow", "Mean velocity along the axis in each slab", unit::speed, each},
+        {"t_tr",
+         "Translational temperature in each slab, two thirds of the mean energy of "
+         "translation",
+         unit::energy, each},
+        {"t_rot", "Rotational temperature in each slab, the mean energy of rotation", unit::energy,
+         each},
+        {"t_normal", "Temperature of the motion along the axis in each slab, twice its mean energy",
+         unit::energy, each},
+        {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between orientation and axis in each slab",
+         unit::none, each},
+        {"outside", "Number of needles in no slab across each axis", unit::none, axes,
+         SeriesField::Kind::count},
+        {"axis", "Number of each axis with walls: 0 x, 1 y, 2 z", unit::none, axes, constant, axis},
+        {"position", "Middle of each slab along its axis", unit::length, each, constant, middles},
+        {"thickness", "Thickness of the slabs across each axis", unit::length, axes, constant,
+         thickness},
+    };
+  }
+
+  void sample(const Snapshot& now, Row& row) override {
+    std::vector<std::vector<SlabSums>> axes;
+    std::vector<double> outside;
+    for (const Slabs& slabs : gas_.wall_slabs) {
+      axes.push_back(sums_of(slabs, now.state));
+      double inside = 0;
+      for (const SlabSums& slab : axes.back()) inside += slab.count;
+      outside.push_back(static_cast<double>(now.state.size()) - inside);
+    }
+    const auto put = [&](auto value) {
+      for (std::size_t n = 0; n < axes.size(); ++n)
+        for (const SlabSums& slab : axes[n]) row.put(value(slab, gas_.wall_slabs[n]));
+    };
+    // NaN without needles.
+    const auto put_mean = [&](double SlabSums::*sum, double factor) {
+      put([&](const SlabSums& slab, const Slabs&) { return factor * (slab.*sum / slab.count); });
+    };
+    put([&](const SlabSums& slab, const Slabs& slabs) {
+      return slab.count / (gas_.volume() / gas_.box[slabs.axis] * slabs.thickness);
+    });
+    put_mean(&SlabSums::v_normal, 1);
+    put_mean(&SlabSums::v2, gas_.mass / 3);
+    put_mean(&SlabSums::w2, gas_.inertia / 2);
+    put_mean(&SlabSums::v2_normal, gas_.mass);
+    put_mean(&SlabSums::p2, 1);
+    row.put_all(outside);
+  }
+
+ private:
+  static std::vector<SlabSums> sums_of(const Slabs& slabs, const State& state) {
+    std::vector<SlabSums> out(slabs.count);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      const auto slab = slabs.of(state.position[i][slabs.axis]);
+      if (!slab) continue;
+      SlabSums& sums = out[*slab];
+      const Vector &v = state.velocity[i], &w = state.angular_velocity[i];
+      const double normal = v[slabs.axis];
+      ++sums.count;
+      sums.v_normal += normal;
+      sums.v2 += dot(v, v);
+      sums.v2_normal += normal * normal;
+      sums.w2 += dot(w, w);
+      sums.p2 += second_legendre(state.orientation[i][slabs.axis]);
+    }
+    return out;
+  }
+
+  GasSetting gas_;
+};
+
+}  // namespace
+
+ObservablePointer make_wall_profiles(const GasSetting& gas) {
+  return std::make_unique<WallProfiles>(gas);
+}
+
+}  // namespace needlework::observe

@@ -1,0 +1,232 @@
+// The budget of energy: what each effect has put in, whatever finds the next event.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "needlework/simulation.h"
+#include "src/calendar/names.h"
+#include "tests/support/real.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+struct NamedBudgetScene {
+  std::string name;
+  Scene scene;
+};
+
+// All effects together, but for the thermostat, which knows no gravity.
+Scene shaken_mixture() {
+  Scene scene = test::scene_of(0, 5, 3);
+  scene.species = {{.name = "short", .count = 120, .length = 0.7, .mass = 0.3, .k = 3},
+                   {.name = "long", .count = 40, .length = 1.8, .mass = 4}};
+  scene.collisions.epsilon = 0.8;
+  scene.collisions.beta = 0.2;
+  scene.collisions.tc_relative = 1e-3;
+  scene.forces.gravity = {0.4, 0, -2};
+  scene.driving.kicks = {.every = 0.07, .translational = 0.5, .rotational = 1};
+  scene.walls = {{.axis = "z", .side = "low", .epsilon = 0.9},
+                 {.axis = "x", .side = "high", .temperature = 1.5},
+                 {.axis = "x", .side = "low", .epsilon = 0.7}};
+  scene.walls[0].motion = {.amplitude = 0.1, .frequency = 2, .phase = 1};
+  return scene;
+}
+
+std::vector<NamedBudgetScene> budget_scenes() {
+  std::vector<NamedBudgetScene> out{{"shaken mixture", shaken_mixture()},
+                                    {"thermostat", test::scene_of(160, 5, 5)},
+                                    {"cooling", test::scene_of(160, 5, 5)},
+                                    {"ceiling", shaken_mixture()}};
+  Scene& thermostat = out[1].scene;
+  thermostat.collisions.epsilon = 0.7;
+  thermostat.collisions.tc_relative = 1e-3;
+  thermostat.driving.andersen = {.rate = 0.8, .temperature = 2};
+  thermostat.driving.kicks = {.every = 0.11, .translational = 1, .rotational = 0};
+  thermostat.walls = {{.axis = "y", .side = "both", .epsilon = 0.5}};
+  out[2].scene.collisions.epsilon = 0.8;
+  out[2].scene.collisions.tc_relative = 1e-3;
+  // Heights count from the low edges, from where the energy is negative.
+  out[3].scene.forces.gravity[2] = 3;
+  out[3].scene.walls[0].side = "high";
+  return out;
+}
+
+double sum_of(const EnergyBudget& budget) {
+  double sum = 0;
+  budget.for_each([&](const char*, const auto& energy) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
+      sum += energy;
+    } else {
+      sum += std::accumulate(energy.begin(), energy.end(), 0.0);
+    }
+  });
+  return sum;
+}
+
+std::vector<double> numbers_of(const EnergyBudget& budget) {
+  std::vector<double> out;
+  budget.for_each([&](const char*, const auto& energy) {
+    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(energy)>>) {
+      out.push_back(energy);
+    } else {
+      out.insert(out.end(), energy.begin(), energy.end());
+    }
+  });
+  return out;
+}
+
+// At any time, relative to the energy exchanged; and each share is what its events report.
+TEST(EnergyBudget, IsTheChangeOfTheEnergy) {
+  for (const NamedBudgetScene& named : budget_scenes()) {
+    SCOPED_TRACE(named.name);
+    Simulation simulation(named.scene);
+    const double count = static_cast<double>(simulation.needles());
+    const double start = simulation.totals().energy;
+    test::Wide pairs = 0, thermostat = 0, exchanged = 0;
+    std::vector<test::Wide> walls(named.scene.wall_sides().size());
+    simulation.on_happening([&](const Happening& h) {
+      test::Wide& share = h.is_collision()            ? pairs
+                          : h.kind == Happening::wall ? walls.at(h.event.second)
+                                                      : thermostat;
+      share += h.event.energy_change;
+      exchanged += std::abs(h.event.energy_change);
+    });
+    for (const double time : {0.01, 0.05, 0.2, 0.21, 0.7, 1.5, 3.0}) {
+      simulation.advance(test::until_time(time));
+      const EnergyBudget budget = simulation.energy_budget();
+      const double scale =
+          static_cast<double>(exchanged) / count + std::abs(budget.kicks.value_or(0));
+      const double change = simulation.totals().energy - start;
+      // The energies themselves are rounded.
+      const double rounding = 1e-15 * (std::abs(start) + std::abs(start + change) + 2 * 5 * 4);
+      EXPECT_NEAR(sum_of(budget), change, 1e-12 * scale + rounding) << time;
+      const auto expect_share = [&](double found, const test::Wide& reported) {
+        EXPECT_NEAR(found, static_cast<double>(reported) / count,
+                    1e-14 * scale + 1e-16 * std::abs(start))
+            << time;
+      };
+      expect_share(budget.pairs, pairs);
+      expect_share(budget.thermostat.value_or(0), thermostat);
+      EXPECT_EQ(budget.thermostat.has_value(), named.scene.driving.andersen.has_value());
+      EXPECT_EQ(budget.kicks.has_value(), named.scene.driving.kicks.has_value());
+      EXPECT_EQ(budget.velocities_set, 0);
+      ASSERT_EQ(budget.walls.size(), walls.size());
+      for (std::size_t n = 0; n < walls.size(); ++n) expect_share(budget.walls[n], walls[n]);
+    }
+    const EnergyBudget end = simulation.energy_budget();
+    EXPECT_LT(end.pairs, -0.05 * std::abs(start));
+    for (const double energy : numbers_of(end)) EXPECT_TRUE(std::isfinite(energy));
+  }
+}
+
+TEST(EnergyBudget, HasTheSameBitsWhateverFindsTheNextEvent) {
+  for (const NamedBudgetScene& named : budget_scenes()) {
+    Scene scene = named.scene;
+    const auto run = [&] {
+      Simulation simulation(scene);
+      simulation.advance(test::until_time(1));
+      return numbers_of(simulation.energy_budget());
+    };
+    const std::vector<double> truth = run();
+    std::size_t n = 0;
+    for (const char* search : {"all-pairs", "linked-cells", "capsules"}) {
+      scene.engine.search = search;
+      scene.engine.queue = calendar_names()[n++ % calendar_names().size()];
+      EXPECT_EQ(run(), truth) << named.name << ", " << search;
+    }
+    scene.engine.queue = "auto";
+    scene.engine.team = "all";
+    for (const int threads : {2, 3}) {
+      scene.engine.threads = threads;
+      EXPECT_EQ(run(), truth) << named.name << ", threads " << threads;
+    }
+  }
+}
+
+TEST(EnergyBudget, GoesOnFromACheckpoint) {
+  for (const NamedBudgetScene& named : budget_scenes()) {
+    Simulation whole(named.scene), first(named.scene);
+    whole.advance(test::until_time(1));
+    for (const double stop : {0.0, 0.3, 0.77}) {
+      first.advance(test::until_time(stop));
+      Simulation second(named.scene, first.checkpoint());
+      EXPECT_EQ(numbers_of(second.energy_budget()), numbers_of(first.energy_budget()));
+      second.advance(test::until_time(1));
+      EXPECT_EQ(numbers_of(second.energy_budget()), numbers_of(whole.energy_budget()))
+          << named.name << ", " << stop;
+    }
+  }
+}
+
+// Velocities of a caller are a share of their own.
+TEST(EnergyBudget, CountsVelocitiesThatACallerSets) {
+  for (const NamedBudgetScene& named : budget_scenes()) {
+    SCOPED_TRACE(named.name);
+    Simulation simulation(named.scene);
+    const double start = simulation.totals().energy;
+    simulation.advance(test::until_time(0.4));
+    State state = simulation.copy();
+    const double before = simulation.totals().energy;
+    for (auto& v : state.velocity) v[0] *= 2;
+    simulation.set_velocities(state.velocity, state.angular_velocity);
+    const double given = simulation.totals().energy - before;
+    EXPECT_GT(given, 0.1);
+    EXPECT_NEAR(simulation.energy_budget().velocities_set, given, 1e-12);
+    simulation.advance(test::until_time(1));
+    const EnergyBudget end = simulation.energy_budget();
+    EXPECT_NEAR(end.velocities_set, given, 1e-12);
+    EXPECT_NEAR(sum_of(end), simulation.totals().energy - start, 1e-12);
+  }
+}
+
+TEST(EnergyBudget, OfElasticNeedlesIsNothing) {
+  Scene scene = test::scene_of(100, 5);
+  scene.walls = {{.axis = "z", .side = "both"}};
+  Simulation simulation(scene);
+  simulation.advance(test::until_time(2));
+  const EnergyBudget budget = simulation.energy_budget();
+  EXPECT_GT(simulation.wall_totals()[0].hits, 30u);
+  for (const double energy : numbers_of(budget)) EXPECT_NEAR(energy, 0, 1e-14);
+  const Simulation none(test::scene_of(0, 5));
+  EXPECT_EQ(none.energy_budget().pairs, 0);
+}
+
+// A needle that stands on end bounces on a floor in motion: it takes what the floor gives, as a
+// ball does, m ((2 V - v)^2 - v^2) / 2 at each hit.
+TEST(EnergyBudget, OfAFloorInMotionIsThatOfABall) {
+  Scene scene = test::scene_of(1, 4);
+  scene.forces.gravity = {0, 0, -1};
+  scene.walls = {{.axis = "z", .side = "low"}};
+  scene.walls[0].motion = {.amplitude = 0.05, .frequency = 0.8, .phase = 0.4};
+  State state = draw_initial_state(scene);
+  state.position = {{2, 2, 2}};
+  state.velocity = {{0, 0, 0}};
+  state.orientation = {{0, 0, 1}};
+  state.angular_velocity = {{0, 0, 0}};
+  Simulation simulation(scene, state);
+  const double omega = 2 * 3.14159265358979323846 * 0.8;
+  double given = 0, after = 0, since = 0, height = 2;
+  std::size_t hits = 0;
+  simulation.on_happening([&](const Happening& h) {
+    const double time = h.event.time - since;
+    const double speed = after - time;
+    height += after * time - time * time / 2;
+    EXPECT_NEAR(height, 0.5 + 0.05 * std::sin(omega * h.event.time + 0.4), 1e-9);
+    const double surface = 0.05 * omega * std::cos(omega * h.event.time + 0.4);
+    after = 2 * surface - speed;
+    given += (after * after - speed * speed) / 2;
+    since = h.event.time;
+    ++hits;
+  });
+  simulation.advance(test::until_time(20));
+  EXPECT_GT(hits, 4u);
+  EXPECT_GT(std::abs(given), 0.01);
+  EXPECT_NEAR(simulation.energy_budget().walls.at(0), given, 1e-9);
+}
+
+}  // namespace
+}  // namespace needlework
