@@ -7,6 +7,7 @@
 
 #include "needlework/simulation.h"
 #include "src/archive/archive.h"
+#include "src/engine/energy_shares.h"
 #include "src/engine/tally.h"
 #include "src/physics/gas.h"
 #include "src/physics/transfer.h"
@@ -69,6 +70,7 @@ struct SavedGas {
             drift_of_windows);
     archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
             tally.instant, tally.at_instant);
+    energy_shares.transfer(archive, 0, 0);  // without walls and driving
   }
 
   bool has_contact_time;
@@ -80,6 +82,7 @@ struct SavedGas {
   std::uint64_t quanta_at_window = 0;
   double drift_of_windows = 0;
   Tally tally;
+  EnergyShares energy_shares;
 };
 
 }  // namespace test
