@@ -27,8 +27,9 @@ class Windows {
   void count(std::uint64_t events) {
     quiet_ = events == std::exchange(events_, events) ? quiet_ + 1 : 0;
   }
-  /// Notes how many collisions there have been so far where kinetic theory does not give the mean
-  /// free time, as in a gas that is denser at the floor: it is measured from then on.
+  /// Notes how many collisions there have been so far, without those by the t_c rule, where kinetic
+  /// theory does not give the mean free time, as in a gas that is denser at the floor: it is
+  /// measured from then on.
   void measure(std::uint64_t collisions, std::size_t needles, double now) {
     // So many collisions make it good to a quarter, and so many free times without them tell that
     // it has grown.

@@ -65,6 +65,26 @@ Course course_of(const Scene& scene, const Make& make, double time) {
   return {run.tally.hash.hex(), run.tally.by_source.at(0).events, run.tally.collisions};
 }
 
+// A pair that slides makes a thousand bounces within a mean free time. In a small gas they are most
+// of the collisions, and must not count for the mean free time: t_c would shrink with them until no
+// bounce is resolved.
+TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
+  Scene scene;
+  scene.needles.count = 30;
+  scene.needles.box = {3, 3, 2};
+  scene.needles.k = 2;
+  scene.needles.seed = 2;
+  scene.collisions.epsilon = 0.8;
+  scene.collisions.tc_relative = 1e-3;
+  scene.walls = {{.axis = "z", .side = "both"}};
+  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  const auto loop = make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
+  ASSERT_EQ(loop->advance(Limits(run, until_time(20))), Stop::time);
+  EXPECT_GT(run.tally.tc_collisions, 100u);
+  EXPECT_GT(run.windows.mean_free_time(), 0.5);
+  EXPECT_LT(run.windows.mean_free_time(), 5);
+}
+
 TEST(WallsAndGravity, HaveOneTrajectory) {
   const Scene scene = shaken();
   const auto with = [](const char* search, const char* calendar) {
