@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the tables of ../reproduction.md from claims-all.json, which `needlework reproduce all` has
-written. Each table stands between <!-- table FIGURE --> and <!-- end -->.
+"""Writes the tables of ../reproduction.md, and of the pages of what goes beyond the paper, from
+claims-all.json, which `needlework reproduce all` has written. Each table stands in one of the
+documents, between <!-- table FIGURE --> and <!-- end -->.
 
     tables.py           replaces the tables
     tables.py --check   exit code 1 if they are others, or if a verdict does not follow from its numbers
@@ -13,7 +14,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-DOCUMENT = HERE.parent / "reproduction.md"
+DOCUMENTS = [HERE.parent / f"{name}.md" for name in (
+    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation")]
 CLAIMS = HERE / "claims-all.json"
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
 
@@ -70,25 +72,25 @@ def main():
     wrong = [row["id"] for row in rows if row["verdict"] != verdict(row)]
     if wrong:
         sys.exit(f"{CLAIMS}: the verdicts do not follow from the numbers of {', '.join(wrong)}")
-    text = DOCUMENT.read_text()
+    texts = {document: document.read_text() for document in DOCUMENTS}
+    places = [match[2] for text in texts.values() for match in TABLE.finditer(text)]
     figures = {row["figure"] for row in rows}
-    missing = figures - {match[1] for match in TABLE.finditer(text)} - {
-        match[2] for match in TABLE.finditer(text)}
-    if missing:
-        sys.exit(f"{DOCUMENT}: expected tables of {', '.join(sorted(missing))}")
+    if missing := figures.symmetric_difference(places):
+        sys.exit(f"{HERE.parent}: expected one table of each figure of the claims: "
+                 f"{', '.join(sorted(missing))}")
     # A claim that several variants measure stays together.
     def of(figure):
         mine = [row for row in rows if row["figure"] == figure]
         order = list(dict.fromkeys(row["claim"] for row in mine))
         return table(sorted(mine, key=lambda row: order.index(row["claim"])))
 
-    new = TABLE.sub(lambda match: match[1] + of(match[2]) + match[3], text)
-    if "--check" in sys.argv:
-        if new != text:
-            sys.exit(f"{DOCUMENT}: its tables are not those of {CLAIMS.name}: docs/reproduction/tables.py "
-                     "writes them")
-    else:
-        DOCUMENT.write_text(new)
+    for document, text in texts.items():
+        new = TABLE.sub(lambda match: match[1] + of(match[2]) + match[3], text)
+        if "--check" not in sys.argv:
+            document.write_text(new)
+        elif new != text:
+            sys.exit(f"{document}: its tables are not those of {CLAIMS.name}: "
+                     "docs/reproduction/tables.py writes them")
 
 
 if __name__ == "__main__":

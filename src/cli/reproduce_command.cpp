@@ -5,10 +5,30 @@
 namespace needlework::cli {
 
 std::vector<std::string> names_of_figures() {
-  return {"all",      "2",        "3",          "4",       "5a",
-          "5b",       "6",        "7",          "8",       "fluctuations",
-          "moment",   "rotation", "relaxation", "rough",   "sizes",
-          "clusters", "cells",    "tc-dilute",  "tc-dense"};
+  return {"all",
+          "2",
+          "3",
+          "4",
+          "5a",
+          "5b",
+          "6",
+          "7",
+          "8",
+          "fluctuations",
+          "moment",
+          "rotation",
+          "relaxation",
+          "rough",
+          "sizes",
+          "clusters",
+          "cells",
+          "tc-dilute",
+          "tc-dense",
+          "kicked",
+          "vibrated",
+          "walls",
+          "sedimentation",
+          "settling"};
 }
 
 int run(const ReproduceArguments& arguments) {

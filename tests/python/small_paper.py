@@ -33,6 +33,22 @@ GRIDS = {
     "box-small": box(2.1),
     "box-middle": box(2.4),
     "box-large": box(2.3),
+    "kicked": ("kicked", {**FEW, "needles.box": 4, "needles.k": [2, 6],
+                          "collisions.epsilon": [0.9], "until.time": 10}),
+    "vibrated": ("vibrated", {"needles.count": 20, "needles.box": [[3, 3, 6]],
+                              "collisions.epsilon": [0.9, 0.8],
+                              "walls.z-low.motion.frequency": [1.5, 3.0], "until.time": 30}),
+    "vibrated-small": ("vibrated", {"needles.count": 20, "needles.box": [[3, 3, 6]],
+                                    "collisions.epsilon": [0.8],
+                                    "walls.z-low.motion.amplitude": 0.01, "until.time": 10}),
+    "walls": ("walls", {"needles.count": 30, "needles.box": [[3, 3, 2], [3, 3, 2.5]],
+                        "collisions.epsilon": [1, 0.8], "until.energy_ratio": 0.05,
+                        "until.time": 100}),
+    "sedimentation": ("sedimentation", {"needles.count": 30, "needles.box": [[4, 4, 4]],
+                                        "until.time": 30,
+                                        "output.frames": [[*range(10, 31)]]}),
+    "settling": ("settling", {"needles.count": 30, "needles.box": [[4, 4, 20]],
+                              "collisions.epsilon": [0.8], "until.time": 100}),
 }
 """Scene and parameters of each set; seeds are 1, 2 and 3."""
 

@@ -1,6 +1,7 @@
 """All figures, those of the paper first."""
 
-from . import alignment, causes, dense, dilute, flow, fluctuations, ratio, relaxation
+from . import (alignment, causes, confined, dense, dilute, driving, flow, fluctuations, ratio,
+               relaxation)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -42,5 +43,15 @@ FIGURES = {figure.name: figure for figure in (
            causes.measure_contact_time_dilute, causes.draw_contact_time_dilute),
     Figure("tc-dense", "Test of why: contact time of the dense gas", ("dense", "dense-tc"),
            causes.measure_contact_time_dense, causes.draw_contact_time_dense),
+    Figure("kicked", "Beyond the paper: a kicked gas in its steady state", ("kicked",),
+           driving.measure_kicked, driving.draw_kicked),
+    Figure("vibrated", "Beyond the paper: a vibrated layer in its steady state", ("vibrated", "vibrated-small"),
+           driving.measure_vibrated, driving.draw_vibrated),
+    Figure("walls", "Beyond the paper: a gas that cools between walls", ("walls",),
+           confined.measure_walls, confined.draw_walls),
+    Figure("sedimentation", "Beyond the paper: elastic needles above a floor", ("sedimentation",),
+           confined.measure_sedimentation, confined.draw_sedimentation),
+    Figure("settling", "Beyond the paper: inelastic needles settle on a floor", ("settling",),
+           confined.measure_settling, confined.draw_settling),
 )}
 """By name, as the command takes it."""

@@ -6,6 +6,7 @@ folder FOLDER/runs/dense, which `needlework sweep` fills. Nothing here starts a 
 
 from __future__ import annotations
 
+import copy
 import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -30,7 +31,7 @@ class Conditions:
     count: int
     """Number of needles N."""
     box: np.ndarray
-    """Edges of the periodic box, [3] [L]."""
+    """Edges of the box, [3] [L]."""
     k: float
     """m L^2 / (2 I)."""
     epsilon: float
@@ -45,6 +46,8 @@ class Conditions:
     """Contact time in mean free times."""
     cells: tuple[int, int, int] | None
     """Cells of the fields along each axis; None where the scene leaves them open."""
+    scene: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    """All that the scene says, for what is not above: walls, gravity, driving."""
 
     @classmethod
     def of(cls, scene: dict[str, Any]) -> Conditions:
@@ -59,7 +62,8 @@ class Conditions:
                    beta=float(collisions.get("beta", -1.0)),
                    t_tr=float(initial.get("t_tr", 1.0)), t_rot=float(initial.get("t_rot", 1.0)),
                    tc_relative=collisions.get("tc_relative"),
-                   cells=None if grid is None else tuple(np.broadcast_to(grid, 3).tolist()))
+                   cells=None if grid is None else tuple(np.broadcast_to(grid, 3).tolist()),
+                   scene=scene)
 
     @property
     def density(self) -> float:
@@ -207,8 +211,14 @@ def _number_in(text: str) -> Any:
 
 def _is_of(run: dict[str, Any], values: dict[str, Any]) -> bool:
     """Whether a run has these values; a key that does not vary is not in its name."""
-    named = ((key.rpartition(".")[2], value) for key, value in values.items())
-    return all(run.get(name, value) == value for name, value in named)
+    named = ((key.partition(".")[2], value) for key, value in values.items())
+    return all(run.get(name, value) in (value, _text_in_name(value)) for name, value in named)
+
+
+def _text_in_name(value: Any) -> str:
+    """An array as names of runs have it: [8, 8, 2.5] is 8-8-2.5."""
+    parts = value if isinstance(value, list) else [value]
+    return "-".join(str(part).removesuffix(".0") for part in parts)
 
 
 def _points_of(parameters: dict[str, Any]) -> list[dict[str, Any]]:
@@ -218,8 +228,16 @@ def _points_of(parameters: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def _overridden(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
-    scene = {section: dict(keys) for section, keys in scene.items() if isinstance(keys, dict)}
+    """The scene with other values. A key goes through tables, "driving.kicks.every", and names a
+    wall by axis and side, "walls.z-low.epsilon"."""
+    scene = copy.deepcopy(scene)
     for key, value in values.items():
-        section, _, name = key.rpartition(".")
-        scene.setdefault(section, {})[name] = value
+        *path, name = key.split(".")
+        table: Any = scene
+        for part in path:
+            if isinstance(table, list):
+                table = next(each for each in table if f"{each['axis']}-{each['side']}" == part)
+            else:
+                table = table.setdefault(part, {})
+        table[name] = value
     return scene
