@@ -243,7 +243,8 @@ std::string summary_of(const Report& report) {
   text += line("collisions", "{}, {:.4g} per needle", last.collisions,
                last.collisions ? report.collisions_per_needle() : 0.0);
   if (scene.collisions.tc || scene.collisions.tc_relative) {
-    const double share = static_cast<double>(last.tc_collisions) / last.collisions;
+    const double share =
+        static_cast<double>(last.tc_collisions) / static_cast<double>(last.collisions);
     text.pop_back();
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
