@@ -48,7 +48,8 @@ namespace {
                                          space::near_capsules,    \
                                          space::near_paths,       \
                                          space::contact_function, \
-                                         space::bracket};
+                                         space::bracket,          \
+                                         space::bracket_rods};
 NEEDLEWORK_NEAR_KERNELS(scalar, scalar, )
 NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_NEAR_KERNELS)
 #undef NEEDLEWORK_NEAR_KERNELS

@@ -154,6 +154,9 @@ struct NearKernels {
   /// Finds for each of the first n pairs a time before which it does not meet, and sets its column
   /// `from` to that. Returns how many vectors of contact functions it has evaluated.
   std::size_t (*bracket)(const Seeker& seeker, const PairColumns& pairs, std::size_t n);
+  /// The same for rods, which meet where their axes are not farther apart than `distance`.
+  std::size_t (*bracket_rods)(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
+                              float distance);
 };
 
 /// Kernels of an instruction set that is available().

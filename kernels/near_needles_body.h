@@ -305,7 +305,10 @@ struct SimdBounds {
   Mask trusted;  // the phases are not too large for these bounds on errors
 };
 
-NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pair, Floats until) {
+/// `distance`: how near each other axes touch, for rods.
+template <bool wide = false>
+NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pair, Floats until,
+                                       float distance = 0) {
   SimdBounds out;
   const Floats half(0.5f), one(1.0f), w = pair.omega[0] + pair.omega[1];
   const Floats v = square_root(dot(pair.v, pair.v));
@@ -315,7 +318,8 @@ NEEDLEWORK_INLINE SimdBounds bounds_of(const Seeker& seeker, const SimdPairs& pa
   const Floats phase = pair.omega[0] * until + pair.omega[1] * (pair.age[1] + until);
   out.margin = Floats(seeker.margin) + swift * Floats(0x1p-18f) + phase * Floats(0x1p-20f);
   out.trusted = phase < Floats(0x1p12f);
-  const Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
+  Floats reach = (pair.half[0] + pair.half[1] + Floats(0x1p-10f)) + out.margin;
+  if constexpr (wide) reach = reach + Floats(distance);
   out.reach_squared = reach * reach + dot(pair.r, pair.r) * Floats(0x1p-18f);
   const Floats arm = Floats(1 + 0x1p-8f) * square_root(out.reach_squared);
   const Floats turn = arm * w;
@@ -378,9 +382,11 @@ struct SimdShares {
 
 /// Those of the span h, by two bounds on how far the needles are from a contact: the contact
 /// function with its sign, by Taylor's expansion, and the distance along the gap between the
-/// needles at the time of the sample. Each bound is a value less a term linear in time and one
-/// quadratic in time.
-NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& bounds, Floats h) {
+/// needles at the time of the sample, which alone holds for rods and is less by the distance at
+/// which these touch. Each bound is a value less a term linear in time and one quadratic in time.
+template <bool wide>
+NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& bounds, Floats h,
+                                         float distance) {
   const Floats zero(0.0f), one(1.0f), half(0.5f), sixth(1.0f / 6);
   const Mask known = bounds.trusted & (e.gap < Floats(0x1p10f));
 
@@ -395,7 +401,9 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
                              NEEDLEWORK_TARGET { return centre - (absolute(a) + absolute(b)); };
   const Floats moved = h * e.velocity, turned[2] = {h * e.turning[0], h * e.turning[1]};
   const Floats g = along_gap(e.centre, e.director[0], e.director[1]);
-  const Floats g_now = g - bounds.error_f * e.gap;
+  Floats g_error = bounds.error_f;
+  if constexpr (wide) g_error = g_error + Floats(distance);
+  const Floats g_now = g - g_error * e.gap;
   const Floats g_before =
       along_gap(e.centre - moved, e.director[0] - turned[0], e.director[1] - turned[1]) - g;
   const Floats g_after =
@@ -412,27 +420,26 @@ NEEDLEWORK_INLINE SimdShares free_around(const SimdSample& e, const SimdBounds& 
     const Floats twice = now + now;
     return select(now > zero, select(falls <= twice, one, twice / falls), zero);
   };
+  const Floats along_before = share(g_now, spread(g_now, g_before, g_bent) - g_before),
+               along_after = share(g_now, spread(g_now, g_after, g_bent) - g_after);
+  if constexpr (wide) return {select(known, along_before, zero), select(known, along_after, zero)};
   const Floats f_spread = spread(f_now, f_rises, f_bent);
-  return {select(known,
-                 maximum(share(f_now, f_spread + f_rises),
-                         share(g_now, spread(g_now, g_before, g_bent) - g_before)),
-                 zero),
-          select(known,
-                 maximum(share(f_now, f_spread - f_rises),
-                         share(g_now, spread(g_now, g_after, g_bent) - g_after)),
-                 zero)};
+  return {select(known, maximum(share(f_now, f_spread + f_rises), along_before), zero),
+          select(known, maximum(share(f_now, f_spread - f_rises), along_after), zero)};
 }
 
 /// bracket() for the vector that begins with pair k, of those before `end`. `part` holds which of
 /// the `parts` of its pair's time each pair of the vector is searched in.
+template <bool wide>
 inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs, std::size_t k,
-                                  std::size_t end, const float* part, std::size_t parts) {
+                                  std::size_t end, const float* part, std::size_t parts,
+                                  float distance) {
   using C = PairColumns;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const Floats zero(0.0f), one(1.0f), half(0.5f), margin(static_cast<float>(time_margin));
   const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
   const SimdPairs pair = load_pairs(seeker, pairs, k);
-  const SimdBounds bounds = bounds_of(seeker, pair, column(C::until));
+  const SimdBounds bounds = bounds_of<wide>(seeker, pair, column(C::until), distance);
   const SimdTimeSpan overlap = overlap_of_spheres(pair, bounds);
   Floats until = minimum(overlap.end, column(C::until));
   Floats low = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
@@ -457,7 +464,7 @@ inline std::size_t bracket_vector(const Seeker& seeker, const PairColumns& pairs
   for (int round = 0; round < 40 && any(searching); ++round) {
     ++evaluations;
     const Floats middle = half * (low + high), h = half * (high - low);
-    const SimdShares free = free_around(sample(pair, middle), bounds, h);
+    const SimdShares free = free_around<wide>(sample(pair, middle), bounds, h, distance);
     const Mask left = free.before >= one, right = free.after >= one, both = left & right;
 
     // If the whole first half is free, the search continues in the second half, or after it.
@@ -491,7 +498,9 @@ NEEDLEWORK_INLINE void repeat_pairs(const PairColumns& pairs, std::size_t k, std
   }
 }
 
-std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+template <bool wide>
+inline std::size_t bracket_all(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
+                               float distance) {
   using C = PairColumns;
   if (n == 0) return 0;
   // Few pairs do not fill the vectors: each is searched in several parts of its time at once. How
@@ -504,7 +513,7 @@ std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     repeat_pairs(pairs, k, count, parts, part);
     const std::size_t end = k + parts * count;
     for (std::size_t at = k; at < end; at += floats_at_once) {
-      evaluations += bracket_vector(seeker, pairs, at, end, part + (at - k), parts);
+      evaluations += bracket_vector<wide>(seeker, pairs, at, end, part + (at - k), parts, distance);
     }
     float* from = pairs.column[C::from] + k;
     for (std::size_t i = count; i < parts * count; ++i) {
@@ -512,4 +521,13 @@ std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t 
     }
   }
   return evaluations;
+}
+
+std::size_t bracket(const Seeker& seeker, const PairColumns& pairs, std::size_t n) {
+  return bracket_all<false>(seeker, pairs, n, 0);
+}
+
+std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
+                         float distance) {
+  return bracket_all<true>(seeker, pairs, n, distance);
 }

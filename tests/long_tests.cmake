@@ -22,6 +22,8 @@ set_tests_properties(
   Scenes/ParallelRun.IsThatOfOneThread/rare
   # the other tests of SearchEquivalence
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
+  # RodPressure.IsThatOfTheVirialSeries
+  RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
   PROPERTIES LABELS long)
 # PredictOracle.AgreesOnEveryPair: the first tenth of these pairs
 foreach(family thermal_k6 thermal_k2 parallel tip grazing just_collided fast_spin still slow planar

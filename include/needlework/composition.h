@@ -1,27 +1,40 @@
-// What a gas is made of: species of needles, and how needles of each two species collide.
+// What a gas is made of: species of needles or of rods, and how those of each two species collide.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace needlework {
 
-/// One species of needles.
+/// One species of infinitely thin needles or, with a diameter, of rods of finite width: cylinders
+/// with spherical caps. A rod of length 0 is a sphere, which does not turn.
 struct Species {
   std::string name;         ///< any text; names must differ
   std::uint64_t count = 0;  ///< number of needles
-  double length = 1.0;      ///< [L]
+  double length = 1.0;      ///< of the axis, without the caps [L]
   double mass = 1.0;        ///< [m]
-  double k = 6.0;           ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
+  double k = 6.0;           ///< m L^2 / (2 I) > 0; 6: uniform needle, 2: mass at the tips; see
+                            ///< homogeneous_k() for rods; without meaning for spheres
   double t_tr = 1.0;        ///< translational temperature of a drawn state
   double t_rot = 1.0;       ///< rotational temperature of a drawn state
+  double diameter = 0.0;    ///< 0: a needle [L]
+  /// The moment of inertia as a scene gives it in place of k, which then follows. [m L^2]
+  std::optional<double> given_inertia = {};
 
-  /// Moment of inertia about an axis through the centre, normal to the needle. [m L^2]
-  double inertia() const { return mass * (length * length) / (2 * k); }
+  bool turns() const { return length > 0; }
+  /// Moment of inertia about an axis through the centre, normal to the needle; 0 for spheres, whose
+  /// rotation nothing changes. [m L^2]
+  double inertia() const { return turns() ? mass * (length * length) / (2 * k) : 0; }
+  double extent() const { return length + diameter; }  ///< from end to end [L]
+  double volume() const;                               ///< [L^3]
 };
+
+/// k of a homogeneous rod of this length and diameter, both >= 0 and not both 0.
+double homogeneous_k(double length, double diameter);
 
 /// Index of a species in Composition::species.
 using SpeciesIndex = std::uint8_t;
@@ -65,8 +78,18 @@ class Composition {
   void set_count(std::size_t index, std::uint64_t count) { species_[index].count = count; }
 
   std::uint64_t count() const;  ///< number of needles of all species
-  double longest() const;       ///< length of the longest species [L]
+  double longest() const;  ///< largest extent of a species, that of needles is their length [L]
+  double widest() const;   ///< largest diameter [L]
+  /// Whether these are rods, which collide where their axes are their mean diameter apart.
+  bool has_width() const { return widest() > 0; }
+  /// The distance of the axes of two rods in contact. [L]
+  double contact_distance(std::size_t a, std::size_t b) const {
+    return 0.5 * (species_[a].diameter + species_[b].diameter);
+  }
+  double packing_fraction(double volume) const;  ///< share of this volume that rods take up
   bool is_mixture() const { return size() > 1; }
+  /// One species of thin needles, as in the paper: kinetic theory is exact at every density.
+  bool is_needle_gas() const { return !is_mixture() && !has_width(); }
   /// Whether any pair has tangential restitution, or loses energy.
   bool is_rough() const;
   bool is_inelastic() const;

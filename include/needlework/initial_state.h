@@ -7,9 +7,12 @@
 namespace needlework {
 
 /// Draws an initial state: centres and directors uniform, velocities Gaussian, total momentum 0
-/// (N >= 2), temperatures exactly as asked for. A pure function of the scene's seed, the same on
-/// every machine. Throws InputError for a count, box, temperature or property of needles that a
-/// scene file could not hold (docs/scenes.md gives their ranges).
+/// (N >= 2), temperatures exactly as asked for. Rods of finite width are placed one by one where
+/// they overlap no other or, where there is too little room for that, on a lattice from which
+/// elastic collisions move them (Scene::Initial::packing). A pure function of the scene's seed, the
+/// same on every machine. Throws InputError for a count, box, temperature or property of needles
+/// that a scene file could not hold (docs/scenes.md gives their ranges), and for rods for which no
+/// room is found.
 State draw_initial_state(const Scene& scene);
 
 }  // namespace needlework

@@ -23,6 +23,7 @@ struct Scene {
     std::array<double, 3>
         box{};               ///< edges of the box [L], each >= 2.01, or 1 along an axis with walls
     double k = 6.0;          ///< m L^2 / (2 I) > 0; 6: uniform rod, 2: mass at the tips
+    double diameter = 0.0;   ///< above 0: rods of finite width, whose axes have length 1 [L]
     std::uint64_t seed = 1;  ///< of the counter-based generator that draws the initial state
   };
   /// One species of needles. If there are any, they replace needles.count, needles.k and the
@@ -32,6 +33,8 @@ struct Scene {
     double t_tr = 1.0;   ///< translational temperature of a drawn state, (2/3) <m v^2 / 2>
     double t_rot = 1.0;  ///< rotational temperature of a drawn state, <I w^2 / 2>
     std::string file;    ///< H5MD file whose last frame is the initial state, or "" to draw it
+    std::string packing =
+        "auto";  ///< how rods are placed: "insertion", "lattice", or by what can be
   };
   struct Collisions {
     double epsilon = 1.0;               ///< normal restitution, [0, 1]

@@ -202,6 +202,11 @@ int run(const AuditArguments& arguments) {
         "without them",
         place_of(scene, "driving.kicks.every", fmt::to_string(scene.driving.kicks->every))));
   }
+  if (scene.composition().has_width()) {
+    throw InputError(fmt::format(
+        "{}: rods of finite width, whose contacts the audit does not know: expected thin needles",
+        arguments.scene.path));
+  }
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);

@@ -40,7 +40,10 @@ std::string line(const char* name, const std::string& text) {
   return fmt::format("  {:<16}{}\n", name, text);
 }
 
-std::string shape_text(double k) {
+std::string shape_text(const Species& species) {
+  const double k = species.k, diameter = species.diameter;
+  if (!species.turns()) return fmt::format("spheres of diameter {:g}", diameter);
+  if (diameter > 0) return fmt::format("rods of diameter {:g}, k = {:.6g}", diameter, k);
   if (k == 6) return "k = 6, uniform rods";
   if (k == 2) return "k = 2, all mass at the tips";
   return fmt::format("k = {:g}", k);
@@ -64,6 +67,7 @@ Json species_json(const runs::Explanation& e, const Composition& composition) {
     out.push_back({{"name", each.name},
                    {"count", each.count},
                    {"length", each.length},
+                   {"diameter", each.diameter},
                    {"mass", each.mass},
                    {"k", each.k},
                    {"t_tr", number(e.by_species[n].t_tr)},
@@ -116,7 +120,7 @@ std::string species_lines(const runs::Explanation& e, const Composition& composi
     const Species& species = composition[n];
     text += line(title,
                  fmt::format("{}, {}, species \"{}\" of length {:g} and mass {:g}", species.count,
-                             shape_text(species.k), species.name, species.length, species.mass));
+                             shape_text(species), species.name, species.length, species.mass));
     title = "";
     if (!composition.is_mixture()) continue;
     text += line("", fmt::format("at T_tr = {:.6g}, T_rot = {:.6g}{}", e.by_species[n].t_tr,
@@ -304,6 +308,10 @@ std::string json_of(const runs::Explanation& e) {
   json["needles"] = scene.needles.count;
   json["box"] = scene.needles.box;
   json["density"] = e.density;
+  if (composition.has_width()) {
+    const auto& box = scene.needles.box;
+    json["packing_fraction"] = composition.packing_fraction(box[0] * box[1] * box[2]);
+  }
   json["k"] = of_one(composition[0].k);
   json["seed"] = scene.needles.seed;
   json["t_tr"] = e.initial.t_tr;
@@ -350,8 +358,7 @@ std::string text_of(const runs::Explanation& e) {
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
   const Composition composition = scene.composition();
   if (scene.species.empty()) {
-    text +=
-        line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(scene.needles.k)));
+    text += line("needles", fmt::format("{}, {}", scene.needles.count, shape_text(composition[0])));
   }
   if (!scene.species.empty()) text += species_lines(e, composition);
   const char* volume = composition.longest() == 1 ? "unit of volume"
@@ -359,8 +366,14 @@ std::string text_of(const runs::Explanation& e) {
                                                   : "cube of their length";
   text += line("box", fmt::format("{:g} x {:g} x {:g}, {:.4g} needles per {}", box[0], box[1],
                                   box[2], e.density, volume));
+  if (composition.has_width()) {
+    text += line("packing", fmt::format("{:.4g} of the box is taken up by rods",
+                                        composition.packing_fraction(box[0] * box[1] * box[2])));
+  }
   text += line("start", start_text(e));
-  text += line("mean free time", fmt::format("{:.4g}", e.mean_free_time));
+  text +=
+      line("mean free time", fmt::format("{:.4g}{}", e.mean_free_time,
+                                         composition.has_width() ? ", that of low density" : ""));
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += wall_lines(e);

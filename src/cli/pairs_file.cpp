@@ -21,11 +21,14 @@ namespace needlework {
 namespace {
 
 constexpr int column_count = 28;
+constexpr int sized_count = 32;  // with lengths and diameters
 
 std::string column_name(int column) {
   constexpr std::array<std::string_view, 3> leading = {"id", "family", "horizon"};
+  constexpr std::array<std::string_view, 4> sizes = {"La", "Lb", "Da", "Db"};
   if (column < 3) return std::string(leading[column]);
   if (column == column_count - 1) return "skip";
+  if (column >= column_count) return std::string(sizes[column - column_count]);
   const int number = column - 3;
   const char quantity = "ruvw"[number % 12 / 3];
   return fmt::format("{}{}{}", quantity, 1 + number / 12, "xyz"[number % 3]);
@@ -89,14 +92,15 @@ void check_director(const Line& line, const FreeNeedle& needle, std::string_view
 
 PairLine read_pair(const Line& line) {
   const int found = static_cast<int>(line.fields.size());
-  if (found < column_count) {
-    line.reject(column_name(found), "(missing)",
-                fmt::format("{} columns, found {}", column_count, found));
-  }
-  if (found > column_count) {
-    line.reject(fmt::format("{}", column_count + 1), line.fields[column_count],
-                fmt::format("{} columns, found {}", column_count, found));
-  }
+  const bool sized = found > column_count;
+  const auto expected = [&] {
+    return fmt::format("{} columns, or {} with La, Lb, Da, Db, found {}", column_count, sized_count,
+                       found);
+  };
+  if (found < column_count || (sized && found < sized_count))
+    line.reject(column_name(found), "(missing)", expected());
+  if (found > sized_count)
+    line.reject(fmt::format("{}", sized_count + 1), line.fields[sized_count], expected());
   PairLine pair;
   pair.line = line.number;
   pair.id = line.fields[0];
@@ -110,6 +114,15 @@ PairLine read_pair(const Line& line) {
   const std::string_view skip = line.fields[column_count - 1];
   if (skip != "0" && skip != "1") line.reject("skip", skip, "0 or 1");
   pair.just_collided = skip == "1";
+  if (sized) {
+    int column = column_count;
+    for (double* size :
+         {&pair.first.length, &pair.second.length, &pair.first.diameter, &pair.second.diameter}) {
+      *size = line.number_at(column);
+      if (*size < 0) line.reject(column_name(column), line.fields[column], "a number, 0 or more");
+      ++column;
+    }
+  }
   return pair;
 }
 
@@ -121,9 +134,9 @@ bool is_number(std::string_view text) {
 // A header names its columns; one that has them in another order is not what it seems.
 void check_header(const Line& line) {
   for (int found = 0; found < static_cast<int>(line.fields.size()); ++found) {
-    for (int column = 0; column < column_count; ++column) {
+    for (int column = 0; column < sized_count; ++column) {
       if (column == found || line.fields[found] != column_name(column)) continue;
-      const std::string expected = found < column_count ? column_name(found) : "no such column";
+      const std::string expected = found < sized_count ? column_name(found) : "no such column";
       line.reject(fmt::format("{}", found + 1), line.fields[found], expected);
     }
   }
@@ -144,8 +157,8 @@ bool read_line(std::istream& in, std::string& line, std::string_view name, std::
     if (c == '\n') return true;
     if (line.size() == longest_line) {
       throw InputError(
-          fmt::format("{}: line {}: more than {} bytes: expected the 28 columns of a "
-                      "pair",
+          fmt::format("{}: line {}: more than {} bytes: expected the 28 or 32 columns "
+                      "of a pair",
                       name, number, longest_line));
     }
     line += static_cast<char>(c);
@@ -191,7 +204,7 @@ std::vector<PairLine> read_pairs(std::istream& in, std::string_view name) {
     } else if (header_allowed && looks_like_a_header(fields)) {
       fields.reject("id", fields.fields[0],
                     "28 columns of numbers, or the header id,family,horizon, then x,y,z of "
-                    "r1,u1,v1,w1,r2,u2,v2,w2, then skip");
+                    "r1,u1,v1,w1,r2,u2,v2,w2, then skip; and La,Lb,Da,Db behind it, if at all");
     } else {
       pairs.push_back(read_pair(fields));
     }

@@ -50,6 +50,7 @@ double Report::collision_rate_exact() const {
   const auto& box = scene.needles.box;
   const double count = static_cast<double>(scene.needles.count);
   const Composition composition = scene.composition();
+  if (composition.has_width()) return undefined;
   if (composition.is_mixture()) {
     const std::vector<double> rates = pair_rates_exact();
     return 2 * std::accumulate(rates.begin(), rates.end(), 0.0) / count;
@@ -72,7 +73,8 @@ double Report::us_per_collision() const {
 
 std::vector<double> Report::pair_rates_exact() const {
   const Composition composition = scene.composition();
-  if (!composition.is_mixture() || !runs::starts_in_equilibrium(scene) || !course.theory_holds) {
+  if (!composition.is_mixture() || composition.has_width() || !runs::starts_in_equilibrium(scene) ||
+      !course.theory_holds) {
     return {};
   }
   const double energy = static_cast<double>(scene.needles.count) * course.initial.energy;
@@ -106,8 +108,10 @@ std::vector<theory::Temperatures> drawn_temperatures(const Scene& scene) {
 std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
     const Totals& sample) const {
   const Composition composition = scene.composition();
-  if (!runs::has_mixture_theory(composition) || !scene.initial.file.empty() ||
-      acts_on_single_needles(scene) || !(course.initial.energy > 0) || !course.theory_holds) {
+  // Theory of rods holds at low density alone, which would look like a deviation of the run.
+  if (!runs::has_mixture_theory(composition) || composition.has_width() ||
+      !scene.initial.file.empty() || acts_on_single_needles(scene) ||
+      !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }
   if (!mixture_theory) {
@@ -119,7 +123,7 @@ std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
 }
 
 double Report::initial_collision_rate() const {
-  if (!scene.composition().is_mixture()) {
+  if (scene.composition().is_needle_gas()) {
     return theory::collision_rate(runs::theory_density_of(scene),
                                   {course.initial.t_tr, course.initial.t_rot}, scene.needles.k);
   }
@@ -130,7 +134,7 @@ std::optional<theory::Temperatures> Report::theory_at(const Totals& sample) cons
   if (const auto each = species_theory_at(sample)) {
     return theory::mean_of_species(scene.composition(), *each);
   }
-  if (scene.composition().is_mixture() || !scene.initial.file.empty() ||
+  if (!scene.composition().is_needle_gas() || !scene.initial.file.empty() ||
       acts_on_single_needles(scene) || !(course.initial.energy > 0) || !course.theory_holds) {
     return std::nullopt;
   }

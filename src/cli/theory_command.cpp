@@ -238,7 +238,7 @@ std::string text_of(TheoryArguments arguments) {
   std::optional<runs::LoadedScene> loaded;
   if (!arguments.scene.empty()) {
     loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
-    if (loaded->scene.composition().is_mixture()) return mixture_text(arguments, *loaded);
+    if (!loaded->scene.composition().is_needle_gas()) return mixture_text(arguments, *loaded);
   }
   const Predictions predictions = predictions_of(arguments, loaded);
   return arguments.json ? json_of(predictions) : table_text(predictions);

@@ -42,7 +42,7 @@ picture::Panel panel(const char* title, const picture::Curve& measured,
 WatchedRun::WatchedRun(const Scene& scene, const Totals& initial, bool theory_holds)
     : initial_(initial), last_rate_(initial), needles_(static_cast<double>(scene.needles.count)) {
   const Composition composition = scene.composition();
-  if (!theory_holds || composition.is_mixture() || !scene.initial.file.empty() ||
+  if (!theory_holds || !composition.is_needle_gas() || !scene.initial.file.empty() ||
       !(initial.energy > 0))
     return;
   const Restitution& rule = composition.restitution(0, 0);

@@ -2,8 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace needlework {
+
+double Species::volume() const {
+  constexpr double pi = std::numbers::pi;
+  return pi * diameter * diameter * (length / 4 + diameter / 6);
+}
+
+double homogeneous_k(double length, double diameter) {
+  // m L^2 / (2 I) with I = m D^2 (a^3 / 4 + a^2 / 2 + 9 a / 16 + 1 / 5) / (3 a + 2), a = L / D, by
+  // the shares x and y of L and D in their sum, either of which may be 0.
+  const double x = length / (length + diameter), y = diameter / (length + diameter);
+  const double inertia = ((x / 4 + y / 2) * x + 9 * (y * y) / 16) * x + y * y * y / 5;
+  return x * x * (3 * x + 2 * y) / (2 * inertia);
+}
 
 std::uint64_t Composition::count() const {
   std::uint64_t out = 0;
@@ -23,7 +37,21 @@ std::vector<SpeciesIndex> Composition::in_order_of_id(
 
 double Composition::longest() const {
   double out = 0;
-  for (const Species& each : species_) out = std::max(out, each.length);
+  for (const Species& each : species_) out = std::max(out, each.extent());
+  return out;
+}
+
+double Composition::widest() const {
+  double out = 0;
+  for (const Species& each : species_) out = std::max(out, each.diameter);
+  return out;
+}
+
+double Composition::packing_fraction(double volume) const {
+  double out = 0;
+  for (const Species& each : species_) {
+    out += static_cast<double>(each.count) * (each.volume() / volume);
+  }
   return out;
 }
 

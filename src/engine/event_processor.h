@@ -7,6 +7,8 @@
 // continued from there, whether or not the contact takes place.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -99,6 +101,7 @@ class EventProcessor {
   NeedleAt needle_at(Needle i) const;
   [[noreturn, gnu::noinline]] void refuse(const Event& event);
   [[noreturn]] void report_collapse(const Event& event) const;
+  [[noreturn]] void report_overlap(Needle a, Needle b, const Shift& shift) const;
 
   Run& run_;
   Gas& gas_;
@@ -165,7 +168,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   count_at_instant(a, b);
   const Record& first = gas_.records[a];
   const Record& second = gas_.records[b];
-  const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
+  const auto pair = model_.pair(a, first, b, second, event.shift);
   const DoubleDouble elapsed = gas_.clock.exact_difference(now(), Gas::start_of(first, second));
   const kernels::ContactGeometry contact = model_.contact().geometry(pair, elapsed);
   const bool elastic = by_contact_time(a, b);
@@ -212,6 +215,13 @@ void EventProcessor<S, M>::collide(const Event& event) {
   if (M::has_effects && gas_.composition.is_mixture()) {
     tally_.count(tally_.by_pair, gas_.composition.pair_index(first.species, second.species),
                  gas_.composition.pairs());
+  }
+  if constexpr (M::has_width) {
+    // The centres are as far apart along the normal as both bodies reach from them: never below 0.
+    const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
+                         contact.arm_second * dot(contact.u_second, contact.normal);
+    if (tally_.virial.empty()) tally_.virial.resize(1);
+    tally_.virial.front().add(std::max(0.0, dot(impact.impulse, contact.normal) * apart));
   }
   tally_.hash.add(report);
   const Time placed_a = place(a), placed_b = place(b);
@@ -352,6 +362,9 @@ void EventProcessor<S, M>::consider(Needle i, Needle j, const Shift& shift, doub
   event.lower_id = gas_.ids[a];
   event.higher_id = gas_.ids[b];
   const kernels::Contact contact = predictor_.predict(a, b, event.shift, from, until);
+  if constexpr (M::has_width) {
+    if (contact.overlap) report_overlap(a, b, event.shift);
+  }
   if (!contact.found) return;
   event.time = gas_.clock.add(Gas::start_of(mine, other), contact.elapsed.hi);
   event.side = static_cast<std::int8_t>(contact.side);
@@ -381,6 +394,19 @@ void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
       {{gas_.ids[a].value, gas_.ids[b].value}});
 }
 
+// Rods that overlap have passed through their contact, which is never so.
+template <Search S, Model M>
+void EventProcessor<S, M>::report_overlap(Needle a, Needle b, const Shift& shift) const {
+  const Record &first = gas_.records[a], &second = gas_.records[b];
+  const auto pair = model_.pair(a, first, b, second, shift);
+  throw UnfinishedEventError(
+      fmt::format("rods {} and {} overlap by {:.3g} at time {:.17g}: a contact was missed; this is "
+                  "a defect of the program",
+                  gas_.ids[a].value, gas_.ids[b].value, -model_.contact().gap(pair, DoubleDouble()),
+                  gas_.clock.since_start(Gas::start_of(first, second))),
+      {{gas_.ids[a].value, gas_.ids[b].value}});
+}
+
 template <Search S, Model M>
 void EventProcessor<S, M>::refuse(const Event& event) {
   if (event.kind != EventKind::source) report_collapse(event);
@@ -395,7 +421,7 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
   const Needle a = event.lower(), b = event.higher();
   const Record& first = gas_.records[a];
   const Record& second = gas_.records[b];
-  const kernels::Pair pair = model_.pair(a, first, b, second, event.shift);
+  const auto pair = model_.pair(a, first, b, second, event.shift);
   const Time start = Gas::start_of(first, second);
   const DoubleDouble elapsed = gas_.clock.exact_difference(event.time, start);
   throw InvalidStateError(

@@ -13,6 +13,7 @@
 #include "src/scene/box_edges.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
+#include "src/scene/rod_grid.h"
 
 namespace needlework {
 namespace {
@@ -112,17 +113,40 @@ void require_inside(const Scene& scene, const Gas& gas) {
     const Record& record = gas.records[i];
     const Vec3d &r = record.flight.r, &u = record.flight.u;
     const std::array<double, 3> centre = {r.x, r.y, r.z}, director = {u.x, u.y, u.z};
-    const double half = 0.5 * gas.species_of(record).length / std::hypot(u.x, u.y, u.z);
+    const Species& species = gas.species_of(record);
+    const double half = 0.5 * species.length / std::hypot(u.x, u.y, u.z);
     for (const Scene::WallSide& side : walls) {
       Gap wall = gaps[side.axis];
       (side.is_high ? wall.has_low : wall.has_high) = false;
-      const double reach = half * std::abs(director[side.axis]);
+      const double reach = half * std::abs(director[side.axis]) + 0.5 * species.diameter;
       const double beyond = wall.beyond(centre[side.axis], reach, gas.box[side.axis]);
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
           "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside",
           gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low"));
     }
+  }
+}
+
+// That no two rods overlap but by rounding, and that spheres do not turn.
+void require_room_for_rods(const Scene& scene, const Gas& gas) {
+  if (!gas.composition.has_width()) return;
+  RodGrid grid(gas.composition, gas.box, scene.periodic(), gas.size());
+  for (Needle i{0}; i < gas.size(); ++i) {
+    StopRequest::check_in_turn(i);
+    const Record& record = gas.records[i];
+    if (!gas.species_of(record).turns() && !(record.flight.w == Vec3d{})) {
+      refuse_vector(record.flight.w, "angular velocity", gas.ids[i],
+                    "0, as a sphere does not turn");
+    }
+    const std::array<double, 3> centre = to_array(record.flight.r),
+                                director = to_array(record.flight.u);
+    if (const auto overlap = grid.overlap(centre, director, record.species, gas.touch_tolerance()))
+      throw InputError(fmt::format(
+          "state: rods {} and {} overlap: their axes are {:.4g} apart, less than {:.10g}",
+          gas.ids[Needle(overlap->other)].value, gas.ids[i].value, overlap->distance,
+          overlap->expected));
+    grid.enter(centre, director, record.species);
   }
 }
 
@@ -190,6 +214,7 @@ Gas make_gas(const Scene& scene, const State& initial) {
   }
   set_species(gas, initial, order);
   require_inside(scene, gas);
+  require_room_for_rods(scene, gas);
   return gas;
 }
 

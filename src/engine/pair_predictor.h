@@ -69,7 +69,8 @@ class PairPredictor {
     kernels::Contact contact;
   };
 
-  kernels::Contact first_contact(const kernels::Pair& pair, double from, double to) {
+  template <class Pair>
+  kernels::Contact first_contact(const Pair& pair, double from, double to) {
     kernels::EvaluationCounters spent;
     const kernels::Contact contact = model_.contact().first_contact(pair, from, to, spent);
     counters_.evaluated += spent.evaluated;
@@ -99,7 +100,7 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
   double from = std::max(0.0, (gas_.clock.difference(now, start) + from_now) * (1 - 0x1p-50));
   // A slightly later contact may round to the same time, for which the ids decide the order.
   const double to = (gas_.clock.difference(until, start) + gas_.clock.resolution()) * (1 + 0x1p-50);
-  kernels::Pair pair = model_.pair(a, first, b, second, shift);
+  auto pair = model_.pair(a, first, b, second, shift);
 #ifndef NDEBUG
   if (start > now) {
     const Vec3d apart = (model_.motion(first).centre(pair.elapsed_first.hi) -
@@ -151,7 +152,7 @@ void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
     second = &old->record;
     old_shift = old_shift - old->wraps;
   }
-  const kernels::Pair before = model_.pair(a, *first, b, *second, old_shift);
+  const auto before = model_.pair(a, *first, b, *second, old_shift);
   const Time start = Gas::start_of(*first, *second);
   const double elapsed = gas_.clock.difference(now, start);
   kernels::Touch touch{.touching = true, .collided = false, .side = 0, .gap = 0};

@@ -71,6 +71,7 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   out.velocity = to_array(motion.velocity());
   out.angular_velocity = to_array(motion.angular_velocity());
   out.length = gas.species_of(record).length;
+  out.diameter = gas.species_of(record).diameter;
   return out;
 }
 

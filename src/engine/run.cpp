@@ -55,6 +55,7 @@ Effects effects_of(const Scene& scene) {
   return {.rough = composition.is_rough(),
           .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
           .table = composition.is_mixture() || !is_unit(composition[0]),
+          .width = composition.has_width(),
           .kicks = scene.driving.kicks.has_value()};
 }
 
@@ -110,7 +111,7 @@ Run::Run(const Scene& scene, Gas initial) : Run(scene) {
     StopRequest::check_in_turn(i);
     const kernels::Flight flight = gas.records[i].flight;
     renew_record(gas, i, now,
-                 {flight.u, flight.v, flight.w, gas.species_of(gas.records[i]).length});
+                 {flight.u, flight.v, flight.w, gas.species_of(gas.records[i]).extent()});
   }
   open_window();
   initial_energy = present_energy();
@@ -233,7 +234,7 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     auto& entry = replaced.add(i, record);
     const Vec3d director = gas.motion_from(record, now).director();
     entry.wraps = renew_record(
-        gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).length});
+        gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).extent()});
   }
   open_window();
   return replaced;
@@ -320,6 +321,7 @@ std::optional<Collisionless> Run::collisionless() const {
   // Events and kicks may change directions of flight.
   if (!sources.empty() || kicks) return std::nullopt;
   if (nothing_can_happen() && gas.size() > 1) return Collisionless::alike;
+  if (gas.size() > 1 && effects.width) return std::nullopt;
   return needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return Heading{flight.v, flight.u, flight.w};

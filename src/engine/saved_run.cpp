@@ -78,6 +78,9 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
+  if (composition.has_width()) {
+    for (const Species& each : composition.species()) out.push_back(each.diameter);
+  }
   if (!composition.is_mixture()) return out;
   for (const Species& each : composition.species()) {
     out.insert(out.end(), {static_cast<double>(each.count), each.length, each.mass, each.k});
@@ -113,7 +116,7 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   for (const std::int32_t boxes : gas.images[i])
     require(boxes >= -most_boxes && boxes <= most_boxes);
   require(is_time(gas.clock, record.time) && record.time.epoch >= 0);
-  record.renewal = renewal_time(gas, record, gas.species_of(record).length);
+  record.renewal = renewal_time(gas, record, gas.species_of(record).extent());
   require(touches.size() <= most_touches);
   const double places[3] = {f.r.x, f.r.y, f.r.z};
   for (int axis = 0; axis < 3; ++axis) {
@@ -204,6 +207,10 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
           tally.instant, tally.at_instant);
   if (gas.composition.is_mixture()) archive(tally.by_pair);
   if (!sources.empty()) archive(tally.by_source, tally.by_object);
+  if (effects.width) {
+    archive(tally.virial);
+    require(tally.virial.size() <= 1);
+  }
   if (kicks) {
     archive(kicks_done);
     require(kicks_done < std::uint64_t{1} << 53 && now <= next_kick());

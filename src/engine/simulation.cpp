@@ -13,6 +13,7 @@
 #include "needlework/initial_state.h"
 #include "src/calendar/choice.h"
 #include "src/engine/initial_gas.h"
+#include "src/engine/initial_state.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/present_state.h"
 #include "src/engine/subdomains.h"
@@ -256,6 +257,7 @@ std::string why_no_collision(const Scene& scene, const State& initial) {
       initial.angular_velocity.size() != count) {
     return "";  // it cannot be simulated
   }
+  if (count > 1 && scene.composition().has_width()) return "";
   const auto reason = collisionless(count, [&](std::size_t i) {
     return Heading{vector_of(initial.velocity[i]), vector_of(initial.orientation[i]),
                    vector_of(initial.angular_velocity[i])};
@@ -283,7 +285,7 @@ Simulation::Simulation(const Scene& scene) {
   const kernels::DefaultArithmetic arithmetic;
   require_simulable(scene);
   // The state's arrays are freed before the rest of the run allocates its memory.
-  Gas gas = make_gas(scene, draw_initial_state(scene));
+  Gas gas = make_gas(scene, draw_state(scene).state);
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
 }
 
@@ -358,6 +360,11 @@ std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
     }
   }
   return out;
+}
+
+double Simulation::virial() const {
+  const auto& virial = implementation_->run.tally.virial;
+  return virial.empty() ? 0 : virial.front().value();
 }
 
 std::vector<WallTotals> Simulation::wall_totals() const {

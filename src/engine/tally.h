@@ -51,6 +51,10 @@ struct Tally {
   std::vector<SourceTally> by_source;  ///< the same of events of sources
   std::vector<ObjectTally> by_object;  ///< of all sources, by Run::first_object; the same
 
+  /// Of rods, sum of r12 . dp over their collisions, r12 from the second centre to the first and dp
+  /// the impulse on the first; one number, or none as long as no rods have collided. [energy]
+  std::vector<ExactTotal> virial;
+
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
     if (counts.empty()) counts.resize(kinds);
@@ -89,6 +93,7 @@ struct Tally {
     add(by_pair, other.by_pair);
     add(by_source, other.by_source);
     add(by_object, other.by_object);
+    add(virial, other.virial);
     other = {};
   }
 
@@ -104,6 +109,7 @@ struct Tally {
     to.impulse.take(from.impulse);
     to.normal_impulse.take(from.normal_impulse);
   }
+  static void add(ExactTotal& to, ExactTotal& from) { to.take(from); }
   template <class Sum>
   static void add(std::vector<Sum>& to, std::vector<Sum>& from) {
     if (to.empty()) return to.swap(from);

@@ -189,6 +189,12 @@ void make_species(hid_t parameters, const Composition& composition, const std::s
   write_each("length", &Species::length);
   write_each("mass", &Species::mass);
   write_each("k", &Species::k);
+  if (composition.has_width()) {
+    write_each("diameter", &Species::diameter);
+    std::vector<double> inertias;
+    for (const Species& each : composition.species()) inertias.push_back(each.inertia());
+    hdf5::write_array<double>(parameters, "inertia", {size}, inertias, place);
+  }
   const auto write_pairs = [&](const char* name, double Restitution::*member) {
     std::vector<double> values;
     for (const Restitution& rule : composition.rules()) values.push_back(rule.*member);
@@ -216,6 +222,10 @@ void make_parameters(hid_t file, const Scene& scene, const RunInfo& run, const s
   write("k", composition[0].k);
   write("length", composition[0].length);
   write("mass", composition[0].mass);
+  if (composition.has_width()) {
+    write("diameter", composition[0].diameter);
+    write("inertia", composition[0].inertia());
+  }
   write("epsilon", composition.restitution(0, 0).epsilon);
   write("beta", composition.restitution(0, 0).beta);
 }

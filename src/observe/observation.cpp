@@ -30,9 +30,9 @@ GasSetting GasSetting::of_species(std::size_t index) const {
   GasSetting out = *this;
   const Species& species = composition[index];
   out.count = species.count;
-  out.length = species.length;
+  out.length = species.extent();
   out.mass = species.mass;
-  out.inertia = species.mass * species.length * species.length / (2 * species.k);
+  out.inertia = species.inertia();
   out.composition = Composition({species}, composition.restitution(index, index));
   out.species_by_id = {};
   return out;

@@ -38,7 +38,7 @@ Tangential tangential(const kernels::ContactGeometry& c, const Vec3d& v, double 
 
 }  // namespace
 
-template <bool smooth>
+template <Surface surface>
 Impact collide(const Meeting& meeting, const Restitution& restitution) {
   const auto& [v_first, w_first, v_second, w_second, body_first, body_second, c, side] = meeting;
   const double epsilon = restitution.epsilon;
@@ -47,14 +47,19 @@ Impact collide(const Meeting& meeting, const Restitution& restitution) {
   double vn = dot(v, c.normal);
   if (vn * side > 0) vn = 0;
   const double masses = body_first.inverse_mass + body_second.inverse_mass;
-  const double inertia_first = body_first.inverse_inertia * (c.arm_first * c.arm_first);
-  const double inertia_second = body_second.inverse_inertia * (c.arm_second * c.arm_second);
+  double inertia_first = body_first.inverse_inertia * (c.arm_first * c.arm_first);
+  double inertia_second = body_second.inverse_inertia * (c.arm_second * c.arm_second);
+  if constexpr (surface == Surface::wide) {
+    const Vec3d x_first = cross(c.u_first, c.normal), x_second = cross(c.u_second, c.normal);
+    inertia_first *= dot(x_first, x_first);
+    inertia_second *= dot(x_second, x_second);
+  }
   const double mass = masses + (inertia_first + inertia_second);
   Impact out;
   out.normal_velocity = vn;
   out.impulse = c.normal * (-(1 + epsilon) * vn / mass);
   out.energy_change = -0.5 * (1 - epsilon * epsilon) * (vn * vn) / mass;
-  if constexpr (!smooth) {
+  if constexpr (surface == Surface::rough) {
     const Tangential t = tangential(c, v, masses, inertia_first, inertia_second, restitution.beta);
     out.impulse += t.impulse;
     out.energy_change += t.energy_change;
@@ -68,7 +73,8 @@ Impact collide(const Meeting& meeting, const Restitution& restitution) {
   return out;
 }
 
-template Impact collide<true>(const Meeting&, const Restitution&);
-template Impact collide<false>(const Meeting&, const Restitution&);
+template Impact collide<Surface::smooth>(const Meeting&, const Restitution&);
+template Impact collide<Surface::rough>(const Meeting&, const Restitution&);
+template Impact collide<Surface::wide>(const Meeting&, const Restitution&);
 
 }  // namespace needlework

@@ -22,15 +22,21 @@ struct Meeting {
   const Vec3d& w_second;
   Body body_first, body_second;
   const kernels::ContactGeometry& contact;
-  int side;  ///< sign of r12 . (u1 x u2) before the contact
+  int side;  ///< sign of r12 . (u1 x u2) before the contact; 1 for rods
+};
+
+/// What needs a rule of its own.
+enum class Surface {
+  smooth,  ///< beta = -1
+  rough,   ///< any beta
+  wide     ///< smooth rods of finite width, whose normal need not be normal to the directors
 };
 
 /// Velocities and impulse after a collision of two needles. They must approach, V_n side < 0; if
-/// rounding gives another sign, V_n counts as 0. `smooth` means that beta = -1, and omits the
-/// tangential part at compile time. Source: Huthmann, Aspelmeier, Zippelius, Phys. Rev. E 60, 654
-/// (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle has its own
-/// inertia.
-template <bool smooth>
+/// rounding gives another sign, V_n counts as 0. Source: Huthmann, Aspelmeier, Zippelius, Phys.
+/// Rev. E 60, 654 (1999). For unlike needles 2 / m is replaced by 1 / m1 + 1 / m2, and each needle
+/// has its own inertia; at the caps of rods the inertia counts by |u x n|^2 < 1.
+template <Surface surface>
 Impact collide(const Meeting& meeting, const Restitution& restitution);
 
 }  // namespace needlework

@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include "kernels/first_contact.h"
+#include "kernels/rod_contact.h"
 #include "needlework/accuracy.h"
 
 namespace needlework {
@@ -11,6 +12,9 @@ namespace needlework {
 /// A contact of two bodies, described by a contact function: it is 0 at a contact, and its value
 /// [L] is called the gap. Thin needles cross it from either side, so that a pair is on one side of
 /// each other or the other, 1 or -1; bodies that exclude a volume are always on side 1.
+///
+/// `Pair` is what it needs to know of two bodies, kernels::Pair or more; `excludes_volume` is
+/// whether bodies never pass through each other, so that a lost contact leaves an overlap.
 ///
 /// All are pure functions of the pair. They do not depend on when they are called, on the search or
 /// on the thread. Exchanging the bodies and negating the shift changes no bit. None throws.
@@ -26,8 +30,10 @@ namespace needlework {
 ///     contact comes before it.
 ///   `geometry(pair, elapsed)` is for the moment of a contact: directors, normal and arms.
 template <class C>
-concept ContactLaw = requires(const C& contact, const kernels::Pair& pair, double time,
+concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, double time,
                               const DoubleDouble& elapsed, kernels::EvaluationCounters& spent) {
+  requires std::derived_from<typename C::Pair, kernels::Pair>;
+  { C::excludes_volume } -> std::convertible_to<bool>;
   { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
   { contact.side_after(pair) } -> std::convertible_to<int>;
@@ -38,6 +44,9 @@ concept ContactLaw = requires(const C& contact, const kernels::Pair& pair, doubl
 /// The contact of thin needles: f = r12 . (u1 x u2) vanishes within both lengths.
 class NeedleContact {
  public:
+  using Pair = kernels::Pair;
+  static constexpr bool excludes_volume = false;
+
   explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
 
@@ -59,5 +68,33 @@ class NeedleContact {
 };
 
 static_assert(ContactLaw<NeedleContact>);
+
+/// The contact of rods of finite width: their axes are their mean diameter apart.
+class RodContact {
+ public:
+  using Pair = kernels::RodPair;
+  static constexpr bool excludes_volume = true;
+
+  explicit RodContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
+  const Accuracy& accuracy() const { return accuracy_; }
+
+  kernels::Contact first_contact(const Pair& pair, double from, double to,
+                                 kernels::EvaluationCounters& spent) const {
+    return kernels::rod_contact(pair, from, to, spent, accuracy_);
+  }
+  double gap(const Pair& pair, const DoubleDouble& elapsed) const {
+    return kernels::rod_gap(pair, elapsed);
+  }
+  int side_after(const Pair&) const { return 1; }
+  double time_apart(const Pair& pair) const { return kernels::rod_time_apart(pair); }
+  kernels::ContactGeometry geometry(const Pair& pair, const DoubleDouble& elapsed) const {
+    return kernels::rod_geometry(pair, elapsed);
+  }
+
+ private:
+  Accuracy accuracy_;
+};
+
+static_assert(ContactLaw<RodContact>);
 
 }  // namespace needlework

@@ -3,19 +3,20 @@
 
 namespace needlework {
 
-/// Two models are compiled: one without any of these, to which they cost nothing, and one that asks
-/// for each of them when it runs (src/physics/needle_model.h). Effects that are events of their own
-/// are sources of events instead (src/engine/event_source.h).
+/// Three models are compiled: one without any of these, to which they cost nothing, one that asks
+/// for each of them when it runs, and that for rods (src/physics/needle_model.h). Effects that are
+/// events of their own are sources of events instead (src/engine/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
   bool contact_time = false;  ///< the t_c rule
   bool table = false;         ///< lengths, masses, inertias and restitution depend on the species;
                               ///< otherwise length and mass are 1
 
+  bool width = false;    ///< rods of finite width
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
 
-  bool any() const { return rough || contact_time || table || sources || kicks; }
+  bool any() const { return rough || contact_time || table || width || sources || kicks; }
 };
 
 }  // namespace needlework

@@ -32,7 +32,7 @@ struct Gas {
   Columns columns;               ///< what effects keep for each needle
   Composition composition;       ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
-  double longest = 1;                               ///< length of the longest species [L]
+  double longest = 1;                               ///< largest extent of a species [L]
 
   std::size_t size() const { return records.size(); }
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
@@ -109,7 +109,7 @@ struct NewFlight {
   Vec3d director;
   Vec3d velocity;
   Vec3d angular_velocity;
-  double length = 1;  ///< of the needle [L]
+  double length = 1;  ///< of the needle, from end to end [L]
 };
 
 /// Replaces the record of needle i at `now`: the centre moves to where its motion has led and

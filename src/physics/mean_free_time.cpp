@@ -54,12 +54,29 @@ double mean_free_time(const Composition& composition, double volume,
       const SpeciesTemperatures &t_a = temperatures[a], &t_b = temperatures[b];
       const double flight = t_a.t_tr / first.mass + t_b.t_tr / second.mass;
       // Of the tips, whose distance from the centre is half a length.
-      const double turn_a = t_a.t_rot / first.inertia() * (first.length * first.length);
-      const double turn_b = t_b.t_rot / second.inertia() * (second.length * second.length);
-      const double sigma = mean_on_square([&](double x, double y) {
-        return std::sqrt(flight + (turn_a * (x * x) + turn_b * (y * y)));
-      });
-      sum += count_a * count_b * (first.length * second.length) * sigma;
+      const double turn_a =
+          first.turns() ? t_a.t_rot / first.inertia() * (first.length * first.length) : 0;
+      const double turn_b =
+          second.turns() ? t_b.t_rot / second.inertia() * (second.length * second.length) : 0;
+      // The speed at which points at these distances from the centres approach, in lengths.
+      const auto speed = [&](double square_a, double square_b) {
+        return std::sqrt(flight + (turn_a * square_a + turn_b * square_b));
+      };
+      const double sides = mean_on_square([&](double x, double y) { return speed(x * x, y * y); });
+      sum += count_a * count_b * (first.length * second.length) * sides;
+      const double distance = composition.contact_distance(a, b);
+      if (distance == 0) continue;
+      // The caps see all directions alike: of a tip, the part of its distance normal to one.
+      const auto of_tip = [](double mu) { return 0.25 * (1 - 4 * (mu * mu)); };
+      const double tip_on_second =
+          mean_on_square([&](double x, double y) { return speed(of_tip(x), y * y); });
+      const double tip_on_first =
+          mean_on_square([&](double x, double y) { return speed(x * x, of_tip(y)); });
+      const double tips =
+          mean_on_square([&](double x, double y) { return speed(of_tip(x), of_tip(y)); });
+      sum += count_a * count_b *
+             (4 * distance * (second.length * tip_on_second + first.length * tip_on_first) +
+              8 * (distance * distance) * tips);
     }
   }
   return inverse_rate(sum * root_pi_eighths / (volume * count));

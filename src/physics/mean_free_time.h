@@ -31,7 +31,8 @@ double mean_free_time(const ThermalGas& gas);
 /// averaged over all needles. A species has Gaussian velocities with temperatures of its own.
 /// Species a and b collide n_a n_b sqrt(pi / 8) L_a L_b <sigma> times per volume and time, with
 /// sigma^2 = T_tr,a / m_a + T_tr,b / m_b + T_rot,a s^2 / I_a + T_rot,b s'^2 / I_b averaged over s
-/// and s' along the needles; see docs/physics.md.
+/// and s' along the needles; rods of finite width collide more often by their caps, and in dense
+/// gases, which this does not count; see docs/physics.md.
 double mean_free_time(const Composition& composition, double volume,
                       std::span<const SpeciesTemperatures> temperatures);
 

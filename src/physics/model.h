@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <type_traits>
 
 #include "needlework/accuracy.h"
 #include "src/physics/collision.h"
@@ -17,7 +18,8 @@ namespace needlework {
 ///
 /// A model promises the following.
 ///   `motion` is how a needle moves from its record on.
-///   `has_effects` is false for a model without any effect, and `effects()` tells which there are.
+///   `has_effects` is false for a model without any effect, and `effects()` tells which there are;
+///   `has_width` is true for rods of finite width.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
 ///   `collide` returns the velocities after a contact, now, of needles that approach from `side`;
@@ -33,15 +35,19 @@ template <class M>
 concept Model = requires(const M& model, Needle i, const Record& record, const Shift& shift,
                          Time now, const kernels::ContactGeometry& geometry, const Vec3d& vector) {
   { M::has_effects } -> std::convertible_to<bool>;
+  { M::has_width } -> std::convertible_to<bool>;
   { model.effects() } -> std::convertible_to<Effects>;
   { model.gas() } -> std::same_as<Gas&>;
   { model.restitution(record, record) } -> std::convertible_to<const Restitution&>;
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.motion(record) } -> NeedleMotion;
   { model.half_length(i) } -> std::same_as<double>;
+  { model.radius(i) } -> std::same_as<double>;
   { model.reach(record, record) } -> std::convertible_to<double>;
-  { model.pair(i, record, i, record, shift) } -> std::same_as<kernels::Pair>;
-  { model.contact() } -> ContactLaw;
+  requires ContactLaw<std::remove_cvref_t<decltype(model.contact())>>;
+  {
+    model.pair(i, record, i, record, shift)
+    } -> std::same_as<typename std::remove_cvref_t<decltype(model.contact())>::Pair>;
   { model.collide(record, record, now, geometry, int{}, bool{}) } -> std::same_as<Impact>;
   { model.renew(i, now, vector, vector, vector) } -> std::same_as<Shift>;
   { model.renew_in_flight(i, now) } -> std::same_as<Shift>;

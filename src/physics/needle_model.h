@@ -1,4 +1,4 @@
-// Hard needles in free flight: the model that is simulated.
+// Hard needles, or rods, in free flight: the model that is simulated.
 #pragma once
 
 #include "needlework/accuracy.h"
@@ -6,13 +6,15 @@
 
 namespace needlework {
 
-/// Infinitely thin rods with normal and tangential restitution. Without effects they are smooth,
-/// lengths and masses are 1, and nothing is looked up by species. With effects, each is asked for
-/// when the model runs.
-template <bool with_effects>
+/// Infinitely thin needles with normal and tangential restitution or, by another law of contact,
+/// smooth rods of finite width. Without effects they are smooth needles, lengths and masses are 1,
+/// and nothing is looked up by species. With effects, each is asked for when the model runs.
+template <bool with_effects, ContactLaw Law = NeedleContact>
 class NeedleModel {
  public:
   static constexpr bool has_effects = with_effects;
+  static constexpr bool has_width = Law::excludes_volume;
+  static_assert(has_effects || !has_width, "rods are looked up by species");
 
   /// `gas` must outlive the model. Without effects, `effects` must have none.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
@@ -33,43 +35,54 @@ class NeedleModel {
     if constexpr (has_effects) return gas_.motion(record);
     return FreeFlight(record.flight);
   }
-  /// Half the length of needle i. [L]
+  /// Half the length of the axis of needle i. [L]
   double half_length(Needle i) const {
     if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
     return 0.5;
   }
+  /// Half the diameter of needle i. [L]
+  double radius(Needle i) const {
+    if constexpr (has_width) return gas_.bodies[gas_.records[i].species].radius;
+    return 0;
+  }
   /// Centres farther apart than this cannot be in contact. [L]
   double reach(const Record& a, const Record& b) const {
-    return body(a).half_length + body(b).half_length;
+    const double axes = body(a).half_length + body(b).half_length;
+    if constexpr (has_width) return axes + (body(a).radius + body(b).radius);
+    return axes;
   }
-  kernels::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
-                     const Shift& shift) const {
-    kernels::Pair out = make_pair(gas_, a, record_a, b, record_b, shift);
+  typename Law::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
+                          const Shift& shift) const {
+    typename Law::Pair out{make_pair(gas_, a, record_a, b, record_b, shift)};
     if constexpr (has_effects) {
       out.half_first = body(record_a).half_length;
       out.half_second = body(record_b).half_length;
     }
+    if constexpr (has_width) out.distance = body(record_a).radius + body(record_b).radius;
     return out;
   }
-  const NeedleContact& contact() const { return contact_; }
+  const Law& contact() const { return contact_; }
   Impact collide(const Record& a, const Record& b, Time now,
                  const kernels::ContactGeometry& contact, int side, bool elastic) const {
     const kernels::Flight &first = a.flight, &second = b.flight;
     if constexpr (has_effects) {
       const Vec3d v_first = velocity(a, now), v_second = velocity(b, now);
       const Meeting both{v_first, first.w, v_second, second.w, body(a), body(b), contact, side};
-      if (elastic) return needlework::collide<true>(both, Restitution{});
-      if (restitution(a, b).is_rough()) return needlework::collide<false>(both, restitution(a, b));
-      return needlework::collide<true>(both, restitution(a, b));
+      constexpr Surface smooth = has_width ? Surface::wide : Surface::smooth;
+      if (elastic) return needlework::collide<smooth>(both, Restitution{});
+      const Restitution& rule = restitution(a, b);
+      if (!has_width && rule.is_rough()) return needlework::collide<Surface::rough>(both, rule);
+      return needlework::collide<smooth>(both, rule);
     } else {
       const Meeting both{first.v, first.w, second.v, second.w, body(a), body(b), contact, side};
-      return needlework::collide<true>(both, restitution(a, b));
+      return needlework::collide<Surface::smooth>(both, restitution(a, b));
     }
   }
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
               const Vec3d& angular_velocity) const {
-    return renew_record(gas_, i, now, {director, velocity, angular_velocity, 2 * half_length(i)});
+    return renew_record(gas_, i, now,
+                        {director, velocity, angular_velocity, 2 * (half_length(i) + radius(i))});
   }
   Shift renew_in_flight(Needle i, Time now) const {
     const Record& record = gas_.records[i];
@@ -88,9 +101,11 @@ class NeedleModel {
 
   Gas& gas_;
   Effects effects_;
-  NeedleContact contact_;
+  Law contact_;
 };
 
-static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>>);
+using RodModel = NeedleModel<true, RodContact>;
+
+static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>> && Model<RodModel>);
 
 }  // namespace needlework

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "kernels/first_contact.h"
 #include "needlework/error.h"
+#include "src/physics/contact.h"
 #include "src/physics/director.h"
 
 namespace needlework {
@@ -48,9 +49,19 @@ Vec3d read(const std::array<double, 3>& a, const char* what, double most) {
 }
 
 double half_length_of(const FreeNeedle& needle) {
-  if (needle.length >= 1 / farthest && needle.length <= farthest) return 0.5 * needle.length;
-  throw InputError(fmt::format("length = {:g}: expected a number from {:g} to {:g}", needle.length,
-                               1 / farthest, farthest));
+  const bool is_sphere = needle.length == 0 && needle.diameter > 0;
+  if (is_sphere || (needle.length >= 1 / farthest && needle.length <= farthest))
+    return 0.5 * needle.length;
+  throw InputError(fmt::format("length = {:g}: expected a number from {:g} to {:g}{}",
+                               needle.length, 1 / farthest, farthest,
+                               needle.length == 0 ? ", or a diameter, of a sphere" : ""));
+}
+
+double diameter_of(const FreeNeedle& needle) {
+  const double diameter = needle.diameter;
+  if (diameter == 0 || (diameter >= 1 / farthest && diameter <= farthest)) return diameter;
+  throw InputError(fmt::format("diameter = {:g}: expected 0, or a number from {:g} to {:g}",
+                               diameter, 1 / farthest, farthest));
 }
 
 kernels::Flight flight_of(const FreeNeedle& needle) {
@@ -71,10 +82,10 @@ kernels::Flight flight_of(const FreeNeedle& needle) {
 struct NearInterval {
   double enter, exit;
 };
-NearInterval near_interval(const kernels::Pair& pair) {
+NearInterval near_interval(const kernels::Pair& pair, double distance) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Vec3d r = pair.first->r - pair.second->r, v = pair.first->v - pair.second->v;
-  const double reach = (pair.half_first + pair.half_second) * (1 + 0x1p-20) +
+  const double reach = (pair.half_first + pair.half_second + distance) * (1 + 0x1p-20) +
                        0x1p-46 * (std::abs(r.x) + std::abs(r.y) + std::abs(r.z));
   const double scale = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (scale == 0) return {dot(r, r) <= reach * reach ? 0 : infinity, infinity};
@@ -89,9 +100,10 @@ NearInterval near_interval(const kernels::Pair& pair) {
 
 // The first contact in (0, horizon]. How long the search takes does not depend on the length of
 // time alone, so that it goes on stretch by stretch.
-kernels::Contact search(const kernels::Pair& pair, double horizon,
-                        kernels::EvaluationCounters& counters, const Accuracy& accuracy) {
-  const NearInterval near = near_interval(pair);
+template <ContactLaw Law>
+kernels::Contact search(const Law& law, const typename Law::Pair& pair, double distance,
+                        double horizon, kernels::EvaluationCounters& counters) {
+  const NearInterval near = near_interval(pair, distance);
   const double last = std::min(horizon, near.exit);
   const kernels::PairScale scale = kernels::scale_of(pair);
   if (!scale.moves || std::isinf(near.enter)) return {};
@@ -103,8 +115,7 @@ kernels::Contact search(const kernels::Pair& pair, double horizon,
                       begin));
     }
     const double end = begin + stretch * scale.per_rate;
-    const auto contact =
-        kernels::first_contact(pair, begin, std::min(last, end), counters, accuracy);
+    const auto contact = law.first_contact(pair, begin, std::min(last, end), counters);
     if (!counters.is_spent() && (contact.found || end >= last)) return contact;
     const double work = (end - near.enter) * scale.per_time + static_cast<double>(counters.work());
     if (work > most_work || counters.is_spent()) {
@@ -119,6 +130,34 @@ kernels::Contact search(const kernels::Pair& pair, double horizon,
   return {};
 }
 
+template <ContactLaw Law>
+FirstContact predicted(const Law& law, typename Law::Pair& pair, double distance, double horizon,
+                       bool just_collided) {
+  kernels::EvaluationCounters counters{.most_work = static_cast<std::uint64_t>(most_work)};
+  if (just_collided) {
+    const int side = law.side_after(pair);
+    pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  FirstContact out{infinity, nan, nan, 0, 0};
+  const kernels::Contact contact = search(law, pair, distance, horizon, counters);
+  if (contact.overlap) {
+    throw InputError(
+        fmt::format("the rods overlap: their axes are {:.10g} apart, less than {:.10g}",
+                    distance + law.gap(pair, DoubleDouble()), distance));
+  }
+  if (contact.found) {
+    const kernels::ContactGeometry geometry = law.geometry(pair, contact.elapsed);
+    out.time = contact.elapsed.hi;
+    out.arm_first = geometry.arm_first;
+    out.arm_second = geometry.arm_second;
+  }
+  out.evaluations = counters.evaluated;
+  out.escalations = counters.escalated;
+  return out;
+}
+
 }  // namespace
 
 FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double horizon,
@@ -127,30 +166,28 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
     throw InputError(fmt::format("horizon = {:g}: expected a time, 0 or later", horizon));
   }
   require_in_range(accuracy);
-  const kernels::Flight a = flight_of(first), b = flight_of(second);
-  kernels::Pair pair;
+  kernels::Flight a = flight_of(first), b = flight_of(second);
+  kernels::RodPair pair;
   pair.first = &a;
   pair.second = &b;
   pair.half_first = half_length_of(first);
   pair.half_second = half_length_of(second);
-  kernels::EvaluationCounters counters{.most_work = static_cast<std::uint64_t>(most_work)};
-  if (just_collided) {
-    const int side = kernels::side_after(pair);
-    pair.touch = {.touching = side != 0, .collided = true, .side = side, .gap = 0};
+  const double width_a = diameter_of(first), width_b = diameter_of(second);
+  if ((width_a > 0) != (width_b > 0)) {
+    throw InputError(fmt::format(
+        "diameters {:g} and {:g}: expected both 0, for needles, or both above, for rods: there is "
+        "no contact between the two kinds",
+        width_a, width_b));
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  FirstContact out{infinity, nan, nan, 0, 0};
-  const kernels::Contact contact = search(pair, horizon, counters, accuracy);
-  if (contact.found) {
-    const kernels::ContactGeometry geometry = contact_geometry(pair, contact.elapsed);
-    out.time = contact.elapsed.hi;
-    out.arm_first = geometry.arm_first;
-    out.arm_second = geometry.arm_second;
+  if (width_a == 0)
+    return predicted<NeedleContact>(NeedleContact(accuracy), pair, 0, horizon, just_collided);
+  for (const auto& [flight, half] : {std::pair(&a, pair.half_first), {&b, pair.half_second}}) {
+    if (half > 0) continue;
+    flight->w = {};  // of a sphere, which does not turn
+    set_rotation(*flight);
   }
-  out.evaluations = counters.evaluated;
-  out.escalations = counters.escalated;
-  return out;
+  pair.distance = 0.5 * (width_a + width_b);
+  return predicted<RodContact>(RodContact(accuracy), pair, pair.distance, horizon, just_collided);
 }
 
 }  // namespace needlework

@@ -92,6 +92,7 @@ void add_species(py::dict& out, const Composition& composition) {
   out["k"] = each(&Species::k);
   out["length"] = each(&Species::length);
   out["mass"] = each(&Species::mass);
+  if (composition.has_width()) out["diameter"] = each(&Species::diameter);
   out["epsilon"] = pairs(&Restitution::epsilon);
   out["beta"] = pairs(&Restitution::beta);
 }
@@ -364,6 +365,7 @@ py::dict Run::facts() {
     out["beta"] = composition.restitution(0, 0).beta;
     out["length"] = composition[0].length;
     out["mass"] = composition[0].mass;
+    if (composition.has_width()) out["diameter"] = composition[0].diameter;
   }
   out["search"] = simulation.search();
   out["queue"] = simulation.queue();

@@ -18,7 +18,13 @@ inline std::array<double, 2> halves(std::uint64_t seed) {
 }
 
 /// What random numbers are for. Numbers for different purposes are independent.
-enum class RandomFor : std::uint64_t { initial_state, thermal_wall, thermostat, kick };
+enum class RandomFor : std::uint64_t {
+  initial_state,
+  thermal_wall,
+  thermostat,
+  kick,
+  velocities_of_rods
+};
 
 /// A stream of deviates: Philox-4x64-10 (Salmon et al., SC 2011) with the seed as key and (block,
 /// id, count, purpose) as counter. Copies continue independently.

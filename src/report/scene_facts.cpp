@@ -32,10 +32,10 @@ Json end_of(const Scene::Until& until) {
 }
 
 // The ratio T_tr / T_rot that theory predicts for late times, null for a gas that does not cool,
-// for mixtures, whose species have each its own, and where something else than collisions of pairs
+// for mixtures and rods, and where something else than collisions of pairs
 // acts on the gas.
 Json ratio_of_theory(const Scene& scene, const Composition& composition) {
-  if (composition.is_mixture() || acts_on_single_needles(scene)) return nullptr;
+  if (!composition.is_needle_gas() || acts_on_single_needles(scene)) return nullptr;
   const Restitution& rule = composition.restitution(0, 0);
   const theory::Gas gas{composition[0].k, rule.epsilon, rule.beta};
   const double ratio = theory::asymptotic_ratio(gas);
@@ -48,6 +48,7 @@ Json species_of(const Composition& composition) {
     out.push_back({{"name", each.name},
                    {"count", each.count},
                    {"length", each.length},
+                   {"diameter", each.diameter},
                    {"mass", each.mass},
                    {"k", each.k},
                    {"t_tr", each.t_tr},

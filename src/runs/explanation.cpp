@@ -26,7 +26,7 @@ std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
   if (is_pushed(scene)) return std::nullopt;
-  if (!composition.is_mixture()) {
+  if (composition.is_needle_gas()) {
     const Restitution& rule = composition.restitution(0, 0);
     return forecast({composition[0].k, rule.epsilon, rule.beta}, initial_temperatures(loaded),
                     theory_density_of(scene), scene.until);
@@ -51,8 +51,12 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   }
   if (!is_known || out.empty()) return out;
   for (std::size_t n = 0; n < composition.size(); ++n) {
-    const auto rates =
-        theory::wall_rates(composition[n], scene.needles.box, walled, temperatures[n]);
+    // The caps of rods touch walls where the ends of their axes are half a diameter away.
+    std::array<double, 3> room = scene.needles.box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (walled[axis]) room[axis] -= composition[n].diameter;
+    }
+    const auto rates = theory::wall_rates(composition[n], room, walled, temperatures[n]);
     const auto count = static_cast<double>(composition[n].count);
     for (ExplainedWall& wall : out) {
       const double epsilon = scene.walls[wall.side.entry].epsilon;

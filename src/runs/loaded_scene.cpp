@@ -81,18 +81,21 @@ Totals totals_of(const State& state, const Scene& scene) {
   Totals totals;
   const double count = static_cast<double>(state.size());
   const std::array<double, 3>& gravity = scene.forces.gravity;
-  double fall = 0;  // potential energy
+  double fall = 0;     // potential energy
+  double turning = 0;  // those that are no spheres
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
     const double inertia = species.inertia();
     totals.t_tr += species.mass * square(state.velocity[i]) / (3 * count);
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
+    turning += species.turns();
     for (int axis = 0; axis < 3; ++axis) {
       totals.momentum[axis] += species.mass * state.velocity[i][axis];
       fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
   totals.energy = 1.5 * totals.t_tr + totals.t_rot;
+  if (turning > 0 && turning < count) totals.t_rot *= count / turning;
   if (fall != 0) totals.energy += fall / count;
   return totals;
 }
@@ -124,7 +127,7 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
 }
 
 bool has_mixture_theory(const Composition& composition) {
-  return composition.is_mixture() && composition.size() <= theory::most_species_of_theory;
+  return !composition.is_needle_gas() && composition.size() <= theory::most_species_of_theory;
 }
 
 namespace {
@@ -153,7 +156,7 @@ double factor_between_walls(const Scene& scene, theory::Temperatures start) {
 double initial_collision_rate(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
-  if (!composition.is_mixture()) {
+  if (composition.is_needle_gas()) {
     const theory::Temperatures start = initial_temperatures(loaded);
     return factor_between_walls(scene, start) *
            theory::collision_rate(theory_density_of(scene), start, composition[0].k);

@@ -66,6 +66,7 @@ observe::ObservablePointer cooling_theory(const Scene& scene, const Totals& init
                                           const Simulation& simulation, bool drawn) {
   if (!drawn || !(initial.energy > 0) || acts_on_single_needles(scene)) return nullptr;
   const Composition composition = scene.composition();
+  if (composition.has_width()) return nullptr;  // it is that of low density alone
   if (composition.is_mixture()) {
     if (!has_mixture_theory(composition)) return nullptr;
     std::vector<theory::Temperatures> now;

@@ -178,7 +178,7 @@ std::vector<std::string> warnings(const Scene& scene) {
   };
   const Composition composition = scene.composition();
   for (const Species& species : composition.species()) {
-    if (species.k >= 2) continue;
+    if (species.k >= 2 || species.diameter > 0) continue;
     list.push_back(
         fmt::format("{} = {}{}: below 2, where all mass sits at the tips, mass lies beyond them",
                     composition.is_mixture() ? "species.k" : "needles.k", species.k,

@@ -16,7 +16,14 @@ Composition Scene::composition() const {
                    .mass = 1,
                    .k = needles.k,
                    .t_tr = initial.t_tr,
-                   .t_rot = initial.t_rot});
+                   .t_rot = initial.t_rot,
+                   .diameter = needles.diameter,
+                   .given_inertia = {}});
+  }
+  for (Species& each : all) {
+    if (!each.turns()) each.t_rot = 0;
+    if (each.given_inertia && each.turns())
+      each.k = each.mass * (each.length * each.length) / (2 * *each.given_inertia);
   }
   Composition out(std::move(all), everywhere);
   const auto index_of = [&](const std::string& name) {

@@ -132,7 +132,9 @@ std::array<Gap, 3> gaps_of(const Scene& scene) {
 }
 
 Room::Room(const Scene& scene) : gaps_(gaps_of(scene)) {
-  const double length = scene.composition().longest();
+  const Composition composition = scene.composition();
+  const double length = composition.longest();
+  if (composition.has_width()) body_ = "rod";
   for (std::size_t axis = 0; axis < 3; ++axis) {
     least_[axis] = gaps_[axis].is_walled() ? length + gaps_[axis].approach : least_edge(length);
   }
@@ -149,14 +151,14 @@ std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
     if (box[axis] >= least_[axis]) continue;
     if (!gap.is_walled()) {
       const bool all = std::ranges::none_of(gaps_, &Gap::is_walled);
-      return fmt::format("edges of at least {:.10g}{} (2.01 needle lengths)", least_[axis],
-                         all ? "" : " along periodic axes");
+      return fmt::format("edges of at least {:.10g}{} (2.01 {} lengths)", least_[axis],
+                         all ? "" : " along periodic axes", body_);
     }
-    return fmt::format(
-        "an edge of at least {:.10g} along {}, which has walls (one needle length{})", least_[axis],
-        axis_names[axis], gap.approach > 0 ? " at all times of their motion" : "");
+    return fmt::format("an edge of at least {:.10g} along {}, which has walls (one {} length{})",
+                       least_[axis], axis_names[axis], body_,
+                       gap.approach > 0 ? " at all times of their motion" : "");
   }
-  return fmt::format("edges of at most {:.10g} (1e9 needle lengths)", most_);
+  return fmt::format("edges of at most {:.10g} (1e9 {} lengths)", most_, body_);
 }
 
 bool acts_on_single_needles(const Scene& scene) {

@@ -41,6 +41,7 @@ class Room {
   std::array<Gap, 3> gaps_;
   std::array<double, 3> least_{};
   double most_;
+  const char* body_ = "needle";  ///< whose length, from end to end, it is
 };
 
 /// Whether a needle's motion may change without a collision: walls or driving do so.

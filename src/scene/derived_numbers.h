@@ -16,6 +16,7 @@ struct SpeciesNumbers {
   double mass = 1;        ///< [m]
   double k = 6;           ///< m L^2 / (2 I)
   double v2 = 0, w2 = 0;  ///< sums over all its needles of v^2 and w^2
+  double extent = 1;      ///< from end to end [L]
 };
 
 /// A gas, as far as speeds and energies go.

@@ -1,5 +1,5 @@
 // Draws initial states: the equilibrium of an ideal gas in centres, directors and velocities.
-#include "needlework/initial_state.h"
+#include "src/scene/initial_state.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,8 @@
 #include "src/machine/stop_request.h"
 #include "src/random/needle_random.h"
 #include "src/scene/confinement.h"
+#include "src/scene/rod_grid.h"
+#include "src/scene/rod_lattice.h"
 #include "src/scene/scene_values.h"
 
 namespace needlework {
@@ -62,7 +64,7 @@ struct Drawn {
     const double count = static_cast<double>(composition.count());
     for (const Species& s : all) {
       factors.push_back(square(first) > 0 ? std::sqrt(square(s) / square(first)) : 0);
-      weights.push_back(weight(s) / weight(first));
+      weights.push_back(weight(first) > 0 ? weight(s) / weight(first) : 0);  // spheres do not turn
       mean_square += static_cast<double>(s.count) / count * (square(s) * weights.back());
     }
   }
@@ -104,10 +106,11 @@ void set_mean_square(std::vector<Vector>& vectors, const std::vector<SpeciesInde
 
 // Draws centre and director, uniformly among those at which both tips are inside the walls.
 void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vector& box,
-                double half_length, Vector& centre, Vector& director) {
+                const Species& species, Vector& centre, Vector& director) {
+  const double half_length = 0.5 * species.length, radius = 0.5 * species.diameter;
   const auto is_inside = [&] {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double reach = half_length * std::abs(director[i]);
+      const double reach = half_length * std::abs(director[i]) + radius;
       if (gaps[i].is_walled() && gaps[i].beyond(centre[i], reach, box[i]) >= 0) return false;
     }
     return true;
@@ -122,46 +125,136 @@ void draw_place(NeedleRandom& random, const std::array<Gap, 3>& gaps, const Vect
   } while (!is_inside());
 }
 
+// Draws velocities for needles of all species.
+class Velocities {
+ public:
+  explicit Velocities(const Composition& composition)
+      : flight_(
+            composition, [](const Species& s) { return 3 * s.t_tr / s.mass; },
+            [](const Species& s) { return s.mass; }),
+        // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
+        rotation_(
+            composition,
+            [](const Species& s) {
+              return s.turns() ? 4 * s.k * s.t_rot / (s.mass * (s.length * s.length)) : 0;
+            },
+            [](const Species& s) { return s.inertia(); }) {}
+
+  void draw(NeedleRandom& random, SpeciesIndex species, State& state, std::size_t i) const {
+    state.velocity[i] = random.normal();
+    for (double& v : state.velocity[i]) v *= flight_.factors[species];
+    state.angular_velocity[i] = normal_part(random.normal(), state.orientation[i]);
+    for (double& w : state.angular_velocity[i]) w *= rotation_.factors[species];
+  }
+  // Makes the total momentum 0 and the temperatures those asked for.
+  void adjust(const std::vector<SpeciesIndex>& species, State& state) const {
+    if (state.size() >= 2) remove_mean(state.velocity, species, flight_.weights);
+    set_mean_square(state.velocity, species, flight_);
+    set_mean_square(state.angular_velocity, species, rotation_);
+  }
+
+ private:
+  Drawn flight_, rotation_;
+};
+
+State without_velocities(const Scene& scene, std::size_t count) {
+  State state;
+  state.box = scene.needles.box;
+  state.position.resize(count);
+  state.velocity.resize(count);
+  state.orientation.resize(count);
+  state.angular_velocity.resize(count);
+  return state;
+}
+
 }  // namespace
 
-State draw_initial_state(const Scene& scene) {
-  require_drawable(scene);
-  const Scene::Needles& needles = scene.needles;
+State draw_needles(const Scene& scene) {
   const Composition composition = scene.composition();
-  State state;
-  state.box = needles.box;
-  const auto n = static_cast<std::size_t>(composition.count());
-  state.position.resize(n);
-  state.velocity.resize(n);
-  state.orientation.resize(n);
-  state.angular_velocity.resize(n);
-  if (n == 0) return state;
+  State state = without_velocities(scene, composition.count());
+  if (state.size() == 0) return state;
   std::vector<SpeciesIndex> species = composition.in_order_of_id();
-  const Drawn flight(
-      composition, [](const Species& s) { return 3 * s.t_tr / s.mass; },
-      [](const Species& s) { return s.mass; });
-  // <I w^2 / 2> = t_rot with I = m L^2 / (2 k).
-  const Drawn rotation(
-      composition,
-      [](const Species& s) { return 4 * s.k * s.t_rot / (s.mass * (s.length * s.length)); },
-      [](const Species& s) { return s.inertia(); });
+  const Velocities velocities(composition);
   const std::array<Gap, 3> gaps = gaps_of(scene);
-  for (std::size_t id = 0; id < n; ++id) {
+  for (std::size_t id = 0; id < state.size(); ++id) {
     StopRequest::check_in_turn(id);
-    NeedleRandom random(needles.seed, id);
-    draw_place(random, gaps, needles.box, 0.5 * composition[species[id]].length, state.position[id],
+    NeedleRandom random(scene.needles.seed, id);
+    draw_place(random, gaps, state.box, composition[species[id]], state.position[id],
                state.orientation[id]);
-    state.velocity[id] = random.normal();
-    for (double& v : state.velocity[id]) v *= flight.factors[species[id]];
-    state.angular_velocity[id] = normal_part(random.normal(), state.orientation[id]);
-    for (double& w : state.angular_velocity[id]) w *= rotation.factors[species[id]];
+    velocities.draw(random, species[id], state, id);
   }
   StopRequest::check();
-  if (n >= 2) remove_mean(state.velocity, species, flight.weights);
-  set_mean_square(state.velocity, species, flight);
-  set_mean_square(state.angular_velocity, species, rotation);
+  velocities.adjust(species, state);
   if (composition.is_mixture()) state.species = std::move(species);
   return state;
+}
+
+Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average) {
+  const Composition composition = scene.composition();
+  Insertion out{without_velocities(scene, composition.count()), 0, 0};
+  const std::vector<SpeciesIndex> species = composition.in_order_of_id();
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  RodGrid grid(composition, out.state.box, scene.periodic(), species.size());
+  for (std::size_t id = 0; id < species.size(); ++id) {
+    NeedleRandom random(scene.needles.seed, id);
+    bool placed = false;
+    const auto is_too_slow = [&] {
+      return static_cast<double>(out.tries) > most_on_average * static_cast<double>(species.size());
+    };
+    for (std::uint64_t n = 0; n < most_tries && !placed && !is_too_slow(); ++n) {
+      StopRequest::check_in_turn(out.tries++);
+      Vector &centre = out.state.position[id], &director = out.state.orientation[id];
+      draw_place(random, gaps, out.state.box, composition[species[id]], centre, director);
+      if (grid.overlap(centre, director, species[id], 0)) continue;
+      grid.enter(centre, director, species[id]);
+      placed = true;
+    }
+    if (!placed) return out;
+    ++out.placed;
+  }
+  if (composition.is_mixture()) out.state.species = species;
+  return out;
+}
+
+std::optional<State> place_rods_on_lattice(const Scene& scene) {
+  const Composition composition = scene.composition();
+  const std::array<Gap, 3> gaps = gaps_of(scene);
+  LatticeBox room;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Gap& gap = gaps[axis];
+    room.periodic[axis] = !gap.is_walled();
+    room.low[axis] = gap.low;
+    room.high[axis] = scene.needles.box[axis] + gap.high;
+  }
+  double length = 0;
+  for (const Species& each : composition.species()) length = std::max(length, each.length);
+  State state = without_velocities(scene, composition.count());
+  const auto lattice = rod_lattice(room, length, composition.widest(), state.size());
+  if (!lattice) return std::nullopt;
+  state.position = lattice->position;
+  std::fill(state.orientation.begin(), state.orientation.end(), lattice->director);
+  std::vector<SpeciesIndex> species = composition.in_order_of_id();
+  // Which rod is where is drawn, so that a mixture begins mixed.
+  for (std::size_t n = state.size(); n > 1; --n) {
+    NeedleRandom random(scene.needles.seed, n - 1);
+    const auto other = static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
+    std::swap(state.position[n - 1], state.position[other]);
+  }
+  if (composition.is_mixture()) state.species = std::move(species);
+  return state;
+}
+
+void draw_velocities(const Scene& scene, State& state) {
+  const Composition composition = scene.composition();
+  if (state.size() == 0) return;
+  const std::vector<SpeciesIndex> species = composition.in_order_of_id(state.species);
+  const Velocities velocities(composition);
+  for (std::size_t id = 0; id < state.size(); ++id) {
+    StopRequest::check_in_turn(id);
+    NeedleRandom random(scene.needles.seed, id, RandomFor::velocities_of_rods, 0);
+    velocities.draw(random, species[id], state, id);
+  }
+  velocities.adjust(species, state);
 }
 
 }  // namespace needlework

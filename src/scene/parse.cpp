@@ -16,6 +16,7 @@
 
 #include "needlework/error.h"
 #include "src/composition/pair_name.h"
+#include "src/scene/bodies.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
@@ -165,11 +166,27 @@ bool read_value(Scene& scene, const SceneKey& key, const Entry& entry) {
   return key.read(scene, entry.value);
 }
 
+// k of rods follows from their shape, where neither it nor their inertia is given.
+void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
+  if (!given.contains("needles.k") && scene.needles.diameter > 0)
+    scene.needles.k = homogeneous_k(1, scene.needles.diameter);
+  for (std::size_t n = 0; n < scene.species.size(); ++n) {
+    Species& species = scene.species[n];
+    const bool is_rod = species.diameter > 0 && species.turns();
+    if (is_rod && !given.contains(key_of_species("k", n)) && !species.given_inertia)
+      species.k = homogeneous_k(species.length, species.diameter);
+  }
+}
+
 // Sets the keys of [needles] and [initial] that the species replace: the temperatures to those of
 // all needles.
 void adopt_species(Scene& scene) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
+  for (std::size_t n = 0; n < composition.size(); ++n) {
+    scene.species[n].k = composition[n].k;  // which the moment of inertia may have given
+    scene.species[n].given_inertia.reset();
+  }
   // A file may tell counts that are left out.
   const bool all_given =
       scene.initial.file.empty() || !composition.is_mixture() ||
@@ -188,6 +205,7 @@ void adopt_species(Scene& scene) {
     scene.initial.t_tr = composition[0].t_tr;
     scene.initial.t_rot = composition[0].t_rot;
   }
+  scene.needles.diameter = composition[0].diameter;
   for (const auto& [from, to] :
        {std::pair("species.count", "needles.count"), std::pair("species.k", "needles.k")}) {
     const auto place = scene.places.find(from);
@@ -217,13 +235,14 @@ std::string_view conflict(const std::string& name, const std::set<std::string>& 
       (name == "output.series_per_decade" && has("output.series_every")))
     return "expected either series_per_decade or series_every, not both";
   const bool of_species = name.starts_with("species.");
-  for (const char* key : {"needles.count", "needles.k", "initial.t_tr", "initial.t_rot"}) {
+  for (const char* key :
+       {"needles.count", "needles.k", "needles.diameter", "initial.t_tr", "initial.t_rot"}) {
     const bool species_given =
         std::any_of(given.begin(), given.end(),
                     [](const std::string& other) { return other.starts_with("species."); });
     if ((of_species && has(key)) || (name == key && species_given))
-      return "expected either [[species]] or needles.count, needles.k and the temperatures of "
-             "[initial], not both";
+      return "expected either [[species]] or needles.count, needles.k, needles.diameter and the "
+             "temperatures of [initial], not both";
   }
   if (((name == "species.t_tr" || name == "species.t_rot") && has("initial.file")) ||
       (name == "initial.file" && (has("species.t_tr") || has("species.t_rot"))))
@@ -418,6 +437,8 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
   }
   require_names(scene, document, names);
   require_ids(scene, document, last_count);
+  adopt_shapes(scene, given);
+  require_possible_bodies(scene);
   // Where there are walls, the room depends on what they need.
   const bool box_given = given.contains("needles.box"), walled = !scene.walls.empty();
   if (box_given && !walled) require_room(scene, document, box);

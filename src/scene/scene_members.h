@@ -13,7 +13,7 @@ namespace needlework {
 /// Calls visit(section, key, member) for each member of Scene::Species, constant or not.
 template <class Species, class Visit>
 void visit_species(Species& species, Visit&& visit) {
-  auto& [name, count, length, mass, k, t_tr, t_rot] = species;
+  auto& [name, count, length, mass, k, t_tr, t_rot, diameter, given_inertia] = species;
   visit("species", "name", name);
   visit("species", "count", count);
   visit("species", "length", length);
@@ -21,6 +21,8 @@ void visit_species(Species& species, Visit&& visit) {
   visit("species", "k", k);
   visit("species", "t_tr", t_tr);
   visit("species", "t_rot", t_rot);
+  visit("species", "diameter", diameter);
+  visit("species", "inertia", given_inertia);
 }
 
 /// The same for each member of Scene::Pair.
@@ -80,17 +82,19 @@ void visit_members(AnyScene& scene, Visit&& visit) {
   visit("species", "", species);
   visit("pairs", "", pairs);
   {
-    auto& [count, box, k, seed] = needles;
+    auto& [count, box, k, diameter, seed] = needles;
     visit("needles", "count", count);
     visit("needles", "box", box);
     visit("needles", "k", k);
+    visit("needles", "diameter", diameter);
     visit("needles", "seed", seed);
   }
   {
-    auto& [t_tr, t_rot, file] = initial;
+    auto& [t_tr, t_rot, file, packing] = initial;
     visit("initial", "t_tr", t_tr);
     visit("initial", "t_rot", t_rot);
     visit("initial", "file", file);
+    visit("initial", "packing", packing);
   }
   {
     auto& [epsilon, beta, tc, tc_relative] = collisions;

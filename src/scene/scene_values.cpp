@@ -11,6 +11,7 @@
 
 #include "needlework/error.h"
 #include "needlework/parse.h"
+#include "src/scene/bodies.h"
 #include "src/scene/box_edges.h"
 #include "src/scene/confinement.h"
 #include "src/scene/derived_numbers.h"
@@ -168,13 +169,14 @@ std::vector<KeyValue> values_of(const Scene& scene) {
 
 void require_simulable(const Scene& scene) {
   require_in_range(scene, [&](std::string_view section, std::string_view key) {
-    if (section == "species") return is_among(key, {"length", "mass", "k"});
-    if (section == "needles") return key == "k" && scene.species.empty();
+    if (section == "species") return is_among(key, {"length", "mass", "k", "diameter", "inertia"});
+    if (section == "needles") return is_among(key, {"k", "diameter"}) && scene.species.empty();
     return section == "collisions" || section == "pairs" || section == "walls" ||
            section == "forces" || section == "driving" || section == "engine";
   });
   require_one_contact_time(scene.collisions);
   require_names(scene);
+  require_possible_bodies(scene);
   require_compatible_effects(scene);
 }
 
@@ -182,10 +184,11 @@ void require_drawable(const Scene& scene) {
   require_in_range(scene, [&](std::string_view section, std::string_view key) {
     if (section == "species") return key != "name";
     if (section == "needles")
-      return key == "box" || (is_among(key, {"count", "k"}) && scene.species.empty());
+      return key == "box" || (is_among(key, {"count", "k", "diameter"}) && scene.species.empty());
     if (section == "walls") return true;
     return section == "initial" && key != "file" && scene.species.empty();
   });
+  require_possible_bodies(scene);
   require_room(scene);
   const Composition composition = scene.composition();
   if (is_too_sparse(scene.needles.box, static_cast<double>(composition.count()),
@@ -198,6 +201,7 @@ void require_drawable(const Scene& scene) {
 void require_valid(const Scene& scene) {
   require_in_range(scene, [](std::string_view, std::string_view) { return true; });
   require_one_contact_time(scene.collisions);
+  require_possible_bodies(scene);
   require_compatible_effects(scene);
   require_walls_to_observe(scene);
   require_room(scene);

@@ -61,6 +61,11 @@ std::optional<double> temperature(const Value& value) {
   return x && (*x == 0 || *x >= least_temperature) ? x : std::nullopt;
 }
 
+std::optional<double> diameter(const Value& value) {
+  const auto x = number(value, 0, 1e6);
+  return x && (*x == 0 || *x >= 1e-6) ? x : std::nullopt;
+}
+
 std::optional<std::uint64_t> whole_number(const Value& value, std::uint64_t least,
                                           std::uint64_t greatest) {
   const auto* integer = value.as<std::int64_t>();
@@ -252,6 +257,8 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.needles.box, box(v)); }},
     {"needles", "k", "a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)",
      [](Scene& s, V v) { return store(s.needles.k, number(v, 1e-9, 1e9)); }},
+    {"needles", "diameter", "a diameter >= 0 (0 for thin needles, or from 1e-6 to 1e6)",
+     [](Scene& s, V v) { return store(s.needles.diameter, diameter(v)); }},
     {"needles", "seed", "a whole number in digits, from 0 to 9223372036854775807",
      [](Scene& s, V v) { return store(s.needles.seed, whole_number(v, 0, largest_seed)); }},
 
@@ -261,12 +268,18 @@ const SceneKey keys[] = {
      }},
     {"species", "count", "a whole number in digits, from 0 to 4294967294",
      [](Scene& s, V v) { return store(s.species.back().count, whole_number(v, 0, most_needles)); }},
-    {"species", "length", "a number > 0 (from 1e-6 to 1e6)",
-     [](Scene& s, V v) { return store(s.species.back().length, number(v, 1e-6, 1e6)); }},
+    {"species", "length", "a number > 0 (from 1e-6 to 1e6), or 0 for spheres",
+     [](Scene& s, V v) { return store(s.species.back().length, diameter(v)); }},
+    {"species", "diameter", "a diameter >= 0 (0 for thin needles, or from 1e-6 to 1e6)",
+     [](Scene& s, V v) { return store(s.species.back().diameter, diameter(v)); }},
     {"species", "mass", "a number > 0 (from 1e-100 to 1e100)",
      [](Scene& s, V v) { return store(s.species.back().mass, number(v, 1e-100, 1e100)); }},
     {"species", "k", "a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)",
      [](Scene& s, V v) { return store(s.species.back().k, number(v, 1e-9, 1e9)); }},
+    {"species", "inertia", "a number > 0 (from 1e-200 to 1e200), in place of k",
+     [](Scene& s, V v) {
+       return store(s.species.back().given_inertia, number(v, 1e-200, 1e200));
+     }},
     {"species", "t_tr", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
      [](Scene& s, V v) { return store(s.species.back().t_tr, temperature(v)); }},
     {"species", "t_rot", "a temperature >= 0 (0, or from 1e-200 to 1e200)",
@@ -278,6 +291,10 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.initial.t_rot, temperature(v)); }},
     {"initial", "file", "the path of an H5MD file",
      [](Scene& s, V v) { return store(s.initial.file, path_to_read(v)); }},
+    {"initial", "packing", R"("auto", "insertion" or "lattice")",
+     [](Scene& s, V v) {
+       return store(s.initial.packing, one_of(v, {"auto", "insertion", "lattice"}));
+     }},
 
     {"collisions", "epsilon", "a number from 0 to 1",
      [](Scene& s, V v) { return store(s.collisions.epsilon, number(v, 0, 1)); }},

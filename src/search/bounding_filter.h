@@ -4,6 +4,7 @@
 #include "kernels/bounding_spheres.h"
 #include "needlework/counters.h"
 #include "src/physics/gas.h"
+#include "src/search/lengths.h"
 #include "src/search/search.h"
 
 namespace needlework {
@@ -17,8 +18,8 @@ class BoundingFilter {
         counters_(counters),
         lengths_(lengths),
         now_(query.now),
-        ahead_(query.ahead),
-        half_(lengths.half_length(query.needle)) {
+        needle_(query.needle),
+        ahead_(query.ahead) {
     const auto motion = gas.motion_from(gas.records[query.needle], now_);
     centre_ = motion.centre();
     v_ = motion.velocity();
@@ -30,7 +31,7 @@ class BoundingFilter {
     const auto other = gas_.motion_from(gas_.records[j], now_);
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
     const Vec3d r = (centre_ - other.centre()) - image;
-    const double reach = half_ + lengths_.half_length(j);
+    const double reach = reach_of(lengths_, needle_, j);
     if (kernels::spheres_stay_apart(r, v_ - other.velocity(), reach, ahead_)) {
       ++counters_.filtered;
     } else {
@@ -47,7 +48,8 @@ class BoundingFilter {
   Counters& counters_;
   const L& lengths_;
   Time now_;
-  double ahead_, half_;
+  Needle needle_;
+  double ahead_;
   Vec3d centre_, v_;
 };
 

@@ -63,19 +63,23 @@ void store(float (&to)[3], const Vec3d& a) {
 
 }  // namespace
 
-ClassCells::ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length,
-                       bool falls)
+ClassCells::ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& its_grid,
+                       double per_length)
     : kind(sizes.kind),
-      longest(sizes.longest),
       radius(sizes.capsule_radius),
+      longest_half(static_cast<float>(0.5 * sizes.axis * per_length)),
       grid(its_grid),
       cells(grid.size(), sizes.count) {
   const auto sides = grid.sides();
+  const double diameter = gas.composition.widest();
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
+    if (diameter > 0) longest_half += static_cast<float>(diameter * per_length);
+  } else {
+    around_axis = static_cast<float>((radius + 0.5 * diameter) * per_length);
   }
   const double side = std::max({sides[0], sides[1], sides[2]});
-  if (falls) most_fallen = fallen_of_side * std::min(side, longest);
+  if (gas.falls) most_fallen = fallen_of_side * std::min(side, sizes.longest);
   const double low = -overlap - most_fallen, widest = side + overlap + most_fallen;
   format = kernels::WordFormat::holding(low * per_length, widest * per_length);
   margin = kernels::margin_of_lengths(widest * per_length);
@@ -96,7 +100,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
   grid = one ? wished.front() : coarsest(wished, gas.box);
   for (std::size_t c = 0; c < wished.size(); ++c) {
     const CellGrid its_grid = one ? grid : division_near(gas, grid, wished[c]);
-    classes.push_back(std::make_unique<ClassCells>(sizes.all[c], its_grid, per_length, gas.falls));
+    classes.push_back(std::make_unique<ClassCells>(gas, sizes.all[c], its_grid, per_length));
     const ClassCells& made = *classes.back();
     // What words round is far less than what Phase adds to the length of a needle, unless cells are
     // very much longer than that.

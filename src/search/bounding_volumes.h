@@ -29,12 +29,16 @@ namespace needlework {
 
 /// The cells of one size class, and the needles in them.
 struct ClassCells {
-  /// `falls` is whether there is gravity.
-  ClassCells(const SizeClass& sizes, const CellGrid& its_grid, double per_length, bool falls);
+  ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& its_grid, double per_length);
 
   BoundingVolume kind;
-  double longest;  ///< length of the longest needle of the class [L]
-  double radius;   ///< of capsules; else 0 [L]
+  double radius;  ///< how far needles move in their capsules; else 0 [L]
+  /// Capsules around axes have this radius, half the largest diameter more; else 0.
+  /// [unit of length]
+  float around_axis = 0;
+  /// Half the longest axis; in cells, the largest distance of axes in contact more.
+  /// [unit of length]
+  float longest_half;
   CellGrid grid;
   double overlap = 0;          ///< how far a needle may go beyond its cell; 0 for capsules [L]
   kernels::WordFormat format;  ///< of the words in blocks

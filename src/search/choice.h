@@ -16,7 +16,7 @@ inline double mean_length(const Composition& composition) {
   const double longest = composition.longest();
   double sum = 0, count = 0;
   for (const Species& each : composition.species()) {
-    sum += static_cast<double>(each.count) * (each.length / longest);
+    sum += static_cast<double>(each.count) * (each.extent() / longest);
     count += static_cast<double>(each.count);
   }
   return count > 0 ? sum / count : 1;

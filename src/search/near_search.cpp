@@ -32,6 +32,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       counters_(counters),
       kernels_(kernels::near_kernels(setup.isa)),
       follows_(setup.float_filter),
+      widest_(static_cast<float>(gas.composition.widest() * volumes_->per_length)),
       looks_(volumes_->classes.size()) {}
 
 NearSearch::NearSearch(const NearSearch& other, Counters& counters)
@@ -40,6 +41,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       counters_(counters),
       kernels_(other.kernels_),
       follows_(other.follows_),
+      widest_(other.widest_),
       looks_(volumes_->classes.size()) {}
 
 Time NearSearch::place(Needle i, Time now, double half_length) {
@@ -54,7 +56,7 @@ inline void NearSearch::make_seeker(Needle i, const ClassCells& own, double ahea
   seeker.now = seeker.motion.time;
   seeker.ahead = static_cast<float>(ahead * volumes.per_time * roundup + kernels::time_margin);
   seeker.margin = own.margin;
-  seeker.longest_half = static_cast<float>(0.5 * own.longest * volumes.per_length);
+  seeker.longest_half = own.longest_half;
   seeker.needle = i.index;
   if (own.kind == BoundingVolume::capsule) {
     const NeedleCells::Slot& slot = volumes.places[i].slot;
@@ -86,7 +88,7 @@ inline void NearSearch::seen_from(const ClassCells& own, Look& look) const {
   // The rounding of the seeker's place, in its own cell and in this one.
   seeker.margin = own.margin + there.margin;
   if (capsule) seeker.margin += static_cast<float>(own.format.step());
-  seeker.longest_half = static_cast<float>(0.5 * there.longest * volumes.per_length);
+  seeker.longest_half = there.longest_half;
 }
 
 // What the needle sweeps: the axis of its capsule, or its path in the time ahead.
@@ -104,11 +106,9 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
   // length and both radii. The margins cover the rounding of the seeker's place in its cell, and
   // that of distances below, which grows with the sides of cells; the factor covers what grows with
   // the reach.
-  const auto radius_of = [&](const ClassCells& cells) {
-    return static_cast<float>(cells.radius * volumes.per_length);
-  };
   look.distance =
-      (capsule ? radius_of(own) : half) + (to_capsules ? radius_of(there) : longest_half);
+      (capsule ? own.around_axis : half) + (to_capsules ? there.around_axis : longest_half);
+  if (looks_.size() > 1 && to_capsules && !capsule) look.distance += 0.5f * widest_;
   look.reach = look.distance + (static_cast<float>(volume_margin) + 2 * seeker.margin);
   if (to_capsules) look.reach += longest_half + static_cast<float>(there.format.step());
   if (volumes.falls && looks_.size() > 1 && !(capsule && to_capsules)) {
@@ -312,8 +312,7 @@ inline kernels::Scan NearSearch::scan(const ClassCells& own, const Look& look,
       look.views,           there.format,       in_cache ? nullptr : volumes.motions.data()};
   const bool paths = there.kind == BoundingVolume::cell;
   if (&own == &there && !paths) {
-    const auto radius = static_cast<float>(own.radius * volumes.per_length);
-    return kernels_.overlapping(around, look.seeker, radius, found);
+    return kernels_.overlapping(around, look.seeker, own.around_axis, found);
   }
   if (!paths) return kernels_.near_capsules(around, look.seeker, look.distance, found);
   if (own.kind == BoundingVolume::capsule) {
@@ -360,7 +359,8 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
     from[k] = hit ? apart : 0;
     if (hit && !parts) propose(found, k, 0);
   }
-  counters_.bracket_steps += kernels_.bracket(seeker, pairs, count);
+  counters_.bracket_steps += widest_ > 0 ? kernels_.bracket_rods(seeker, pairs, count, widest_)
+                                         : kernels_.bracket(seeker, pairs, count);
   for (std::size_t k = 0; k < count; ++k) {
     if (from[k] <= seeker.ahead) propose(found, k, from[k] / volumes.per_time);
   }

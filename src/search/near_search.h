@@ -120,6 +120,7 @@ class NearSearch {
   Counters& counters_;
   const kernels::NearKernels& kernels_;
   bool follows_;             ///< whether pairs are followed by SIMD before they are proposed
+  float widest_;             ///< largest distance of axes in contact [unit of length]
   std::vector<Look> looks_;  ///< the own class first
   std::vector<CellGrid::AxisCell> near_[3];
   std::vector<kernels::CellView> views_;

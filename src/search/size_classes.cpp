@@ -26,17 +26,19 @@ SizeClasses grouped_by_length(const Gas& gas) {
   std::vector<std::size_t> by_length(species.size());
   std::iota(by_length.begin(), by_length.end(), std::size_t{0});
   std::stable_sort(by_length.begin(), by_length.end(), [&](std::size_t a, std::size_t b) {
-    return species[a].length > species[b].length;
+    return species[a].extent() > species[b].extent();
   });
   const std::vector<std::size_t> counts = counts_of_species(gas);
   SizeClasses out;
   out.of_species.resize(species.size());
   for (const std::size_t s : by_length) {
     if (counts[s] == 0) continue;
-    if (out.all.empty() || species[s].length * most_unequal < out.all.back().longest) {
-      out.all.emplace_back().longest = species[s].length;
+    if (out.all.empty() || species[s].extent() * most_unequal < out.all.back().longest) {
+      out.all.emplace_back().longest = species[s].extent();
     }
-    out.all.back().count += counts[s];
+    SizeClass& last = out.all.back();
+    last.count += counts[s];
+    last.axis = std::max(last.axis, species[s].length);
     out.of_species[s] = static_cast<std::uint8_t>(out.all.size() - 1);
   }
   return out;
@@ -67,6 +69,9 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
     out.all = {{gas.longest, gas.size(), kind}};
     out.of_species.assign(gas.composition.size(), 0);
     SizeClass& one = out.all.front();
+    for (const Species& each : gas.composition.species()) {
+      one.axis = std::max(one.axis, each.length);
+    }
     one.cell_side = setup.cell_side.value_or(
         length * (cells ? auto_cell_side(by_mean) : auto_side_for_capsules(by_mean)));
     if (!cells)

@@ -17,11 +17,12 @@ namespace needlework {
 
 /// One class of needles and what the search chooses for it.
 struct SizeClass {
-  double longest = 0;     ///< length of its longest species [L]
+  double longest = 0;     ///< largest extent of its species [L]
   std::size_t count = 0;  ///< number of its needles
   BoundingVolume kind = BoundingVolume::cell;
   double cell_side = 0;       ///< wished for [L]
-  double capsule_radius = 0;  ///< 0 for cells [L]
+  double capsule_radius = 0;  ///< around the axis and its width; 0 for cells [L]
+  double axis = 0;            ///< length of its longest axis [L]
 };
 
 struct SizeClasses {

@@ -7,14 +7,14 @@
 //     (1 + epsilon) / M_n (-2 c_n + (1 + epsilon) y_n sigma^2 / M_n)
 //     - (1 + beta) tr(M^-1 C) + (1 + beta)^2 / 2 tr(M^-1 S M^-1 Y),
 // with C = (T/m) 1 and Y = 1/m for translation, C = (T_rot s^2/I) P and Y = (s^2/I) P for rotation.
-// Directors at a contact have the density (2/pi) sin^2 of the angle between them.
+// Directors at a contact have the density (2/pi) sin^2 of the angle between them. The caps of
+// smooth rods have contacts of another density, with s^2 |u x n|^2 in place of s^2.
 #include "src/theory/mixture_law.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "src/theory/graded_rule.h"
 #include "src/theory/requirements.h"
 
 namespace needlework::theory {
@@ -50,6 +50,29 @@ Matrix between(const Matrix& a, const Matrix& b) {
 // kind.
 constexpr int angles = 48;
 
+// The contact points that one body has: of each, the moment of inertia's share, s^2 / I normal to
+// the direction of the impulse, and a weight [L, or 1 for caps].
+std::vector<Node> along_axis(const Species& species, double masses) {
+  if (!species.turns()) return {};
+  const double half = species.length / 2;
+  const double feature = std::sqrt(1 + half * half / species.inertia() / masses);
+  std::vector<Node> out = graded_rule(half, 0.02 * half / feature);
+  for (auto& [s, weight] : out) {
+    s = s * s / species.inertia();
+    weight *= 2;
+  }
+  return out;
+}
+
+// All directions of the impulse are alike for a cap: (L/2)^2 (1 - mu^2), mu uniform.
+std::vector<Node> of_caps(const Species& species, double masses) {
+  if (!species.turns()) return {{0, 1}};
+  const double square = 0.25 * species.length * species.length / species.inertia();
+  std::vector<Node> out = graded_rule(1, 0.02 / (1 + square / masses));
+  for (auto& [x, weight] : out) x = square * (x * (2 - x));
+  return out;
+}
+
 }  // namespace
 
 MixtureLaw::MixtureLaw(const Composition& composition, double volume, WithoutPairs)
@@ -72,21 +95,31 @@ MixtureLaw::Pair MixtureLaw::tabulated(std::size_t first, std::size_t second) co
 
 void MixtureLaw::tabulate(Pair& pair) const {
   const Species &a = composition_[pair.first], &b = composition_[pair.second];
+  const double masses = 1 / a.mass + 1 / b.mass;
+  const double distance = composition_.contact_distance(pair.first, pair.second);
+  // Contacts of a pair per volume and time are <<sigma>> / sqrt(2 pi), with the surface of the
+  // body that the centre of one is excluded from by the other: faces (pi/2) L L', sides 2 pi D L
+  // and 2 pi D L', caps 4 pi D^2. Needles have faces alone.
+  const auto axis_a = along_axis(a, masses), axis_b = along_axis(b, masses);
+  tabulate(pair, axis_a, axis_b, std::sqrt(std::numbers::pi / 8));
+  if (distance == 0) return;
+  const auto caps_a = of_caps(a, masses), caps_b = of_caps(b, masses);
+  const double side = std::sqrt(2 * std::numbers::pi) * distance;
+  tabulate(pair, caps_a, axis_b, side);
+  tabulate(pair, axis_a, caps_b, side);
+  tabulate(pair, caps_a, caps_b, 2 * side * distance);
+}
+
+void MixtureLaw::tabulate(Pair& pair, std::span<const Node> first, std::span<const Node> second,
+                          double unit) const {
+  const Species &a = composition_[pair.first], &b = composition_[pair.second];
   const bool rough = composition_.restitution(pair.first, pair.second).is_rough();
   const double masses = 1 / a.mass + 1 / b.mass;
-  const auto arms = [&](const Species& species) {
-    const double half = species.length / 2;
-    const double feature = std::sqrt(1 + half * half / species.inertia() / masses);
-    return graded_rule(half, 0.02 * half / feature);
-  };
-  // Contacts of a pair of needles per volume and time are sqrt(pi / 8) L L' <sigma>, with the mean
-  // over a quarter of the square of arms.
-  const double unit = std::sqrt(std::numbers::pi / 8) * 4;
-  for (const auto& [s, weight_s] : arms(a)) {
-    for (const auto& [t, weight_t] : arms(b)) {
-      Contact contact{.weight = unit * weight_s * weight_t,
-                      .first = s * s / a.inertia(),
-                      .second = t * t / b.inertia(),
+  for (const auto& [share_a, weight_a] : first) {
+    for (const auto& [share_b, weight_b] : second) {
+      Contact contact{.weight = unit * weight_a * weight_b,
+                      .first = share_a,
+                      .second = share_b,
                       .normal = 0,
                       .once = {},
                       .twice = {}};

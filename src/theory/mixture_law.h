@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "needlework/theory.h"
+#include "src/theory/graded_rule.h"
 
 namespace needlework::theory {
 
@@ -43,6 +44,8 @@ class MixtureLaw {
   Pair tabulated(std::size_t first, std::size_t second) const;
   MixtureRates no_rates(std::span<const Temperatures> now) const;
   void tabulate(Pair& pair) const;
+  void tabulate(Pair& pair, std::span<const Node> first, std::span<const Node> second,
+                double unit) const;
   void add(const Pair& pair, std::span<const Temperatures> now, MixtureRates& out) const;
 
   Composition composition_;

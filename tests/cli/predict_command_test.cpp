@@ -86,13 +86,27 @@ TEST_F(PredictCommand, NamesTheBadPlaceAndPrintsNoResults) {
   expect(15, "nan", "r2x = nan: expected a finite number");
   expect(26, "1e999", "w2z = 1e999: expected a number that a double can hold");
   expect(27, "2", "skip = 2: expected 0 or 1");
-  expect(27, "0,1", "29 = 1: expected 28 columns, found 29");
+  expect(27, "0,1", "Lb = (missing): expected 28 columns, or 32 with La, Lb, Da, Db, found 29");
   expect(6, "0", "u1 = (0, 0, 0): expected a director that is not 0");
   expect(0, "", "id = (empty): expected a name or number");
   const Outcome cut = run_on(std::string("\n").append(meets, 0, meets.size() - 2));
   EXPECT_EQ(cut.exit_code, 3);
   EXPECT_TRUE(
-      cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, found 27"));
+      cut.complains("pairs.csv: line 2: column skip = (missing): expected 28 columns, "
+                    "or 32 with La, Lb, Da, Db, found 27"));
+}
+
+// Two spheres of diameter 1 that fly at each other meet when their centres are 1 apart; crossed
+// rods do so before needles, which meet where they cross.
+TEST_F(PredictCommand, TakesLengthsAndDiameters) {
+  const std::string head_on = "a,,10,0,0,0,1,0,0,1,0,0,0,0,0,5,0,0,0,1,0,-1,0,0,0,0,0,0";
+  const std::string crossed = "b,,10,0,0,0,1,0,0,0,0,1,0,0,0,0,0,5,0,1,0,0,0,0,0,0,0,0";
+  const Outcome outcome = run_on(head_on + ",0,0,1,1\n" + crossed + "\n" + crossed +
+                                 ",1,1,0.5,0.5\n" + crossed + ",3,1,0,0\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "a,2,0,0\nb,5,0,0\nb,4.5,0,0\nb,5,0,0\n");
+  EXPECT_TRUE(run_on(crossed + ",1,1,0.5,0\n").complains("there is no contact between the two"));
+  EXPECT_TRUE(run_on(crossed + ",1,1,12,12\n").complains("the rods overlap"));
 }
 
 // Finite numbers with which a prediction would take too long, or would overflow.

@@ -79,7 +79,7 @@ CodeByLoop read_library() {
   const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
   const std::regex loop(
       "<needlework::EventProcessor<needlework::(\\w+), "
-      "needlework::NeedleModel<(true|false)> *>::collide\\(");
+      "needlework::NeedleModel<(true|false), needlework::NeedleContact> *>::collide\\(");
   std::string object;
   CollideCode* code = nullptr;
   char buffer[1 << 16];  // names of templates are long
@@ -93,8 +93,8 @@ CodeByLoop read_library() {
       if (!std::regex_search(symbol, match, loop)) continue;
       code = &out[object + ", " + match[1].str()][match[2] == "true"];
     } else if (code && line.find("R_") != line.npos) {
-      code->smooth_calls += line.find("needlework::collide<true>") != line.npos;
-      code->rough_calls += line.find("needlework::collide<false>") != line.npos;
+      code->smooth_calls += line.find("needlework::collide<(needlework::Surface)0>") != line.npos;
+      code->rough_calls += line.find("needlework::collide<(needlework::Surface)1>") != line.npos;
     } else if (code && line.find(":\t") != line.npos) {
       code->contact_times += std::regex_search(line, contact_time);
       code->species += std::regex_search(line, species);

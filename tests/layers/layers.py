@@ -41,9 +41,9 @@ LAYERS = [
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
     # Which calendars a scene may name is what the list of calendars says.
     Layer("scene", ["src/scene"],
-          ["scene.h", "parse.h", "state.h", "initial_state.h", "user_data.h"],
+          ["scene.h", "parse.h", "state.h", "user_data.h"],
           ["base", "machine", "archive", "composition", "random", "kernels", "calendar"]),
-    Layer("engine", ["src/engine"], ["simulation.h"],
+    Layer("engine", ["src/engine"], ["simulation.h", "initial_state.h"],
           ["base", "memory", "machine", "archive", "composition", "random", "kernels", "trajectory",
            "scene", "physics", "effects", "search", "calendar"]),
     Layer("observe", ["src/observe"], [],

@@ -36,8 +36,11 @@ struct Encounter {
   template <bool smooth>
   Impact collide() const {
     const Body body = body_of(Species{.length = 1, .mass = 1, .k = k});
-    return needlework::collide<smooth>(
-        {first.v, first.w, second.v, second.w, body, body, contact, side}, restitution);
+    return needlework::collide < smooth
+               ? Surface::smooth
+               : Surface::rough >
+                     ({first.v, first.w, second.v, second.w, body, body, contact, side},
+                      restitution);
   }
 };
 

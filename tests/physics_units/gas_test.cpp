@@ -282,7 +282,7 @@ TEST(Species, OfUnitLengthAndMassHasTheBodyOfNeedlesWithoutATable) {
     EXPECT_EQ(body.half_length, 0.5);
     EXPECT_EQ(body.inverse_mass, 1);
     EXPECT_EQ(body.inverse_inertia, 2 * k);
-    EXPECT_EQ(body.length(), 1);
+    EXPECT_EQ(2 * body.half_length, 1);
   }
   EXPECT_FALSE(is_unit(Species{.length = 1, .mass = 2}));
   EXPECT_FALSE(is_unit(Species{.length = std::nextafter(1, 0), .mass = 1}));
@@ -300,7 +300,7 @@ TEST(Gas, KnowsTheBodiesOfItsSpecies) {
   // I = m L^2 / (2 k)
   EXPECT_EQ(gas.bodies[0].inverse_inertia, 4);
   EXPECT_EQ(gas.composition[0].inertia(), 0.25);
-  EXPECT_EQ(gas.bodies[1].length(), 3);
+  EXPECT_EQ(2 * gas.bodies[1].half_length, 3);
   EXPECT_EQ(gas.bodies[1].inverse_mass, 4);
   EXPECT_EQ(gas.bodies[1].inverse_inertia, 12 / (0.25 * 9));
   gas.records[1].species = 1;

@@ -194,7 +194,7 @@ void expect_messages(const std::vector<BadScene>& table) {
 }
 
 TEST(BadScene, UnknownKeyComesWithSuggestion) {
-  const std::string of_needles = "expected one of count, box, k, seed";
+  const std::string of_needles = "expected one of count, box, k, diameter, seed";
   const std::string of_engine =
       "expected one of search, queue, accuracy, isolation, escalation, filter, root_tolerance, "
       "sampling_step, threads, team, isa, cell_side, capsule_radius, storage";

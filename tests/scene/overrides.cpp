@@ -103,8 +103,9 @@ TEST(Override, IsNamedInItsError) {
   EXPECT_EQ(message_of_overrides({"needles.count="}), "--set needles.count=: " + count);
   EXPECT_EQ(message_of_overrides({"needles.count=99999999999999999999"}),
             "--set needles.count=99999999999999999999: " + count);
-  EXPECT_EQ(message_of_overrides({"needles.cuont=5"}),
-            "--set needles.cuont=5: expected one of count, box, k, seed, did you mean count?");
+  EXPECT_EQ(
+      message_of_overrides({"needles.cuont=5"}),
+      "--set needles.cuont=5: expected one of count, box, k, diameter, seed, did you mean count?");
   EXPECT_EQ(
       message_of_overrides({"neddles.count=5"}),
       "--set neddles.count=5: expected one of the sections needles, species, initial, collisions, "

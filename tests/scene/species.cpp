@@ -24,7 +24,8 @@ count = 10
 
 )";
 const std::string not_both =
-    "expected either [[species]] or needles.count, needles.k and the temperatures of [initial], "
+    "expected either [[species]] or needles.count, needles.k, needles.diameter and the "
+    "temperatures of [initial], "
     "not both";
 
 TEST(Species, HasDefaults) {
@@ -90,12 +91,13 @@ TEST(Species, CanBeOverridden) {
 
 TEST(BadSpecies, IsNamedWithItsLine) {
   const std::string count = "expected a whole number in digits, from 0 to 4294967294";
-  const std::string length = "expected a number > 0 (from 1e-6 to 1e6)";
+  const std::string length = "expected a number > 0 (from 1e-6 to 1e6), or 0 for spheres";
   const std::string mass = "expected a number > 0 (from 1e-100 to 1e100)";
   const std::string k = "expected a number > 0 (from 1e-9 to 1e9; 6 is a uniform rod)";
   const std::string temperature = "expected a temperature >= 0 (0, or from 1e-200 to 1e200)";
   const std::string name = "expected a name without control characters, not empty";
-  const std::string keys = "expected one of name, count, length, mass, k, t_tr, t_rot";
+  const std::string keys =
+      "expected one of name, count, length, diameter, mass, k, inertia, t_tr, t_rot";
   const std::string either = "expected either file or temperatures to draw, not both";
   // The keys of [needles] in one section.
   const auto least_of = [](const std::string& key) {
@@ -148,7 +150,9 @@ TEST(BadSpecies, IsNamedWithItsLine) {
       {head + "name = 5", "s.toml: line 4: species.name = 5: " + name},
       {head + "count = -1", "s.toml: line 4: species.count = -1: " + count},
       {head + "count = 1.5", "s.toml: line 4: species.count = 1.5: " + count},
-      {least_species + "length = 0", "s.toml: line 7: species.length = 0: " + length},
+      {least_species + "length = 0",
+       "s.toml: line 7: species.length = 0: expected a length above 0, or a diameter, which makes "
+       "it a sphere"},
       {least_species + "length = nan", "s.toml: line 7: species.length = nan: " + length},
       {least_species + "length = 2e6", "s.toml: line 7: species.length = 2e6: " + length},
       {least_species + "mass = -1", "s.toml: line 7: species.mass = -1: " + mass},
@@ -245,11 +249,12 @@ TEST(BadSpecies, CannotBeMadeByOverrides) {
             "--set species.length=2: expected a scene with an entry [[species]]");
   EXPECT_EQ(message(least_species, {"species.length=2"}), "no error");
   EXPECT_EQ(message(least_species, {"species.length=-2"}),
-            "--set species.length=-2: expected a number > 0 (from 1e-6 to 1e6)");
+            "--set species.length=-2: expected a number > 0 (from 1e-6 to 1e6), or 0 for spheres");
   EXPECT_EQ(message(least_species, {"needles.count=5"}), "--set needles.count=5: " + not_both);
   EXPECT_EQ(message(least_species, {"initial.t_tr=5"}), "--set initial.t_tr=5: " + not_both);
   EXPECT_EQ(message(least_species, {"species.lenght=5"}),
-            "--set species.lenght=5: expected one of name, count, length, mass, k, t_tr, t_rot, "
+            "--set species.lenght=5: expected one of name, count, length, diameter, mass, k, "
+            "inertia, t_tr, t_rot, "
             "did you mean length?");
 }
 

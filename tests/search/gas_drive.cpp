@@ -354,7 +354,7 @@ void GasDrive::bounce(Needle i, double epsilon) {
   now_ = then;
   const kernels::ContactGeometry at =
       contact_geometry(pair_in_order(gas_, a, b, shift), gas_.clock.exact_difference(now_, start));
-  const Impact impact = collide<true>(
+  const Impact impact = collide<Surface::smooth>(
       {first.flight.v, first.flight.w, second.flight.v, second.flight.w, gas_.bodies[first.species],
        gas_.bodies[second.species], at, next->contact.side},
       {.epsilon = epsilon, .beta = -1});

@@ -163,7 +163,7 @@ class ReferenceGas {
                                   scene_.collisions.beta};
     const needlework::Body body =
         body_of(Species{.name = {}, .length = 1, .mass = 1, .k = scene_.needles.k});
-    const Impact impact = needlework::collide<false>(
+    const Impact impact = needlework::collide<Surface::rough>(
         {a.flight.v, a.flight.w, b.flight.v, b.flight.w, body, body, contact, side}, restitution);
     Collision report;
     report.epoch = static_cast<std::int64_t>(std::floor(now / reference_epoch));

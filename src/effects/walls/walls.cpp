@@ -20,6 +20,12 @@ constexpr unsigned bits_of_tips = 12;
 
 double sign_of(int tip) { return tip == 0 ? 1 : -1; }
 
+// Of a tip along the normal of a wall: velocity per impulse. `share` is the director's component.
+double mobility_of(const Species& species, double arm, double share) {
+  if (!species.turns()) return 1 / species.mass;
+  return 1 / species.mass + arm * arm / species.inertia() * (1 - share * share);
+}
+
 }  // namespace
 
 Walls::Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeOfWalls contact_time)
@@ -84,10 +90,14 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   Time latest = until;
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
+    const Species& species = gas.species_of(record);
+    // The caps of rods touch where the ends of their axes are half a diameter away.
+    kernels::WallPlane plane = wall.plane;
+    plane.place += plane.normal * (0.5 * species.diameter);
     const kernels::WallApproach approach{.flight = &record.flight,
                                          .gravity = component(gas.gravity, wall.plane.axis),
-                                         .half = 0.5 * gas.species_of(record).length,
-                                         .wall = wall.plane,
+                                         .half = 0.5 * species.length,
+                                         .wall = plane,
                                          .turns = turns_at(gas.clock, wall, record.time),
                                          .touching = touching(record, i, n),
                                          .tolerance = gas.touch_tolerance(),
@@ -112,16 +122,18 @@ void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const V
   const Species& species = at.species;
   const double temperature = wall.temperature, inertia = species.inertia();
   const double share = component(at.director, wall.plane.axis);
-  const double mobility = 1 / species.mass + arm * arm / inertia * (1 - share * share);
+  const double mobility = mobility_of(species, arm, share);
   NeedleRandom random(seed_, at.id.value, RandomFor::thermal_wall, (*draws_)[at.needle]++);
   const Vec3d v = vector_of(random.normal()) * std::sqrt(temperature / species.mass);
-  const Vec3d w =
-      project_out(vector_of(random.normal()) * std::sqrt(temperature / inertia), at.director);
+  const double spread = species.turns() ? std::sqrt(temperature / inertia) : 0;
+  const Vec3d w = project_out(vector_of(random.normal()) * spread, at.director);
   const double drawn = dot(v + cross(w, at.director) * arm, normal);
   const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
   const double impulse = (leaving - drawn) / mobility;
   outcome.velocity = v + normal * (impulse / species.mass);
-  outcome.angular_velocity = w + cross(at.director, normal) * (arm * impulse / inertia);
+  outcome.angular_velocity = w;
+  if (species.turns())
+    outcome.angular_velocity += cross(at.director, normal) * (arm * impulse / inertia);
   // The impulse that the wall has given, along its normal and besides.
   outcome.impulse = (outcome.velocity - at.velocity) * species.mass;
   const auto energy = [&](const Vec3d& its_v, const Vec3d& its_w) {
@@ -157,13 +169,14 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     leave_with_temperature(at, wall, normal, arm, out);
     out.normal_impulse = dot(out.impulse, normal);
   } else {
-    const double share = component(at.director, wall.plane.axis), inertia = species.inertia();
-    const double mobility = 1 / species.mass + arm * arm / inertia * (1 - share * share);
+    const double mobility = mobility_of(species, arm, component(at.director, wall.plane.axis));
     const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
     const double impulse = -(1 + epsilon) * out.normal_velocity / mobility;
     out.velocity = at.velocity + normal * (impulse / species.mass);
-    out.angular_velocity =
-        at.angular_velocity + cross(at.director, normal) * (arm * impulse / inertia);
+    out.angular_velocity = at.angular_velocity;
+    if (species.turns()) {
+      out.angular_velocity += cross(at.director, normal) * (arm * impulse / species.inertia());
+    }
     out.impulse = normal * impulse;
     out.normal_impulse = impulse;
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
@@ -173,7 +186,8 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   const bool same_instant = before >> bits_of_tips == at.record.serial && at.record.time == at.now;
   const std::uint64_t tips = same_instant ? before & ((1u << bits_of_tips) - 1) : 0;
   touching_[at.needle] =
-      std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips | std::uint64_t{1} << detail;
+      std::uint64_t{at.record.serial + 1u} << bits_of_tips | tips |
+      (species.turns() ? std::uint64_t{1} << detail : std::uint64_t{3} << (2 * n));
   return out;
 }
 

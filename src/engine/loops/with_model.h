@@ -8,6 +8,7 @@ namespace needlework {
 /// Calls make.operator()<M>() with the model for these effects.
 template <class Make>
 auto with_model(const Effects& effects, Make&& make) {
+  if (effects.width) return make.template operator()<RodModel>();
   return effects.any() ? make.template operator()<NeedleModel<true>>()
                        : make.template operator()<NeedleModel<false>>();
 }

@@ -113,6 +113,11 @@ static void transfer(Archive& archive, Material& material) {
 static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
+  if (!read_numbers(source, "/parameters/diameter").empty()) {
+    throw InputError(fmt::format(
+        "{}: rods of finite width: expected thin needles, as which other formats are written",
+        source.place("/parameters/diameter")));
+  }
   material.length = read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
   material.mass = read_positive(source, "/parameters/mass");

@@ -1,0 +1,34 @@
+// The parts of which drawn initial states are made.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "needlework/scene.h"
+#include "needlework/state.h"
+
+namespace needlework {
+
+// The scene is one that can be drawn, see require_drawable(). All are pure functions of its seed.
+
+/// Needles with their velocities: the equilibrium of an ideal gas.
+State draw_needles(const Scene& scene);
+
+/// Rods without velocities, in order of id each where it overlaps none before it.
+struct Insertion {
+  State state;
+  std::uint64_t placed = 0;  ///< how many have found a place
+  std::uint64_t tries = 0;   ///< of all
+};
+/// Stops at the first rod that finds no place in so many tries, and where the mean number of tries
+/// of all rods would become larger than `most_on_average`.
+Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average);
+
+/// Parallel rods without velocities, those of each species at drawn sites of a lattice; nothing if
+/// no lattice has room for them.
+std::optional<State> place_rods_on_lattice(const Scene& scene);
+
+/// Draws the velocities of a state of rods.
+void draw_velocities(const Scene& scene, State& state);
+
+}  // namespace needlework

@@ -1,0 +1,53 @@
+// Which rods of finite width overlap, found by cells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "kernels/contact_function.h"
+#include "needlework/composition.h"
+
+namespace needlework {
+
+/// Rods in a box, entered one after the other.
+class RodGrid {
+ public:
+  /// `composition` must outlive the grid. Every edge of the box is at least twice the largest
+  /// extent along periodic axes.
+  RodGrid(const Composition& composition, const std::array<double, 3>& box,
+          const std::array<bool, 3>& periodic, std::size_t rods);
+
+  /// A rod that overlaps one that has been entered.
+  struct Overlap {
+    std::size_t other;  ///< as it has been entered, from 0
+    double distance;    ///< of the axes [L]
+    double expected;    ///< at least [L]
+  };
+  /// The first rod entered that this one overlaps by more than `tolerance`. [L]
+  std::optional<Overlap> overlap(const std::array<double, 3>& centre,
+                                 const std::array<double, 3>& director, SpeciesIndex species,
+                                 double tolerance) const;
+  void enter(const std::array<double, 3>& centre, const std::array<double, 3>& director,
+             SpeciesIndex species);
+
+ private:
+  struct Rod {
+    kernels::Flight flight;
+    SpeciesIndex species;
+    std::uint32_t next;  ///< in the same cell, or none
+  };
+  std::array<std::int64_t, 3> cell_of(const Vec3d& r) const;
+  std::size_t index_of(const std::array<std::int64_t, 3>& cell) const;
+
+  const Composition& composition_;
+  std::array<double, 3> box_;
+  std::array<bool, 3> periodic_;
+  std::array<std::int64_t, 3> counts_{};
+  std::vector<std::uint32_t> first_;  ///< of each cell
+  std::vector<Rod> rods_;
+};
+
+}  // namespace needlework

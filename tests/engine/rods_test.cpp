@@ -1,0 +1,176 @@
+// Rods of finite width in the event loop.
+#include "tests/support/rods.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "needlework/error.h"
+#include "needlework/initial_state.h"
+#include "needlework/simulation.h"
+#include "src/engine/initial_gas.h"
+#include "src/engine/make_loop.h"
+#include "src/engine/run.h"
+#include "src/scene/rod_grid.h"
+#include "tests/support/parallel_loops.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+using test::rods_and_spheres;
+using test::rods_of;
+using test::until_time;
+
+// Rods of this state that overlap by more than `tolerance`.
+int overlaps(const Scene& scene, const State& state, double tolerance) {
+  const Composition composition = scene.composition();
+  RodGrid grid(composition, state.box, scene.periodic(), state.size());
+  int out = 0;
+  const auto species = composition.in_order_of_id(state.species);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    out += grid.overlap(state.position[i], state.orientation[i], species[i], tolerance).has_value();
+    grid.enter(state.position[i], state.orientation[i], species[i]);
+  }
+  return out;
+}
+
+struct Course {
+  std::string hash;
+  std::uint64_t collisions = 0;
+};
+
+template <class Make>
+Course course_of(const Scene& scene, const Make& make, double time) {
+  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
+  const auto loop = make(run);
+  EXPECT_EQ(loop->advance(Limits(run, until_time(time))), Stop::time);
+  return {run.tally.hash.hex(), run.tally.collisions};
+}
+
+auto with(const char* search, const char* calendar) {
+  return [=](needlework::Run& run) {
+    return make_loop(run, {.search = search, .calendar = calendar});
+  };
+}
+
+TEST(Rods, HaveOneTrajectory) {
+  for (const Scene& scene :
+       {rods_of(120, 5, 0.15), rods_of(150, 0, 0.3), rods_and_spheres(60, 11)}) {
+    const double time = 1.5;
+    const Course first = course_of(scene, with("all-pairs", "lazy-heap"), time);
+    EXPECT_GT(first.collisions, 200u) << scene.species[0].name;
+    for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
+      const Course other = course_of(scene, with(search, "cell-calendar"), time);
+      EXPECT_EQ(other.hash, first.hash) << search << " " << scene.species[0].name;
+      EXPECT_EQ(other.collisions, first.collisions);
+    }
+  }
+}
+
+TEST(Rods, HaveOneTrajectoryOnThreads) {
+  for (const Scene& scene : {rods_of(1500, 5, 0.1), rods_and_spheres(500, 22)}) {
+    const Course first = course_of(scene, with("linked-cells", "tournament"), 0.6);
+    EXPECT_GT(first.collisions, 500u);
+    for (const char* search : {"linked-cells", "capsules"}) {
+      const auto make = [&](needlework::Run& run) {
+        return test::parallel_loop(run, search, 3, {.sight = 0.6, .least = 1, .by_cost = false});
+      };
+      EXPECT_EQ(course_of(scene, make, 0.6).hash, first.hash) << search;
+    }
+  }
+}
+
+TEST(Rods, NeverOverlapAndKeepTheirEnergy) {
+  for (const double length : {0.0, 1.0, 5.0}) {
+    const Scene scene = rods_of(200, length, 0.25);
+    Simulation gas(scene);
+    const double energy = gas.totals().energy;
+    for (int n = 1; n <= 5; ++n) {
+      gas.advance(test::until_collisions(20 * n));
+      EXPECT_EQ(overlaps(scene, gas.copy(), 1e-12), 0) << "length " << length;
+    }
+    EXPECT_NEAR(gas.totals().energy / energy, 1, 1e-12);
+    EXPECT_LT(std::abs(gas.energy_drift()), 1e-12);
+  }
+}
+
+TEST(Rods, ContinueFromACheckpointBitForBit) {
+  const Scene scene = rods_and_spheres(60, 11);
+  Simulation whole(scene), half(scene);
+  whole.advance(until_time(2));
+  half.advance(until_time(0.9));
+  Simulation rest(scene, half.checkpoint());
+  rest.advance(until_time(2));
+  EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash());
+  Scene other = scene;
+  other.species[1].diameter *= 1.01;
+  EXPECT_THROW(Simulation(other, half.checkpoint()), InputError);
+}
+
+TEST(Rods, SpheresDoNotTurn) {
+  Simulation gas(rods_of(100, 0, 0.2));
+  gas.advance(until_time(1));
+  EXPECT_EQ(gas.totals().t_rot, 0);
+  for (const auto& w : gas.copy().angular_velocity) {
+    EXPECT_EQ(w, (std::array<double, 3>{}));
+  }
+}
+
+TEST(Rods, ThatOverlapAtTheStartAreNamed) {
+  const Scene scene = rods_of(2, 5, 0.001);
+  State state = draw_initial_state(scene);
+  state.position = {{3, 3, 3}, {3, 3, 3.9312}};
+  state.orientation = {{1, 0, 0}, {0, 1, 0}};
+  try {
+    Simulation gas(scene, state);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "state: rods 0 and 1 overlap: their axes are 0.9312 apart, less than 1");
+  }
+}
+
+TEST(Rods, BounceOffWallsByTheirCaps) {
+  Scene scene = rods_of(60, 2, 0.05);
+  scene.walls = {{.axis = "x", .side = "both"}, {.axis = "z", .side = "low", .epsilon = 0.9}};
+  scene.forces.gravity = {0, 0, -1};
+  scene.collisions.epsilon = 0.95;
+  scene.collisions.tc = 1e-4;
+  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(course_of(scene, with("capsules", "cell-calendar"), 3).hash, first.hash);
+  Simulation gas(scene);
+  gas.advance(until_time(3));
+  const State state = gas.copy();
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const double reach = std::abs(state.orientation[i][0]) + 0.5;
+    EXPECT_GE(state.position[i][0] - reach, -1e-12);
+    EXPECT_LE(state.position[i][0] + reach, scene.needles.box[0] + 1e-12);
+  }
+}
+
+TEST(RodPacking, FindsRoomUpToHighDensity) {
+  for (const auto& [length, packing] :
+       {std::pair(0.0, 0.49), std::pair(1.0, 0.45), std::pair(5.0, 0.55)}) {
+    const Scene scene = rods_of(240, length, packing);
+    const State state = draw_initial_state(scene);
+    EXPECT_EQ(overlaps(scene, state, 1e-12), 0) << length;
+    Simulation gas(scene, state);
+    EXPECT_EQ(gas.advance(test::until_collisions(5)), Stop::collisions);
+  }
+}
+
+TEST(RodPacking, SaysWhatItCannotPlace) {
+  Scene scene = rods_of(100, 5, 0.95);
+  EXPECT_THROW(draw_initial_state(scene), InputError);
+  scene = rods_of(100, 5, 0.5);
+  scene.initial.packing = "insertion";
+  scene.needles.box = {12.1, 12.1, 100 * scene.species[0].volume() / 0.5 / (12.1 * 12.1)};
+  EXPECT_THROW(draw_initial_state(scene), InputError);
+}
+
+}  // namespace
+}  // namespace needlework

@@ -1,0 +1,84 @@
+// Rods of finite width: exact results at low density, and the pressure at others.
+#include "tests/support/rods.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "needlework/simulation.h"
+#include "needlework/theory.h"
+#include "tests/support/runs.h"
+#include "tests/support/statistics.h"
+
+namespace needlework {
+namespace {
+
+using test::agrees;
+using test::Mean;
+using test::rods_of;
+
+// nu / (n D^2 sqrt(T/m)) at equal temperatures.
+TEST(RodTheory, HasTheKnownRates) {
+  for (const auto& [length, rate] :
+       {std::pair(0.0, 7.0898154), std::pair(1.0, 18.22573), std::pair(5.0, 91.75811),
+        std::pair(10.0, 238.5240), std::pair(100.0, 13456.91)}) {
+    Scene scene = rods_of(1000000, length, 1e-3);
+    const double volume = std::pow(scene.needles.box[0], 3);
+    const theory::Temperatures now{1, length > 0 ? 1.0 : 0.0};
+    const auto rates = theory::mixture_rates(scene.composition(), volume, std::span(&now, 1));
+    const double density = 1e6 / volume;
+    EXPECT_NEAR(2 * rates.collisions[0] / 999999 / density / rate, 1, 1e-6) << length;
+  }
+}
+
+// T_rot = 0.4, epsilon = 0.7: (nu, T_tr', T_rot') in the unit of the rate.
+TEST(RodTheory, HasTheKnownChangesOfEnergy) {
+  struct Known {
+    double length, rate, t_tr, t_rot;
+  };
+  for (const auto& [length, rate, t_tr, t_rot] :
+       {Known{1, 16.41220, -3.867663, 2.395588}, Known{5, 76.84803, -16.816242, 11.323866}}) {
+    Scene scene = rods_of(100000000, length, 1e-3);
+    scene.collisions.epsilon = 0.7;
+    const double volume = std::pow(scene.needles.box[0], 3);
+    const theory::Temperatures now{1, 0.4};
+    const auto rates = theory::mixture_rates(scene.composition(), volume, std::span(&now, 1));
+    const double density = 1e8 / volume;
+    EXPECT_NEAR(2 * rates.collisions[0] / 1e8 / density / rate, 1, 1e-6);
+    EXPECT_NEAR(rates.temperatures[0].t_tr / density / t_tr, 1, 1e-6);
+    EXPECT_NEAR(rates.temperatures[0].t_rot / density / t_rot, 1, 1e-6);
+  }
+}
+
+// Z - 1 = sum of r12 . dp / (3 N T t) by the virial series, corrected to N.
+void expect_virial_pressure(int seeds, double collisions, double largest_error) {
+  struct Known {
+    double length, packing, z_minus_1;
+  };
+  for (const auto& [length, packing, expected] : {Known{0, 0.1, 0.52165}, Known{5, 0.1, 1.175}}) {
+    constexpr std::uint64_t count = 108;
+    Mean pressure;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      Simulation gas(rods_of(count, length, packing, static_cast<std::uint64_t>(seed)));
+      gas.advance(test::until_collisions(40));
+      const double virial = gas.virial(), time = gas.time();
+      gas.advance(test::until_collisions(40 + collisions));
+      const double degrees = (length > 0 ? 5.0 : 3.0) * count - 3;
+      const double temperature = 2 * gas.totals().energy * count / degrees;
+      pressure.add((gas.virial() - virial) / (3 * count * temperature * (gas.time() - time)));
+    }
+    // Z_N = Z + (1 / 2N) d ln chi / d ln n, 1 / chi = d(n Z) / dn.
+    const double correction = (length == 0 ? -0.33 : -0.65) / count;
+    EXPECT_TRUE(agrees(pressure.measured(), expected + correction, 3)) << length;
+    EXPECT_LT(pressure.measured().error, largest_error * expected) << length;
+  }
+}
+
+TEST(RodPressure, IsThatOfTheVirialSeries) { expect_virial_pressure(5, 250, 0.02); }
+
+TEST(RodPressure, IsThatOfTheVirialSeriesToSomeThousandths) {
+  expect_virial_pressure(6, 2000, 0.004);
+}
+
+}  // namespace
+}  // namespace needlework
