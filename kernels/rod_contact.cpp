@@ -152,7 +152,12 @@ class RodSearch {
   template <class T>
   Instant<T> at(const T& s);
 
-  Contact result(const DoubleDouble& root, double end) const;
+  Contact result(const DoubleDouble& root, double end);
+  bool returns_by_rounding(const DoubleDouble& root);
+  // A rate of the excess at s = 0 that rounding of the velocities and of the normal may explain.
+  double noise_of_rate(const Instant<double>& start) const {
+    return 2 * rates_.velocity * (rod_velocity_noise * start.distance + start.rods.error);
+  }
   void begin(const Instant<double>& start);
   bool meets_at_once(const Instant<double>& start);
   bool overlaps(const Instant<double>& at) const;
@@ -430,15 +435,16 @@ Instant<T> RodSearch::refine(const T& begin, const T& end, const T& start) {
     const T next = s + T(step);
     const bool is_inside =
         now.rate < 0 && to_double(next - begin) >= 0 && to_double(end - next) >= 0;
-    // What the step leaves is of second order. The curvature downwards grows as rods become
-    // parallel.
-    const double rest = 4 * curvature(now.speed, now.distance) * (step * step);
+    // What the step leaves is of second order. Downwards, the distance bends as fast as the nearest
+    // points slide along the axes, which grows as rods become parallel.
+    const double slide = now.speed + now.distance * frame_.w_sum;
+    const double rest = 4 * (slide * slide) * (step * step);
     const double xx = to_double(dot(now.rods.x, now.rods.x));
-    if (is_inside && (rest <= now.error * xx || std::abs(now.excess) <= 0x1p-4 * now.error)) {
-      now.s = next;
+    // Within the rounding, signs say nothing, but this step still leads to the middle of it.
+    if (std::abs(now.excess) <= now.error || (is_inside && rest <= 0x1p-4 * now.error * xx)) {
+      if (is_inside) now.s = next;
       return now;
     }
-    if (std::abs(now.excess) <= 0x1p-4 * now.error) return now;
     const bool inside = is_inside && to_double(next - low) > 0 && to_double(high - next) > 0;
     const T target = inside ? next : low + (high - low) * T(0.5);
     const double moved = std::abs(to_double(target - s));
@@ -489,15 +495,27 @@ bool RodSearch::meets_at_once(const Instant<double>& start) {
   if (start.rate > 2 * error) return false;
   const Instant<DoubleDouble> fine = at(DoubleDouble());
   if (fine.excess > fine.error) return false;
-  return fine.rate < -rod_velocity_noise * 2 * start.distance * v;
+  return fine.rate < -noise_of_rate(start);
 }
 
-Contact RodSearch::result(const DoubleDouble& root, double end) const {
+Contact RodSearch::result(const DoubleDouble& root, double end) {
   if (root.hi > end) return {};
   return {.found = true,
-          .unresolvable = pair_.touch.collided && root.hi == 0,
+          .unresolvable = pair_.touch.collided && returns_by_rounding(root),
           .elapsed = {root.hi * scale_.per_rate, root.lo * scale_.per_rate},
           .side = 1};
+}
+
+// Whether rods that have just collided part with no more velocity than rounding may have left them,
+// and meet again with no more than they gain over the gap that it may have left.
+bool RodSearch::returns_by_rounding(const DoubleDouble& root) {
+  if (root.hi == 0) return true;
+  const Instant<double> start = at(0.0);
+  const double noise = 4 * noise_of_rate(start);
+  if (start.rate > 4 * noise || at(DoubleDouble()).rate > noise) return false;
+  const double gained = 64 * curvature(start.speed, start.distance) * start.error;
+  const double rate = at(root).rate;
+  return rate * rate <= noise * noise + gained;
 }
 
 Contact RodSearch::run(double from, double until) {
@@ -571,8 +589,8 @@ Contact RodSearch::run_spheres(double end) {
       const Instant<DoubleDouble> fine = at(DoubleDouble());
       if (!(fine.excess > fine.error)) {
         // They fly along a line, so that a velocity which is rounding takes them no deeper.
-        const double noise = rod_velocity_noise * 2 * start.distance * rates_.velocity;
-        return fine.rate < -noise ? result(DoubleDouble(), end) : Contact{};
+        if (!(fine.rate < -noise_of_rate(start))) return {};
+        return {.found = true, .elapsed = {}, .side = 1};
       }
     }
   }

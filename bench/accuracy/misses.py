@@ -7,6 +7,7 @@ and a family that has fewer pairs than asked for continues with others. Stop it 
 with 1 when a contact was missed or invented outside of the condition limit.
 
     bench/accuracy/misses.py --file FILE --thermal 5e8 --hard 1e7     # 1 + 3 hours on one core
+    bench/accuracy/misses.py --program build/release/bench_rod_accuracy --portion 10000 --file FILE
 """
 
 import argparse
@@ -19,8 +20,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import measured  # noqa: E402
 
-THERMAL = ["thermal-k6", "thermal-k2"]
-PORTION = 100_000  # pairs between two writings of the file; a seed each
+THERMAL = ["thermal-k6", "thermal-k2", "any", "contact"]  # of needles; of rods
 
 
 def main():
@@ -32,9 +32,11 @@ def main():
     parser.add_argument("--accuracy", default="standard")
     parser.add_argument("--thermal", type=float, default=5e8, help="pairs of each thermal family")
     parser.add_argument("--hard", type=float, default=1e7, help="pairs of each hard family")
+    parser.add_argument("--portion", type=int, default=100_000,
+                        help="pairs between two writings of the file, a seed each")
     options = parser.parse_args()
-    if not (options.thermal > 0 and options.hard > 0):
-        parser.error("--thermal, --hard: expected a number of pairs above 0")
+    if not (options.thermal > 0 and options.hard > 0 and options.portion > 0):
+        parser.error("--thermal, --hard, --portion: expected a number of pairs above 0")
     program = pathlib.Path(options.program)
     measured.built(program.parent, program.name)
     known = subprocess.run([options.program, "--families"], capture_output=True, text=True,
@@ -46,6 +48,9 @@ def main():
     counts = json.loads(options.file.read_text()) if options.file.exists() else {}
     if counts.setdefault("accuracy", options.accuracy) != options.accuracy:
         parser.error(f"{options.file}: is about {counts['accuracy']}, not {options.accuracy}")
+    before = 100_000 if "families" in counts else options.portion
+    if counts.setdefault("portion", before) != options.portion:
+        parser.error(f"{options.file}: has portions of {counts['portion']}, not {options.portion}")
     commit = measured.commit()
     asked = {family: options.thermal if family in THERMAL else options.hard for family in families}
     done = counts.setdefault("families", {})
@@ -70,9 +75,9 @@ def add_portion(done, family, options):
     sums = done.setdefault(family, {"pairs": 0, "contacts": 0, "near": 0, "missed": 0,
                                     "spurious": 0, "near_missed": 0, "near_spurious": 0,
                                     "worst_time_error": 0})
-    seed = 1 + sums["pairs"] // PORTION
+    seed = 1 + sums["pairs"] // options.portion
     answer = json.loads(subprocess.run(
-        [options.program, family, "--pairs", str(PORTION), "--seed", str(seed), "--accuracy",
+        [options.program, family, "--pairs", str(options.portion), "--seed", str(seed), "--accuracy",
          options.accuracy, "--fewest-digits"], capture_output=True, text=True, check=True).stdout)
     result = answer["results"][0]
     for key in ("pairs", "contacts", "near"):
@@ -98,7 +103,7 @@ def keep(path, counts):
     fresh = path.with_suffix(".new")
     families = ",\n".join(f"  {json.dumps(name)}: {json.dumps(sums)}"
                           for name, sums in counts["families"].items())
-    fresh.write_text(f'{{\n "accuracy": {json.dumps(counts["accuracy"])},\n'
+    fresh.write_text(f'{{\n "accuracy": {json.dumps(counts["accuracy"])},\n "portion": {counts["portion"]},\n'
                      f' "families": {{\n{families}\n }}\n}}\n')
     fresh.replace(path)
     path.with_suffix(".md").write_text(table(counts))

@@ -121,5 +121,188 @@ TEST_P(RodContactFamily, IsAtTheDistanceOfContact) {
 INSTANTIATE_TEST_SUITE_P(Families, RodContactFamily, testing::ValuesIn(test::rod_families()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+RodCase two_rods(const Vec3d& u1, const Vec3d& u2, const Vec3d& from_second_to_first,
+                 double distance) {
+  RodCase out;
+  out.first.u = normalised(u1);
+  out.second.u = normalised(u2);
+  out.first.r = from_second_to_first;
+  out.pair.distance = distance;
+  out.horizon = 10;
+  return out;
+}
+
+// Half lengths that change nothing lead through the code for rods.
+TEST(RodContact, OfSpheresIsThatOfVeryShortRods) {
+  for (const RodFamily& family : test::rod_families()) {
+    if (family.name != "spheres") continue;
+    Random random(5);
+    int contacts = 0;
+    for (int n = 0; n < 2000; ++n) {
+      const RodCase spheres = family.draw(random);
+      RodCase rods = spheres;
+      rods.pair.half_first = 0x1p-300;
+      const Contact found = rods_meet(spheres), same = rods_meet(rods);
+      ASSERT_EQ(found.found, same.found) << n;
+      if (!found.found) continue;
+      ++contacts;
+      EXPECT_NEAR(found.elapsed.hi, same.elapsed.hi, 2e-13 * same.elapsed.hi) << n;
+    }
+    EXPECT_GT(contacts, 500);
+  }
+}
+
+// The least distance is known to 30 digits, and that at contact is one of the doubles next to it.
+TEST(RodContact, DecidesWhetherRodsGrazeToTheLastBit) {
+  Random random(6);
+  int grazed = 0;
+  while (grazed < 40) {
+    RodCase rods = test::rod_families()[1].draw(random);
+    constexpr int steps = 300;
+    int best = 0;
+    Quad least = 1e300;
+    for (int n = 0; n <= steps; ++n) {
+      const Quad at = rod_distance(rods, rods.horizon * n / Quad(steps));
+      if (at < least) least = at, best = n;
+    }
+    if (best == 0 || best == steps) continue;
+    Quad low = rods.horizon * (best - 1) / Quad(steps),
+         high = rods.horizon * (best + 1) / Quad(steps);
+    // Differences of the distance are lost when the interval is the root of the roundoff.
+    for (int i = 0; i < 160; ++i) {
+      const Quad a = low + (high - low) / 3, b = high - (high - low) / 3;
+      (rod_distance(rods, a) < rod_distance(rods, b) ? high : low) =
+          rod_distance(rods, a) < rod_distance(rods, b) ? b : a;
+    }
+    const Quad minimum = rod_distance(rods, (low + high) / 2);
+    if (minimum < 0.01 * (rods.pair.half_first + rods.pair.half_second)) continue;
+    ++grazed;
+    for (const bool meets : {true, false}) {
+      rods.pair.distance = static_cast<double>(minimum);
+      const bool is_above = Quad(rods.pair.distance) > minimum;
+      if (is_above != meets) {
+        rods.pair.distance = std::nextafter(rods.pair.distance, meets ? 1e300 : 0.0);
+      }
+      const Contact found = rods_meet(rods);
+      ASSERT_EQ(found.found, meets) << grazed;
+      if (meets) {
+        EXPECT_NEAR(found.elapsed.hi, static_cast<double>(low), 1e-6 * rods.horizon);
+      }
+    }
+  }
+}
+
+TEST(RodContact, OfParallelRodsIsInTheMiddleOfWhatTheyShare) {
+  for (const double sign : {1.0, -1.0}) {
+    RodCase rods = two_rods({0, 0, 1}, {0, 0, sign}, {0.5, 0, 0.4}, 0.25);
+    rods.first.v = {-1, 0, 0};
+    const Contact found = rods_meet(rods);
+    ASSERT_TRUE(found.found);
+    EXPECT_DOUBLE_EQ(found.elapsed.hi, 0.25);
+    const ContactGeometry at = rod_geometry(rods.view(), found.elapsed);
+    EXPECT_DOUBLE_EQ(at.arm_first, -0.2);
+    EXPECT_DOUBLE_EQ(at.arm_second, 0.2 * sign);
+    EXPECT_EQ(at.normal, (Vec3d{1, 0, 0}));
+    EXPECT_EQ(at.sin_angle, 0);
+  }
+}
+
+// They have met in the middle, and one of the ends still approaches.
+TEST(RodContact, IsAtOnceWhereParallelRodsClatter) {
+  RodCase rods = two_rods({0, 0, 1}, {0, 0, 1}, {0.25, 0, 0}, 0.25);
+  rods.first.v = {0.01, 0, 0};
+  rods.first.w = {0, 1, 0};
+  set_rotation(rods.first);
+  rods.pair.touch = {.touching = true, .collided = true, .side = 1, .gap = 0};
+  const Contact found = rods_meet(rods);
+  ASSERT_TRUE(found.found);
+  EXPECT_LT(found.elapsed.hi, 1e-20);
+  EXPECT_FALSE(found.unresolvable);
+}
+
+TEST(RodContact, IsNoneOfRodsThatSlideAlongEachOther) {
+  for (const bool together : {false, true}) {
+    RodCase rods = two_rods({0, 0, 1}, {0, 0, 1}, {0.25, 0, 0.3}, 0.25);
+    rods.first.v = {0, 0, 0.125};
+    if (together) {
+      rods.first.v = {};
+      rods.first.r.z = 0;
+      rods.first.w = rods.second.w = {1, 0, 0};
+      set_rotation(rods.first);
+      set_rotation(rods.second);
+    }
+    EvaluationCounters counters;
+    EXPECT_FALSE(rod_contact(rods.view(), 0, rods.horizon, counters).found);
+    EXPECT_LT(counters.work(), 20000u);
+  }
+}
+
+TEST(RodContact, SkipsOnlyWhatRoundingHasDone) {
+  const double distance = 0.25, least = std::nextafter(distance, 0.0);
+  for (const bool collided : {false, true}) {
+    RodCase rods = two_rods({0, 0, 1}, {0, 1, 0}, {least, 0, 0}, distance);
+    if (collided) rods.pair.touch = {.touching = true, .collided = true, .side = 1, .gap = 0};
+    rods.first.v = {1, 0, 0};
+    EXPECT_FALSE(rods_meet(rods).found);
+    rods.first.v = {-1, 0, 0};
+    const Contact found = rods_meet(rods);
+    EXPECT_TRUE(found.found);
+    EXPECT_EQ(found.elapsed, DoubleDouble());
+    EXPECT_FALSE(found.overlap || found.unresolvable);
+    // At rest relative to each other.
+    rods.first.v = {};
+    EXPECT_FALSE(rods_meet(rods).found);
+  }
+}
+
+TEST(RodContact, ReportsRodsThatOverlap) {
+  for (const double half : {0.5, 0.0}) {
+    for (const double velocity : {-1.0, 0.0, 1.0}) {
+      RodCase rods = two_rods({0, 0, 1}, {0, 1, 0}, {0.25 - 1e-9, 0, 0}, 0.25);
+      rods.pair.half_first = rods.pair.half_second = half;
+      rods.first.v = {velocity, 0, 0};
+      for (const double within : {0.0, 1e-12}) {
+        rods.pair.touch_within = within;
+        const Contact found = rods_meet(rods);
+        EXPECT_TRUE(found.found && found.overlap && found.unresolvable);
+        EXPECT_EQ(found.elapsed, DoubleDouble());
+      }
+      rods.pair.touch_within = 1e-8;
+      EXPECT_FALSE(rods_meet(rods).overlap);
+    }
+  }
+}
+
+// Rods that part with no velocity but what rounding has left of it.
+TEST(RodContact, IsUnresolvableWhereItReturnsWithAVelocityOfRounding) {
+  const RodFamily* family = nullptr;
+  for (const RodFamily& each : test::rod_families()) {
+    if (each.name == "just_collided") family = &each;
+  }
+  Random random(7);
+  int at_once = 0, later = 0, resolved = 0;
+  for (int n = 0; n < 400; ++n) {
+    RodCase rods = family->draw(random);
+    if (rods.pair.distance < 0.01 * rods.pair.half_first) continue;
+    const ContactGeometry at = rod_geometry(rods.view(), {});
+    const auto normal_velocity = [&] {
+      return dot(at.normal, (rods.first.v - rods.second.v) +
+                                (cross(rods.first.w, at.u_first) * at.arm_first -
+                                 cross(rods.second.w, at.u_second) * at.arm_second));
+    };
+    rods.first.v = rods.first.v - at.normal * normal_velocity();
+    const Contact found = rods_meet(rods);
+    if (!found.found) continue;
+    // A velocity of rounding may also take them apart for good, or seem to approach.
+    const bool is_soon = found.elapsed.hi < 1e-6 * rods.horizon;
+    EXPECT_TRUE(is_soon || !found.unresolvable) << n << " " << found.elapsed.hi;
+    ++(is_soon ? at_once : later);
+    resolved += is_soon && !found.unresolvable;
+  }
+  EXPECT_GT(at_once, 50);
+  EXPECT_LE(resolved, at_once / 20);
+  EXPECT_GT(later, 20);
+}
+
 }  // namespace
 }  // namespace needlework::kernels

@@ -230,7 +230,7 @@ RodCase grazing_rods(Random& random) {
     }
     const auto minimum = static_cast<double>(rod_distance(d.out, (low + high) / 2));
     if (!(minimum > 0.01 * d.scale)) continue;
-    d.out.pair.distance = minimum * (1 + sign(random) * power_of_ten(random, -7, -3));
+    d.out.pair.distance = minimum * (1 + sign(random) * power_of_ten(random, -5.5, -2));
     if (d.is_apart()) return d.out;
   }
 }

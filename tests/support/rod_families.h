@@ -23,7 +23,7 @@ struct RodFamily {
 /// - contact: moved back from a contact of faces, sides or tips
 /// - parallel: the same, with directors at angles 1e-12 .. 1e-2
 /// - exactly-parallel, collinear: at rest or rotating together or apart
-/// - grazing: the diameter is 10^-x more or less than the least distance, x in 3 .. 7
+/// - grazing: the diameter is 10^-x more or less than the least distance, x in 2 .. 5.5
 /// - tip: contacts 10^-x from a tip, x in 2 .. 15
 /// - just-collided: at a contact at s = 0;  just-collided-parallel: at angles 1e-9 .. 1e-2
 /// - spheres, sphere-and-rod, just-collided-spheres

@@ -1,0 +1,148 @@
+// First contacts of rods over one family of pairs, against the oracle of the tests: what is missed
+// and invented. bench/accuracy/misses.py asks for portions of them.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "kernels/rod_contact.h"
+#include "needlework/error.h"
+#include "src/scene/accuracy.h"
+#include "tests/support/random.h"
+#include "tests/support/rod_families.h"
+#include "tests/support/rod_oracle.h"
+
+using namespace needlework;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Times that differ by more than this share belong to different contacts.
+constexpr double same_contact = 1e-5;
+constexpr std::uint64_t drawn_at_once = 64;
+
+struct Options {
+  std::string family;
+  std::uint64_t count = 10000, seed = 1;
+  std::string accuracy = "standard";
+  bool list_families = false, fewest_digits = true;
+};
+
+struct Sums {
+  std::uint64_t contacts = 0, undecided = 0, missed = 0, spurious = 0;
+  std::uint64_t evaluations = 0, escalations = 0;
+  double worst = 0;
+
+  void operator+=(const Sums& other) {
+    contacts += other.contacts;
+    undecided += other.undecided;
+    missed += other.missed;
+    spurious += other.spurious;
+    evaluations += other.evaluations;
+    escalations += other.escalations;
+    worst = std::max(worst, other.worst);
+  }
+};
+
+Sums judged(const test::RodCase& rods, const Accuracy& accuracy) {
+  Sums out;
+  kernels::EvaluationCounters spent;
+  const kernels::Contact found =
+      kernels::rod_contact(rods.view(), 0, rods.horizon, spent, accuracy);
+  out.evaluations = spent.evaluated;
+  out.escalations = spent.escalated;
+  const test::RodAnswer truth = first_rod_contact(rods);
+  out.contacts = truth.contact;
+  if (truth.undecided) {
+    out.undecided = 1;
+    return out;
+  }
+  const test::Quad time = test::Quad(found.elapsed.hi) + test::Quad(found.elapsed.lo);
+  // The oracle looks at rods that touch from 1e-27 of this on.
+  const test::Quad allowed = truth.time * same_contact + test::Quad(1e-25) * rods.horizon;
+  out.missed = truth.contact && (!found.found || time > truth.time + allowed);
+  out.spurious = found.overlap || (found.found && (!truth.contact || time < truth.time - allowed));
+  if (truth.contact && truth.time > 0 && !out.missed && !out.spurious) {
+    out.worst = static_cast<double>(abs(time - truth.time) / truth.time);
+  }
+  return out;
+}
+
+const test::RodFamily& family_of(const std::string& name) {
+  const auto& families = test::rod_families();
+  const auto found = std::ranges::find(families, name, &test::RodFamily::name);
+  if (found != families.end()) return *found;
+  throw InputError(fmt::format("FAMILY {}: expected one that --families prints", name));
+}
+
+int run(const Options& options) {
+  if (options.list_families) {
+    for (const test::RodFamily& family : test::rod_families()) fmt::print("{}\n", family.name);
+    return 0;
+  }
+  const test::RodFamily& family = family_of(options.family);
+  Scene::Engine engine;
+  engine.accuracy = options.accuracy;
+  const Accuracy accuracy = accuracy_of(engine);
+  // Parts that do not depend on how many are asked for.
+  const std::uint64_t parts = (options.count + drawn_at_once - 1) / drawn_at_once;
+  std::vector<Sums> sums(parts);
+#pragma omp parallel for schedule(dynamic)
+  for (std::uint64_t part = 0; part < parts; ++part) {
+    test::Random random((options.seed << 40) + part);
+    const std::uint64_t size = std::min(drawn_at_once, options.count - part * drawn_at_once);
+    for (std::uint64_t n = 0; n < size; ++n) {
+      const Sums one = judged(family.draw(random), accuracy);
+      if (one.missed || one.spurious) {
+        fmt::print(stderr, "{}, seed {}: pair {} is {}\n", options.family, options.seed,
+                   part * drawn_at_once + n, one.missed ? "missed" : "invented");
+      }
+      sums[part] += one;
+    }
+  }
+  Sums all;
+  for (const Sums& part : sums) all += part;
+  const auto count = static_cast<double>(options.count);
+  const Json out{{"family", options.family},
+                 {"pairs", options.count},
+                 {"seed", options.seed},
+                 {"contacts", all.contacts},
+                 {"near", all.undecided},
+                 {"results",
+                  {{{"accuracy", options.accuracy},
+                    {"evaluations", static_cast<double>(all.evaluations) / count},
+                    {"escalations", static_cast<double>(all.escalations) / count},
+                    {"missed", all.missed},
+                    {"spurious", all.spurious},
+                    {"near_missed", 0},
+                    {"near_spurious", 0},
+                    {"time_error", {{"max", all.worst}}}}}}};
+  fmt::print("{}\n", out.dump());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("First contacts of rods over one family of pairs, against the oracle");
+  app.add_option("FAMILY", options.family);
+  app.add_flag("--families", options.list_families, "print the names of the families");
+  app.add_option("--pairs", options.count)->capture_default_str();
+  app.add_option("--seed", options.seed)->capture_default_str();
+  app.add_option("--accuracy", options.accuracy)->capture_default_str();
+  app.add_flag("--fewest-digits", options.fewest_digits, "what the oracle of rods always does");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
+}
