@@ -153,8 +153,8 @@ class RodOracle {
     const auto a = static_cast<Extended>(from), b = static_cast<Extended>(to);
     return search<Extended>(a, excess<Extended>(a), b, excess<Extended>(b));
   }
-  // Intervals shorter than this, in lengths that are travelled, may be seen to have one crossing.
-  static Quad crossing_limit() { return Quad(1e-4); }
+  // Where the rods move by less than this, they may be seen to cross once.
+  Quad crossing_limit() const { return Quad(1e-4) * (fine_.half[0] + fine_.half[1] + contact_); }
   Quad fine_limit() const { return Quad(1e-9) * Quad(size_); }
 
   // The first time in [a, b] at which the excess falls below 0; it is not below at a.
@@ -164,8 +164,7 @@ class RodOracle {
     const Real h = b - a, way = Real(speed_) * h;
     const Real noise = Real(is_quad ? Quad(1e-32) : Quad(1e-17)) * Real(size_);
     if (at_a + at_b - way > noise) return false;
-    const bool may_cross =
-        at_a > noise && at_b < -noise && way < Real(crossing_limit()) * Real(size_);
+    const bool may_cross = at_a > noise && at_b < -noise && way < Real(crossing_limit());
     if (may_cross && crosses_once<Real>(a, at_a, b, at_b, noise)) return true;
     if constexpr (!is_quad) {
       if (Quad(way) < fine_limit()) {
