@@ -105,7 +105,9 @@ kernels::Contact search(const Law& law, const typename Law::Pair& pair, double d
                         double horizon, kernels::EvaluationCounters& counters) {
   const NearInterval near = near_interval(pair, distance);
   const double last = std::min(horizon, near.exit);
-  const kernels::PairScale scale = kernels::scale_of(pair);
+  kernels::Pair in_reach = pair;  // spheres have no lengths
+  in_reach.half_first += distance;
+  const kernels::PairScale scale = kernels::scale_of(in_reach);
   if (!scale.moves || std::isinf(near.enter)) return {};
   for (double begin = near.enter; begin <= last;) {
     if (begin * scale.per_time > latest) {
