@@ -99,7 +99,8 @@ class Fields:
         def species(name):
             self.text(f"{name}.name")
             self.one(f"{name}.count", "u64")
-            self.several(name, "f64", 5)
+            self.several(name, "f64", 6)
+            self.optional(f"{name}.inertia", self.f64)
 
         def place(name):
             self.text(name)
@@ -115,10 +116,11 @@ class Fields:
         self.sequence("pairs", pair)
         self.one("needles.count", "u64")
         self.several("needles.box", "f64", 3)
-        self.f64("needles.k")
+        self.several("needles.k", "f64", 2)
         self.one("needles.seed", "u64")
         self.several("initial.t", "f64", 2)
         self.text("initial.file")
+        self.text("initial.packing")
         self.several("collisions", "f64", 2)
         for name in ("tc", "tc_relative"):
             self.optional(f"collisions.{name}", self.f64)
