@@ -2,6 +2,7 @@
 // met.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -25,6 +26,10 @@ class EventLoop : public Loop {
   EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> calendar, ReplacedRecords replaced);
 
   std::optional<Stop> prepare(const Limits* limits) final;
+  void keep_in_order() final {
+    if (run_.is_out_of_order()) sort_storage();
+  }
+  void begin_again(ReplacedRecords&& replaced) override;
   std::optional<Stop> advance(const Limits& limits) override;
   const char* search_name() const override { return search_.name(); }
   const char* calendar_name() const override { return calendar_->name(); }
@@ -32,6 +37,8 @@ class EventLoop : public Loop {
  protected:
   /// All needles have searched.
   virtual void prepared() {}
+  /// Lets some needles search their first events, from this one on. Returns the first that has not.
+  virtual std::size_t search_from(std::size_t first);
   /// If the window ends before `next`, the time of the next event, opens the next window and
   /// returns true.
   bool pass_window(Time next, const Limits& limits);
@@ -46,13 +53,21 @@ class EventLoop : public Loop {
   std::unique_ptr<AnyCalendar> calendar_;
   EventProcessor<S, M> processor_;
 
- private:
+  /// Time passes without events where nothing can happen, and a record may be older than it should
+  /// become. From there, a search would look for contacts in the past, so that the record is
+  /// renewed first.
+  bool is_to_be_renewed(Needle i) const { return run_.gas.records[i].renewal < run_.now; }
   void first_search(Needle i);
+
+  /// Of the needles that have been placed, until all have searched.
+  std::vector<Time> placed_until_;
+
+ private:
+  /// Needles that search before anybody asks whether the run is called off.
+  static constexpr std::size_t at_once = 16;
 
   bool is_prepared_ = false;
   std::size_t searched_ = 0;  ///< so many needles have searched, if not all have
-  std::vector<Time>
-      placed_until_;  ///< of the needles that have been placed, until all have searched
 };
 
 template <Search S, Model M>
@@ -70,20 +85,35 @@ EventLoop<S, M>::EventLoop(Run& run, S search, std::unique_ptr<AnyCalendar> cale
   placed_until_.reserve(count);
 }
 
+// The events that are in the calendar are replaced one by one, as all needles search.
+template <Search S, Model M>
+void EventLoop<S, M>::begin_again(ReplacedRecords&& replaced) {
+  placed_until_.reserve(run_.gas.size());  // first, as memory may run out
+  placed_until_.clear();
+  processor_.set_now(run_.now);
+  processor_.forget();
+  processor_.take(std::move(replaced));
+  search_.begin_again(run_.now);
+  is_prepared_ = false;
+  searched_ = 0;
+}
+
 template <Search S, Model M>
 std::optional<Stop> EventLoop<S, M>::prepare(const Limits* limits) {
   if (is_prepared_) return std::nullopt;
   const std::size_t count = run_.gas.size();
-  const auto called_off = [&](std::size_t turn) -> std::optional<Stop> {
-    return limits && turn % 16 == 0 ? limits->called_off(run_) : std::nullopt;
+  const auto called_off = [&]() -> std::optional<Stop> {
+    return limits ? limits->called_off(run_) : std::nullopt;
   };
   for (std::size_t i = placed_until_.size(); i < count; ++i) {
-    if (const auto stop = called_off(i)) return stop;
+    if (i % at_once == 0) {
+      if (const auto stop = called_off()) return stop;
+    }
     placed_until_.push_back(processor_.place(Needle(i)));
   }
-  for (; searched_ < count; ++searched_) {
-    if (const auto stop = called_off(searched_)) return stop;
-    first_search(Needle(searched_));
+  while (searched_ < count) {
+    if (const auto stop = called_off()) return stop;
+    searched_ = search_from(searched_);
   }
   placed_until_ = {};
   prepared();
@@ -91,12 +121,16 @@ std::optional<Stop> EventLoop<S, M>::prepare(const Limits* limits) {
   return std::nullopt;
 }
 
-// Where nothing can happen, time passes without events, and a record may be older than it should
-// become. From there, a search would look for contacts in the past, so that the record is renewed
-// first.
+template <Search S, Model M>
+std::size_t EventLoop<S, M>::search_from(std::size_t first) {
+  const std::size_t end = std::min(first + at_once, run_.gas.size());
+  for (std::size_t i = first; i < end; ++i) first_search(Needle(i));
+  return end;
+}
+
 template <Search S, Model M>
 void EventLoop<S, M>::first_search(Needle i) {
-  if (run_.gas.records[i].renewal >= run_.now) return processor_.schedule(i, placed_until_[i]);
+  if (!is_to_be_renewed(i)) return processor_.schedule(i, placed_until_[i]);
   Event event;
   event.owner = i;
   event.lower_id = event.higher_id = run_.gas.ids[i];
@@ -148,7 +182,7 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   FurtherTouches& touches = *run_.gas.further_touches;
   // No record of an earlier window is ever put back.
   if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);
-  if (run_.is_out_of_order()) sort_storage();
+  keep_in_order();
   return true;
 }
 

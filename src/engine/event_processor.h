@@ -55,6 +55,18 @@ class EventProcessor {
   /// Searches the next contact of needle i from now on and puts its next event into the calendar.
   /// `just_hit` is the needle with which it has just collided, if any.
   [[gnu::noinline]] void schedule(Needle i, Time placed_until, const JustHit& just_hit = {});
+  /// Whether other threads read the records as well, so that none may be changed.
+  void share_records(bool shared) { predictor_.shares_records = shared; }
+  /// The first half of schedule(), for several threads that search for different needles: changes
+  /// nothing that others read. Throws UnfinishedEventError where a record would have to be.
+  [[gnu::noinline]] Event find(Needle i, Time placed_until) {
+    return next_event(i, placed_until, {});
+  }
+  /// The second half.
+  void enter_found(const Event& event) {
+    search_.set_next_event(event.owner, event.time);
+    enter(event);
+  }
   void enter(const Event& event) { calendar_.set(event, cell_of(event.owner)); }
   /// Prefetches what the processing of an event of this needle will read.
   void prefetch(Needle i) const {
@@ -83,6 +95,7 @@ class EventProcessor {
 
  private:
   CellIndex cell_of(Needle i) const { return calendar_.needs_cell ? search_.cell_index(i) : 0; }
+  Event next_event(Needle i, Time placed_until, const JustHit& just_hit);
   void consider(Needle i, Needle j, const Shift& shift, double from, Event& best);
   template <class Renew>
   Shift replace_record(Needle i, Renew&& renew);
@@ -316,11 +329,19 @@ void EventProcessor<S, M>::consider_sources(Needle i, Event& best) const {
 
 template <Search S, Model M>
 void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& just_hit) {
-  ++tally_.counters.searches;
   if (rollback_log) rollback_log->scheduled(i, gas_.records[i]);
   // Needed after the search, which takes longer than memory does.
   const CellIndex cell = cell_of(i);
   calendar_.prefetch(i, cell);
+  const Event next = next_event(i, placed_until, just_hit);
+  search_.set_next_event(i, next.time);
+  calendar_.set(next, cell);
+}
+
+template <Search S, Model M>
+[[gnu::always_inline]] inline Event EventProcessor<S, M>::next_event(Needle i, Time placed_until,
+                                                                     const JustHit& just_hit) {
+  ++tally_.counters.searches;
   const Time time = now();
   Event best;
   best.owner = i;
@@ -336,8 +357,7 @@ void EventProcessor<S, M>::schedule(Needle i, Time placed_until, const JustHit& 
                  consider(i, j, shift, from, best);
                  return gas_.clock.difference(best.time, time);
                });
-  search_.set_next_event(i, best.time);
-  calendar_.set(best, cell);
+  return best;
 }
 
 // Looks for a contact of i with candidate j that is earlier than `best`, and replaces `best` by

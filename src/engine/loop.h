@@ -44,6 +44,11 @@ class Loop {
   /// limits call the run off, returns why; the next call, or advance(), then continues. Without
   /// limits nothing stops it.
   virtual std::optional<Stop> prepare(const Limits* limits) = 0;
+  /// Sorts the storage if so many needles have moved that it should be.
+  virtual void keep_in_order() = 0;
+  /// Begins again with records that have all been replaced at the present time, of which `replaced`
+  /// holds the previous state. To be followed by prepare().
+  virtual void begin_again(ReplacedRecords&& replaced) = 0;
   /// Processes events until a limit is met, or until the pause, when it returns nothing. Throws
   /// InvalidStateError when the run cannot continue correctly; the state then stays as it was
   /// before the event that failed, unless the error is an UnfinishedEventError.

@@ -54,6 +54,8 @@ class PairPredictor {
   kernels::Contact predict(Needle a, Needle b, const Shift& shift, double from_now, Time until);
 
   Time now;
+  /// Whether other threads read the records as well, so that none may be given a touch.
+  bool shares_records = false;
 #ifndef NDEBUG
   /// Whether a record from later than now has been read, of a needle in reach of contact then.
   bool read_ahead = false;
@@ -137,6 +139,9 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
 // before.
 template <Model M>
 void PairPredictor<M>::settle_touch(Needle a, Needle b, const Shift& shift) {
+  if (shares_records) {
+    throw UnfinishedEventError("needles touch while other threads read their records");
+  }
   if (std::max(gas_.records[a].time, gas_.records[b].time) > now) {
     throw UnfinishedEventError("needles touch at an event that another thread has done before");
   }

@@ -27,14 +27,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <cmath>
 #include <deque>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "kernels/default_arithmetic.h"
 #include "needlework/error.h"
@@ -106,10 +109,16 @@ class ParallelLoop final : public EventLoop<S, M> {
                const ParallelTuning& tuning);
 
   std::optional<Stop> advance(const Limits& limits) override;
+  void begin_again(ReplacedRecords&& replaced) override;
 
  private:
-  void prepared() override { divide(); }
+  std::size_t search_from(std::size_t first) override;
+  void find_together(std::size_t first);
+  void prepared() override {
+    if (phase_.inner.empty()) divide();
+  }
   void divide();
+  void note_fastest();
   void sort_storage() override {
     Base::sort_storage();
     divide();
@@ -148,8 +157,9 @@ class ParallelLoop final : public EventLoop<S, M> {
   double fastest_to_thermal_;  ///< speed of the fastest needle of the previous phase, divided by
                                ///< thermal_speed()
   PhasePlan plan_;
-  TeamChoice team_;
+  TeamChoice team_, searching_team_;
   const bool by_cost_;
+  std::vector<std::optional<Event>> found_;  ///< by threads that search together
   bool ordered_ = true;  ///< whether one thread alone can use the calendar as it is
 };
 
@@ -172,11 +182,71 @@ ParallelLoop<S, M>::ParallelLoop(Run& run, S search, ReplacedRecords replaced, i
   for (std::uint32_t subdomain = 0; subdomain < phase_.threads; ++subdomain)
     threads_.emplace_back(phase_, this->model_, subdomain);
   phase_.may_be_too_slow = tuning.by_cost;
+  note_fastest();
+}
+
+template <Search S, Model M>
+void ParallelLoop<S, M>::note_fastest() {
   double fastest = 0;
-  for (const Record& record : run.gas.records) {
-    fastest = std::max(fastest, run.gas.fastest_of(record));
+  for (const Record& record : run_.gas.records) {
+    fastest = std::max(fastest, run_.gas.fastest_of(record));
   }
   fastest_to_thermal_ = fastest > 0 ? fastest / thermal_speed() : 0;
+}
+
+template <Search S, Model M>
+void ParallelLoop<S, M>::begin_again(ReplacedRecords&& replaced) {
+  put_in_order();
+  phase_.causality_log.clear();
+  for (auto& thread : threads_) thread.forget();
+  note_fastest();
+  Base::begin_again(std::move(replaced));
+}
+
+// All threads share the searches where that is faster. What they find is entered afterwards: a
+// search reads what others have found, but what follows from all events does not depend on that.
+template <Search S, Model M>
+std::size_t ParallelLoop<S, M>::search_from(std::size_t first) {
+  // So many that threads wait little for the last one, and few that a run of a dense gas, in which
+  // a search takes a millisecond, is soon called off.
+  constexpr std::size_t most = 512;
+  const std::size_t count = std::min(most, run_.gas.size() - first);
+  const TeamChoice::Turn turn = by_cost_ ? searching_team_.next() : all_together;
+  const bool together = turn.together && threads_.size() > 1 && has_threads();
+  const WallTime time;
+  found_.assign(count, std::nullopt);
+  if (together) find_together(first);
+  for (std::size_t n = 0; n < count; ++n) {
+    if (found_[n]) {
+      processor_.enter_found(*found_[n]);
+    } else {
+      this->first_search(Needle(first + n));
+    }
+  }
+  searching_team_.took(together, static_cast<double>(count), time.seconds());
+  return first + count;
+}
+
+// Needles that touch are left out, which one thread has to do.
+template <Search S, Model M>
+void ParallelLoop<S, M>::find_together(std::size_t first) {
+  constexpr std::size_t share = 8;
+  std::atomic<std::size_t> next = 0;
+  const WholeTeams whole;
+#pragma omp parallel num_threads(static_cast <int>(threads_.size()))
+  {
+    const kernels::DefaultArithmetic arithmetic;
+    auto& thread = threads_[static_cast<std::size_t>(omp_get_thread_num())];
+    thread.begin_searches();
+    for (std::size_t begin; (begin = next.fetch_add(share)) < found_.size();) {
+      const std::size_t end = std::min(begin + share, found_.size());
+      for (std::size_t n = begin; n < end; ++n) {
+        const Needle i(first + n);
+        if (!this->is_to_be_renewed(i)) found_[n] = thread.find(i, this->placed_until_[i]);
+      }
+    }
+  }
+  for (auto& thread : threads_) run_.tally.take(thread.tally());
 }
 
 template <Search S, Model M>

@@ -162,10 +162,22 @@ struct Simulation::Implementation {
     const std::vector<Needle> ranks = ranks_of(rows);
     // On which sides needles are that touch now is known once all have searched.
     if (loop) loop->prepare(nullptr);
-    loop.reset();  // all of its contents depend on the velocities
-    replaced = run.set_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
-                                  [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
-    begin_loop();
+    replace([&] {
+      return run.set_velocities([&](Needle i) { return vector_of(velocity[ranks[i]]); },
+                                [&](Needle i) { return vector_of(angular_velocity[ranks[i]]); });
+    });
+  }
+
+  // Replaces all records, by a function that returns the previous ones. All needles search again.
+  template <class Replacement>
+  void replace(const Replacement& replacement) {
+    std::unique_ptr<Loop> kept = std::move(loop);  // of which an error leaves none
+    replaced = replacement();
+    if (!kept) return begin_loop();
+    kept->begin_again(std::move(replaced));
+    replaced = {};
+    loop = std::move(kept);
+    loop->prepare(nullptr);
   }
 
   std::optional<Stop> prepare(const Scene::Until& until) {
@@ -193,13 +205,13 @@ struct Simulation::Implementation {
     return loop->prepare(&limits);
   }
 
-  // All needles search anew, as after a caller has replaced velocities.
   void kick() {
-    loop.reset();
-    if (run.is_out_of_order()) run.sort_storage();
-    replaced = run.kick();
-    run.gas.further_touches->keep_only(run.gas.records, run.gas.ids);
-    begin_loop();
+    loop->keep_in_order();
+    replace([&] {
+      ReplacedRecords out = run.kick();
+      run.gas.further_touches->keep_only(run.gas.records, run.gas.ids);
+      return out;
+    });
   }
 
   Stop advance(Limits limits) {

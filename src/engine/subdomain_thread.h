@@ -63,6 +63,11 @@ class alignas(128) SubdomainThread {
   SubdomainThread(const SubdomainThread&) = delete;
   SubdomainThread& operator=(const SubdomainThread&) = delete;
 
+  /// Searches with other threads the first events of needles, before a phase.
+  void begin_searches();
+  /// The first event of a needle that is found until then, or nothing if other threads must not
+  /// work meanwhile.
+  std::optional<Event> find(Needle i, Time placed_until);
   /// Starts a new phase.
   void begin();
   /// Processes the events of the subdomain before `end`: all of them, unless the phase has to be
@@ -149,7 +154,24 @@ class alignas(128) SubdomainThread {
 };
 
 template <Search S, Model M>
+void SubdomainThread<S, M>::begin_searches() {
+  processor_.set_now(phase_.run.now);
+  processor_.share_records(true);
+}
+
+template <Search S, Model M>
+std::optional<Event> SubdomainThread<S, M>::find(Needle i, Time placed_until) {
+  try {
+    return processor_.find(i, placed_until);
+  } catch (...) {
+    // If the error is real, the thread that searches alone meets it too.
+    return std::nullopt;
+  }
+}
+
+template <Search S, Model M>
 void SubdomainThread<S, M>::begin() {
+  processor_.share_records(false);
   reports_.happenings.clear();
   reports_.times.clear();
   deferred_.clear();

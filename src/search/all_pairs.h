@@ -25,6 +25,7 @@ class AllPairs {
   Time place(Needle, Time, double /*half_length*/) { return Time::never(); }
   void set_next_event(Needle, Time) {}
   Time next_event(Needle) const { return Time::never(); }
+  void begin_again(Time) {}
   void renumber(const std::vector<Needle>&) {}
 
   template <class Visit>

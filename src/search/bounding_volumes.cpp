@@ -177,9 +177,8 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   for (const auto& each : classes) each->cells.renumber(ranks);
 }
 
-// Chooses the unit of time and the origin of times in blocks and motions again, before times grow
-// so long that floats lose digits of them.
-void BoundingVolumes::rebase(Time now, int threads) {
+// Chooses the unit of time and the origin of times in blocks and motions.
+void BoundingVolumes::begin_again(Time now) {
   double sum = 0;
   for (const Record& record : gas.records) {
     const Vec3d v = record.flight.v * per_length;
@@ -195,6 +194,12 @@ void BoundingVolumes::rebase(Time now, int threads) {
     const double pull = std::sqrt(dot(gas.gravity, gas.gravity));
     longest_time = std::min(longest_time, std::sqrt(2 * least / pull) * per_time);
   }
+}
+
+// Does the same for needles that stay where they are, before times grow so long that floats lose
+// digits of them.
+void BoundingVolumes::rebase(Time now, int threads) {
+  begin_again(now);
   kernels::in_parallel(gas.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       if (!places[i].is_entered()) continue;

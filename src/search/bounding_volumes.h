@@ -77,6 +77,8 @@ struct BoundingVolumes {
     places[i].next_event = time;
     motions[i].until = rounded_up(time);
   }
+  /// Chooses the units of time again, as all needles will be placed now.
+  void begin_again(Time now);
   /// Makes times from now on fit for place(), if they will soon not be. The threads share the work.
   void prepare(Time now, int threads);
   /// Until when they are.

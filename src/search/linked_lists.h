@@ -31,6 +31,7 @@ class LinkedLists {
   Time place(Needle i, Time now, double half_length);
   void set_next_event(Needle, Time) {}
   Time next_event(Needle) const { return Time::never(); }
+  void begin_again(Time) {}
   void renumber(const std::vector<Needle>& ranks);
 
   template <class Visit>

@@ -45,6 +45,7 @@ class NearSearch {
   Time place(Needle i, Time now, double half_length);
   void set_next_event(Needle i, Time time) { volumes_->set_next_event(i, time); }
   Time next_event(Needle i) const { return volumes_->places[i].next_event; }
+  void begin_again(Time now) { volumes_->begin_again(now); }
   void renumber(const std::vector<Needle>& ranks) { volumes_->renumber(ranks); }
   /// Candidates come in the order of the times from which on they may meet.
   template <class Visit>

@@ -48,6 +48,8 @@ struct AnyVisit {
 ///   next_event(i) -> Time
 ///     That time or, if it is not set since place(), the one that place() returned; always
 ///     Time::never() for a search that does not keep it.
+///   begin_again(now)
+///     All records have been replaced now, and all needles will be placed before any find().
 ///   renumber(ranks)
 ///     Needle i has become needle ranks[i]; where the needles have been placed stays.
 ///   find(query, lengths, visit)
@@ -70,6 +72,7 @@ concept Search = requires(S search, const S& view, Needle i, Time now, const Sea
   { search.place(i, now, lengths.half_length(i)) } -> std::same_as<Time>;
   { search.set_next_event(i, now) } -> std::same_as<void>;
   { view.next_event(i) } -> std::same_as<Time>;
+  { search.begin_again(now) } -> std::same_as<void>;
   { search.renumber(ranks) } -> std::same_as<void>;
   { search.find(query, lengths, visit) } -> std::same_as<void>;
   { view.cells() } -> std::convertible_to<std::size_t>;

@@ -189,6 +189,19 @@ TEST(Kicks, EndWithTheRunThatEndsWithThem) {
   EXPECT_EQ(to_the_kick.totals().energy, beyond.totals().energy);
 }
 
+// The loop goes on with what it has found out about its threads: so few collisions are between two
+// kicks that none would get to know it anew.
+TEST(Kicks, LetThreadsWorkTogether) {
+  Scene scene = test::scene_of(2000, 9);
+  scene.driving.kicks = {.every = 0.1, .translational = 0.1, .rotational = 0.1};
+  scene.engine.search = "linked-cells";
+  scene.engine.threads = 2;
+  Simulation simulation(scene);
+  simulation.advance(test::until_collisions(4));
+  EXPECT_GT(simulation.time(), 5 * 0.1);
+  EXPECT_GT(simulation.counters().phases, 0u);
+}
+
 // One needle never collides, but is kicked. The momentum it gets is taken off at once.
 TEST(Kicks, TurnASingleNeedle) {
   Scene scene = test::scene_of(1, 6);
