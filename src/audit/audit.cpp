@@ -74,20 +74,24 @@ Space space_of(const State& state, const Setup& setup, double unit) {
   return out;
 }
 
-std::vector<Needle> needles_of(const State& initial, const std::vector<Body>& bodies,
-                               double epoch_length, double unit) {
+std::vector<Needle> needles_of(const State& state, const Instant& time,
+                               const std::vector<Body>& bodies, double epoch_length, double unit) {
   std::vector<Needle> needles;
-  needles.reserve(initial.size());
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    const std::size_t species = bodies.size() > 1 ? initial.species.at(i) : 0;
-    needles.emplace_back(Record{{},
-                                vector(initial.position[i]) * (1 / unit),
-                                vector(initial.velocity[i]) * (epoch_length / unit),
-                                vector(initial.orientation[i]),
-                                vector(initial.angular_velocity[i]) * epoch_length},
-                         bodies.at(species));
+  needles.reserve(state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const std::size_t species = bodies.size() > 1 ? state.species.at(i) : 0;
+    needles.emplace_back(
+        Record{time, vector(state.position[i]) * (1 / unit),
+               vector(state.velocity[i]) * (epoch_length / unit), vector(state.orientation[i]),
+               vector(state.angular_velocity[i]) * epoch_length},
+        bodies.at(species));
   }
   return needles;
+}
+
+Instant instant_of(double time, double epoch_length) {
+  const double epochs = time / epoch_length, whole = std::floor(epochs);
+  return {static_cast<std::int64_t>(whole), epochs - whole};
 }
 
 std::uint64_t key_of(std::uint32_t i, std::uint32_t j) { return std::uint64_t{i} << 32 | j; }
@@ -116,11 +120,15 @@ Audit::Audit(const State& initial, const Setup& setup)
       bodies_(bodies_of(setup.composition, unit_)),
       space_(space_of(initial, setup, unit_)),
       ids_(initial.id),
-      needles_(needles_of(initial, bodies_, setup.epoch_length, unit_)),
+      needles_(needles_of(initial, {}, bodies_, setup.epoch_length, unit_)),
       walls_(walls_of(setup.walls, space_.box, setup.epoch_length, unit_)),
-      windows_(needles_, bodies_, space_.box[0] * space_.box[1] * space_.box[2]),
+      windows_(needles_, bodies_, space_.box[0] * space_.box[1] * space_.box[2],
+               setup.driving.kicks ? setup.driving.kicks->every / setup.epoch_length : HUGE_VAL),
       initial_energy_(energy()) {
   if (setup_.tc) *setup_.tc /= setup.epoch_length;
+  if (setup.driving.kicks) {
+    kicks_.emplace(*setup.driving.kicks, setup.scene_seed, setup.epoch_length, unit_);
+  }
   has_collided_.assign(initial.size(), false);
   met_.assign(initial.size(), {});
 }
@@ -188,7 +196,7 @@ void Audit::add(const Happening& reported) {
   for (const std::uint64_t word :
        {std::uint64_t(collision.epoch), std::bit_cast<std::uint64_t>(collision.offset),
         std::uint64_t{collision.first} << 32 | collision.second}) {
-    fingerprint_ = mixed(fingerprint_ ^ word);
+    note_in_fingerprint(word);
   }
   switch (happening.kind) {
     case Happening::pair:
@@ -213,6 +221,13 @@ void Audit::add(const Happening& reported) {
     happening.is_collision() ? check_pair(now, collision) : check_single(now, happening);
   }
   follow(now, happening);
+  go_on_if_resumed();
+}
+
+void Audit::note_in_fingerprint(std::uint64_t word) { fingerprint_ = mixed(fingerprint_ ^ word); }
+
+// Where the interrupted audit stopped, checking begins.
+void Audit::go_on_if_resumed() {
   if (resumed_ && findings_.events() == resumed_->findings.events()) {
     if (fingerprint_ != resumed_->fingerprint) {
       throw InputError(
@@ -222,6 +237,61 @@ void Audit::add(const Happening& reported) {
     findings_ = std::move(resumed_->findings);
     continuations_ = std::move(resumed_->continuations);
     resumed_.reset();
+  }
+}
+
+double Audit::next_kick() const {
+  if (!kicks_) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(findings_.kicks + 1) * setup_.driving.kicks->every;
+}
+
+void Audit::add_kick(const State& after) {
+  if (after.id != ids_) throw InputError("state after a kick: expected the needles of the run");
+  const Instant now = instant_of(next_kick(), setup_.epoch_length);
+  ++findings_.kicks;
+  note_in_fingerprint(static_cast<std::uint64_t>(now.epoch));
+  note_in_fingerprint(std::bit_cast<std::uint64_t>(now.offset));
+  if (setup_.tc_relative) windows_.advance(now, needles_);
+  std::vector<Needle> kicked = needles_of(after, now, bodies_, setup_.epoch_length, unit_);
+  const double before = energy();
+  if (!resumed_) check_kick(now, kicked);
+  needles_ = std::move(kicked);
+  last_energy_change_ = energy() - before;
+  windows_.begin_again(now, needles_);
+  // Nothing comes after it at its instant.
+  constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();
+  last_ = {now, {last, last, last, last, last, last}};
+  go_on_if_resumed();
+}
+
+// What happens at the instant of a kick happens before it.
+void Audit::check_kick(const Instant& now, const std::vector<Needle>& after) {
+  Vector<Quad> of_all{};
+  Quad mass = 0;
+  double largest = 0;
+  std::vector<Kicks::Change> changes;
+  for (Index i = 0; i < needles_.size(); ++i) {
+    const Kicks::Change& change = changes.emplace_back(kicks_->of(ids_[i], findings_.kicks));
+    const Quad its_mass = needles_[i].body.mass;
+    of_all = of_all + change.v * its_mass;
+    mass += its_mass;
+    largest = std::max(largest, magnitude(norm(change.v)));
+  }
+  if (mass > 0) of_all = of_all * Quad(1 / mass);
+  for (Index i = 0; i < needles_.size(); ++i) {
+    if (now < needles_[i].record.time) {
+      report(Kind::wrong_order, i, i, now);
+      continue;
+    }
+    if (excess_over_kick(needles_[i], space_.gravity, after[i].record, changes[i], of_all, largest,
+                         space_) > 1) {
+      report(Kind::wrong_rule, i, i, now);
+    }
+    check_walls(i, now, nullptr);
+    for (Index j = i + 1; j < needles_.size(); ++j) {
+      check_flight(i, j, now);
+      go_on_from_contact(i, j, now);
+    }
   }
 }
 
@@ -321,11 +391,10 @@ bool Audit::finish(double time, const std::function<bool()>& stop) {
                      " collisions: expected at least the " +
                      std::to_string(resumed_->findings.collisions) + " of the interrupted audit");
   }
-  const double epochs = time / setup_.epoch_length;
-  const Instant end{static_cast<std::int64_t>(std::floor(epochs)), epochs - std::floor(epochs)};
+  const Instant end = instant_of(time, setup_.epoch_length);
   Checkpoint before = checkpoint();
   bool stopped = false;
-  slack_ = 0x1p-51 * epochs;
+  slack_ = 0x1p-51 * time / setup_.epoch_length;
   for (Index i = 0; i < needles_.size() && !stopped; ++i) {
     check_walls(i, end, nullptr);
     for (Index j = i + 1; j < needles_.size() && !stopped; ++j) {
@@ -376,11 +445,14 @@ void Audit::check_rule(Index a, Index b, const Instant& now, const Collision& co
   }
 }
 
+// Those of gases with walls, gravity or a thermostat are not.
+bool Audit::follows_windows() const {
+  return walls_.empty() && norm(space_.gravity) == 0 && !setup_.driving.andersen;
+}
+
 bool Audit::contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const {
   if (!setup_.tc && !setup_.tc_relative) return false;
-  // Windows of gases with walls or gravity are not followed.
-  const bool followed = walls_.empty() && norm(space_.gravity) == 0;
-  if (!setup_.tc && !(followed && windows_.are_certain())) return reported;
+  if (!setup_.tc && !(follows_windows() && windows_.are_certain())) return reported;
   const double tc = setup_.tc ? *setup_.tc : *setup_.tc_relative * windows_.mean_free_time();
   const double tolerance = setup_.tc ? 0x1p-50 : Windows::tolerance;
   bool undecided = false;

@@ -18,6 +18,7 @@
 #include "needlework/simulation.h"
 #include "src/audit/contact_finder.h"
 #include "src/audit/encounters.h"
+#include "src/audit/kicks.h"
 #include "src/audit/pair_flight.h"
 #include "src/audit/rule.h"
 #include "src/audit/walls.h"
@@ -50,6 +51,7 @@ struct Findings {
   std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
   std::uint64_t hits = 0;        ///< hits on walls received; the same
   std::uint64_t draws = 0;       ///< events of a thermostat received; their rule is not checked
+  std::uint64_t kicks = 0;       ///< of all needles; the rule is checked for each needle
   std::uint64_t at_walls = 0;    ///< flights of a needle that are checked against all walls
   std::uint64_t contacts = 0;    ///< collisions between pairs that are checked
   std::uint64_t checked = 0;     ///< flights of a pair, from a collision of either needle to the
@@ -59,7 +61,7 @@ struct Findings {
   std::array<std::uint64_t, kinds.size()> differences{};
   std::vector<Difference> listed;  ///< the first differences
 
-  std::uint64_t events() const { return collisions + hits + draws; }
+  std::uint64_t events() const { return collisions + hits + draws + kicks; }
   std::uint64_t count(Kind kind) const { return differences[static_cast<std::size_t>(kind)]; }
   bool clean() const { return differences == std::array<std::uint64_t, kinds.size()>{}; }
   /// Upper limit, with 95 % confidence, on the fraction of collisions and hits that differ in this
@@ -88,8 +90,10 @@ struct Setup {
   std::optional<double> tc_relative;  ///< the same in present mean free times
   std::vector<Scene::Wall> walls = {};
   std::array<double, 3> gravity{};  ///< [L / time^2]
-  double share = 1;                 ///< fraction of all pairs that are checked
-  std::uint64_t seed = 0;           ///< selects these pairs
+  Scene::Driving driving = {};
+  std::uint64_t scene_seed = 1;  ///< of the random numbers of kicks
+  double share = 1;              ///< fraction of all pairs that are checked
+  std::uint64_t seed = 0;        ///< selects these pairs
 };
 
 class Audit {
@@ -113,6 +117,12 @@ class Audit {
   /// The same for all that happens. Of a thermostat it is checked that the needle goes on from
   /// where it was, not which velocities it gets. Throws InputError for events of other kinds.
   void add(const Happening& happening);
+  /// When all needles are kicked next; infinite where there are no kicks. Everything that the run
+  /// reports up to then is to be added before the kick. [time]
+  double next_kick() const;
+  /// Adds this kick: `after` is the state at its instant, in order of id, with which the engine
+  /// goes on. Checks the flights of all needles and pairs until then.
+  void add_kick(const State& after);
   /// Ends the run and checks the last flights. If `stop` returns true between two flights, returns
   /// false and restores the previous state.
   bool finish(double time, const std::function<bool()>& stop = {});
@@ -142,11 +152,15 @@ class Audit {
   Approach approach_of(Index i, Index j) const;
   void check_order(const Instant& now, const Happening& happening);
   void check_pair(const Instant& now, const Collision& collision);
+  void check_kick(const Instant& now, const std::vector<Needle>& after);
+  void go_on_if_resumed();
+  void note_in_fingerprint(std::uint64_t word);
   void check_single(const Instant& now, const Happening& happening);
   void check_hit(Index i, const Instant& now, const Collision& hit);
   void check_walls(Index i, const Instant& now, const Collision* hit);
   void check_partners(Index mine, Index besides, const Instant& now);
   void check_rule(Index a, Index b, const Instant& now, const Collision& collision);
+  bool follows_windows() const;
   bool contact_time_is_due(Index a, Index b, const Instant& now, bool reported) const;
   void check_flight(Index i, Index j, const Instant& now);
   void check_contact(Index a, Index b, const Instant& now);
@@ -176,6 +190,7 @@ class Audit {
   std::vector<std::uint32_t> ids_;
   std::vector<Needle> needles_;
   std::vector<Wall> walls_;
+  std::optional<Kicks> kicks_;
   std::vector<bool> has_collided_;  ///< or hit a wall
   std::vector<Instant> met_;        ///< when a needle last did
   Windows windows_;

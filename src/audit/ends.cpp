@@ -118,10 +118,9 @@ void Audit::check_start(const Scene& scene, const State* given) {
     right = near(found_tr, t_tr, sums) && near(found_rot, t_rot, sums) &&
             (needles_.size() < 2 || norm(momentum) <= sums * most);
   }
-  const double free = windows_.mean_free_time();
-  const bool followed = walls_.empty() && norm(space_.gravity) == 0;
-  if (followed && std::isfinite(free))
-    right &= free > 1 - Windows::tolerance && free < 2 + Windows::tolerance;
+  const double usual = windows_.usual_time();
+  if (follows_windows() && std::isfinite(usual))
+    right &= usual > 1 - Windows::tolerance && usual < 2 + Windows::tolerance;
   if (!right) report(Kind::wrong_start);
 }
 
@@ -167,7 +166,10 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
 
 // Whether no two needles can ever meet: none turns, and all move alike.
 bool Audit::is_at_rest() const {
-  if (!walls_.empty() || norm(space_.gravity) != 0) return needles_.empty();
+  const Scene::Driving& driving = setup_.driving;
+  if (!walls_.empty() || norm(space_.gravity) != 0 || driving.kicks || driving.andersen) {
+    return needles_.empty();
+  }
   if (needles_.size() < 2) return true;
   const Vector<double>& v = needles_.front().record.v;
   return std::ranges::all_of(needles_, [&](const Needle& needle) {

@@ -4,7 +4,7 @@
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
 
-#include "src/audit/excess.h"
+#include "src/audit/there.h"
 
 namespace needlework::audit {
 namespace {
@@ -22,39 +22,6 @@ double phase_at(const Wall& wall, const Instant& time) {
   const Quad turns = part(Quad(wall.frequency) * Quad(static_cast<double>(time.epoch))) +
                      Quad(wall.frequency) * Quad(time.offset);
   return two_pi * static_cast<double>(part(turns)) + wall.phase;
-}
-
-// A needle at one time after its record, in 113 bits.
-struct There {
-  Vector<Quad> r, u, v, w;
-  double flown, turned;  ///< distance, and angle
-
-  There(const Needle& needle, const Vector<double>& gravity, const Instant& now) {
-    const Flight<Ball<Quad>> flight(needle.record);
-    const Ball<Quad> age = elapsed<Quad>(needle.record.time, now);
-    const Pose<Ball<Quad>> pose = flight.at(age);
-    const Vector<Ball<Quad>> spin = cross(pose.u, pose.du);
-    const Quad t = age.middle;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Quad g = gravity[axis];
-      r[axis] = pose.r[axis].middle + g * t * t / 2;
-      v[axis] = flight.v[axis].middle + g * t;
-      u[axis] = pose.u[axis].middle;
-      w[axis] = spin[axis].middle;
-    }
-    flown = magnitude(Quad(norm(v) * t)) + norm(gravity) * magnitude(t) * magnitude(t);
-    turned = magnitude(Quad(flight.omega.middle * t));
-  }
-};
-
-void add_place(Excess& excess, const There& there, const StateAfterCollision& after,
-               const Space& space) {
-  for (int axis = 0; axis < 3; ++axis) {
-    Quad moved = there.r[axis] - Quad(after.position[axis]);
-    moved -= Quad(space.box[axis]) * space.boxes_along<Quad>(axis, moved);
-    excess.add(moved, space.rounding() + 16 * unit * there.flown);
-    excess.add(there.u[axis] - Quad(after.orientation[axis]), 8 * unit * (2 + there.turned));
-  }
 }
 
 }  // namespace
@@ -134,7 +101,8 @@ std::optional<double> TipFlight::crossing(double from, double to, double toleran
 double excess_over_flight(const Needle& needle, const Vector<double>& gravity, const Instant& now,
                           const StateAfterCollision& after, const Space& space) {
   Excess excess;
-  add_place(excess, There(needle, gravity, now), after, space);
+  add_place(excess, There(needle, gravity, now), vector(after.position), vector(after.orientation),
+            space);
   return excess.most();
 }
 
@@ -144,7 +112,7 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   const Body& body = needle.body;
   const Quad n = wall.sign(), arm = hit.arm_first;
   Excess excess;
-  add_place(excess, there, hit.after[0], space);
+  add_place(excess, there, vector(hit.after[0].position), vector(hit.after[0].orientation), space);
   // Of a tip, and of no other needle.
   const double half = body.length / 2;
   excess.add(Quad(std::abs(hit.arm_first) - half), 4 * unit * half);

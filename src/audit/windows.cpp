@@ -103,19 +103,22 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> b
   return volume * count / (std::sqrt(boost::math::constants::pi<double>() / 8) * collisions);
 }
 
-Windows::Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume)
-    : bodies_(std::move(bodies)), volume_(volume) {
+Windows::Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume,
+                 double between_kicks)
+    : bodies_(std::move(bodies)), volume_(volume), between_kicks_(between_kicks) {
   open({}, needles);
 }
 
 void Windows::open(const Instant& now, std::span<const Needle> needles) {
   mean_free_time_ = audit::mean_free_time(temperatures_of(needles, bodies_), bodies_, volume_);
-  if (!std::isfinite(mean_free_time_)) {
+  if (!std::isfinite(usual_time())) {
     end_ = {std::numeric_limits<std::int64_t>::max(), 0};
     return;
   }
-  const double span = std::ldexp(1.0, std::ilogb(mean_free_time_));
-  const auto power_of = [&](double factor) { return std::ilogb(mean_free_time_ * factor); };
+  const double span = std::ldexp(1.0, std::ilogb(usual_time()));
+  const auto power_of = [&](double factor) {
+    return std::ilogb(std::min(mean_free_time_ * factor, between_kicks_));
+  };
   if (power_of(1 - tolerance) != power_of(1 + tolerance)) certain_ = false;
   end_ = later(now, span);
 }

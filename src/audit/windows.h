@@ -2,6 +2,7 @@
 // mean free time at its start.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -29,19 +30,28 @@ double energy_of(std::span<const Needle> needles);
 double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
                       double volume);
 
-/// Follows the ends of windows. A window begins with the run or at the end of the one before, and
-/// lasts for the power of two at or below the mean free time at its start. Times are in epochs.
+/// Follows the ends of windows. A window begins with the run, at the end of the one before or with
+/// a kick, and lasts for the power of two at or below the mean free time at its start, or the
+/// interval of kicks if that is shorter. Times are in epochs.
 class Windows {
  public:
   /// Relative error of the mean free time of the engine, which uses a coarse quadrature.
   static constexpr double tolerance = 4e-6;
 
-  /// Opens the first window at time 0.
-  Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume);
+  /// Opens the first window at time 0. `between_kicks` is their interval, or infinite.
+  Windows(std::span<const Needle> needles, std::vector<Body> bodies, double volume,
+          double between_kicks);
 
   /// Opens windows until the present one ends after `now`. The needles move as given until then.
   void advance(const Instant& now, std::span<const Needle> needles);
 
+  /// Opens a window now, as the needles have been kicked.
+  void begin_again(const Instant& now, std::span<const Needle> needles) {
+    if (certain_) open(now, needles);
+  }
+
+  /// The shorter of the mean free time in the present window and the interval of kicks. [epochs]
+  double usual_time() const { return std::min(mean_free_time_, between_kicks_); }
   /// In the present window. [epochs]
   double mean_free_time() const { return mean_free_time_; }
   /// Whether the ends of all windows so far are certain: no mean free time was so near a power of
@@ -52,7 +62,7 @@ class Windows {
   void open(const Instant& now, std::span<const Needle> needles);
 
   std::vector<Body> bodies_;
-  double volume_;
+  double volume_, between_kicks_;
   double mean_free_time_ = 0;
   Instant end_;
   bool certain_ = true;

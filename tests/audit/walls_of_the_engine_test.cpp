@@ -3,49 +3,20 @@
 
 #include <cmath>
 
-#include "src/audit/audit.h"
-#include "tests/support/audit_setup.h"
+#include "tests/support/audited.h"
 #include "tests/support/by_build.h"
-#include "tests/support/runs.h"
 #include "tests/support/wall.h"
 
 namespace needlework::test {
 namespace {
 
 using audit::Findings;
-using audit::Kind;
 
 constexpr int thin = by_build(1, 5);
 
-Findings audited(const Scene& scene, double time) {
-  Simulation simulation(scene);
-  audit::Audit audit(simulation.copy(), audit_setup(scene, simulation.epoch_length()));
-  audit.check_start(scene, nullptr);
-  simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
-  const Scene::Until until = until_time(time / thin);
-  const Stop stop = simulation.advance(until);
-  audit.finish(simulation.time());
-  audit.check_end(until, stop, simulation.time());
-  return audit.findings();
-}
-
-void expect_clean(const Findings& findings, const std::string& what) {
-  std::string text;
-  for (const Kind kind : audit::kinds) {
-    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
-  }
-  for (const auto& each : findings.listed) {
-    text += "\n" + std::string(audit::name(each.kind)) + " " + std::to_string(each.time) + " " +
-            std::to_string(each.first) + (each.at_wall ? " wall " : " ") +
-            std::to_string(each.second);
-  }
-  EXPECT_TRUE(findings.clean()) << what << ": " << text;
-  EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000) << what << ": " << text;
-}
-
 // Whether the audit finds nothing, in a gas with hits and collisions enough.
 void expect_clean_gas(const Scene& scene) {
-  const Findings findings = audited(scene, 10);
+  const Findings findings = audited(scene, 10.0 / thin);
   expect_clean(findings, name_of(scene));
   EXPECT_GT(findings.hits, 100u / thin);
   EXPECT_GT(findings.contacts, 50u / thin);
@@ -80,7 +51,7 @@ TEST(AuditOfWalls, FindsNothingWrongWithThermalWallsAndMixtures) {
                    {.name = "long", .count = 12, .length = 1.5, .mass = 7, .k = 6, .t_tr = 0.3}};
   scene.walls = {wall("z", "low"), wall("z", "high")};
   scene.walls[0].temperature = 2;
-  const Findings findings = audited(scene, 10);
+  const Findings findings = audited(scene, 10.0 / thin);
   expect_clean(findings, "a mixture");
   EXPECT_GT(findings.hits, 50u / thin);
 }

@@ -15,6 +15,8 @@ inline audit::Setup audit_setup(const Scene& scene, double epoch_length, double 
   setup.tc_relative = c.tc_relative;
   setup.walls = scene.walls;
   setup.gravity = scene.forces.gravity;
+  setup.driving = scene.driving;
+  setup.scene_seed = scene.needles.seed;
   setup.share = share;
   return setup;
 }

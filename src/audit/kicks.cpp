@@ -1,0 +1,95 @@
+#include "src/audit/kicks.h"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+
+#include "src/audit/there.h"
+
+namespace needlework::audit {
+namespace {
+
+// Standard normal numbers of one needle and kick, by the definition in docs/physics.md: the words
+// of Philox-4x64-10 one after the other, each the upper 53 bits of a number in [0, 1); two of them
+// a point in a square, until it is within the circle; from this, by Marsaglia's polar method, two
+// normal numbers.
+class Normals {
+ public:
+  Normals(std::uint64_t seed, std::uint64_t id, std::uint64_t kick)
+      : key_{{seed, 0}}, counter_{{0, id, kick, kicks}} {}
+
+  /// Of two pairs, the first three.
+  Vector<Quad> vector() {
+    const Pair first = pair(), second = pair();
+    return {{first.x, first.y, second.x}};
+  }
+
+ private:
+  static constexpr std::uint64_t kicks = 3;  // what the numbers are for
+
+  struct Pair {
+    Quad x, y;
+  };
+
+  double uniform() {
+    if (used_ == 4) {
+      words_ = r123::Philox4x64()(counter_, key_);
+      ++counter_[0];
+      used_ = 0;
+    }
+    return std::ldexp(static_cast<double>(words_[used_++] >> 11), -53);
+  }
+  Pair pair() {
+    for (;;) {
+      const Quad x = 2 * uniform() - 1, y = 2 * uniform() - 1;  // without rounding
+      const Quad squared = x * x + y * y;
+      if (!(squared > 0 && squared < 1)) continue;
+      using std::log, std::sqrt;
+      const Quad scale = sqrt(Quad(-2 * log(squared) / squared));
+      return {x * scale, y * scale};
+    }
+  }
+
+  r123::Philox4x64::key_type key_;
+  r123::Philox4x64::ctr_type counter_, words_{};
+  std::size_t used_ = 4;
+};
+
+}  // namespace
+
+Kicks::Kicks(const Scene::Kicks& kicks, std::uint64_t seed, double epoch_length, double unit)
+    : seed_(seed) {
+  using std::sqrt;
+  const Quad root = sqrt(Quad(kicks.every));
+  translational_ = root * kicks.translational * epoch_length / unit;
+  rotational_ = root * kicks.rotational * epoch_length;
+}
+
+Kicks::Change Kicks::of(std::uint32_t id, std::uint64_t kick) const {
+  Normals normals(seed_, id, kick);
+  const Vector<Quad> v = normals.vector() * translational_;
+  return {v, normals.vector() * rotational_};
+}
+
+double excess_over_kick(const Needle& before, const Vector<double>& gravity, const Record& after,
+                        const Kicks::Change& change, const Vector<Quad>& of_all, double largest,
+                        const Space& space) {
+  constexpr double unit = 0x1p-53;
+  const There there(before, gravity, after.time);
+  Excess excess;
+  add_place(excess, there, after.r, after.u, space);
+  // Directors are off by half units, which grow with the angle turned; changes by what logarithm
+  // and roots round.
+  const double off = 16 * unit * (2 + there.turned + there.flown / before.body.length);
+  const double speed = magnitude(norm(there.v)) + largest;
+  const double spin = magnitude(norm(there.w)) + magnitude(norm(change.w));
+  const Vector<Quad> v = there.v + change.v - of_all;
+  const Vector<Quad> w = there.w + change.w - there.u * dot(there.u, change.w);
+  for (int axis = 0; axis < 3; ++axis) {
+    excess.add(v[axis] - Quad(after.v[axis]), off * speed);
+    excess.add(w[axis] - Quad(after.w[axis]), off * spin);
+  }
+  return excess.most();
+}
+
+}  // namespace needlework::audit

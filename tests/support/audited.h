@@ -1,0 +1,61 @@
+// A run of the engine under the audit, kicks included, and whether it found nothing.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "src/audit/audit.h"
+#include "tests/support/audit_setup.h"
+#include "tests/support/runs.h"
+
+namespace needlework::test {
+
+/// Runs until this time. `alter` changes what the audit is given of the state after each kick.
+inline audit::Findings audited(const Scene& scene, double time, const audit::Setup& setup,
+                               const std::function<void(State&)>& alter = {}) {
+  Simulation simulation(scene);
+  audit::Audit audit(simulation.copy(), setup);
+  audit.check_start(scene, nullptr);
+  simulation.on_happening([&](const Happening& happening) { audit.add(happening); });
+  Stop stop = Stop::time;
+  for (bool kicked = true; kicked;) {
+    const double kick = audit.next_kick();
+    stop = simulation.advance(until_time(std::min(time, kick)));
+    kicked = stop == Stop::time && kick <= time;
+    if (!kicked) continue;
+    State after = simulation.copy();
+    if (alter) alter(after);
+    audit.add_kick(after);
+  }
+  audit.finish(simulation.time());
+  audit.check_end(until_time(time), stop, simulation.time());
+  return audit.findings();
+}
+
+inline audit::Findings audited(const Scene& scene, double time) {
+  return audited(scene, time, audit_setup(scene, Simulation(scene).epoch_length()));
+}
+
+inline std::string listed(const audit::Findings& findings) {
+  std::string text;
+  for (const audit::Kind kind : audit::kinds) {
+    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
+  }
+  for (const auto& each : findings.listed) {
+    text += "\n" + std::string(audit::name(each.kind)) + " " + std::to_string(each.time) + " " +
+            std::to_string(each.first) + (each.at_wall ? " wall " : " ") +
+            std::to_string(each.second);
+  }
+  return text;
+}
+
+inline void expect_clean(const audit::Findings& findings, const std::string& what) {
+  EXPECT_TRUE(findings.clean()) << what << ": " << listed(findings);
+  EXPECT_LE(findings.undecided, 1 + findings.checked / 1000000) << what << ": " << listed(findings);
+}
+
+}  // namespace needlework::test
