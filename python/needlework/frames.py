@@ -70,8 +70,13 @@ class Frame(NotPickled):
 
     @cached_property
     def box(self) -> np.ndarray:
-        """Edges of the periodic box, [3] [L]."""
+        """Edges of the box, [3] [L]."""
         return self._needles.box(self._index)
+
+    @property
+    def periodic(self) -> np.ndarray:
+        """Along which axes the box is periodic, [3]; along the others there are walls."""
+        return self._needles.periodic
 
     @cached_property
     def id(self) -> np.ndarray:
@@ -159,6 +164,13 @@ def _get(group: h5py.Group, name: str) -> Any:
         return group.get(name)
     except (KeyError, OSError):
         return None
+
+
+def _periodic(group: h5py.Group) -> np.ndarray:
+    """Along which axes the box of a group is, which are all where the file does not say it."""
+    boundary = _get(group, "box").attrs.get("boundary", ())
+    words = [word.decode() if isinstance(word, bytes) else str(word) for word in np.ravel(boundary)]
+    return np.array([word != "none" for word in words] if len(words) == 3 else [True] * 3)
 
 
 class Element:
@@ -257,6 +269,7 @@ class Needles:
             position.reject(f"shape {position.shape}: expected [frames][needles][3]")
         self.count = position.shape[-2]
         self._common: np.ndarray | None = None  # steps of the frames, if elements differ in them
+        self.periodic = _periodic(group)
         self.frames = self._count_frames(position)
         self._require_shapes()
         self.steps, self.times = self._steps_and_times(position)

@@ -36,7 +36,7 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
     that OVITO draws needles. The species of a mixture are its types. GSD has no angular velocity: it
     is in ``log["particles/angular_velocity"]``, in double precision, and the time is in
-    ``log["time"]``.
+    ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes with walls.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
     import gsd.hoomd
@@ -101,7 +101,8 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.moment_inertia = np.stack([inertia, inertia, 0 * inertia], axis=1)[species]
     particles.diameter = lengths[species]
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
-                    "time": np.array([frame.time])}
+                    "time": np.array([frame.time]),
+                    "periodic": frame.periodic.astype(np.uint8)}
     return snapshot
 
 

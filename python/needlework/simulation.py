@@ -453,8 +453,14 @@ class Simulation(NotPickled):
 
     @property
     def box(self) -> np.ndarray:
-        """Edges of the periodic box, [3] [L]."""
+        """Edges of the box, [3] [L]."""
         return self._facts.box
+
+    @property
+    def periodic(self) -> np.ndarray:
+        """Along which axes the box is periodic, [3]; along the others there are walls."""
+        walled = {wall.axis for wall in self.wall_totals}
+        return np.array([axis not in walled for axis in "xyz"])
 
     @property
     def gas(self) -> Values:

@@ -231,8 +231,8 @@ TEST_F(Formats, BadDumpsAreNamed) {
   expect_complaints(
       text,
       {{"ITEM: TIMESTEP", "ITEM: STEP", "cut short after line 15: expected ITEM: TIMESTEP"},
-       {"pp pp pp", "pp pp fs", "line 9: ITEM: BOX BOUNDS pp pp fs: expected ITEM: BOX BOUNDS"},
-       {"pp pp pp", "xy xz yz pp pp fs", "line 9: ITEM: BOX BOUNDS xy xz yz pp pp fs: expected"},
+       {"pp pp pp", "pp pp ss", "line 9: ITEM: BOX BOUNDS pp pp ss: expected ITEM: BOX BOUNDS"},
+       {"pp pp pp", "xy xz yz pp pp fm", "line 9: ITEM: BOX BOUNDS xy xz yz pp pp fm: expected"},
        {"pp pp pp", "xy xz yz pp pp pp", "line 10: expected the two bounds of the box and a tilt"},
        {"pp pp pp\n-4 4", "xy xz yz pp pp pp\n-4 4 0.5", "line 10: tilt = 0.5: expected 0"},
        {"-4 4", "4 -4", "line 10: an edge of -8: expected one > 0"},
@@ -328,9 +328,36 @@ TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
   open.walls = {wall("z", "low"), wall("y", "high")};
   put("b.dump", {state}, open);
   EXPECT_NE(text_of_file("b.dump").find("BOX BOUNDS pp sf fs\n"), std::string::npos);
+  const Configuration back = read_configuration(file("b.dump"));
+  EXPECT_EQ(back.state.periodic, state.periodic);
+  EXPECT_EQ(back.material.gravity, open.gravity);
+  ASSERT_EQ(back.material.walls.size(), 2u);
+  EXPECT_EQ(back.material.walls[0].axis + back.material.walls[0].side, "yhigh");
+  EXPECT_EQ(back.material.walls[1].axis + back.material.walls[1].side, "zlow");
+  EXPECT_NE(back.note.find("epsilon = 1"), std::string::npos);
   put("c.xyz", {make_state(3)});
   EXPECT_NE(text_of_file("c.xyz").find(" pbc=\"T T T\" length=1.7"), std::string::npos);
   EXPECT_EQ(text_of_file("c.xyz").find("walls"), std::string::npos);
+}
+
+// Forces of a dump are those of gravity if they give all needles the same acceleration.
+TEST_F(Formats, DumpsHaveGravityAsForces) {
+  const auto gravity = [&](const std::string& boundary, const char* first, const char* second) {
+    std::ofstream(file("a.dump"))
+        << "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS " << boundary
+        << "\n0 9\n0 9\n0 9\nITEM: ATOMS id type mass k x y z vx vy vz mux muy muz omegax omegay "
+           "omegaz fx fy fz\n"
+        << "1 1 2 6 1 2 3 4 5 6 1 0 0 0 7 8 " << first << "\n"
+        << "2 2 4 6 4 2 3 4 5 6 1 0 0 0 7 8 " << second << "\n";
+    return read_configuration(file("a.dump")).material.gravity;
+  };
+  using Vector = std::array<double, 3>;
+  EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -6"), (Vector{0, 0, -1.5}));
+  EXPECT_EQ(gravity("pp pp ff", "0 0 -3", "0 0 -6"), (Vector{0, 0, -1.5}));
+  EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -5.99998"), (Vector{0, 0, -1.5}));
+  EXPECT_EQ(gravity("pp pp fs", "0 0 -3", "0 0 -3"), Vector{});  // not the same acceleration
+  EXPECT_EQ(gravity("pp pp fs", "1 0 -3", "2 0 -6"), Vector{});  // along a periodic axis
+  EXPECT_EQ(gravity("pp pp pp", "0 0 -3", "0 0 -6"), Vector{});
 }
 
 // Along an axis with walls, the box begins at 0.

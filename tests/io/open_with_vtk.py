@@ -124,10 +124,31 @@ def check_collection(folder, name, needles, program):
         check_grid(os.path.join(folder, file), needles, expected(needles, frame))
     for _, file in boxes:
         box = read_grid(os.path.join(folder, file))
+        assert box.GetFieldData().GetNumberOfArrays() == 0
         assert box.GetBounds() == (0, 8, 0, 9, 0, 10) and box.GetNumberOfCells() == 12
         lengths = [box.GetCell(i).GetLength2() for i in range(12)]
         assert sorted(lengths) == 4 * [64] + 4 * [81] + 4 * [100], lengths
     return len(frames)
+
+
+WALLED = """
+needles = { count = 20, box = [4, 5, 6] }
+walls = [{ axis = "y", side = "both" }]
+until = { time = 0.1 }
+"""
+
+
+def check_walls(folder, program):
+    """The outline of a box says along which axes it is periodic, unless along all."""
+    scene, run = os.path.join(folder, "walled.toml"), os.path.join(folder, "walled.h5")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(WALLED)
+    subprocess.run([program, "run", scene, "--out", run, "--quiet"], check=True, timeout=3600)
+    subprocess.run([program, "export", run, os.path.join(folder, "walled.pvd")], check=True,
+                   timeout=3600)
+    grid = read_grid(os.path.join(folder, "walled", "box-00000.vtu"))
+    assert grid.GetBounds() == (0, 4, 0, 5, 0, 6)
+    same(vtk_to_numpy(grid.GetFieldData().GetArray("periodic")), np.array([1, 0, 1]), "periodic")
 
 
 def main(writer, program):
@@ -145,6 +166,7 @@ def main(writer, program):
         if vtkHDFReader:
             assert check_collection(folder, "sample", 5, program) == 7
             check_collection(folder, "empty", 0, program)
+            check_walls(folder, program)
     if not vtkHDFReader:
         print("read with h5py, but not with VTK: python3-vtk9 is not installed")
         sys.exit(77)  # skipped

@@ -53,6 +53,21 @@ class ToGsd(unittest.TestCase):
                     self.assert_same(snapshot, frame)
                     self.assertEqual(snapshot.configuration.step, frame.collisions)
 
+    def test_axes_with_walls(self):
+        walled, out = self.path("walled.h5"), self.path("walled.gsd")
+        scene = support.gas(output={"file": walled, "frames": [0.5]},
+                            walls=[{"axis": "z", "side": "both"}])
+        with needlework.Simulation(scene) as sim:
+            self.assertEqual(sim.periodic.tolist(), [True, True, False])
+            sim.run()
+            needlework.to_gsd(sim, self.path("state.gsd"))
+        needlework.to_gsd(walled, out)
+        for path, last in ((out, 0), (self.path("state.gsd"), 0), (self.path("run.gsd"), 1)):
+            if last:
+                needlework.to_gsd(self.run, path)
+            with gsd.hoomd.open(path, "rb") as file:
+                self.assertEqual(file[0].log["periodic"].tolist(), [1, 1, last])
+
     def test_one_frame(self):
         out = self.path("last.gsd")
         with needlework.read(self.run) as run:

@@ -23,6 +23,7 @@ struct Columns {
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
   std::optional<std::size_t> length, mass, k;
+  std::optional<VectorColumns> force;  ///< not read by NeedleReader
   std::optional<std::size_t> species;
   std::int64_t first_species = 0;    ///< the number in the file of the species whose index is 0
   bool scaled = false;               ///< positions are multiples of the edges, from `lower`

@@ -19,13 +19,14 @@ namespace needlework::io {
 bool is_lammps_dump(std::string_view beginning);
 bool is_lammps_data(std::string_view beginning);
 
-/// Reads the last frame of a dump in text with a rectangular box (pp, or ff between two walls) and
-/// the columns vx, vy, vz, mux, muy, muz (a unit vector), omegax, omegay, omegaz and one set of
-/// positions: x, y, z; scaled xs, ys, zs; unwrapped xu, yu, zu; or both, xsu, ysu, zsu. id, ix, iy,
-/// iz, diameter and mass are optional. Numbers are not changed, except that scaled positions are
-/// multiplied by the edges, unwrapped ones are wrapped into the box and counted in the images, and
-/// what is rounded is projected as NeedleReader says. Throws IoError if the file cannot be read,
-/// and InputError, "PATH: line N: reason".
+/// Reads the last frame of a dump in text with a rectangular box (pp, ff between two walls, fs or
+/// sf where one side is open) and the columns vx, vy, vz, mux, muy, muz (a unit vector), omegax,
+/// omegay, omegaz and one set of positions: x, y, z; scaled xs, ys, zs; unwrapped xu, yu, zu; or
+/// both, xsu, ysu, zsu. id, ix, iy, iz, diameter, mass and fx, fy, fz are optional; gravity is what
+/// gives all needles the same acceleration. Numbers are not changed, except that scaled positions
+/// are multiplied by the edges, unwrapped ones are wrapped into the box and counted in the images,
+/// and what is rounded is projected as NeedleReader says. Throws IoError if the file cannot be
+/// read, and InputError, "PATH: line N: reason".
 Configuration read_lammps_dump(const std::string& path);
 /// Reads a data file with `Atoms # hybrid sphere dipole` and `Velocities`. Length, mass, k, epsilon
 /// and beta are taken from the first line, where write_lammps_data() writes them.
@@ -36,8 +37,8 @@ Configuration read_lammps_data(const std::string& path);
 std::string lammps_boundary(const State& state, const Material& material, std::size_t axis);
 
 /// Writes frames from which the functions above read the same numbers. A dump has the number of the
-/// frame as its time step, and neither times nor k and epsilon; by its quaternion and shape OVITO
-/// draws needles.
+/// frame as its time step, gravity as forces, and neither times nor k and epsilon; by its
+/// quaternion and shape OVITO draws needles.
 std::unique_ptr<FrameWriter> write_lammps_dump(const std::string& path, bool force,
                                                const Material& material);
 /// Writes one frame.

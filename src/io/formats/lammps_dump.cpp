@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 
 #include "src/io/formats/columns.h"
 #include "src/io/formats/input_text.h"
@@ -19,27 +23,76 @@ constexpr std::string_view begin_of_atoms = "ITEM: ATOMS";
 constexpr ColumnNames dump_names{"x y z, xs ys zs, xu yu zu or xsu ysu zsu", "vx vy vz",
                                  "mux muy muz", "omegax omegay omegaz"};
 
-// Periodic, or fixed at both ends of an axis. Shrink-wrapped boundaries (s, m) are where the atoms
-// end, which no box of needles does.
+// Periodic, or with a fixed end (f) or two. A boundary that follows the atoms (s) is an open side
+// opposite to a wall; one that is not closer than some bound (m) is none of needles.
 bool is_rectangular(const std::vector<std::string_view>& words, std::size_t first_boundary) {
   return words.size() == first_boundary + 3 &&
          std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first_boundary), words.end(),
-                     [](std::string_view word) { return word == "pp" || word == "ff"; });
+                     [](std::string_view word) {
+                       return word == "pp" || word == "ff" || word == "fs" || word == "sf";
+                     });
 }
+
+// Where a side is open, the boundary says on which sides there are walls.
+void add_walls(std::span<const std::string_view> boundary, Configuration& configuration) {
+  if (std::ranges::none_of(boundary, [](auto word) { return word == "fs" || word == "sf"; })) {
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (boundary[axis] == "pp") continue;
+    Scene::Wall& wall = configuration.material.walls.emplace_back();
+    wall.axis = std::string(1, "xyz"[axis]);
+    wall.side = boundary[axis] == "ff" ? "both" : boundary[axis] == "fs" ? "low" : "high";
+  }
+  configuration.note = "it says where walls are, not which: at rest with epsilon = 1 are assumed";
+}
+
+// Forces that give all needles the same acceleration are those of gravity.
+class Gravity {
+ public:
+  void add(const Row& row, const VectorColumns& columns, double mass) {
+    std::array<double, 3> acceleration{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      acceleration[axis] = row.read(columns[axis], "force") / mass;
+    }
+    if (!first_) first_ = acceleration;
+    const auto& [x, y, z] = *first_;
+    const double size = std::abs(x) + std::abs(y) + std::abs(z);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // LAMMPS writes six digits.
+      is_same_ &= std::abs(acceleration[axis] - (*first_)[axis]) <= 1e-5 * size;
+    }
+  }
+  /// Along axes with walls, where gravity is known; else none.
+  std::array<double, 3> along_walls(const std::array<bool, 3>& periodic) const {
+    if (!first_ || !is_same_) return {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (periodic[axis] && (*first_)[axis] != 0) return {};
+    }
+    return *first_;
+  }
+
+ private:
+  std::optional<std::array<double, 3>> first_;
+  bool is_same_ = true;
+};
 
 // Sets the edges and which axes are periodic, and returns the lower bounds. A box with the tilts
 // xy, xz and yz is rectangular if they are 0.
-std::array<double, 3> read_box(Lines& lines, State& state) {
+std::array<double, 3> read_box(Lines& lines, Configuration& configuration) {
+  State& state = configuration.state;
   const std::vector<std::string_view> words = lines.fields();
   const bool tilted = words.size() > 5 && words[3] == "xy" && words[4] == "xz" && words[5] == "yz";
   if (!is_rectangular(words, tilted ? 6 : 3)) {
     lines.reject(fmt::format(
-        "{}: expected {} pp pp pp, a rectangular box, with ff along axes between two walls",
+        "{}: expected {} pp pp pp, a rectangular box, with ff along axes between two walls, fs or "
+        "sf where one side is open",
         lines.line().substr(0, 60), begin_of_box));
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     state.periodic[axis] = words[(tilted ? 6 : 3) + axis] == "pp";
   }
+  add_walls(std::span(words).last(3), configuration);
   std::array<double, 3> lower{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     lines.advance("the bounds of the box");
@@ -101,6 +154,7 @@ Columns read_columns(const Lines& lines) {
   columns.k = find("k");
   columns.species = find("type");
   columns.first_species = 1;
+  columns.force = find_vector("fx", "fy", "fz");
   require_all_vectors(columns, dump_names, lines.row());
   return columns;
 }
@@ -127,6 +181,9 @@ class DumpWriter : public FrameWriter {
     if (!material.length.empty()) names_ += " diameter";
     if (!material.mass.empty()) names_ += " mass";
     if (all.size() > 1) names_ += " k";
+    const std::array<double, 3>& gravity = material.gravity;
+    const bool falls = gravity != std::array<double, 3>{};
+    if (falls) names_ += " fx fy fz";
     for (const Species& each : all) {
       // Diameters of an ellipsoid, as LAMMPS has them.
       const double width = 2 * drawn_radius * each.length;
@@ -135,6 +192,9 @@ class DumpWriter : public FrameWriter {
       if (!material.length.empty()) ending += fmt::format(" {}", each.length);
       if (!material.mass.empty()) ending += fmt::format(" {}", each.mass);
       if (all.size() > 1) ending += fmt::format(" {}", each.k);
+      for (const double g : gravity) {
+        if (falls) ending += fmt::format(" {}", each.mass * g);
+      }
     }
   }
 
@@ -196,7 +256,7 @@ Configuration read_lammps_dump(const std::string& path) {
   while (!lines.line().starts_with(begin_of_atoms)) {
     if (!lines.line().starts_with("ITEM: ")) lines.reject("expected ITEM: and a name");
     if (lines.line().starts_with(begin_of_box)) {
-      lower = read_box(lines, configuration.state);
+      lower = read_box(lines, configuration);
     } else {
       const bool is_count = lines.line().starts_with("ITEM: NUMBER OF ATOMS");
       lines.advance("a number");
@@ -214,14 +274,19 @@ Configuration read_lammps_dump(const std::string& path) {
   NeedleReader needles(columns, configuration);
   needles.reserve(count, frame.bytes());
   const std::string expected = fmt::format("{} atoms", count);
+  Gravity gravity;
   for (std::int64_t i = 0; i < count; ++i) {
     lines.advance(expected);
     needles.read(lines.row());
+    if (!columns.force) continue;
+    const double mass = columns.mass ? lines.row().read(*columns.mass, "mass") : 1;
+    gravity.add(lines.row(), *columns.force, mass);
   }
   while (lines.advance_if_any()) {
     if (!lines.is_blank()) lines.reject(fmt::format("expected no line after {} atoms", count));
   }
   needles.finish(path);
+  configuration.material.gravity = gravity.along_walls(configuration.state.periodic);
   return configuration;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "needlework/error.h"
@@ -69,7 +70,7 @@ class PvdWriter : public FrameWriter {
 
  private:
   void write_needles(const std::string& name, const State& state);
-  void write_box(const std::string& name, const Vector& box);
+  void write_box(const std::string& name, const State& state);
   // Where a file of the folder is, which is removed if nothing is published.
   std::string file_of(const std::string& name);
   void list(double time, int part, const std::string& name);
@@ -80,7 +81,7 @@ class PvdWriter : public FrameWriter {
   fs::path folder_;
   bool made_folder_ = false;
   std::vector<std::string> new_files_;
-  std::optional<Vector> box_;  // of the last outline
+  std::optional<std::pair<Vector, std::array<bool, 3>>> box_;  // of the last outline
   std::string box_name_;
 };
 
@@ -147,10 +148,10 @@ void PvdWriter::add(const Frame& frame) {
   const double time = frame.time.value_or(static_cast<double>(frame.number));
   const std::string name = fmt::format("frame-{:05}.vtu", frame.number);
   write_needles(name, frame.state);
-  if (box_ != frame.state.box) {
-    box_ = frame.state.box;
+  if (const auto box = std::pair(frame.state.box, frame.state.periodic); box_ != box) {
+    box_ = box;
     box_name_ = fmt::format("box-{:05}.vtu", frame.number);
-    write_box(box_name_, *box_);
+    write_box(box_name_, frame.state);
   }
   list(time, 0, name);
   list(time, 1, box_name_);
@@ -180,9 +181,13 @@ void PvdWriter::write_needles(const std::string& name, const State& state) {
   file.publish(2 * state.size(), state.size());
 }
 
-void PvdWriter::write_box(const std::string& name, const Vector& box) {
-  const std::vector<Vector> points = outline(box);
+void PvdWriter::write_box(const std::string& name, const State& state) {
+  const std::vector<Vector> points = outline(state.box);
   VtuFile file(file_of(name), force_);
+  if (state.periodic != std::array{true, true, true}) {
+    const std::array<int, 3> periodic{state.periodic[0], state.periodic[1], state.periodic[2]};
+    file.add_field("periodic", periodic);
+  }
   add_lines(file, points);
   file.publish(points.size(), points.size() / 2);
 }

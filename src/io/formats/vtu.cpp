@@ -1,5 +1,7 @@
 #include "src/io/formats/vtu.h"
 
+#include <fmt/ranges.h>
+
 #include <bit>
 #include <cstring>
 
@@ -46,17 +48,24 @@ void VtuFile::add(std::string_view name, std::vector<std::uint8_t> values) {
   add_bytes(name, "UInt8", 1, bytes_of(values));
 }
 
+void VtuFile::add_field(std::string_view name, std::span<const int> values) {
+  field_ += fmt::format(
+      "    <FieldData>\n      <DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"{}\" "
+      "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
+      name, values.size(), fmt::join(values, " "));
+}
+
 void VtuFile::publish(std::size_t points, std::size_t cells) {
   file_.print(R"(<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="{}" header_type="UInt64">
   <UnstructuredGrid>
-    <Piece NumberOfPoints="{}" NumberOfCells="{}">
+{}    <Piece NumberOfPoints="{}" NumberOfCells="{}">
 {}      </{}>
     </Piece>
   </UnstructuredGrid>
   <AppendedData encoding="raw">
 _)",
-              byte_order, points, cells, description_, part_);
+              byte_order, field_, points, cells, description_, part_);
   // Each array follows its size in bytes.
   for (const std::string& bytes : bytes_) {
     const std::uint64_t size = bytes.size();

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,9 @@ class VtuFile {
   void add(std::string_view name, std::vector<std::int64_t> values);
   void add(std::string_view name, std::vector<std::uint8_t> values);
 
+  /// What is said of the grid as a whole.
+  void add_field(std::string_view name, std::span<const int> values);
+
   /// Writes the grid, and gives the file its name.
   void publish(std::size_t points, std::size_t cells);
 
@@ -34,10 +38,10 @@ class VtuFile {
   void add_bytes(std::string_view name, std::string_view type, int components, std::string bytes);
 
   TextFile file_;
-  std::string description_;         // in XML
-  std::string part_;                // the one that is open
-  std::vector<std::string> bytes_;  // of each array
-  std::size_t offset_ = 0;          // of the next array, in the data
+  std::string field_, description_;  // in XML
+  std::string part_;                 // the one that is open
+  std::vector<std::string> bytes_;   // of each array
+  std::size_t offset_ = 0;           // of the next array, in the data
 };
 
 }  // namespace needlework::io
