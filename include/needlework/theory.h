@@ -105,10 +105,12 @@ struct WallRates {
 std::array<WallRates, 3> wall_rates(const Species& species, const std::array<double, 3>& box,
                                     const std::array<bool, 3>& walled, Temperatures now);
 
-/// The length delta, for which the collision rate of needles between two walls H >= 2 L apart,
-/// along one axis alone, is (H - delta L) / (H - L/2) of collision_rate() at the density N / (A (H
-/// - L/2)). q = T_rot / T_tr. Accurate to 1e-6. [1]
-double pair_depletion(double q, double k);
+/// Collisions of needles of species a with those of species b between two walls along one axis
+/// alone, in multiples of those in a periodic box of the same volume: exact for the states of
+/// wall_rates(). There is less room for the centres, but near the walls only for directors along
+/// them. `gap` is the distance of the walls, at least both lengths. Accurate to 1e-6. [1]
+double pair_factor_between_walls(const Species& a, Temperatures at_a, const Species& b,
+                                 Temperatures at_b, double gap);
 
 /// Energy that kicks give, per needle and time, for elastic and inelastic needles alike: every dt
 /// each component of a velocity changes by a Gaussian number of variance translational^2 dt, each

@@ -181,6 +181,32 @@ std::string wall_lines(const runs::Explanation& e) {
   return text;
 }
 
+std::string gravity_lines(const runs::Explanation& e) {
+  std::string text;
+  for (const runs::ExplainedGravity& along : e.gravity) {
+    if (text.empty()) {
+      text = line("gravity", fmt::format("({:g})", fmt::join(e.scene.forces.gravity, ", ")));
+    }
+    text += line(
+        "", fmt::format("along {}: weight N m g = {:.4g}, scale height T / (m g) = {:.4g} "
+                        "at the start",
+                        "xyz"[along.axis], along.weight, fmt::join(along.scale_heights, ", ")));
+  }
+  return text;
+}
+
+Json gravity_json(const runs::Explanation& e) {
+  Json out = Json::array();
+  for (const runs::ExplainedGravity& along : e.gravity) {
+    Json heights = Json::array();
+    for (const double height : along.scale_heights) heights.push_back(number(height));
+    out.push_back({{"axis", std::string(1, "xyz"[along.axis])},
+                   {"weight", number(along.weight)},
+                   {"scale_heights", std::move(heights)}});
+  }
+  return out;
+}
+
 std::string driving_lines(const runs::Explanation& e) {
   std::string text;
   const auto& [kicks, andersen] = e.scene.driving;
@@ -325,7 +351,10 @@ std::string json_of(const runs::Explanation& e) {
   json["tc"] = optional_number(scene.collisions.tc);
   json["tc_relative"] = optional_number(scene.collisions.tc_relative);
   if (!e.walls.empty()) json["walls"] = walls_json(e);
-  if (has_gravity(scene)) json["gravity"] = scene.forces.gravity;
+  if (!e.gravity.empty()) {
+    json["gravity"] = scene.forces.gravity;
+    json["falling"] = gravity_json(e);
+  }
   if (scene.driving.kicks || scene.driving.andersen) json["driving"] = driving_json(e);
   json["until"] = {{"time", optional_number(scene.until.time)},
                    {"collisions_per_needle", optional_number(scene.until.collisions_per_needle)},
@@ -377,8 +406,7 @@ std::string text_of(const runs::Explanation& e) {
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += wall_lines(e);
-  if (has_gravity(scene))
-    text += line("gravity", fmt::format("({:g})", fmt::join(scene.forces.gravity, ", ")));
+  text += gravity_lines(e);
   text += driving_lines(e);
   text += line("ends", until_text(scene.until));
   text += line("expected", expected_text(e));

@@ -67,6 +67,23 @@ std::vector<ExplainedWall> walls_of(const LoadedScene& loaded) {
   return out;
 }
 
+std::vector<ExplainedGravity> gravity_of(const LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  const theory::Temperatures start = initial_temperatures(loaded);
+  const double temperature = (3 * start.t_tr + 2 * start.t_rot) / 5;
+  std::vector<ExplainedGravity> out;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double pull = std::abs(loaded.scene.forces.gravity[axis]);
+    if (pull == 0) continue;
+    ExplainedGravity& along = out.emplace_back(ExplainedGravity{.axis = axis});
+    for (const Species& each : composition.species()) {
+      along.weight += static_cast<double>(each.count) * each.mass * pull;
+      along.scale_heights.push_back(temperature / (each.mass * pull));
+    }
+  }
+  return out;
+}
+
 double kick_power_of(const Scene& scene) {
   const auto& kicks = scene.driving.kicks;
   if (!kicks) return 0;
@@ -76,9 +93,7 @@ double kick_power_of(const Scene& scene) {
 std::vector<double> rates_of(const LoadedScene& loaded) {
   const Composition composition = loaded.scene.composition();
   if (!has_mixture_theory(composition)) return {};
-  return theory::mixture_rates(composition, volume_of(loaded.scene),
-                               temperatures_by_species(loaded))
-      .collisions;
+  return initial_rates_by_pair(loaded);
 }
 
 }  // namespace
@@ -91,6 +106,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       mean_free_time(1 / initial_collision_rate(loaded)),
       rates(rates_of(loaded)),
       walls(walls_of(loaded)),
+      gravity(gravity_of(loaded)),
       kick_power(kick_power_of(scene)),
       expected(expected_of(loaded)),
       collisions(collisions_of(expected, scene)),

@@ -1,6 +1,7 @@
 // What can be said of a scene before it runs.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct ExplainedWall {
   double force = 0;  ///< mean, of all needles [energy / L]
 };
 
+/// What gravity does along an axis, in the steady state over a floor without a ceiling.
+struct ExplainedGravity {
+  std::size_t axis = 0;
+  double weight = 0;  ///< of all needles: the mean force on the floor [energy / L]
+  /// T / (m g) of each species, at the temperature of the start: T = (3 T_tr + 2 T_rot) / 5 [L]
+  std::vector<double> scale_heights = {};
+};
+
 /// The facts of a scene, for people and for programs. Borrows the scene.
 struct Explanation {
   explicit Explanation(const LoadedScene& loaded);
@@ -32,7 +41,8 @@ struct Explanation {
   /// Composition::pair_index; empty if they are too many.
   std::vector<double> rates;
   std::vector<ExplainedWall> walls;
-  double kick_power;                 ///< energy per needle and time that kicks give
+  std::vector<ExplainedGravity> gravity;  ///< along the axes along which there is some
+  double kick_power;                      ///< energy per needle and time that kicks give
   std::optional<Forecast> expected;  ///< none: never met, wall_s alone, or not known where walls,
                                      ///< gravity or driving are
   double collisions;                 ///< of all needles until then; NaN if nothing is expected

@@ -132,38 +132,51 @@ bool has_mixture_theory(const Composition& composition) {
 
 namespace {
 
-// By how much needles of one species collide more often between walls, in a state that is drawn:
-// there is less room for their centres, but near the walls only for directors along these. 1 where
-// that is not known exactly.
-double factor_between_walls(const Scene& scene, theory::Temperatures start) {
-  const double length = scene.composition().longest();
+// By how much needles of two species collide more often between walls, in a state that is drawn. 1
+// where that is not known exactly.
+double factor_between_walls(const Scene& scene, const Species& a, theory::Temperatures at_a,
+                            const Species& b, theory::Temperatures at_b) {
   double factor = 1;
   int walled = 0;
   const std::array<Gap, 3> gaps = gaps_of(scene);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!gaps[axis].is_walled()) continue;
-    const double gap = scene.needles.box[axis] + gaps[axis].high - gaps[axis].low;
-    if (++walled > 1 || gaps[axis].is_open() || gap < 2 * length || !(start.t_tr > 0)) return 1;
-    const double delta = theory::pair_depletion(start.t_rot / start.t_tr, scene.composition()[0].k);
-    const double room = gap - 0.5 * length;
-    factor = scene.needles.box[axis] * (gap - delta * length) / (room * room);
+    if (++walled > 1 || gaps[axis].is_open()) return 1;
+    const double edge = scene.needles.box[axis], gap = edge + gaps[axis].high - gaps[axis].low;
+    factor = edge / gap * theory::pair_factor_between_walls(a, at_a, b, at_b, gap);
   }
   return factor;
 }
 
 }  // namespace
 
+std::vector<double> initial_rates_by_pair(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  const Composition composition = scene.composition();
+  const auto start = temperatures_by_species(loaded);
+  std::vector<double> rates =
+      theory::mixture_rates(composition, volume_of(scene), start).collisions;
+  for (std::size_t a = 0; a < composition.size() && !loaded.initial; ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      double& rate = rates[composition.pair_index(a, b)];
+      if (!(rate > 0)) continue;
+      rate *= factor_between_walls(scene, composition[a], start[a], composition[b], start[b]);
+    }
+  }
+  return rates;
+}
+
 double initial_collision_rate(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const Composition composition = scene.composition();
   if (composition.is_needle_gas()) {
     const theory::Temperatures start = initial_temperatures(loaded);
-    return factor_between_walls(scene, start) *
-           theory::collision_rate(theory_density_of(scene), start, composition[0].k);
+    const Species& all = composition[0];
+    const double factor = loaded.initial ? 1 : factor_between_walls(scene, all, start, all, start);
+    return factor * theory::collision_rate(theory_density_of(scene), start, all.k);
   }
-  const auto rates =
-      theory::mixture_rates(composition, volume_of(scene), temperatures_by_species(loaded));
-  const double all = std::accumulate(rates.collisions.begin(), rates.collisions.end(), 0.0);
+  const std::vector<double> rates = initial_rates_by_pair(loaded);
+  const double all = std::accumulate(rates.begin(), rates.end(), 0.0);
   return 2 * all / static_cast<double>(composition.count());
 }
 

@@ -22,13 +22,29 @@ double integral(double from, double to, const Function& f) {
   return boost::math::quadrature::gauss<double, points>::integrate(f, from, to);
 }
 
-// Calls visit(place, weight) for the nodes of the same rule over [0, to].
-template <class Visit>
-void at_nodes(double to, const Visit& visit) {
-  using Rule = boost::math::quadrature::gauss<double, points>;
+// Calls visit(place, weight) for the nodes of a rule with so many points over [from, to].
+template <unsigned count = points, class Visit>
+void at_nodes(double from, double to, const Visit& visit) {
+  using Rule = boost::math::quadrature::gauss<double, count>;
+  const double half = 0.5 * (to - from);
   for (std::size_t n = 0; n < Rule::abscissa().size(); ++n) {
-    for (const double sign : {-1.0, 1.0})
-      visit(0.5 * to * (1 + sign * Rule::abscissa()[n]), 0.5 * to * Rule::weights()[n]);
+    const double at = Rule::abscissa()[n], weight = half * Rule::weights()[n];
+    visit(from + half * (1 + at), weight);
+    if (at != 0) visit(from + half * (1 - at), weight);
+  }
+}
+
+// The same over the pieces of [0, 1] between these places, in any order, of which those beyond an
+// end do not count.
+template <unsigned count, std::size_t breaks, class Visit>
+void at_nodes_between(std::array<double, breaks> places, const Visit& visit) {
+  for (double& place : places) place = std::clamp(place, 0.0, 1.0);
+  std::sort(places.begin(), places.end());
+  double from = 0;
+  for (std::size_t n = 0; n <= breaks; ++n) {
+    const double to = n < breaks ? places[n] : 1;
+    if (to > from) at_nodes<count>(from, to, visit);
+    from = to;
   }
 }
 
@@ -44,29 +60,32 @@ double mean_sine(double first, double second) {
   return mean / std::numbers::pi;
 }
 
-// Moments of the higher of two contact points' tips: sums of weight and of weight times
-// max((1/2 + x) a, (1/2 + y) b), over the unit square of arms x, y.
-struct Moments {
-  double weight = 0, height = 0;
+// The room for the height of a contact of two needles between walls, and its weight: how often
+// needles collide so.
+struct Room {
+  double weight = 0, height = 0;  ///< sums, that of the height weighted
 };
 
-// Over the part of the square in which p a >= r b, with p = 1/2 + x and r = 1/2 + y, in pieces on
-// which the integrand is smooth.
-Moments higher_of_first(double a, double b, double k) {
-  Moments out;
-  const auto add = [&](double from, double to, const auto& most) {
-    if (!(from < to)) return;
-    at_nodes(to - from, [&](double beyond, double weight) {
-      const double p = from + beyond, x = p - 0.5;
-      const double column = integral(
-          0, most(p), [&](double r) { return std::sqrt(1 + k * (x * x + (r - 0.5) * (r - 0.5))); });
-      out.weight += weight * column;
-      out.height += weight * column * (p * a);
+// Adds, for needles that reach this far along the normal of the walls, all contacts, at p and r of
+// their lengths from the lower tips. A contact is not lower than the part of either needle below
+// it, nor higher than the part above it lets it be.
+Room room_of(double first, double second, double gap, const auto& speed) {
+  Room out;
+  // Where the integrand has kinks, as one or the other needle decides, and where no room is left.
+  const std::array<double, 4> kinks = {second / first, 1 - second / first, (gap - second) / first,
+                                       1 - (gap - second) / first};
+  at_nodes_between<7>(kinks, [&](double p, double weight) {
+    const double below = p * first, above = (1 - p) * first;
+    const std::array<double, 4> of_second = {below / second, 1 - above / second,
+                                             (below + second - gap) / second,
+                                             (gap - above) / second};
+    at_nodes_between<7>(of_second, [&](double r, double part) {
+      const double left = gap - std::max(below, r * second) - std::max(above, (1 - r) * second);
+      const double often = weight * part * speed(p - 0.5, r - 0.5);
+      out.weight += often;
+      out.height += often * std::max(0.0, left);
     });
-  };
-  const double all = std::min(1.0, b / a);  // from here on every r is below
-  add(0, all, [&](double p) { return std::min(1.0, p * a / b); });
-  add(all, 1, [](double) { return 1.0; });
+  });
   return out;
 }
 
@@ -97,8 +116,8 @@ std::array<WallRates, 3> wall_rates(const Species& species, const std::array<dou
       out[axis].force += weight * others * energy / (1 + turn);
     }
   };
-  at_nodes(1, [&](double z, double weight_z) {
-    at_nodes(0.5 * std::numbers::pi, [&](double angle, double weight_angle) {
+  at_nodes(0, 1, [&](double z, double weight_z) {
+    at_nodes(0, 0.5 * std::numbers::pi, [&](double angle, double weight_angle) {
       const double across = std::sqrt(1 - z * z);
       add(weight_z * weight_angle, {across * std::cos(angle), across * std::sin(angle), z});
     });
@@ -110,26 +129,37 @@ std::array<WallRates, 3> wall_rates(const Species& species, const std::array<dou
   return out;
 }
 
-double pair_depletion(double q, double k) {
-  require_not_negative("q", q);
-  require_positive("k", k);
-  // By exchange of the needles, twice the part in which the first reaches higher; in two triangles
-  // of |u1z|, |u2z|, as directors that are parallel are where the weight has a kink.
-  Moments sum;
-  const auto add = [&](double a, double b, double area) {
-    const Moments moments = higher_of_first(a, b, q * k);
-    const double weight = area * mean_sine(a, b);
-    sum.weight += weight * moments.weight;
-    sum.height += weight * moments.height;
+double pair_factor_between_walls(const Species& a, Temperatures at_a, const Species& b,
+                                 Temperatures at_b, double gap) {
+  require_valid(at_a);
+  require_valid(at_b);
+  require_positive("k", a.k);
+  require_positive("k", b.k);
+  require(gap >= a.length && gap >= b.length, "gap", gap, "at least the lengths");
+  // The variance of the normal velocity of two contact points: T / m of both, and T_rot s^2 / I
+  // with I = m L^2 / (2 k).
+  const double flight = at_a.t_tr / a.mass + at_b.t_tr / b.mass;
+  const double turn_a = 2 * a.k * at_a.t_rot / a.mass, turn_b = 2 * b.k * at_b.t_rot / b.mass;
+  const auto speed = [&](double x, double y) {
+    return std::sqrt(flight + turn_a * x * x + turn_b * y * y);
   };
-  at_nodes(1, [&](double large, double weight_large) {
-    at_nodes(1, [&](double ratio, double weight_ratio) {
-      const double area = weight_large * weight_ratio * large;
-      add(large, large * ratio, area);
-      add(large * ratio, large, area);
+  // By components of both directors along the normal.
+  Room sum;
+  const double both = a.length + b.length;
+  const std::array<double, 4> kinks = {b.length / a.length, (gap - b.length) / a.length,
+                                       0.5 * gap / a.length, gap / both};
+  at_nodes_between<10>(kinks, [&](double first, double weight) {
+    const double reach = first * a.length;
+    const std::array<double, 3> of_second = {reach / b.length, (gap - reach) / b.length, first};
+    at_nodes_between<10>(of_second, [&](double second, double part) {
+      const Room room = room_of(reach, second * b.length, gap, speed);
+      const double often = weight * part * mean_sine(first, second);
+      sum.weight += often * room.weight;
+      sum.height += often * room.height;
     });
   });
-  return 2 * sum.height / sum.weight;
+  if (!(sum.weight > 0)) return 1;  // nothing moves
+  return gap / (gap - 0.5 * a.length) * (sum.height / sum.weight) / (gap - 0.5 * b.length);
 }
 
 double kick_power(const Composition& composition, double translational, double rotational) {

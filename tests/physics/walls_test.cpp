@@ -2,8 +2,10 @@
 // positions and directors are those of an ideal gas.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
@@ -80,10 +82,10 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
     EXPECT_TRUE(agrees(force.measured(), exact.force, 3)) << "k = " << k;
     EXPECT_LT(hits.measured().error, 0.003 * exact.hits);
     EXPECT_LT(force.measured().error, 0.003 * exact.force);
-    if (height < 2) continue;  // the law is for walls two lengths apart
-    const double room = height - 0.5;
-    const double rate = theory::collision_rate((count - 1) / (side * side * room), {1, 1}, k) *
-                        ((height - theory::pair_depletion(1, k)) / room);
+    Species needle;
+    needle.k = k;
+    const double rate = theory::collision_rate((count - 1) / (side * side * height), {1, 1}, k) *
+                        theory::pair_factor_between_walls(needle, {1, 1}, needle, {1, 1}, height);
     EXPECT_TRUE(agrees(pairs.measured(), rate, 3));
     EXPECT_LT(pairs.measured().error, 0.003 * rate);
   }

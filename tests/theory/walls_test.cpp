@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <utility>
 
 #include "needlework/theory.h"
 
@@ -74,10 +76,65 @@ TEST(WallRates, AreThoseOfAllWallsAtOnce) {
   }
 }
 
-TEST(PairDepletion, HasItsKnownValues) {
-  EXPECT_NEAR(pair_depletion(1, 2), 0.750791, 1e-6);
-  EXPECT_NEAR(pair_depletion(1, 6), 0.753889, 1e-6);
-  EXPECT_NEAR(pair_depletion(3, 2), pair_depletion(1, 6), 1e-12);
+double factor(double k, Temperatures at, double gap) {
+  return pair_factor_between_walls(needles(k), at, needles(k), at, gap);
+}
+
+// Between walls H >= 2 L apart it is H (H - delta L) / (H - L/2)^2 with one length delta.
+TEST(PairFactor, HasItsKnownValuesBetweenDistantWalls) {
+  for (const auto& [k, delta] : {std::pair(2.0, 0.750791), std::pair(6.0, 0.753889)}) {
+    for (const double gap : {2.0, 2.5, 30.0}) {
+      const double room = gap - 0.5;
+      EXPECT_NEAR(factor(k, {1, 1}, gap), gap * (gap - delta) / (room * room), 2e-6) << gap;
+    }
+  }
+  EXPECT_NEAR(factor(2, {1, 3}, 2.5), factor(6, {1, 1}, 2.5), 1e-12);
+  EXPECT_EQ(factor(2, {0, 0}, 2.5), 1);
+  EXPECT_NEAR(factor(2, {1, 1}, 1e6), 1, 1e-5);
+}
+
+// By drawn directors, contacts and heights, among those at which all tips are inside.
+TEST(PairFactor, IsThatOfDrawnContacts) {
+  Species small = needles(4), large = needles(1.5);
+  small.length = 0.6;
+  small.mass = 0.5;
+  large.length = 1.3;
+  large.mass = 3;
+  const Temperatures cold{0.5, 1}, warm{2, 0.7};
+  for (const double gap : {1.3, 1.5, 1.85, 1.95, 2.6}) {
+    for (const auto& [a, b] : {std::pair(small, large), std::pair(large, large)}) {
+      const Temperatures at_a = a.length < 1 ? cold : warm;
+      std::mt19937_64 engine(7);
+      std::uniform_real_distribution<double> uniform(0, 1);
+      double all = 0, inside = 0, squares = 0;
+      constexpr int samples = 600000;
+      for (int n = 0; n < samples; ++n) {
+        const double first = 2 * uniform(engine) - 1, second = 2 * uniform(engine) - 1;
+        const double angle = 2 * std::numbers::pi * uniform(engine);
+        const double cosine =
+            first * second +
+            std::sqrt((1 - first * first) * (1 - second * second)) * std::cos(angle);
+        const double s = a.length * (uniform(engine) - 0.5), t = b.length * (uniform(engine) - 0.5);
+        const double variance = at_a.t_tr / a.mass + warm.t_tr / b.mass +
+                                at_a.t_rot * s * s / a.inertia() + warm.t_rot * t * t / b.inertia();
+        const double weight = std::sqrt(std::max(0.0, 1 - cosine * cosine) * variance);
+        const double height = gap * uniform(engine);
+        const auto is_inside = [&](double centre, double reach) {
+          return std::abs(centre - 0.5 * gap) + 0.5 * std::abs(reach) <= 0.5 * gap;
+        };
+        all += weight;
+        if (!is_inside(height - s * first, a.length * first)) continue;
+        if (!is_inside(height - t * second, b.length * second)) continue;
+        inside += weight;
+        squares += weight * weight;
+      }
+      const double room = (gap - 0.5 * a.length) * (gap - 0.5 * b.length) / (gap * gap);
+      const double error = std::sqrt(squares) / all / room;
+      EXPECT_LT(error, 0.003 * inside / all / room);
+      EXPECT_NEAR(pair_factor_between_walls(a, at_a, b, warm, gap), inside / all / room, 3 * error)
+          << gap << ", " << a.length;
+    }
+  }
 }
 
 TEST(KickPower, CountsTheMomentumThatIsTakenOff) {
