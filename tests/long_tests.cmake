@@ -20,6 +20,8 @@ set_tests_properties(
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/3
   # the other scenes of ParallelRun
   Scenes/ParallelRun.IsThatOfOneThread/rare
+  # Walls.KeepAnAccountOfTheEnergyThatCloses
+  Walls.KeepAnAccountThatClosesOverAMillionHits
   # the other tests of SearchEquivalence
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   # RodPressure.IsThatOfTheVirialSeries

@@ -1,6 +1,7 @@
 // Walls, gravity and their hard cases in the event loop.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -264,6 +265,69 @@ TEST(OneNeedle, ThatClattersEndsInAnErrorOrByTheContactTime) {
   EXPECT_LT(clatters.totals().energy, clatters.initial_energy());
 }
 
+// It lies on the floor, exactly along it, and no tip moves. Without gravity it stays there; with
+// it, no bounce is ever long enough to be resolved, which is an error that says so, not a run
+// without end.
+TEST(OneNeedle, ThatLiesOnTheFloorAtRest) {
+  Scene scene = one_needle(4);
+  const auto lying = [&](double height) {
+    return state_of(scene, {2, 2, height}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0});
+  };
+  for (const double height : {0.0, 0x1p-60, -0x1p-60}) {
+    Simulation rests(scene, lying(height));
+    EXPECT_EQ(hits_of(rests, 100).size(), 0u) << height;
+    EXPECT_EQ(rests.copy().position[0][2], height);
+  }
+  scene.forces.gravity = {0, 0, -1};
+  for (const double epsilon : {1.0, 0.5}) {
+    scene.walls[2].epsilon = epsilon;
+    for (const double height : {0.0, 0x1p-60, -0x1p-60}) {
+      if (epsilon == 1 && height > 0) continue;  // it bounces on, 1e9 times in unit time
+      Simulation falls(scene, lying(height));
+      try {
+        falls.advance(until_time(1));
+        ADD_FAILURE() << "no error at height " << height << ", epsilon " << epsilon;
+      } catch (const InvalidStateError& error) {
+        EXPECT_NE(std::string(error.what()).find("collapse"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+// A tip that turns past the wall: a little above it there is no hit, a little into it there is one.
+TEST(OneNeedle, ThatGrazesAWall) {
+  const Scene scene = one_needle(4);
+  for (const double depth : {1e-3, 1e-9, 1e-14}) {
+    for (const double side : {1.0, -1.0}) {
+      Simulation run(scene,
+                     state_of(scene, {2, 2, 0.5 + side * depth}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}));
+      const std::vector<Hit> hits = hits_of(run, std::numbers::pi - 0.01);
+      EXPECT_EQ(hits.size(), side < 0 ? 1u : 0u) << depth;
+      if (hits.empty()) continue;
+      EXPECT_NEAR(hits[0].time, std::numbers::pi / 2, 2.1 * std::sqrt(depth));
+    }
+  }
+}
+
+// The wall comes from behind, faster than the needle leaves.
+TEST(OneNeedle, IsCaughtByAWallFromBehind) {
+  Scene scene = one_needle(4);
+  // The surface is at its lowest, -1, at first, and rises at up to 6.
+  scene.walls[2] = {
+      .axis = "z",
+      .side = "low",
+      .motion = Scene::WallMotion{
+          .amplitude = 1, .frequency = 3 / std::numbers::pi, .phase = 1.5 * std::numbers::pi}};
+  scene.walls.push_back({.axis = "z", .side = "high"});
+  Simulation run(scene, state_of(scene, {2, 2, 0.1}, {1, 0, 0}, {0, 0, 1}, {0, 0, 0}));
+  const std::vector<Hit> hits = hits_of(run, 0.6);
+  ASSERT_FALSE(hits.empty());
+  const double t = hits[0].time;
+  EXPECT_NEAR(0.1 + t, -std::cos(6 * t), 1e-12);
+  EXPECT_LT(hits[0].velocity, 0);
+  EXPECT_GT(run.copy().velocity[0][2], 1);
+}
+
 // A wall that moves away as fast as the tip follows never meets it, and one a little slower does.
 TEST(OneNeedle, FollowsAWallThatMovesAway) {
   Scene scene = one_needle(4);
@@ -280,6 +344,51 @@ TEST(OneNeedle, FollowsAWallThatMovesAway) {
   ASSERT_FALSE(hits.empty());
   const double t = hits[0].time;
   EXPECT_NEAR(1 - 0.5 * t, amplitude * std::cos(2 * std::numbers::pi * frequency * t), 1e-12);
+}
+
+// Of inelastic needles on a vibrated floor: energy at the start, and all that hits and collisions
+// have given and taken, against the energy at the end.
+class EnergyOnAVibratedFloor {
+ public:
+  explicit EnergyOnAVibratedFloor(std::uint64_t hits) {
+    Scene scene = test::scene_of(20, 3);
+    scene.walls = {{.axis = "z",
+                    .side = "low",
+                    .epsilon = 0.9,
+                    .motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 2, .phase = 0.3}}};
+    scene.forces.gravity = {0, 0, -1};
+    scene.collisions.epsilon = 0.95;
+    scene.collisions.tc = 1e-6;
+    Simulation run(scene);
+    long double energy = 20.0L * run.totals().energy;
+    double most = run.totals().energy;
+    std::uint64_t found = 0;
+    run.on_happening([&](const Happening& h) {
+      energy += h.event.energy_change;
+      found += !h.is_collision();
+    });
+    while (found < hits) {
+      run.advance(until_time(run.time() + 100));
+      most = std::max(most, run.totals().energy);
+    }
+    by_events = static_cast<double>(energy / 20) - run.totals().energy;
+    by_events /= most;
+    drift = run.energy_drift();
+  }
+
+  double by_events, drift;  ///< relative differences
+};
+
+TEST(Walls, KeepAnAccountOfTheEnergyThatCloses) {
+  const EnergyOnAVibratedFloor account(20000);
+  EXPECT_LT(std::abs(account.by_events), 1e-11);
+  EXPECT_LT(std::abs(account.drift), 1e-11);
+}
+
+TEST(Walls, KeepAnAccountThatClosesOverAMillionHits) {
+  const EnergyOnAVibratedFloor account(1000000);
+  EXPECT_LT(std::abs(account.by_events), 1e-10);
+  EXPECT_LT(std::abs(account.drift), 1e-10);
 }
 
 TEST(Walls, WorkUntilTheirMotionIsOld) {
