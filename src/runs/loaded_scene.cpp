@@ -136,6 +136,7 @@ namespace {
 // where that is not known exactly.
 double factor_between_walls(const Scene& scene, const Species& a, theory::Temperatures at_a,
                             const Species& b, theory::Temperatures at_b) {
+  if (a.diameter > 0 || b.diameter > 0) return 1;
   double factor = 1;
   int walled = 0;
   const std::array<Gap, 3> gaps = gaps_of(scene);
