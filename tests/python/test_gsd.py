@@ -55,8 +55,8 @@ class ToGsd(unittest.TestCase):
 
     def test_axes_with_walls(self):
         walled, out = self.path("walled.h5"), self.path("walled.gsd")
-        scene = support.gas(output={"file": walled, "frames": [0.5]},
-                            walls=[{"axis": "z", "side": "both"}])
+        scene = support.gas(output={"file": walled, "frames": [0.5]})
+        scene["walls"] = [{"axis": "z", "side": "both"}]
         with needlework.Simulation(scene) as sim:
             self.assertEqual(sim.periodic.tolist(), [True, True, False])
             sim.run()
