@@ -89,10 +89,15 @@ Vec3d director_after(const Flight& flight, double elapsed) {
 }
 
 PairScale scale_of(const Pair& pair) {
+  return scale_of(pair, times_power_of_two(1, -exponent_of(pair.half_first + pair.half_second)),
+                  pair.first->omega + pair.second->omega);
+}
+
+PairScale scale_of(const Pair& pair, double per_length, double turning) {
   PairScale out;
-  out.per_length = times_power_of_two(1, -exponent_of(pair.half_first + pair.half_second));
+  out.per_length = per_length;
   const Vec3d v = pair.fall ? to_double(falling_velocity(pair)) : pair.first->v - pair.second->v;
-  const double rate = largest(v) * out.per_length + (pair.first->omega + pair.second->omega);
+  const double rate = largest(v) * per_length + turning;
   if (!(rate > 0)) return out;
   // Clamped so that both factors are normal numbers.
   const int exponent = std::clamp(exponent_of(rate), -1000, 1000);

@@ -91,6 +91,9 @@ struct PairScale {
   double per_velocity() const { return per_length * per_rate; }
 };
 PairScale scale_of(const Pair& pair);
+/// The same for lengths that are scaled by another power of two, and for parts that move at this
+/// rate, in such lengths, beside the centres.
+PairScale scale_of(const Pair& pair, double per_length, double turning);
 
 /// Bounds computed with a few roundings are enlarged by this.
 inline constexpr double roundup = 1 + 0x1p-40;

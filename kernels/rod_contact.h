@@ -16,17 +16,11 @@
 // the search starts, nor where it ends.
 #pragma once
 
-#include "kernels/contact_function.h"
 #include "kernels/first_contact.h"
+#include "kernels/rod_pair.h"
 #include "needlework/accuracy.h"
 
 namespace needlework::kernels {
-
-/// Two rods and one periodic image. Half lengths of 0 are spheres. Exchanging the rods and negating
-/// `shift` changes no bit of any result.
-struct RodPair : Pair {
-  double distance = 1;  ///< of the axes at contact, the sum of the radii, above 0 [L]
-};
 
 /// The first contact with elapsed time in [0, until]. The caller promises that there is none before
 /// `from`, so that intervals wholly before it are skipped. `until` must be finite.

@@ -2,7 +2,6 @@
 // costs, and how often and by how much it errs. bench/accuracy/accuracy.py asks for what it needs.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "needlework/error.h"
+#include "bench/accuracy/family_program.h"
 #include "needlework/predict.h"
 #include "src/scene/accuracy.h"
 #include "tests/support/oracle.h"
@@ -146,13 +145,10 @@ Json report(Subject& subject, double count) {
             {"max", number(quantile(errors, 1))}}}};
 }
 
-struct Options {
-  std::string family;
-  std::uint64_t count = 10000, seed = 1;
+struct Options : FamilyOptions {
   std::vector<std::string> accuracies{"fast", "standard", "rigorous"};
   std::string errors_to;
   test::Digits digits = test::Digits::automatic;
-  bool list_families = false;
 };
 
 // With the fewest digits, every so many pairs are solved with all of them too.
@@ -191,18 +187,12 @@ std::vector<test::NeedlePair> draw(const Options& options, std::uint64_t first, 
   return out;
 }
 
-void expect_family(const std::string& name) {
-  const auto& families = test::pair_families();
-  if (std::ranges::find(families, name, &test::PairFamily::name) != families.end()) return;
-  throw InputError(fmt::format("FAMILY {}: expected one that --families prints", name));
-}
-
 int run(const Options& options) {
   if (options.list_families) {
-    for (const test::PairFamily& family : test::pair_families()) fmt::print("{}\n", family.name);
+    print_names(test::pair_families());
     return 0;
   }
-  expect_family(options.family);
+  static_cast<void>(family_named(test::pair_families(), options.family));
   std::vector<Subject> subjects;
   for (const std::string& text : options.accuracies) subjects.push_back(subject_of(text));
   std::ofstream listed;
@@ -264,23 +254,18 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("First contacts by several accuracies over one family of pairs, against the oracle");
-  app.add_option("FAMILY", options.family);
-  app.add_flag("--families", options.list_families, "print the names of the families");
-  app.add_option("--pairs", options.count)->capture_default_str();
-  app.add_option("--seed", options.seed)->capture_default_str();
-  app.add_option("--accuracy", options.accuracies,
-                 "level[,key=value...]; several are compared on the same pairs");
-  app.add_flag_callback(
-      "--fewest-digits", [&] { options.digits = test::Digits::fewest; },
-      "let the oracle settle in double what is clear; then only 1 contact in 128, and those that "
-      "are not clear, show errors of time");
-  app.add_option("--list", options.errors_to, "file for the pairs that one of them gets wrong");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 3;
-  }
+  return family_program(
+      argc, argv,
+      "First contacts by several accuracies over one family of pairs, against the oracle", options,
+      [&](CLI::App& app) {
+        app.add_option("--accuracy", options.accuracies,
+                       "level[,key=value...]; several are compared on the same pairs");
+        app.add_flag_callback(
+            "--fewest-digits", [&] { options.digits = test::Digits::fewest; },
+            "let the oracle settle in double what is clear; then only 1 contact in 128, and those "
+            "that are not clear, show errors of time");
+        app.add_option("--list", options.errors_to,
+                       "file for the pairs that one of them gets wrong");
+      },
+      [&] { return run(options); });
 }

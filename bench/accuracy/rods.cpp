@@ -2,7 +2,6 @@
 // and invented. bench/accuracy/misses.py asks for portions of them.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/accuracy/family_program.h"
 #include "kernels/rod_contact.h"
-#include "needlework/error.h"
 #include "src/scene/accuracy.h"
 #include "tests/support/random.h"
 #include "tests/support/rod_families.h"
@@ -27,11 +26,9 @@ using Json = nlohmann::ordered_json;
 constexpr double same_contact = 1e-5;
 constexpr std::uint64_t drawn_at_once = 64;
 
-struct Options {
-  std::string family;
-  std::uint64_t count = 10000, seed = 1;
+struct Options : FamilyOptions {
   std::string accuracy = "standard";
-  bool list_families = false, fewest_digits = true;
+  bool fewest_digits = true;
 };
 
 struct Sums {
@@ -74,19 +71,12 @@ Sums judged(const test::RodCase& rods, const Accuracy& accuracy) {
   return out;
 }
 
-const test::RodFamily& family_of(const std::string& name) {
-  const auto& families = test::rod_families();
-  const auto found = std::ranges::find(families, name, &test::RodFamily::name);
-  if (found != families.end()) return *found;
-  throw InputError(fmt::format("FAMILY {}: expected one that --families prints", name));
-}
-
 int run(const Options& options) {
   if (options.list_families) {
-    for (const test::RodFamily& family : test::rod_families()) fmt::print("{}\n", family.name);
+    print_names(test::rod_families());
     return 0;
   }
-  const test::RodFamily& family = family_of(options.family);
+  const test::RodFamily& family = family_named(test::rod_families(), options.family);
   Scene::Engine engine;
   engine.accuracy = options.accuracy;
   const Accuracy accuracy = accuracy_of(engine);
@@ -131,18 +121,12 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("First contacts of rods over one family of pairs, against the oracle");
-  app.add_option("FAMILY", options.family);
-  app.add_flag("--families", options.list_families, "print the names of the families");
-  app.add_option("--pairs", options.count)->capture_default_str();
-  app.add_option("--seed", options.seed)->capture_default_str();
-  app.add_option("--accuracy", options.accuracy)->capture_default_str();
-  app.add_flag("--fewest-digits", options.fewest_digits, "what the oracle of rods always does");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(options);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 3;
-  }
+  return family_program(
+      argc, argv, "First contacts of rods over one family of pairs, against the oracle", options,
+      [&](CLI::App& app) {
+        app.add_option("--accuracy", options.accuracy)->capture_default_str();
+        app.add_flag("--fewest-digits", options.fewest_digits,
+                     "what the oracle of rods always does");
+      },
+      [&] { return run(options); });
 }

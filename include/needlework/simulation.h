@@ -108,6 +108,8 @@ class Simulation {
   /// Of each wall, in the order of Scene::wall_sides().
   std::vector<WallTotals> wall_totals() const;
   EnergyBudget energy_budget() const;
+  /// How rods of finite width have found room in a state that was drawn, in words; else empty.
+  const std::string& placement() const;
   /// Of rods of finite width, the sum of r12 . dp over the collisions so far, r12 from the second
   /// centre to the first and dp the impulse on the first: the pressure times the volume is N T plus
   /// a third of what comes to it in a unit of time. 0 for needles. [m L^2 / time]

@@ -143,7 +143,8 @@ MixtureRates mixture_rates(const Composition& composition, double volume,
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
                                               double total_energy);
 
-/// The temperatures of all needles together.
+/// The temperatures of all needles together, so that they give the mean energy: spheres, which do
+/// not turn, count with a rotational temperature of 0.
 Temperatures mean_of_species(const Composition& composition, std::span<const Temperatures> each);
 
 /// The temperatures of each species at each of the times (finite, >= 0, any order), from those

@@ -146,6 +146,10 @@ class Audit {
   };
 
   Index index_of(std::uint32_t id) const;
+  /// The same for both orders.
+  static std::uint64_t key_of(Index i, Index j) {
+    return std::uint64_t{i < j ? i : j} << 32 | (i < j ? j : i);
+  }
   bool is_chosen(Index i, Index j) const;
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records

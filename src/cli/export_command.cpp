@@ -32,6 +32,12 @@ std::string endings(bool many) {
 
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
   io::Material material = io::read_material(path);
+  if (!material.diameter.empty()) {
+    throw InputError(
+        fmt::format("{}: rods of finite width: expected thin needles, as which other "
+                    "formats are written",
+                    path));
+  }
   if (!format.whole_material) return material;
   if (material.species() > 1) {
     throw InputError(fmt::format("{}: {} species: expected one, as in {}", path, material.species(),

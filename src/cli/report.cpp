@@ -207,6 +207,7 @@ std::string json_of(const Report& report) {
   json["version"] = NEEDLEWORK_VERSION;
   json["stop"] = stop_name(report.course);
   json["title"] = scene.title;
+  if (!simulation.placement().empty()) json["placement"] = simulation.placement();
   json["file"] = scene.output.file.empty() ? Json(nullptr) : Json(scene.output.file);
   json["stats"] = stats_of(simulation.counters());
   return json_text(json, 2);

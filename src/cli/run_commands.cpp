@@ -276,7 +276,8 @@ void add_predict_command(CLI::App& app, int& exit_code) {
       ->check(number_in(1e-4, 0.5));
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->footer(R"(A line of PAIRS.csv is id,family,horizon, then x,y,z of r1,u1,v1,w1,r2,u2,
-v2,w2, then skip: 1 if the pair has just collided at time 0, else 0. Lines that
+v2,w2, then skip: 1 if the pair has just collided at time 0, else 0. La,Lb,Da,Db
+may follow: lengths, and diameters of rods of finite width or 0. Lines that
 begin with # are comments. For each pair the output has id,time,s12,s21, with
 time inf if there is no contact in (0, horizon]. A search of more than about
 a second is an error, as for needles that turn near each other for hundreds of

@@ -197,6 +197,7 @@ std::string rate_line(const Report& report) {
   const double rate = report.collision_rate();
   const double exact = report.collision_rate_exact();
   const double error = report.collision_rate_error();
+  if (!std::isfinite(exact)) return line("rate", "{:.5g} per needle and time", rate);
   if (!(error > 0)) {
     return line("rate", "{:.5g} per needle and time, exact {:.5g}: ratio {:.4f}", rate, exact,
                 rate / exact);
@@ -235,6 +236,8 @@ std::string summary_of(const Report& report) {
   std::string text = scene.title.empty() ? "" : scene.title + "\n";
   text += line("gas", "{} needles in a box of {:g} x {:g} x {:g}, {}", scene.needles.count, box[0],
                box[1], box[2], report.simulation.effects());
+  if (const std::string placement = report.simulation.placement(); !placement.empty())
+    text += line("start", "{}", placement);
   text += line("end", "{}: time {:.6g}", reason(report.course), last.time);
   if (report.course.initial.energy > 0) text += energy_lines(report);
   text += species_lines(report);

@@ -65,6 +65,7 @@ int run(const ViewArguments& arguments) {
   settings.dark = arguments.background == "dark";
   const io::Material material = io::read_material(arguments.from);
   settings.lengths = io::lengths_of(material);
+  settings.diameters = material.diameter;
   settings.walls = io::single_walls(material.walls);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     settings.time = file->time(i);

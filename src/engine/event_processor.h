@@ -231,6 +231,7 @@ void EventProcessor<S, M>::collide(const Event& event) {
   }
   if constexpr (M::has_width) {
     // The centres are as far apart along the normal as both bodies reach from them: never below 0.
+    // A contact without velocity has an impulse of -0.
     const double apart = pair.distance - contact.arm_first * dot(contact.u_first, contact.normal) +
                          contact.arm_second * dot(contact.u_second, contact.normal);
     if (tally_.virial.empty()) tally_.virial.resize(1);

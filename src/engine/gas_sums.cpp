@@ -70,21 +70,16 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
 
 namespace {
 
-// Means over all needles; the rotational temperature, over those that turn.
+// Means over all needles.
 void set_temperatures(const Gas& gas, const std::vector<SumsOfSquares>& sums, Totals& out) {
   if (gas.size() == 0) return;
   out.t_tr = out.t_rot = 0;
-  double turning = 0;
-  const std::vector<SpeciesTotals> all = species_totals(gas, sums);
-  for (std::size_t index = 0; index < all.size(); ++index) {
-    const SpeciesTotals& of = all[index];
+  for (const SpeciesTotals& of : species_totals(gas, sums)) {
     const double share = static_cast<double>(of.count) / static_cast<double>(gas.size());
     out.t_tr += share * of.t_tr;
     out.t_rot += share * of.t_rot;
-    if (gas.composition[index].turns()) turning += share;
   }
   out.energy = 1.5 * out.t_tr + out.t_rot;
-  if (turning > 0 && gas.composition.has_width()) out.t_rot /= turning;
 }
 
 double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
@@ -140,7 +135,7 @@ double mean_free_time_of(const Gas& gas, const std::vector<SumsOfSquares>& sums)
   for (const SpeciesTotals& of : species_totals(gas, sums)) {
     temperatures.push_back({of.t_tr, of.t_rot});
   }
-  if (gas.composition.is_mixture() || gas.composition.has_width()) {
+  if (!gas.composition.is_needle_gas()) {
     return mean_free_time(gas.composition, gas.box[0] * gas.box[1] * gas.box[2], temperatures);
   }
   const Species& species = gas.composition[0];

@@ -12,6 +12,7 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
+#include "src/machine/stop_request.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 #include "src/scene/initial_state.h"
@@ -46,8 +47,10 @@ Scene elastic(const Scene& scene, const State& state) {
     wall.temperature.reset();
     // As good as at rest, where it is at the start.
     if (wall.motion) wall.motion->frequency = 1e-100;
-    const std::size_t axis = wall.axis == "x" ? 0 : wall.axis == "y" ? 1 : 2;
-    if (gaps[axis].is_open()) wall.side = "both";
+  }
+  // Without gravity, an open side has a wall, too.
+  for (const Scene::WallSide& side : scene.wall_sides()) {
+    if (gaps[side.axis].is_open()) out.walls[side.entry].side = "both";
   }
   for (Species& each : out.species) each.t_tr = each.t_rot = 1;
   out.needles.count = state.size();
@@ -58,16 +61,19 @@ DrawnState melted(const Scene& scene, State state, double collisions_per_rod) {
   const Scene still = elastic(scene, state);
   draw_velocities(still, state);
   Simulation simulation(still, state);
+  // In parts, after which whoever asks for it may stop the drawing.
   Scene::Until until;
   until.collisions_per_needle = collisions_per_rod;
-  simulation.advance(until);
+  until.wall_s = 0.1;
+  while (simulation.advance(until) == Stop::wall_time) StopRequest::check();
   DrawnState out;
   simulation.copy(out.state);
   out.state.image.clear();
   out.state.id.clear();
   draw_velocities(scene, out.state);
-  out.how = fmt::format("{} rods placed on a lattice, then moved in {} elastic collisions per rod",
-                        out.state.size(), collisions_per_rod);
+  out.placement =
+      fmt::format("{} rods placed on a lattice, then moved in {} elastic collisions per rod",
+                  out.state.size(), collisions_per_rod);
   return out;
 }
 
@@ -78,8 +84,8 @@ std::optional<DrawnState> inserted(const Scene& scene, double most_tries_on_aver
   DrawnState out{std::move(rods.state), {}};
   draw_velocities(scene, out.state);
   const auto placed = static_cast<double>(std::max<std::uint64_t>(1, rods.placed));
-  out.how = fmt::format("{} rods inserted one by one, in {:.3g} tries each", rods.placed,
-                        static_cast<double>(rods.tries) / placed);
+  out.placement = fmt::format("{} rods inserted one by one, in {:.3g} tries each", rods.placed,
+                              static_cast<double>(rods.tries) / placed);
   return out;
 }
 

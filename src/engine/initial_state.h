@@ -10,7 +10,7 @@ namespace needlework {
 
 struct DrawnState {
   State state;
-  std::string how;  ///< how rods have found room, for messages; empty for needles
+  std::string placement;  ///< how rods have found room; empty for needles
 };
 
 /// See draw_initial_state().

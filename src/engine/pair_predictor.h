@@ -108,7 +108,7 @@ kernels::Contact PairPredictor<M>::predict(Needle a, Needle b, const Shift& shif
     const Vec3d apart = (model_.motion(first).centre(pair.elapsed_first.hi) -
                          model_.motion(second).centre(pair.elapsed_second.hi)) -
                         to_double(pair.shift);
-    const double reach = model_.reach(first, second);
+    const double reach = model_.reach(a) + model_.reach(b);
     if (dot(apart, apart) <= reach * reach) read_ahead = true;
   }
 #endif

@@ -87,6 +87,7 @@ std::string name_effects(const Run& run) {
   if (run.effects.rough) out += " rough";
   if (run.effects.contact_time) out += " tc";
   if (run.gas.composition.is_mixture()) out += " mixture";
+  if (run.effects.width) out += " rods";
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";
   if (run.kicks) out += " kicks";
@@ -243,6 +244,7 @@ struct Simulation::Implementation {
   ReplacedRecords replaced;  ///< by a caller at the present time, not known to a loop yet
   std::string search, calendar;
   kernels::Isa isa;
+  std::string placement;  ///< how rods of a drawn state have found room
 };
 
 void require_simulable(const Scene& scene, const State& initial) {
@@ -297,8 +299,11 @@ Simulation::Simulation(const Scene& scene) {
   const kernels::DefaultArithmetic arithmetic;
   require_simulable(scene);
   // The state's arrays are freed before the rest of the run allocates its memory.
-  Gas gas = make_gas(scene, draw_state(scene).state);
+  DrawnState drawn = draw_state(scene);
+  Gas gas = make_gas(scene, drawn.state);
+  drawn.state = {};
   implementation_ = std::make_unique<Implementation>(scene, std::move(gas));
+  implementation_->placement = std::move(drawn.placement);
 }
 
 Simulation::Simulation(const Scene& scene, const State& initial) {
@@ -373,6 +378,8 @@ std::vector<std::vector<ObjectTotals>> Simulation::objects_by_source() const {
   }
   return out;
 }
+
+const std::string& Simulation::placement() const { return implementation_->placement; }
 
 double Simulation::virial() const {
   const auto& virial = implementation_->run.tally.virial;

@@ -230,6 +230,17 @@ std::vector<Description> wall_descriptions() {
            "Rectangular box, which is periodic along the axes without walls", none, none}};
 }
 
+std::vector<Description> rod_descriptions(bool of_each_species) {
+  const std::string shape = of_each_species ? "[species]" : "scalar";
+  return {
+      {"/parameters/length", "Length of the axis of a rod, without its caps", length, shape},
+      {"/parameters/diameter", "Diameter of a rod", length, shape},
+      {"/parameters/inertia",
+       "Moment of inertia of a rod about an axis through its centre, normal to it", "mass length^2",
+       shape},
+  };
+}
+
 std::vector<Description> mixture_descriptions() {
   const std::string each = "[species]", pairs = "[species][species]";
   return {

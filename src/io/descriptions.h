@@ -26,9 +26,10 @@ std::string sentence(const Description& description);
 
 std::vector<Description> run_file_descriptions();  ///< files of a Writer
 std::vector<Description> mixture_descriptions();
-std::vector<Description> event_kind_descriptions();  ///< where events have kinds
-std::vector<Description> wall_descriptions();        ///< where there are walls
-std::vector<Description> series_descriptions(        ///< and their groups in /series
+std::vector<Description> rod_descriptions(bool of_each_species);  ///< of rods of finite width
+std::vector<Description> event_kind_descriptions();               ///< where events have kinds
+std::vector<Description> wall_descriptions();                     ///< where there are walls
+std::vector<Description> series_descriptions(                     ///< and their groups in /series
     const std::vector<SeriesGroup>& groups);
 std::vector<Description> sweep_summary_descriptions();  ///< files of sweep::write_summary
 std::vector<Description> vtkhdf_descriptions();         ///< files of write_vtkhdf

@@ -248,9 +248,11 @@ void make_layout(hid_t file, const Scene& scene, const RunInfo& run, const std::
   if (scene.output.events) {
     make_events(create_group(file, "events", place).get(), run.has_kinds, place);
   }
-  if (scene.composition().is_mixture()) {
-    write_descriptions(file, mixture_descriptions(), place);  // an object keeps its first
-  }
+  // An object keeps its first description.
+  const Composition composition = scene.composition();
+  if (composition.has_width())
+    write_descriptions(file, rod_descriptions(composition.is_mixture()), place);
+  if (composition.is_mixture()) write_descriptions(file, mixture_descriptions(), place);
   if (!scene.walls.empty()) write_descriptions(file, wall_descriptions(), place);
   if (run.has_kinds) write_descriptions(file, event_kind_descriptions(), place);
   write_descriptions(file, run_file_descriptions(), place);

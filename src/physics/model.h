@@ -42,8 +42,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
   { model.accuracy() } -> std::convertible_to<const Accuracy&>;
   { model.motion(record) } -> NeedleMotion;
   { model.half_length(i) } -> std::same_as<double>;
-  { model.radius(i) } -> std::same_as<double>;
-  { model.reach(record, record) } -> std::convertible_to<double>;
+  { model.reach(i) } -> std::same_as<double>;
   requires ContactLaw<std::remove_cvref_t<decltype(model.contact())>>;
   {
     model.pair(i, record, i, record, shift)

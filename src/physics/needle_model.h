@@ -40,16 +40,11 @@ class NeedleModel {
     if constexpr (has_effects) return gas_.bodies[gas_.records[i].species].half_length;
     return 0.5;
   }
-  /// Half the diameter of needle i. [L]
-  double radius(Needle i) const {
-    if constexpr (has_width) return gas_.bodies[gas_.records[i].species].radius;
-    return 0;
-  }
-  /// Centres farther apart than this cannot be in contact. [L]
-  double reach(const Record& a, const Record& b) const {
-    const double axes = body(a).half_length + body(b).half_length;
-    if constexpr (has_width) return axes + (body(a).radius + body(b).radius);
-    return axes;
+  /// How far it reaches from its centre. Centres of two needles that are farther apart than both
+  /// reach cannot be in contact. [L]
+  double reach(Needle i) const {
+    if constexpr (has_width) return gas_.bodies[gas_.records[i].species].reach();
+    return half_length(i);
   }
   typename Law::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
                           const Shift& shift) const {
@@ -81,8 +76,7 @@ class NeedleModel {
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
               const Vec3d& angular_velocity) const {
-    return renew_record(gas_, i, now,
-                        {director, velocity, angular_velocity, 2 * (half_length(i) + radius(i))});
+    return renew_record(gas_, i, now, {director, velocity, angular_velocity, 2 * reach(i)});
   }
   Shift renew_in_flight(Needle i, Time now) const {
     const Record& record = gas_.records[i];

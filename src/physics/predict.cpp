@@ -102,12 +102,10 @@ NearInterval near_interval(const kernels::Pair& pair, double distance) {
 // time alone, so that it goes on stretch by stretch.
 template <ContactLaw Law>
 kernels::Contact search(const Law& law, const typename Law::Pair& pair, double distance,
-                        double horizon, kernels::EvaluationCounters& counters) {
+                        const kernels::PairScale& scale, double horizon,
+                        kernels::EvaluationCounters& counters) {
   const NearInterval near = near_interval(pair, distance);
   const double last = std::min(horizon, near.exit);
-  kernels::Pair in_reach = pair;  // spheres have no lengths
-  in_reach.half_first += distance;
-  const kernels::PairScale scale = kernels::scale_of(in_reach);
   if (!scale.moves || std::isinf(near.enter)) return {};
   for (double begin = near.enter; begin <= last;) {
     if (begin * scale.per_time > latest) {
@@ -133,8 +131,8 @@ kernels::Contact search(const Law& law, const typename Law::Pair& pair, double d
 }
 
 template <ContactLaw Law>
-FirstContact predicted(const Law& law, typename Law::Pair& pair, double distance, double horizon,
-                       bool just_collided) {
+FirstContact predicted(const Law& law, typename Law::Pair& pair, double distance,
+                       const kernels::PairScale& scale, double horizon, bool just_collided) {
   kernels::EvaluationCounters counters{.most_work = static_cast<std::uint64_t>(most_work)};
   if (just_collided) {
     const int side = law.side_after(pair);
@@ -143,7 +141,7 @@ FirstContact predicted(const Law& law, typename Law::Pair& pair, double distance
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   FirstContact out{infinity, nan, nan, 0, 0};
-  const kernels::Contact contact = search(law, pair, distance, horizon, counters);
+  const kernels::Contact contact = search(law, pair, distance, scale, horizon, counters);
   if (contact.overlap) {
     throw InputError(
         fmt::format("the rods overlap: their axes are {:.10g} apart, less than {:.10g}",
@@ -182,14 +180,16 @@ FirstContact predict(const FreeNeedle& first, const FreeNeedle& second, double h
         width_a, width_b));
   }
   if (width_a == 0)
-    return predicted<NeedleContact>(NeedleContact(accuracy), pair, 0, horizon, just_collided);
+    return predicted<NeedleContact>(NeedleContact(accuracy), pair, 0, scale_of(pair), horizon,
+                                    just_collided);
   for (const auto& [flight, half] : {std::pair(&a, pair.half_first), {&b, pair.half_second}}) {
     if (half > 0) continue;
     flight->w = {};  // of a sphere, which does not turn
     set_rotation(*flight);
   }
   pair.distance = 0.5 * (width_a + width_b);
-  return predicted<RodContact>(RodContact(accuracy), pair, pair.distance, horizon, just_collided);
+  return predicted<RodContact>(RodContact(accuracy), pair, pair.distance, rod_scale_of(pair),
+                               horizon, just_collided);
 }
 
 }  // namespace needlework

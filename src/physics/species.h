@@ -11,6 +11,8 @@ struct Body {
   double inverse_mass = 1;      ///< [1 / m]
   double inverse_inertia = 12;  ///< 2 k / (m L^2), 0 for spheres [1 / (m L^2)]
   double radius = 0;            ///< half the diameter, 0 for needles [L]
+
+  double reach() const { return half_length + radius; }  ///< from the centre [L]
 };
 
 /// For length 1 and mass 1 the inverse inertia is exactly 2 k.

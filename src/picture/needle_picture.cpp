@@ -44,6 +44,13 @@ std::string count_text(const State& state) {
   return state.size() == 1 ? "1 needle" : fmt::format("{} needles", state.size());
 }
 
+// So far needles reach out of the region that their centres are in.
+double margin_of(const NeedlePicture& settings) {
+  const double axis = std::ranges::max(settings.lengths) / 2;
+  if (settings.diameters.empty()) return axis;
+  return axis + std::ranges::max(settings.diameters) / 2;
+}
+
 class Painter {
  public:
   Painter(const State& state, const NeedlePicture& settings)
@@ -53,7 +60,7 @@ class Painter {
         unit_(std::max(least_unit, std::min(settings.width, settings.height) / 832.0)),
         walls_(surfaces_of(settings.walls, state.box, settings.time)),
         region_(region_of(state, walls_)),
-        camera_(region_, std::ranges::max(settings.lengths) / 2, settings.camera, frame()) {}
+        camera_(region_, margin_of(settings), settings.camera, frame()) {}
 
   Drawing drawing() {
     const NeedleValues values = values_of(settings_.colour, state_, settings_.dark);
@@ -163,7 +170,8 @@ class Painter {
   }
 
   void draw_needle(std::size_t i, const Seen& middle, Colour colour) {
-    const double length = settings_.lengths.at(state_.species.empty() ? 0 : state_.species[i]);
+    const std::size_t species = state_.species.empty() ? 0 : state_.species[i];
+    const double length = settings_.lengths.at(species);
     std::array<Vector, 2> ends{in_box(state_.position[i]), in_box(state_.position[i])};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double half = length / 2 * state_.orientation[i][axis];
@@ -171,11 +179,13 @@ class Painter {
       ends[1][axis] += half;
     }
     // Nearness shows more in the thickness than perspective alone would make it.
-    const double full = thickness * length * middle.scale * (0.5 + middle.nearness);
+    const bool has_width = !settings_.diameters.empty();
+    const double full = has_width ? settings_.diameters.at(species) * middle.scale
+                                  : thickness * length * middle.scale * (0.5 + middle.nearness);
     const double share = faintest + (1 - faintest) * std::clamp(middle.nearness, 0.0, 1.0);
-    drawing_.strokes.push_back({camera_.see(ends[0]).place, camera_.see(ends[1]).place,
-                                std::max(full, thinnest * unit_),
-                                mixed(colour, theme_.ground, share), 0.35 * full});
+    drawing_.strokes.push_back(
+        {camera_.see(ends[0]).place, camera_.see(ends[1]).place, std::max(full, thinnest * unit_),
+         mixed(colour, theme_.ground, share), has_width ? unit_ : 0.35 * full});
   }
 
   static Colour colour_of(const NeedleValues& values, double value) {
@@ -222,6 +232,9 @@ class Painter {
         settings_.lengths.size() == 1 ? "length" : "lengths", fmt::join(settings_.lengths, ", "),
         state_.periodic == std::array{true, true, true} ? "periodic " : "", state_.box[0],
         state_.box[1], state_.box[2]);
+    if (!settings_.diameters.empty())
+      drawing_.description +=
+          fmt::format(", of diameter {:g}", fmt::join(settings_.diameters, ", "));
     std::vector<std::string> walled;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!state_.periodic[axis]) walled.emplace_back(1, "xyz"[axis]);

@@ -18,14 +18,16 @@ struct NeedlePicture {
   bool dark = true;               ///< the ground
   CameraSettings camera;
   std::vector<double> lengths = {1.0};  ///< of needles of each species [L]
+  std::vector<double> diameters;        ///< the same, of rods of finite width; none for needles [L]
   std::optional<double> time;           ///< since the start of the scene, shown if it is known
   std::vector<Scene::Wall> walls;       ///< each of one side, not of both
 };
 
 /// The needles, whose centres are moved into the box along its periodic axes, and which are drawn
 /// whole, so that they reach across its sides. Far ones are thinner and closer to the colour of the
-/// ground. Walls are where they are at that time: those seen from the gas as lattices behind the
-/// needles, the others as outlines before them. A side that is open has no edges.
+/// ground; rods are as wide as they are. Walls are where they are at that time: those seen from the
+/// gas as lattices behind the needles, the others as outlines before them. A side that is open has
+/// no edges.
 Drawing drawing_of(const State& state, const NeedlePicture& settings);
 
 }  // namespace needlework::picture

@@ -48,7 +48,6 @@ Json species_of(const Composition& composition) {
     out.push_back({{"name", each.name},
                    {"count", each.count},
                    {"length", each.length},
-                   {"diameter", each.diameter},
                    {"mass", each.mass},
                    {"k", each.k},
                    {"t_tr", each.t_tr},

@@ -81,21 +81,18 @@ Totals totals_of(const State& state, const Scene& scene) {
   Totals totals;
   const double count = static_cast<double>(state.size());
   const std::array<double, 3>& gravity = scene.forces.gravity;
-  double fall = 0;     // potential energy
-  double turning = 0;  // those that are no spheres
+  double fall = 0;  // potential energy
   for (std::size_t i = 0; i < state.size(); ++i) {
     const Species& species = composition[composition.is_mixture() ? indices.at(i) : 0];
     const double inertia = species.inertia();
     totals.t_tr += species.mass * square(state.velocity[i]) / (3 * count);
     totals.t_rot += inertia * square(state.angular_velocity[i]) / (2 * count);
-    turning += species.turns();
     for (int axis = 0; axis < 3; ++axis) {
       totals.momentum[axis] += species.mass * state.velocity[i][axis];
       fall -= species.mass * gravity[axis] * state.position[i][axis];
     }
   }
   totals.energy = 1.5 * totals.t_tr + totals.t_rot;
-  if (turning > 0 && turning < count) totals.t_rot *= count / turning;
   if (fall != 0) totals.energy += fall / count;
   return totals;
 }

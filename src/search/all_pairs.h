@@ -36,7 +36,7 @@ class AllPairs {
       if (j == i) continue;
       const auto other = gas_.motion_from(gas_.records[j], query.now);
       const Vec3d r = filter.centre() - other.centre(), v = filter.velocity() - other.velocity();
-      const double reach = reach_of(lengths, i, j);
+      const double reach = lengths.reach(i) + lengths.reach(j);
       const Range x = images(r.x, v.x, reach, filter.ahead(), 0);
       const Range y = images(r.y, v.y, reach, filter.ahead(), 1);
       const Range z = images(r.z, v.z, reach, filter.ahead(), 2);

@@ -18,8 +18,8 @@ class BoundingFilter {
         counters_(counters),
         lengths_(lengths),
         now_(query.now),
-        needle_(query.needle),
-        ahead_(query.ahead) {
+        ahead_(query.ahead),
+        reach_(lengths.reach(query.needle)) {
     const auto motion = gas.motion_from(gas.records[query.needle], now_);
     centre_ = motion.centre();
     v_ = motion.velocity();
@@ -31,7 +31,7 @@ class BoundingFilter {
     const auto other = gas_.motion_from(gas_.records[j], now_);
     const Vec3d image{shift[0] * gas_.box[0], shift[1] * gas_.box[1], shift[2] * gas_.box[2]};
     const Vec3d r = (centre_ - other.centre()) - image;
-    const double reach = reach_of(lengths_, needle_, j);
+    const double reach = reach_ + lengths_.reach(j);
     if (kernels::spheres_stay_apart(r, v_ - other.velocity(), reach, ahead_)) {
       ++counters_.filtered;
     } else {
@@ -48,8 +48,7 @@ class BoundingFilter {
   Counters& counters_;
   const L& lengths_;
   Time now_;
-  Needle needle_;
-  double ahead_;
+  double ahead_, reach_;
   Vec3d centre_, v_;
 };
 

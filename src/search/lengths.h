@@ -8,30 +8,23 @@
 
 namespace needlework {
 
-/// What tells a search half the length of each needle's axis and, if needles have a width, half
-/// their diameter [L]: in the event loop the model, for which lengths are constants where all
-/// needles have length 1.
+/// What tells a search half the length of each needle's axis, and how far the needle reaches from
+/// its centre [L]: in the event loop the model, for which both are constants where all needles have
+/// length 1. Centres of two needles in contact are not farther apart than both reach.
 template <class L>
 concept Lengths = requires(const L& lengths, Needle i) {
-  { L::has_width } -> std::convertible_to<bool>;
   { lengths.half_length(i) } -> std::same_as<double>;
-  { lengths.radius(i) } -> std::same_as<double>;
+  { lengths.reach(i) } -> std::same_as<double>;
 };
-
-/// Centres of two needles are not farther apart in contact. [L]
-template <Lengths L>
-double reach_of(const L& lengths, Needle i, Needle j) {
-  const double axes = lengths.half_length(i) + lengths.half_length(j);
-  if constexpr (L::has_width) return axes + (lengths.radius(i) + lengths.radius(j));
-  return axes;
-}
 
 /// Lengths from the table of species, which is right for any gas.
 struct SpeciesLengths {
-  static constexpr bool has_width = true;
   const Gas& gas;
-  double half_length(Needle i) const { return gas.bodies[gas.records[i].species].half_length; }
-  double radius(Needle i) const { return gas.bodies[gas.records[i].species].radius; }
+  double half_length(Needle i) const { return body(i).half_length; }
+  double reach(Needle i) const { return body(i).reach(); }
+
+ private:
+  const Body& body(Needle i) const { return gas.bodies[gas.records[i].species]; }
 };
 
 static_assert(Lengths<SpeciesLengths>);

@@ -66,6 +66,64 @@ side = "both"
   EXPECT_NE(text.out.find("thermostat at temperature 3"), std::string::npos) << text.out;
 }
 
+TEST_F(CheckCommand, ExplainsGravity) {
+  write("falling.toml", R"(needles = { box = [10, 10, 6] }
+until.time = 1
+forces.gravity = [0, 0, -0.5]
+initial = { t_tr = 1, t_rot = 2 }
+[[species]]
+name = "light"
+count = 10
+[[species]]
+name = "heavy"
+count = 20
+mass = 3
+[[walls]]
+axis = "z"
+side = "low"
+)");
+  const auto json = run("check falling.toml --json").json();
+  ASSERT_EQ(json["falling"].size(), 1u);
+  EXPECT_EQ(json["falling"][0]["axis"], "z");
+  EXPECT_NEAR(json["falling"][0]["weight"].get<double>(), 0.5 * (10 + 20 * 3), 1e-12);
+  EXPECT_NEAR(json["falling"][0]["scale_heights"][0].get<double>(), 1.4 / 0.5, 1e-12);
+  EXPECT_NEAR(json["falling"][0]["scale_heights"][1].get<double>(), 1.4 / 1.5, 1e-12);
+  const Outcome text = run("check falling.toml");
+  EXPECT_NE(text.out.find("along z: weight N m g = 35, scale height T / (m g) = 2.8, 0.9333"),
+            std::string::npos)
+      << text.out;
+}
+
+TEST_F(CheckCommand, KnowsTheRatesOfMixturesBetweenNearWalls) {
+  write("near.toml", R"(needles.box = [10, 10, 1.3]
+until.time = 1
+[[species]]
+name = "short"
+count = 100
+length = 0.6
+[[species]]
+name = "long"
+count = 50
+length = 1.1
+[[walls]]
+axis = "z"
+side = "both"
+)");
+  const auto walled = run("check near.toml --json").json();
+  ASSERT_TRUE(walled.contains("pairs"));
+  Species small, large;
+  small.length = 0.6;
+  large.length = 1.1;
+  small.count = 100;
+  large.count = 50;
+  const Composition both({small, large}, {});
+  const std::vector<theory::Temperatures> warm(2, {1, 1});
+  const double open = theory::mixture_rates(both, 130, warm).collisions[both.pair_index(0, 1)];
+  EXPECT_NEAR(walled["pairs"]["short-long"]["collisions_per_time"].get<double>(),
+              open * theory::pair_factor_between_walls(small, warm[0], large, warm[1], 1.3),
+              1e-9 * open);
+}
+
 TEST_F(CheckCommand, SaysWhatLimitsCores) {
   const std::string large = "check small.toml --set needles.count=9000 --set needles.box=30 ";
   const auto json = run(large + "--threads auto --json", "SLURM_CPUS_PER_TASK=1").json();

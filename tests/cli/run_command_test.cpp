@@ -208,6 +208,22 @@ TEST_F(RunCommand, TakesTheEnvironmentLast) {
   EXPECT_EQ(result("small.toml --set engine.isa=scalar", "NEEDLEWORK_ISA=bogus")["isa"], "scalar");
 }
 
+TEST_F(RunCommand, RefusesAFileWithANeedleAcrossAWall) {
+  ASSERT_EQ(run("run small.toml --quiet --out open.h5").exit_code, 0);
+  write("walled.toml", R"(initial.file = "open.h5"
+until.time = 1
+[[walls]]
+axis = "z"
+side = "both"
+)");
+  for (const char* command : {"run walled.toml --quiet", "check walled.toml"}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 3) << command;
+    EXPECT_TRUE(outcome.complains("beyond the wall z-")) << outcome.err;
+    EXPECT_TRUE(outcome.complains("expected both inside")) << outcome.err;
+  }
+}
+
 TEST_F(RunCommand, KeepsTheFirstAndTheLastFrame) {
   ASSERT_EQ(run("run small.toml --out two.h5").exit_code, 0);
   EXPECT_NE(run("info two.h5").out.find("2 frames"), std::string::npos);

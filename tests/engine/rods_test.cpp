@@ -14,6 +14,7 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
+#include "src/machine/stop_request.h"
 #include "src/scene/rod_grid.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
@@ -100,15 +101,9 @@ TEST(Rods, NeverOverlapAndKeepTheirEnergy) {
 
 TEST(Rods, ContinueFromACheckpointBitForBit) {
   const Scene scene = rods_and_spheres(60, 11);
-  Simulation whole(scene), half(scene);
-  whole.advance(until_time(2));
-  half.advance(until_time(0.9));
-  Simulation rest(scene, half.checkpoint());
-  rest.advance(until_time(2));
-  EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash());
   Scene other = scene;
   other.species[1].diameter *= 1.01;
-  EXPECT_THROW(Simulation(other, half.checkpoint()), InputError);
+  test::expect_to_continue(scene, 0.9, 2, other);
 }
 
 TEST(Rods, SpheresDoNotTurn) {
@@ -163,13 +158,43 @@ TEST(RodPacking, FindsRoomUpToHighDensity) {
   }
 }
 
+std::string refusal(const Scene& scene) {
+  try {
+    draw_initial_state(scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
 TEST(RodPacking, SaysWhatItCannotPlace) {
-  Scene scene = rods_of(100, 5, 0.95);
-  EXPECT_THROW(draw_initial_state(scene), InputError);
-  scene = rods_of(100, 5, 0.5);
+  // More than the densest packing of spheres, and than insertion reaches.
+  EXPECT_EQ(refusal(rods_of(500, 0, 0.76)),
+            "initial.packing = \"auto\": no lattice of parallel rods has room for 500 rods at a "
+            "packing fraction of 0.76: expected a larger box, or edges that fit the rods better");
+  Scene scene = rods_of(60, 0, 0.5);
   scene.initial.packing = "insertion";
-  scene.needles.box = {12.1, 12.1, 100 * scene.species[0].volume() / 0.5 / (12.1 * 12.1)};
-  EXPECT_THROW(draw_initial_state(scene), InputError);
+  EXPECT_EQ(refusal(scene),
+            "initial.packing = \"insertion\": a rod found no place in 1000000 tries: expected "
+            "\"lattice\", or a larger box");
+}
+
+TEST(RodPacking, SaysHowRodsWerePlaced) {
+  Scene scene = rods_of(64, 0, 0.1);
+  EXPECT_TRUE(Simulation(scene).placement().starts_with("64 rods inserted one by one, in "));
+  scene.initial.packing = "lattice";
+  EXPECT_EQ(Simulation(scene).placement(),
+            "64 rods placed on a lattice, then moved in 60 elastic collisions per rod");
+  EXPECT_EQ(Simulation(scene, draw_initial_state(scene)).placement(), "");
+  EXPECT_EQ(Simulation(test::scene_of(10, 5)).placement(), "");
+}
+
+TEST(RodPacking, CanBeStopped) {
+  Scene scene = rods_of(4000, 1, 0.45);
+  scene.initial.packing = "lattice";
+  int asked = 0;
+  const StopRequest request([&] { return ++asked > 3 ? "enough" : ""; });
+  EXPECT_THROW(draw_initial_state(scene), StoppedEarly);
 }
 
 }  // namespace

@@ -60,6 +60,12 @@ side = "both"
 """
 
 
+RODS = """
+needles = { count = 20, box = 4, diameter = 0.2 }
+until.time = 0.1
+"""
+
+
 class Row:
     def __init__(self, line):
         cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")]
@@ -223,11 +229,15 @@ def main(program, source):
         with open(os.path.join(folder, "walled.toml"), "w", encoding="utf-8") as file:
             file.write(WALLED)
         run(["./needlework", "run", "walled.toml", "--out", "walled.h5", "--quiet"], folder)
+        with open(os.path.join(folder, "rods.toml"), "w", encoding="utf-8") as file:
+            file.write(RODS)
+        run(["./needlework", "run", "rods.toml", "--out", "rods.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
+                ("rods.h5", rows_of(document, "Files of rods"), runs),
                 ("walled.h5", rows_of(document, "Files with walls") +
                  rows_of(observables, "Datasets of axes with walls"), runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),

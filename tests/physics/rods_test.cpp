@@ -7,6 +7,7 @@
 
 #include "needlework/simulation.h"
 #include "needlework/theory.h"
+#include "src/physics/mean_free_time.h"
 #include "tests/support/runs.h"
 #include "tests/support/statistics.h"
 
@@ -28,6 +29,10 @@ TEST(RodTheory, HasTheKnownRates) {
     const auto rates = theory::mixture_rates(scene.composition(), volume, std::span(&now, 1));
     const double density = 1e6 / volume;
     EXPECT_NEAR(2 * rates.collisions[0] / 999999 / density / rate, 1, 1e-6) << length;
+    // What windows and the relative contact time are measured in.
+    const SpeciesTemperatures measured{now.t_tr, now.t_rot};
+    const double free = mean_free_time(scene.composition(), volume, std::span(&measured, 1));
+    EXPECT_NEAR(free * 2 * rates.collisions[0] / 1e6, 1, 1e-6) << length;
   }
 }
 

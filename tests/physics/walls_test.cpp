@@ -91,6 +91,41 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
   }
 }
 
+// Of each two species, between walls that are nearer than two of their lengths.
+TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies) {
+  constexpr double side = 12, height = 1.3, time = 40;
+  Scene scene = between_walls(0, side, height, 1);
+  scene.species = {{.name = "short", .count = 300, .length = 0.6, .mass = 0.5, .k = 4},
+                   {.name = "long", .count = 200, .length = 1.1, .mass = 2, .k = 6}};
+  const Composition composition = scene.composition();
+  const std::vector<theory::Temperatures> warm(2, {1, 1});
+  std::vector<double> exact =
+      theory::mixture_rates(composition, side * side * height, warm).collisions;
+  std::array<Mean, 3> found;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    scene.needles.seed = seed;
+    Simulation gas(scene);
+    const std::vector<SpeciesIndex> species = composition.in_order_of_id();
+    std::array<double, 3> collisions{};
+    gas.on_collision([&](const Collision& c) {
+      ++collisions[composition.pair_index(species[c.first], species[c.second])];
+    });
+    gas.advance(until_time(time));
+    // Momentum along the walls stays 0.
+    const double temperature = 2 * gas.totals().energy * 500 / (5.0 * 500 - 2);
+    for (std::size_t n = 0; n < 3; ++n) found[n].add(collisions[n] / time / std::sqrt(temperature));
+  }
+  for (std::size_t a = 0; a < 2; ++a) {
+    for (std::size_t b = a; b < 2; ++b) {
+      const std::size_t n = composition.pair_index(a, b);
+      exact[n] *= theory::pair_factor_between_walls(composition[a], warm[a], composition[b],
+                                                    warm[b], height);
+      EXPECT_TRUE(agrees(found[n].measured(), exact[n], 3)) << n;
+      EXPECT_LT(found[n].measured().error, 0.007 * exact[n]) << n;
+    }
+  }
+}
+
 // p(z) is exp(-m g z / T) min(1, 2 z / L), the force on the floor N m g.
 TEST(NeedlesOnAFloor, HaveTheBarometricDensity) {
   constexpr std::uint64_t count = 500;
@@ -168,6 +203,44 @@ TEST(ThermalWalls, BringTheGasToTheirTemperature) {
   EXPECT_TRUE(agrees(t_tr.measured(), 1, 3));
   EXPECT_TRUE(agrees(t_rot.measured(), 1, 3));
   EXPECT_LT(t_tr.measured().error, 0.003);
+}
+
+// What the hot wall gives, the cold one takes; of walls of one temperature neither gives any.
+TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) {
+  for (const double hot : {3.0, 1.0}) {
+    Mean from_low, from_high, balance;  // power per needle
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      Scene scene = between_walls(300, 10, 3, seed);
+      scene.walls = {{.axis = "z", .side = "low", .temperature = hot},
+                     {.axis = "z", .side = "high", .temperature = 1}};
+      scene.initial.t_tr = scene.initial.t_rot = std::sqrt(hot);
+      Simulation gas(scene);
+      std::array<double, 2> given{};
+      gas.on_happening([&](const Happening& h) {
+        if (!h.is_collision()) given[h.event.second] += h.event.energy_change;
+      });
+      gas.advance(until_time(10));
+      given = {};
+      const double before = gas.totals().energy;
+      constexpr double time = 60;
+      gas.advance(until_time(10 + time));
+      from_low.add(given[0] / (300 * time));
+      from_high.add(given[1] / (300 * time));
+      // To the last digit where the change of the energy is counted.
+      EXPECT_NEAR((given[0] + given[1]) / 300, gas.totals().energy - before, 1e-9);
+      balance.add((given[0] + given[1]) / (300 * time));
+    }
+    EXPECT_TRUE(agrees(balance.measured(), 0, 3)) << hot;
+    if (hot > 1) {
+      EXPECT_GT(from_low.measured().value, 50 * from_low.measured().error);
+      EXPECT_LT(from_high.measured().value, -50 * from_high.measured().error);
+      EXPECT_LT(balance.measured().error, 0.02 * from_low.measured().value);
+    } else {
+      EXPECT_TRUE(agrees(from_low.measured(), 0, 3));
+      EXPECT_TRUE(agrees(from_high.measured(), 0, 3));
+      EXPECT_LT(from_low.measured().error, 0.01);
+    }
+  }
 }
 
 }  // namespace

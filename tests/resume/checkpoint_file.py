@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 5 of "), mark
+    assert mark.startswith(b"needlework checkpoint 6 of "), mark
     return mark
 
 

@@ -1,10 +1,13 @@
 // Small runs for tests: scenes made in code, their collisions recorded, their states transformed.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "needlework/simulation.h"
 
@@ -53,6 +56,19 @@ inline Scene::Until until_collisions(double per_needle) {
   Scene::Until until;
   until.collisions_per_needle = per_needle;
   return until;
+}
+
+/// That a run goes on from its checkpoint at `saved` as one that was not interrupted, until `end`,
+/// and that a run of another scene does not.
+inline void expect_to_continue(const Scene& scene, double saved, double end, const Scene& other) {
+  Simulation whole(scene), half(scene);
+  whole.advance(until_time(end));
+  half.advance(until_time(saved));
+  Simulation rest(scene, half.checkpoint());
+  rest.advance(until_time(end));
+  EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash());
+  EXPECT_EQ(rest.virial(), whole.virial());
+  EXPECT_THROW(Simulation(other, half.checkpoint()), InputError);
 }
 
 struct Recorded {

@@ -26,6 +26,13 @@ double mobility_of(const Species& species, double arm, double share) {
   return 1 / species.mass + arm * arm / species.inertia() * (1 - share * share);
 }
 
+// By how much an impulse on a tip along the normal turns a needle.
+Vec3d turn_by(const Species& species, const Vec3d& director, const Vec3d& normal, double arm,
+              double impulse) {
+  if (!species.turns()) return {};
+  return cross(director, normal) * (arm * impulse / species.inertia());
+}
+
 }  // namespace
 
 Walls::Walls(Gas& gas, std::vector<Wall> walls, std::uint64_t seed, ContactTimeOfWalls contact_time)
@@ -131,9 +138,7 @@ void Walls::leave_with_temperature(const NeedleAt& at, const Wall& wall, const V
   const double leaving = std::sqrt(2 * temperature * mobility * random.exponential());
   const double impulse = (leaving - drawn) / mobility;
   outcome.velocity = v + normal * (impulse / species.mass);
-  outcome.angular_velocity = w;
-  if (species.turns())
-    outcome.angular_velocity += cross(at.director, normal) * (arm * impulse / inertia);
+  outcome.angular_velocity = w + turn_by(species, at.director, normal, arm, impulse);
   // The impulse that the wall has given, along its normal and besides.
   outcome.impulse = (outcome.velocity - at.velocity) * species.mass;
   const auto energy = [&](const Vec3d& its_v, const Vec3d& its_w) {
@@ -173,15 +178,13 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
     const double epsilon = out.contact_time_rule ? 1 : wall.epsilon;
     const double impulse = -(1 + epsilon) * out.normal_velocity / mobility;
     out.velocity = at.velocity + normal * (impulse / species.mass);
-    out.angular_velocity = at.angular_velocity;
-    if (species.turns()) {
-      out.angular_velocity += cross(at.director, normal) * (arm * impulse / species.inertia());
-    }
+    out.angular_velocity =
+        at.angular_velocity + turn_by(species, at.director, normal, arm, impulse);
     out.impulse = normal * impulse;
     out.normal_impulse = impulse;
     out.energy_change = impulse * (tip + 0.5 * impulse * mobility);
   }
-  // Tips that have hit walls at this instant are still there.
+  // Tips that have hit walls at this instant are still there. A sphere has both in one place.
   const std::uint64_t before = touching_[at.needle];
   const bool same_instant = before >> bits_of_tips == at.record.serial && at.record.time == at.now;
   const std::uint64_t tips = same_instant ? before & ((1u << bits_of_tips) - 1) : 0;

@@ -106,19 +106,18 @@ double value_at(const std::vector<double>& values, std::size_t i, double otherwi
 }  // namespace
 
 static void transfer(Archive& archive, Material& material) {
-  auto& [names, length, mass, k, epsilon, beta, walls, gravity] = material;
-  archive(names, length, mass, k, epsilon, beta, walls, gravity);
+  auto& [names, length, mass, k, diameter, epsilon, beta, walls, gravity] = material;
+  archive(names, length, mass, k, diameter, epsilon, beta, walls, gravity);
 }
 
 static Material read_material_here(const std::string& path) {
   const Source source(path);
   Material material;
-  if (!read_numbers(source, "/parameters/diameter").empty()) {
-    throw InputError(fmt::format(
-        "{}: rods of finite width: expected thin needles, as which other formats are written",
-        source.place("/parameters/diameter")));
-  }
-  material.length = read_positive(source, "/parameters/length");
+  material.diameter = read_positive(source, "/parameters/diameter");
+  // A rod without an axis is a sphere.
+  const bool has_width = !material.diameter.empty();
+  material.length = has_width ? read_numbers(source, "/parameters/length")
+                              : read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
   material.mass = read_positive(source, "/parameters/mass");
   if (material.mass.empty()) material.mass = read_masses_of_needles(source);

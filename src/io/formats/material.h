@@ -15,9 +15,10 @@ namespace needlework::io {
 /// The species of needles and their restitution. What a file does not say is empty.
 struct Material {
   std::vector<std::string> names = {};
-  std::vector<double> length = {};  ///< of each species [L]
-  std::vector<double> mass = {};    ///< of each species [m]
-  std::vector<double> k = {};       ///< m L^2 / (2 I) of each species [1]
+  std::vector<double> length = {};    ///< of each species [L]
+  std::vector<double> mass = {};      ///< of each species [m]
+  std::vector<double> k = {};         ///< m L^2 / (2 I) of each species [1]
+  std::vector<double> diameter = {};  ///< of each species of rods; none for thin needles [L]
   /// Normal and tangential restitution: one for all, or one for each two species, in rows [1].
   std::vector<double> epsilon = {}, beta = {};
   /// What ends the box along axes that are not periodic, and what acts on all needles.

@@ -1,0 +1,38 @@
+// Two rods of finite width in free flight, and what does not depend on which of them comes first.
+#pragma once
+
+#include <optional>
+
+#include "kernels/contact_function.h"
+
+namespace needlework::kernels {
+
+/// Two rods and one periodic image. Half lengths of 0 are spheres. Exchanging the rods and negating
+/// `shift` changes no bit of any result.
+struct RodPair : Pair {
+  double distance = 1;  ///< of the axes at contact, the sum of the radii, above 0 [L]
+};
+
+/// Powers of two that scale a pair so that the largest distance of the centres at a contact lies in
+/// [1, 2) and the rods move by about 1 in a time of 1.
+PairScale rod_scale_of(const RodPair& pair);
+
+/// How far rounding of the records may have moved the rods. [L]
+double rod_allowance_of(const RodPair& pair);
+
+/// A pair whose rods are in an order that does not depend on which of them is given first.
+class OrderedRods {
+ public:
+  explicit OrderedRods(const RodPair& pair);
+  OrderedRods(const OrderedRods&) = delete;
+  OrderedRods& operator=(const OrderedRods&) = delete;
+
+  const RodPair& pair() const { return *pair_; }
+  bool is_exchanged() const { return other_.has_value(); }
+
+ private:
+  std::optional<RodPair> other_;
+  const RodPair* pair_;
+};
+
+}  // namespace needlework::kernels

@@ -1,0 +1,69 @@
+// Rods of finite width in the commands of the program: before, after and beside a run.
+#include <cmath>
+#include <string>
+
+#include "tests/cli/program.h"
+
+namespace needlework {
+namespace {
+
+class RodsCommand : public ProgramTest {
+ protected:
+  RodsCommand() {
+    write("rods.toml",
+          "needles.box = 8\ncollisions = { epsilon = 0.9, tc_relative = 1e-3 }\n"
+          "until.collisions_per_needle = 6\n"
+          "[[species]]\nname = \"balls\"\ncount = 60\nlength = 0\nmass = 2\ndiameter = 1.2\n"
+          "[[species]]\nname = \"rods\"\ncount = 40\nlength = 2\ndiameter = 0.5\n");
+  }
+  // The run, in the file rods.h5.
+  std::string hash_to(double collisions_per_needle) const {
+    return hash_of(
+        "run rods.toml --force --set output.file=rods.h5 --set output.frames=2 --set "
+        "until.collisions_per_needle=" +
+        std::to_string(collisions_per_needle));
+  }
+};
+
+TEST_F(RodsCommand, GoesOnBitForBit) {
+  const std::string whole = hash_to(6);
+  EXPECT_NE(hash_to(2.5), whole);
+  EXPECT_EQ(hash_of("resume rods.h5 --set until.collisions_per_needle=6"), whole);
+}
+
+TEST_F(RodsCommand, SaysWhatIsKnownOfThem) {
+  const auto check = json_of("check rods.toml --json");
+  EXPECT_NEAR(check["packing_fraction"].get<double>(), 0.1416, 1e-4);
+  EXPECT_EQ(check["species"][0]["diameter"], 1.2);
+  // Of balls 3/2, of rods 5/2.
+  EXPECT_NEAR(check["energy"].get<double>(), 1.5 + 0.4, 1e-12);
+  const auto summary = json_of("run rods.toml --json --quiet");
+  EXPECT_NEAR(summary["energy_initial"].get<double>(), 1.5 + 0.4, 1e-12);
+  EXPECT_EQ(summary["species"][0]["t_rot"], 0);
+  EXPECT_EQ(summary["effects"], "inelastic tc mixture rods");
+  EXPECT_EQ(summary["placement"].get<std::string>().substr(0, 9), "100 rods ");
+  EXPECT_TRUE(summary["collision_rate_exact"].is_null());
+  const Outcome elastic = run("run rods.toml --set collisions.epsilon=1");
+  EXPECT_EQ(elastic.out.find("nan"), std::string::npos) << elastic.out;
+}
+
+TEST_F(RodsCommand, DrawsThemAsWideAsTheyAre) {
+  hash_to(1);
+  EXPECT_EQ(run("view rods.h5 -o rods.svg --colour none").exit_code, 0);
+  const std::string svg = read("rods.svg");
+  EXPECT_NE(svg.find("of diameter 1.2, 0.5"), std::string::npos);
+  EXPECT_EQ(run("report rods.h5 -o rods.html").exit_code, 0);
+}
+
+TEST_F(RodsCommand, RefusesWhatKnowsNeedlesAlone) {
+  hash_to(1);
+  const Outcome exported = run("export rods.h5 rods.xyz");
+  EXPECT_EQ(exported.exit_code, 3);
+  EXPECT_TRUE(exported.complains("rods.h5: rods of finite width: expected thin needles"));
+  const Outcome audited = run("audit rods.toml");
+  EXPECT_EQ(audited.exit_code, 3);
+  EXPECT_TRUE(audited.complains("rods.toml: rods of finite width"));
+}
+
+}  // namespace
+}  // namespace needlework
