@@ -310,22 +310,19 @@ bool Run::nothing_can_happen() const {
     return !gas.falls && std::ranges::none_of(sources, sets_in_motion) &&
            std::ranges::all_of(gas.records, is_at_rest);
   }
-  if (gas.size() < 2) return true;
-  const Vec3d& v = gas.records[0].flight.v;
-  return std::all_of(gas.records.begin(), gas.records.end(), [&](const Record& record) {
-    return record.flight.omega == 0 && record.flight.v == v;
-  });
+  return collisionless().has_value();
 }
 
 std::optional<Collisionless> Run::collisionless() const {
   // Events and kicks may change directions of flight.
   if (!sources.empty() || kicks) return std::nullopt;
-  if (nothing_can_happen() && gas.size() > 1) return Collisionless::alike;
-  if (gas.size() > 1 && effects.width) return std::nullopt;
-  return needlework::collisionless(gas.size(), [&](std::size_t i) {
+  const auto reason = needlework::collisionless(gas.size(), [&](std::size_t i) {
     const kernels::Flight& flight = gas.records[i].flight;
     return Heading{flight.v, flight.u, flight.w};
   });
+  // Of width, only those touch nothing that have no motion relative to each other.
+  if (effects.width && gas.size() > 1 && reason != Collisionless::alike) return std::nullopt;
+  return reason;
 }
 
 Stop Run::end_of_events() const {

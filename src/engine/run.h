@@ -55,7 +55,8 @@ class Run {
   void open_window();
   /// The same at the end of a window, of which the drift of the energy is noted.
   void pass_window();
-  /// Whether needles do not move relative to each other, so that time may pass without events.
+  /// Whether no two needles can ever collide and nothing else can happen either, so that time may
+  /// pass without windows.
   bool nothing_can_happen() const;
   /// Why no two needles can ever collide, as the state shows; nothing if they may.
   std::optional<Collisionless> collisionless() const;

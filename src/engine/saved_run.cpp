@@ -160,6 +160,7 @@ void Run::require_consistent() const {
   }
   // Files hold the images of needles in flight.
   for (Needle i{0}; i < gas.size(); ++i) {
+    StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
     const Vec3d centre = gas.motion_from(record, now).centre();
     const double places[3] = {centre.x, centre.y, centre.z};
@@ -168,7 +169,9 @@ void Run::require_consistent() const {
       require(std::abs(gas.images[i][axis] + wrap(gas, places[axis], axis).boxes) <= most);
     }
   }
+  StopRequest::check();
   GasNumbers present = numbers();
+  StopRequest::check();
   present.has_cooled = true;
   require(out_of_range(present).empty());
   const double sum = energy_of(gas, sums_of_squares(gas, now, team.threads()));
@@ -261,7 +264,9 @@ Run::Run(const Scene& scene, const Checkpoint& saved) : Run(scene) {
   archive.require_end();
   if (!sorted) return;
   const std::vector<Needle> order = order_in_space(gas, now);
+  StopRequest::check();
   reorder(gas, order);
+  StopRequest::check();
   sorted_at_ = tally.counters.crossings;
 }
 

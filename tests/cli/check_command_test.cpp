@@ -70,14 +70,15 @@ TEST_F(CheckCommand, ExplainsGravity) {
   write("falling.toml", R"(needles = { box = [10, 10, 6] }
 until.time = 1
 forces.gravity = [0, 0, -0.5]
-initial = { t_tr = 1, t_rot = 2 }
 [[species]]
 name = "light"
 count = 10
+t_rot = 2
 [[species]]
 name = "heavy"
 count = 20
 mass = 3
+t_rot = 2
 [[walls]]
 axis = "z"
 side = "low"

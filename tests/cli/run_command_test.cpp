@@ -86,6 +86,10 @@ TEST_F(RunCommand, PrintsWhatItsDocumentDescribes) {
   const json driven = result("driven.toml");
   EXPECT_EQ(keys_of(driven["walls"][1]), sorted(described["Result with walls"]));
   EXPECT_EQ(keys_of(driven["energy_budget"]), sorted(described["Result with walls or driving"]));
+  write("wide.toml", "needles = { count = 5, box = 4, diameter = 0.1 }\nuntil.time = 1\n");
+  std::vector<std::string> of_rods = described["Result"];
+  for (const std::string& key : described["Result with rods"]) of_rods.push_back(key);
+  EXPECT_EQ(keys_of(result("wide.toml")), sorted(of_rods));
 }
 
 TEST_F(RunCommand, ReportsConsistentNumbers) {

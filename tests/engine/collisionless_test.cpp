@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "needlework/error.h"
 #include "needlework/simulation.h"
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
@@ -74,6 +75,20 @@ TEST(Collisionless, ParallelNeedlesAndThoseInPlanesEnd) {
     expect_end(
         in_planes(scene, axis),
         std::string("all needles lie and move in planes normal to the ") + "xyz"[axis] + " axis");
+  }
+}
+
+// Without a search for each horizon, of which there would be millions, so that needles that leave
+// the range of image counts on the way are noticed at once.
+TEST(Collisionless, TimePassesWithoutEvents) {
+  const Scene scene = test::scene_of(500, 8);
+  for (const State& state : {parallel(scene), in_planes(scene, 2)}) {
+    Simulation simulation(scene, state);
+    EXPECT_EQ(simulation.advance(until_time(1e4)), Stop::time);
+    EXPECT_EQ(simulation.counters().events, 0u);
+    EXPECT_EQ(simulation.time(), 1e4);
+    EXPECT_THROW(simulation.advance(until_time(1e12)), InvalidStateError);
+    EXPECT_EQ(simulation.time(), 1e4);
   }
 }
 

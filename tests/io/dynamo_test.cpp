@@ -146,7 +146,7 @@ TEST_F(Dynamo, WallsAndGravityAreRead) {
 }
 
 TEST_F(Dynamo, WallsAndGravityAreWrittenAndReadAgain) {
-  Material material{{}, {1}, {2}, {6}, {0.75}};
+  Material material{.length = {1}, .mass = {2}, .k = {6}, .epsilon = {0.75}};
   Frame frame;
   frame.state = make_state(50, 5);
   const auto written = [&](std::vector<Scene::Wall> walls) {

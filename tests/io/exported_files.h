@@ -14,7 +14,12 @@
 
 namespace needlework::io {
 
-inline const Material material{{"needles"}, {1.7}, {2.5}, {3.3}, {0.9}, {-0.25}};
+inline const Material material{.names = {"needles"},
+                               .length = {1.7},
+                               .mass = {2.5},
+                               .k = {3.3},
+                               .epsilon = {0.9},
+                               .beta = {-0.25}};
 
 class Formats : public InFolder {
  protected:

@@ -43,12 +43,12 @@ TEST_F(Formats, LastFrameIsReadBackBitForBit) {
 }
 
 TEST_F(Formats, MixturesAreReadBack) {
-  const Material mixture{{"a b,c", "long%", "none"},
-                         {1.1, 1.7, 3},
-                         {2.5, 1, 4},
-                         {6, 3.3, 2},
-                         {0.9, 0.8, 1, 0.8, 0.7, 1, 1, 1, 1},
-                         {-1, 0.5, -1, 0.5, 0, -1, -1, -1, -1}};
+  const Material mixture{.names = {"a b,c", "long%", "none"},
+                         .length = {1.1, 1.7, 3},
+                         .mass = {2.5, 1, 4},
+                         .k = {6, 3.3, 2},
+                         .epsilon = {0.9, 0.8, 1, 0.8, 0.7, 1, 1, 1, 1},
+                         .beta = {-1, 0.5, -1, 0.5, 0, -1, -1, -1, -1}};
   State state = make_state(20);
   for (std::size_t i = 0; i < state.size(); ++i) {
     state.species.push_back(static_cast<SpeciesIndex>(i * i % 2));  // none of the third
