@@ -1,6 +1,6 @@
-# Tests of GoogleTest with the label long, beside their other labels: ctest reads this list. They repeat
-# at length, on more seeds or on every instruction set, what shorter tests of ./test.sh check, which the
-# comments name. .ci/run runs them.
+# Tests of GoogleTest with the label long, beside their other labels: ctest reads this list. .ci/run runs
+# them; ./test.sh, which is to take minutes, does not. The first repeat at length, on more seeds or on
+# every instruction set, what shorter tests check, which the comments name.
 set_tests_properties(
   # OneTrajectory.OfThreads
   OneTrajectory.OfThreadsOnEveryInstructionSet
@@ -8,7 +8,7 @@ set_tests_properties(
   Continuing.AKillInAnyWriteLosesNothing
   Continuing.AKillWhileRowsAreRemovedLosesNothing
   Failing.AnyWriteMayFindTheDiskFull
-  # the first of these seeds
+  # the first of these seeds, below
   Seeds/Borders.AreDecidedToTheLastBit/1
   Seeds/Borders.AreDecidedToTheLastBit/2
   Seeds/Borders.AreDecidedToTheLastBit/3
@@ -18,7 +18,7 @@ set_tests_properties(
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/1
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/2
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/3
-  # the other scenes of ParallelRun
+  # other scenes of ParallelRun
   Scenes/ParallelRun.IsThatOfOneThread/rare
   # Walls.KeepAnAccountOfTheEnergyThatCloses
   Walls.KeepAnAccountThatClosesOverAMillionHits
@@ -50,4 +50,116 @@ foreach(gas Smooth:k2_n0p1 Smooth:k2_n3 Smooth:k6_n3 Smooth:k6_n20 Smooth:k6_n50
             Smooth:k20_n20)
   string(REPLACE ":" "/ElasticRate.IsExactInEquilibrium/" test ${gas})
   set_tests_properties(${test} PROPERTIES LABELS slow)
+endforeach()
+# Tests that take more than about three seconds, beside shorter ones of the same subject.
+foreach(test
+    Audit.FollowsBouncesDownToTheContactTime
+    Audit.GoesOnWhereItWasInterrupted
+    AuditCommand.GoesOnWhereItWasInterrupted
+    AuditOfKicks.FindsNothingWrongWithTheEngine
+    CheckpointFile.CutShortAtAnyByteIsDamaged
+    CheckpointFile.WithAnyByteChangedIsDamaged
+    ContactFinder.EndsSoonForNeedlesInOnePlane
+    Continuing.AFileContinuesWhereItWasClosed
+    Continuing.RowsBeyondThePositionDoNotRemain
+    Crash.KillAtAnyMomentLeavesTheFlushedFrames
+    FalseReport.OfACollisionThatWasNotIsSeen
+    FalseReport.OfAnyNumberIsSeen
+    Families/ContactFinderOracle.FindsTheSameContacts/grazing_to_rounding
+    Forecast.OfAMixtureIsThatOfItsSpecies
+    Formats.FilesOfManyBlocksAreReadWhetherCompressedOrNot
+    Hostile.CompressedBombsAreRefused
+    NeverColliding.StatesAreNamedAndNeedALimitOnTime
+    Oracle.DoublesSettleOnlyWhatIsClear
+    Overlapping.LosesNoCapsulesThatCrossAtSmallAngles
+    PredictCommand.GivesUpAPairThatItCannotDecide
+    PredictCommand.GivesUpPairsThatTurnNearEachOtherForEver
+    Prepare.IsStoppedBeforeTheFirstEventAndContinues
+    Range.SineAndCosineEncloseThoseOfAllAngles
+    Reading.FilesCutShortAreRefused
+    RunCommand.DrawsOneLineOfProgressOnATerminal
+    Scenes/MixtureSearches.GiveOneTrajectory/one_to_four_dense
+    Scenes/MixtureSearches.GiveOneTrajectory/one_to_twenty
+    Scenes/MixtureSearches.GiveOneTrajectory/one_to_twenty_dense
+    Scenes/SearchEquivalence.GivesThoseOfAllPairs/cooling_by_decades
+    Scenes/SearchEquivalence.GivesThoseOfAllPairs/strongly_cooling
+    Scenes/SearchEquivalence.GivesThoseOfAllPairs/very_dense
+    Scenes/SearchEquivalence.GivesThoseOfAllPairs/very_dilute
+    SetVelocities.IsTheSameOnThreadsThatShareTheWork
+    SetVelocities.OfManyThroughOnePointKeepTheirSides
+    Settings/Contacts.AreProposedByEverySearch/chained_blocks
+    Settings/Contacts.AreProposedByEverySearch/dilute
+    Settings/Contacts.AreProposedByEverySearch/side_next_to_whole
+    Settings/Contacts.AreProposedByEverySearch/some_fast
+    Simulation.TellsTheTimesOfCollisions
+    SourceOfEvents.HasOneTrajectoryOnThreads
+    SpeciesOfAnyLength.HaveOneTrajectoryOnEverySearch
+    SweepCommand.GoesOnAfterSignals
+    SweepCommand.KeepsAMemberThatAnotherProgramHasOpen
+    SweepCommand.SummaryDoesNotDependOnThreadsOrShares
+    SweepCommand.TwoSweepsOfOneFolderDoNotRunTheSame
+    SweepOverRanks.GoOnAfterASignal
+    SweepOverRanks.NoOtherCommandRunsOnSeveral
+    SweepOverRanks.WriteOneLogOfWholeLines
+    TableOfSpecies.OfLengthAndMassOneChangesNoBitOnThreads
+    WallContact.IsThatOfSamplingInQuad
+    WithoutLocks.StoppedRunsAndSweepsGoOn)
+  set_tests_properties(${test} PROPERTIES LABELS "unit;long")
+endforeach()
+foreach(test
+    CentreOnCentre.HasASideOnceAThirdStrikes
+    CollapseOfThree.IsTheSameInQuad
+    Density.MayBeTwoHundred
+    Elastic/ContactDistribution.IsExactInEquilibrium/k20_n3
+    Elastic/Relaxation.StartsAtItsRate/k2
+    Elastic/Relaxation.StartsAtItsRate/k6
+    ElasticMixture.CollidesAtTheExactRates
+    Families/PredictOracle.AgreesOnUnequalNeedles/parallel_to_rounding
+    Inertia.MayBeOfAnySize
+    KickPower.IsExactForFewNeedles
+    KickPower.IsExactForInelasticNeedles
+    KickPower.IsExactForMixtures
+    LongTimes.EnergyFallsBy30Decades
+    ManyThroughOnePoint.MayStartThere
+    NeedlesOnAFloor.HaveTheBarometricDensity
+    OfLengthAndMass/ElasticRate.IsExactInEquilibrium/k2_n20
+    OnePlane.AndParallelNeedlesNeverMeet
+    OnePlane.TiltedGoesOnOrSaysWhyNot
+    OnePlane.TiltedRattles
+    PairsBetweenWalls.CollideAtTheRatesOfEachTwoSpecies
+    Restitution.MayBeAnyOfItsRange
+    Restitution.WithoutContactTimeEndsInAClearError
+    Rough/ElasticRate.IsExactInEquilibrium/k6_n3
+    Rough/MixtureAtTheStart.HasExactRates/three
+    Rules/CollapseInQuad.WithContactTimeIsTheSame/epsilon0p3_beta0
+    Seeds/Borders.AreDecidedToTheLastBit/0
+    Seeds/ManyThroughOnePointTogether.KeepTheirSides/0
+    Smooth/ElasticRate.IsExactInEquilibrium/k2_n20
+    Smooth/ElasticRate.IsExactInEquilibrium/k6_n0p72
+    Smooth/MixtureAtTheStart.HasExactRates/dense_1_to_10
+    Subnormal.ComponentsChangeNothing
+    ThermalWalls.BringTheGasToTheirTemperature
+    ThermalWalls.CarryHeatFromTheHotOneToTheCold
+    Thermostat.GivesItsTemperatureToFewNeedles
+    Thermostat.RelaxesExponentially
+    WallPressure.IsThatOfTheIdealGasOfNeedles
+    WallProfilesOfAnElasticGas.AreExactAboveAFloor
+    WallProfilesOfAnElasticGas.AreExactBetweenWalls
+    WallsStepByStep.OfNeedlesBetweenTwoWalls
+    WallsStepByStep.OfRoughNeedlesOnAFloor)
+  set_tests_properties(${test} PROPERTIES LABELS "physics;long")
+endforeach()
+foreach(test
+    Cloud.IsFollowedAsItSpreads
+    HostThreads.RunSimulationsOnDifferentInstructionSets
+    Loops.CountTogetherWhatHappensAtOneInstant
+    Parallel.HasTheSameTrajectoryForFewNeedles
+    Parallel.IsTheSameEveryTime
+    Parallel.RollsBackAPhaseOnlyOnce
+    Parallel.StopsWhereOneThreadStops
+    RandomScenes.EndAsOnOneThread
+    Scenes/ParallelRun.IsThatOfOneThread/dense
+    Scenes/ParallelRun.IsThatOfOneThread/dilute
+    Scenes/ParallelRun.IsThatOfOneThread/swift_rotation)
+  set_tests_properties(${test} PROPERTIES LABELS "threads;long")
 endforeach()
