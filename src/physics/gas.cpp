@@ -92,7 +92,7 @@ void Gas::add_touch(Needle i, const RecordedTouch& touch) {
   ++record.touch_count;
 }
 
-Wrapped wrap(double x, double box) {
+Wrapped wrap_from_outside(double x, double box) {
   double boxes = std::floor(x / box);
   const auto place = [&] { return to_double(DoubleDouble(x) - two_prod(boxes, box)); };
   double out = boxes == 0 ? x : place();

@@ -92,7 +92,10 @@ struct Wrapped {
   double place;
   double boxes;
 };
-Wrapped wrap(double x, double box);
+Wrapped wrap_from_outside(double x, double box);
+inline Wrapped wrap(double x, double box) {
+  return x >= 0 && x < box ? Wrapped{x, 0} : wrap_from_outside(x, box);
+}
 /// The same along an axis of a gas, whose coordinates stay as they are if it has a wall.
 inline Wrapped wrap(const Gas& gas, double x, int axis) {
   return gas.walled[axis] ? Wrapped{x, 0} : wrap(x, gas.box[axis]);

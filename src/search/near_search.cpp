@@ -118,11 +118,15 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
   }
   look.reach *= 1 + 0x1p-18f;
   for (int axis = 0; axis < 3; ++axis) {
-    const float r = capsule ? seeker.r[axis] : seeker.motion.r[axis];
-    const float moved = capsule ? 0 : seeker.motion.v[axis] * time;
-    const float beside = capsule ? half * std::abs(seeker.u[axis]) : 0;
-    look.low[axis] = r + std::min(moved, 0.0f) - beside;
-    look.high[axis] = r + std::max(moved, 0.0f) + beside;
+    if (capsule) {
+      const float beside = half * std::abs(seeker.u[axis]);
+      look.low[axis] = seeker.r[axis] - beside;
+      look.high[axis] = seeker.r[axis] + beside;
+    } else {
+      const float moved = seeker.motion.v[axis] * time;
+      look.low[axis] = seeker.motion.r[axis] + std::min(moved, 0.0f);
+      look.high[axis] = seeker.motion.r[axis] + std::max(moved, 0.0f);
+    }
   }
   if (volumes.falls && !capsule && looks_.size() == 1) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -270,12 +274,13 @@ inline void NearSearch::look_around(Look& look) {
     *view_cell++ = {x.cell, y.cell, z.cell};
   };
   if (looks_.size() == 1 || most < many_cells) {
-    for (const auto& z : near[2]) {
-      for (const auto& y : near[1]) {
+    // Copies, for the same reason.
+    for (const CellGrid::AxisCell z : near[2]) {
+      for (const CellGrid::AxisCell y : near[1]) {
         const float gap_squared = z.gap_squared + y.gap_squared;
         if (gap_squared > reach_squared) continue;
         const std::size_t row = there.grid.index(0, y.wrapped, z.wrapped);
-        for (const auto& x : near[0]) {
+        for (const CellGrid::AxisCell& x : near[0]) {
           if (gap_squared + x.gap_squared > reach_squared) continue;
           add(z, y, x, row);
         }
@@ -339,7 +344,7 @@ inline void NearSearch::propose(const kernels::Found& found, std::size_t k, doub
 inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& found,
                                std::size_t count) {
   const BoundingVolumes& volumes = *volumes_;
-  const PairColumns pairs = pairs_.columns_for(count);
+  const PairColumns& pairs = pairs_.columns_for(count);
   kernels::Seeker& seeker = looks_.front().seeker;
   for (const Look& look : looks_) {
     PairTable::fill(pairs, look.seeker, volumes.motions.data(), views_.data(), found,
@@ -361,8 +366,9 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
   }
   counters_.bracket_steps += widest_ > 0 ? kernels_.bracket_rods(seeker, pairs, count, widest_)
                                          : kernels_.bracket(seeker, pairs, count);
+  const float ahead = seeker.ahead;
   for (std::size_t k = 0; k < count; ++k) {
-    if (from[k] <= seeker.ahead) propose(found, k, from[k] / volumes.per_time);
+    if (from[k] <= ahead) propose(found, k, from[k] / volumes.per_time);
   }
 }
 

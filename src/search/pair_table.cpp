@@ -10,17 +10,12 @@ using kernels::CellView;
 using kernels::Motion;
 using kernels::PairColumns;
 
-PairColumns PairTable::columns_for(std::size_t count) {
+void PairTable::grow(std::size_t count) {
+  capacity_ = 2 * count + 1;
   // Kernels use up to two blocks more.
-  if (count + 2 * kernels::block_size > capacity_) {
-    capacity_ = 2 * count + 2 * kernels::block_size;
-    storage_.assign(capacity_ * PairColumns::columns, 0.0f);
-  }
-  PairColumns pairs;
-  for (int c = 0; c < PairColumns::columns; ++c) {
-    pairs.column[c] = storage_.data() + c * capacity_;
-  }
-  return pairs;
+  const std::size_t size = capacity_ + 2 * kernels::block_size;
+  storage_.assign(size * PairColumns::columns, 0.0f);
+  for (int c = 0; c < PairColumns::columns; ++c) columns_.column[c] = storage_.data() + c * size;
 }
 
 // Four pairs at once: most of the work is to turn the rows of motions into columns.

@@ -12,7 +12,10 @@ namespace needlework {
 class PairTable {
  public:
   /// Columns for so many pairs. They last until the next call.
-  kernels::PairColumns columns_for(std::size_t count);
+  const kernels::PairColumns& columns_for(std::size_t count) {
+    if (count >= capacity_) grow(count);
+    return columns_;
+  }
   /// Fills in the pairs of the seeker with the needles from number `begin` on, up to `end`, that it
   /// has found, all columns but `from`. May write to the columns of up to three pairs after these.
   static void fill(const kernels::PairColumns& pairs, const kernels::Seeker& seeker,
@@ -20,8 +23,11 @@ class PairTable {
                    const kernels::Found& found, std::size_t begin, std::size_t end);
 
  private:
+  void grow(std::size_t count);
+
   std::vector<float> storage_;
-  std::size_t capacity_ = 0;
+  kernels::PairColumns columns_{};
+  std::size_t capacity_ = 0;  ///< of pairs
 };
 
 }  // namespace needlework
