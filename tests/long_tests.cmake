@@ -107,6 +107,7 @@ foreach(test
   set_tests_properties(${test} PROPERTIES LABELS "unit;long")
 endforeach()
 foreach(test
+    Boltzmann.SingleCollisionsRelaxMoreSlowlyThanGaussianOnes
     CentreOnCentre.HasASideOnceAThirdStrikes
     CollapseOfThree.IsTheSameInQuad
     Density.MayBeTwoHundred

@@ -224,6 +224,22 @@ void add_theory_command(CLI::App& app, int& exit_code) {
       ->option_text("T");
   command->add_option("--density", arguments->density, "needles per unit of volume")
       ->option_text("N");
+  command
+      ->add_option("--boltzmann", arguments->boltzmann,
+                   "simulate the Boltzmann equation: each pair collides once, or until it has "
+                   "parted for good")
+      ->option_text("single|encounters")
+      ->check(one_of({"single", "encounters"}));
+  command->add_option("--needles", arguments->needles, "number of needles in it (default: 32000)")
+      ->option_text("N");
+  command
+      ->add_option("--seed", arguments->seed, "of its random numbers; by default the scene's, or 1")
+      ->option_text("S");
+  command
+      ->add_option("--tc", arguments->tc,
+                   "contact time in encounters, in L (m / T_tr)^1/2; by default the scene's, or "
+                   "1e-3")
+      ->option_text("X");
   command->add_flag("--json", arguments->json, "print one JSON object");
   command->footer(R"(Takes epsilon, k, beta, the density and the initial temperatures from the
 scene, if one is given; options come first. Without a scene, --epsilon and
@@ -238,8 +254,13 @@ Of a scene of several species it prints how often each two of them collide at
 the start, how fast their temperatures change, and the temperatures of each.
 Of the options only --time, --set and --json go with such a scene.
 
+--boltzmann gives what kinetic theory leaves out, with errors, in the limit of
+low density: velocities that do not stay Gaussian, and, with encounters, pairs
+that collide again. Times are in ascending order then.
+
 Examples:
   needlework theory profiles/quickstart.toml
+  needlework theory --epsilon 0.8 --k 6 --tau 10 --boltzmann encounters
   needlework theory --epsilon 0.8 --k 6 --density 0.72 --time 10 --time 100)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "needlework/theory.h"
+#include "src/cli/boltzmann_theory.h"
 #include "src/cli/json.h"
 #include "src/cli/messages.h"
 #include "src/cli/mixture_theory.h"
@@ -48,6 +49,9 @@ constexpr NumberOption t_rot0_option{"--t-rot0", 0.0, largest, "a finite number,
 constexpr NumberOption tau_option{"--tau", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberOption time_option{"--time", 0.0, largest, "a finite number, 0 or more"};
 constexpr NumberOption density_option{"--density", 0.0, 1e12, "a number in [0, 1e12]"};
+constexpr NumberOption needles_option{"--needles", 64, 1e9, "a number from 64 to 1e9"};
+constexpr NumberOption seed_option{"--seed", 0, 0x1p53, "a whole number from 0 to 2^53"};
+constexpr NumberOption tc_option{"--tc", 0.0, largest, "a finite number, 0 or more"};
 
 /// What the predictions are for.
 struct Question {
@@ -232,13 +236,69 @@ std::string mixture_text(const TheoryArguments& arguments, const runs::LoadedSce
   return mixture_theory_of(loaded, times, arguments.json);
 }
 
+// The contact time of the scene in units of L (m / T_tr)^1/2.
+std::optional<double> contact_time_of(const Question& question, const Scene& scene) {
+  if (scene.collisions.tc) {
+    throw std::invalid_argument(
+        fmt::format("--tc is missing: expected a number, as collisions.tc = {:g} does not follow "
+                    "the temperature",
+                    *scene.collisions.tc));
+  }
+  if (!scene.collisions.tc_relative) return std::nullopt;
+  const double volume = scene.needles.box[0] * scene.needles.box[1] * scene.needles.box[2];
+  const Composition composition = scene.composition();
+  const double density =
+      static_cast<double>(composition.count()) * std::pow(composition[0].length, 3) / volume;
+  const theory::Temperatures scaled{1, question.initial.t_rot / question.initial.t_tr};
+  return *scene.collisions.tc_relative / theory::collision_rate(density, scaled, question.gas.k);
+}
+
+std::string boltzmann_text(const TheoryArguments& arguments,
+                           const std::optional<runs::LoadedScene>& loaded) {
+  Question question = question_of(arguments, loaded);
+  boltzmann::Settings settings{.gas = question.gas, .initial = question.initial};
+  if (arguments.boltzmann == "encounters") settings.pairs = boltzmann::Pairs::encounters;
+  if (arguments.tc) {
+    settings.contact_time = number_of(tc_option, *arguments.tc);
+  } else if (loaded && settings.pairs == boltzmann::Pairs::encounters) {
+    settings.contact_time =
+        contact_time_of(question, loaded->scene).value_or(settings.contact_time);
+  }
+  if (arguments.needles) {
+    settings.needles = static_cast<std::uint64_t>(number_of(needles_option, *arguments.needles));
+  }
+  if (arguments.seed) {
+    settings.seed = static_cast<std::uint64_t>(number_of(seed_option, *arguments.seed));
+  } else if (loaded) {
+    settings.seed = loaded->scene.needles.seed;
+  }
+  if (question.taus.empty()) question.taus = {0, 1, 2, 5, 10};
+  std::ranges::sort(question.taus);
+  return boltzmann_theory_of(settings, question.taus, question.density, arguments.json);
+}
+
 std::string text_of(TheoryArguments arguments) {
   take_scene(arguments.taus, arguments.scene);
   take_scene(arguments.times, arguments.scene);
   std::optional<runs::LoadedScene> loaded;
   if (!arguments.scene.empty()) {
     loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
-    if (!loaded->scene.composition().is_needle_gas()) return mixture_text(arguments, *loaded);
+    if (!loaded->scene.composition().is_needle_gas()) {
+      if (!arguments.boltzmann.empty()) {
+        throw std::invalid_argument(fmt::format(
+            "--boltzmann {}: expected a scene of equal thin needles", arguments.boltzmann));
+      }
+      return mixture_text(arguments, *loaded);
+    }
+  }
+  if (!arguments.boltzmann.empty()) return boltzmann_text(arguments, loaded);
+  for (const auto& [option, value] : {std::pair("--needles", &arguments.needles),
+                                      {"--seed", &arguments.seed},
+                                      {"--tc", &arguments.tc}}) {
+    if (*value) {
+      throw std::invalid_argument(
+          fmt::format("{} {}: expected --boltzmann beside it", option, **value));
+    }
   }
   const Predictions predictions = predictions_of(arguments, loaded);
   return arguments.json ? json_of(predictions) : table_text(predictions);

@@ -14,6 +14,8 @@ struct TheoryArguments {
   std::vector<std::string> overrides;
   std::optional<std::string> epsilon, k, beta, t_rot0, density;
   std::vector<std::string> taus, times;
+  std::string boltzmann;  ///< "single", "encounters", or empty for kinetic theory
+  std::optional<std::string> needles, seed, tc;  ///< with boltzmann
   bool json = false;
 };
 

@@ -23,7 +23,8 @@ enum class RandomFor : std::uint64_t {
   thermal_wall,
   thermostat,
   kick,
-  velocities_of_rods
+  velocities_of_rods,
+  boltzmann
 };
 
 /// A stream of deviates: Philox-4x64-10 (Salmon et al., SC 2011) with the seed as key and (block,

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "needlework/boltzmann.h"
 #include "needlework/theory.h"
 #include "tests/cli/program.h"
 
@@ -64,6 +65,49 @@ TEST_F(TheoryCommand, PrintsATable) {
   }
 }
 
+TEST_F(TheoryCommand, SimulatesTheBoltzmannEquation) {
+  const std::string arguments =
+      "theory --epsilon 0.5 --k 6 --tau 0.5 --tau 0 --needles 640 --seed 3 --boltzmann ";
+  const auto json = nlohmann::json::parse(run(arguments + "encounters --tc 0.01 --json").out);
+  EXPECT_EQ(json["tau"], (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(json["tc"], 0.01);
+  EXPECT_EQ(json["needles"], 640);
+  EXPECT_NEAR(json["energy"][0].get<double>(), 2.5, 1e-12);
+  const std::vector<double> taus = {0, 0.5};
+  const auto curve = theory::cooling_curve({6, 0.5, -1}, {}, taus);
+  EXPECT_EQ(json["theory"]["energy"][1].get<double>(), curve[1].energy());
+  EXPECT_NEAR(json["energy"][1].get<double>(), curve[1].energy(), 0.2);
+  EXPECT_GT(json["energy_error"][1].get<double>(), 0);
+  EXPECT_GT(json["encounters"].get<int>(), 100);
+  boltzmann::Settings settings{.gas = {6, 0.5, -1}, .needles = 640, .seed = 3};
+  const auto single = nlohmann::json::parse(run(arguments + "single --json").out);
+  EXPECT_EQ(single["t_rot"][1].get<double>(),
+            boltzmann::simulate(settings, taus).samples[1].t_rot.value);
+  EXPECT_FALSE(single.contains("encounters"));
+  const std::string table = run(arguments + "encounters").out;
+  EXPECT_NE(table.find("are not the first of their pair"), std::string::npos) << table;
+}
+
+// The scene's: relative to the mean free time, in units of the time to fly a length.
+TEST_F(TheoryCommand, TakesTheContactTimeOfAScene) {
+  write("gas.toml",
+        "needles = { count = 100, box = 5, k = 2, seed = 9 }\ninitial = { t_tr = 4, t_rot = 2 }\n"
+        "collisions = { epsilon = 0.9, tc_relative = 1e-2 }\nuntil.time = 1\n");
+  const std::string arguments =
+      "theory --needles 64 --tau 0 --boltzmann encounters --json gas.toml";
+  const auto json = nlohmann::json::parse(run(arguments).out);
+  EXPECT_EQ(json["seed"], 9);
+  EXPECT_NEAR(json["tc"].get<double>(), 1e-2 / theory::collision_rate(100 / 125.0, {1, 0.5}, 2),
+              1e-12);
+  write("absolute.toml",
+        "needles = { count = 100, box = 5 }\ncollisions = { epsilon = 0.9, tc = 0.1 }\n"
+        "until.time = 1\n");
+  EXPECT_EQ(
+      run("theory --boltzmann encounters absolute.toml").err,
+      "needlework: --tc is missing: expected a number, as collisions.tc = 0.1 does not follow "
+      "the temperature\n");
+}
+
 TEST_F(TheoryCommand, NamesFlagValueAndExpectation) {
   struct Case {
     const char *arguments, *message;
@@ -75,6 +119,12 @@ TEST_F(TheoryCommand, NamesFlagValueAndExpectation) {
         Case{"--epsilon 0.8 --k six", "--k six: expected a number in [1e-12, 1e12]"},
         Case{"--epsilon 0.8 --k 6 --beta -1.5", "--beta -1.5: expected a number in [-1, 1]"},
         Case{"--epsilon 0.8 --k 6 --tau -1", "--tau -1: expected a finite number, 0 or more"},
+        Case{"--epsilon 0.8 --k 6 --seed 7", "--seed 7: expected --boltzmann beside it"},
+        Case{"--epsilon 0.8 --k 6 --boltzmann single --needles 63",
+             "--needles 63: expected a number from 64 to 1e9"},
+        Case{"--epsilon 0.8 --k 6 --boltzmann encounters --tc 0",
+             "contact_time = 0: expected a number in [1e-9, 1e100], as encounters of this gas may "
+             "collapse"},
         Case{"--epsilon 0.8 --k 6 --t-rot0 inf",
              "--t-rot0 inf: expected a finite number, 0 or more"}}) {
     const Outcome outcome = run(std::string("theory ") + bad.arguments);

@@ -14,9 +14,12 @@
 #include "needlework/error.h"
 #include "needlework/h5md.h"
 #include "src/io/hdf5.h"
+#include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
 namespace needlework::io {
+
+using test::message_of;
 
 /// A folder that is gone after the test.
 class InFolder : public testing::Test {
@@ -110,22 +113,6 @@ inline void expect_same(const State& a, const State& b) {
   EXPECT_TRUE(same_bits(a.angular_velocity, b.angular_velocity));
   EXPECT_EQ(a.image, b.image);
   EXPECT_EQ(a.id, b.id);
-}
-
-/// The message of the exception of type Error that `action` throws.
-template <class Error>
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string::npos, std::string(error.what()).find('\n')) << error.what();
-    return error.what();
-  } catch (const std::exception& error) {
-    ADD_FAILURE() << "another exception: " << error.what();
-    return {};
-  }
-  ADD_FAILURE() << "no exception";
-  return {};
 }
 
 /// All numbers of a dataset.

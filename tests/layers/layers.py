@@ -40,6 +40,8 @@ LAYERS = [
           ["base", "memory", "composition", "kernels", "trajectory", "physics"]),
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
     # Which calendars a scene may name is what the list of calendars says.
+    Layer("boltzmann", ["src/boltzmann"], ["boltzmann.h"],
+          ["base", "random", "kernels", "physics"], ["theory"]),
     Layer("scene", ["src/scene"],
           ["scene.h", "parse.h", "state.h", "user_data.h"],
           ["base", "machine", "archive", "composition", "random", "kernels", "calendar"]),
@@ -67,7 +69,7 @@ LAYERS = [
     Layer("program", ["src/cli", "bench/strategies"], [],
           ["base", "machine", "composition", "scene", "search", "calendar", "observe", "io", "audit",
            "runs", "picture", "bindings", "report"],
-          ["kernels", "theory", "trajectory", "physics", "engine"]),
+          ["kernels", "theory", "trajectory", "physics", "boltzmann", "engine"]),
 ]
 FREE = ["bench", "tests"]  # may use anything; nothing else may use them
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/theory/graded_rule.h"
+#include "tests/support/message_of.h"
 
 namespace needlework::theory {
 namespace {
@@ -76,16 +77,6 @@ Temperatures tangential_rates_by_matrices(double k, double beta, double q) {
   };
   return {.t_tr = 0.25 * mean([](const auto& pair) { return pair.first; }),
           .t_rot = 0.375 * mean([](const auto& pair) { return pair.second; })};
-}
-
-template <class F>
-std::string message_of(F f) {
-  try {
-    f();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(GradedRule, ResolvesAFeatureAtAnyScale) {
@@ -315,14 +306,17 @@ TEST(EquipartitionK, HasTheKnownValue) {
 
 TEST(Theory, NamesValueAndExpectationOfBadInput) {
   const auto rates_of = [](Gas gas) { return [gas] { cooling_rates(gas, {1.0, 1.0}); }; };
-  EXPECT_EQ(message_of(rates_of({6.0, 1.5, -1.0})), "epsilon = 1.5: expected a number in [0, 1]");
-  EXPECT_EQ(message_of(rates_of({6.0, 0.8, -1.25})), "beta = -1.25: expected a number in [-1, 1]");
-  EXPECT_EQ(message_of(rates_of({0.0, 0.8, -1.0})), "k = 0: expected a number in [1e-12, 1e12]");
-  EXPECT_EQ(message_of([] {
+  EXPECT_EQ(test::message_of<std::invalid_argument>(rates_of({6.0, 1.5, -1.0})),
+            "epsilon = 1.5: expected a number in [0, 1]");
+  EXPECT_EQ(test::message_of<std::invalid_argument>(rates_of({6.0, 0.8, -1.25})),
+            "beta = -1.25: expected a number in [-1, 1]");
+  EXPECT_EQ(test::message_of<std::invalid_argument>(rates_of({0.0, 0.8, -1.0})),
+            "k = 0: expected a number in [1e-12, 1e12]");
+  EXPECT_EQ(test::message_of<std::invalid_argument>([] {
               cooling_rates({}, {-1.0, 1.0});
             }),
             "t_tr = -1: expected a finite number, 0 or more");
-  EXPECT_EQ(message_of([] {
+  EXPECT_EQ(test::message_of<std::invalid_argument>([] {
               cooling_rates({}, {1.0, -0.5});
             }),
             "t_rot = -0.5: expected a finite number, 0 or more");

@@ -1,0 +1,50 @@
+// Two needles that are alone: all their collisions, from the first contact until they part for
+// good.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "kernels/contact_function.h"
+#include "needlework/theory.h"
+#include "src/physics/species.h"
+
+namespace needlework::boltzmann {
+
+/// Two needles that touch at the origin, each with its arm there.
+struct Touching {
+  std::array<kernels::Flight, 2> needle;  ///< centre, velocity, director, angular velocity
+  std::array<double, 2> arm;              ///< from the centre to the point of contact [L]
+};
+
+/// Velocities and directors as given, with the centres where the arms say.
+Touching touching(const std::array<Vec3d, 2>& v, const std::array<Vec3d, 2>& u,
+                  const std::array<Vec3d, 2>& w, const std::array<double, 2>& arm);
+
+/// How an encounter went.
+struct Course {
+  std::uint64_t collisions = 0, tc_collisions = 0;
+  bool finished = true;  ///< false if it was given up
+};
+
+class Encounter {
+ public:
+  /// `contact_time` is that of the t_c rule. [time]
+  Encounter(const theory::Gas& gas, double contact_time);
+
+  /// One collision; the needles approach.
+  void collide(Touching& pair) const;
+  /// Whether the needles, which approach, have not collided before: flying back they do not meet.
+  bool is_first(const Touching& pair) const;
+  /// From the first collision to the last one.
+  Course follow(Touching& pair) const;
+
+ private:
+  void collide(Touching& pair, bool inelastic) const;
+
+  Body body_;
+  double epsilon_, beta_;
+  double contact_time_;
+};
+
+}  // namespace needlework::boltzmann

@@ -1,0 +1,52 @@
+// Needles that collide with each other as the Boltzmann equation says. They have velocities, but no
+// places, and of their directors only that they are normal to the angular velocities.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "needlework/boltzmann.h"
+#include "src/boltzmann/encounter.h"
+#include "src/random/needle_random.h"
+
+namespace needlework::boltzmann {
+
+class Pool {
+ public:
+  /// Number `number` of the pools of these settings, of so many needles.
+  Pool(const Settings& settings, std::uint64_t number, std::size_t needles);
+
+  /// Collisions until tau, which must not be before that of the last call.
+  void advance(double tau);
+
+  /// Means over all needles.
+  struct Moments {
+    double t_tr = 0, t_rot = 0, energy = 0, collisions = 0;
+    double excess_tr = 0, excess_rot = 0, excess_mixed = 0;  ///< see Sample
+  };
+  Moments moments() const;
+  /// Adds its counts.
+  void add_to(Result& result) const;
+
+ private:
+  struct Needle {
+    Vec3d v, w;
+    double fastest = 0;  ///< of its points, not below [L / time]
+  };
+  void set_fastest(Needle& needle);
+  void find_fastest();
+  Vec3d director(const Vec3d& w);
+  void meet(Needle& a, Needle& b, const Touching& pair);
+
+  Settings settings_;
+  NeedleRandom random_;
+  std::vector<Needle> needles_;
+  double fastest_ = 0;  ///< of all needles, not below
+  double time_ = 0;     ///< n t
+  std::uint64_t collisions_ = 0, tc_collisions_ = 0, met_before_ = 0, unfinished_ = 0;
+  std::uint64_t until_looked_ = 0;  ///< collisions until the fastest needle is looked for again
+  double t_tr_ = 0;                 ///< when it was last looked for
+  std::vector<std::uint64_t> encounters_of_;
+};
+
+}  // namespace needlework::boltzmann
