@@ -18,22 +18,6 @@ Vec3dd scaled(const Vec3dd& a, double power_of_two) {
   return {times(a.x), times(a.y), times(a.z)};
 }
 
-// r1 - r2 - shift at s = 0 [L]. Written so that exchanging the needles negates it exactly. What is
-// 0, as the shift mostly is and one of the times always, is left out: adding it would change
-// nothing.
-Vec3dd separation(const Pair& pair) {
-  const Vec3d &a = pair.first->r, &b = pair.second->r;
-  Vec3dd out{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
-  if (!(pair.shift == Vec3dd{})) out = out - pair.shift;
-  if (!(pair.elapsed_first == DoubleDouble())) {
-    out = out + to_double_double(pair.first->v) * pair.elapsed_first;
-  }
-  if (!(pair.elapsed_second == DoubleDouble())) {
-    out = out - to_double_double(pair.second->v) * pair.elapsed_second;
-  }
-  return pair.fall ? out + pair.fall->place : out;
-}
-
 template <class T>
 void set_half_lengths(Frame<T>& frame, const Pair& pair, const PairScale& scale) {
   frame.half[0] = pair.half_first * scale.per_length;
@@ -58,6 +42,21 @@ template <class T>
 }
 
 }  // namespace
+
+// What is 0, as the shift mostly is and one of the times always, is left out: adding it would
+// change nothing.
+Vec3dd separation(const Pair& pair) {
+  const Vec3d &a = pair.first->r, &b = pair.second->r;
+  Vec3dd out{two_sum(a.x, -b.x), two_sum(a.y, -b.y), two_sum(a.z, -b.z)};
+  if (!(pair.shift == Vec3dd{})) out = out - pair.shift;
+  if (!(pair.elapsed_first == DoubleDouble())) {
+    out = out + to_double_double(pair.first->v) * pair.elapsed_first;
+  }
+  if (!(pair.elapsed_second == DoubleDouble())) {
+    out = out - to_double_double(pair.second->v) * pair.elapsed_second;
+  }
+  return pair.fall ? out + pair.fall->place : out;
+}
 
 // Kept out of the code of needles that do not fall.
 [[gnu::noinline]] Vec3dd falling_velocity(const Pair& pair) {

@@ -75,6 +75,9 @@ struct Pair {
   double touch_within = 0;  ///< |f(0)| that rounding of the records can explain; 0: none [L]
 };
 
+/// r1 - r2 - shift at s = 0. Exchanging the needles negates it exactly. [L]
+Vec3dd separation(const Pair& pair);
+
 /// v1 - v2 from s = 0 on, of a pair that has fallen. What it has gained may nearly cancel the rest.
 /// [L / time]
 Vec3dd falling_velocity(const Pair& pair);

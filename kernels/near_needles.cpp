@@ -49,7 +49,8 @@ namespace {
                                          space::near_paths,       \
                                          space::contact_function, \
                                          space::bracket,          \
-                                         space::bracket_rods};
+                                         space::bracket_rods,     \
+                                         space::bracket_spheres};
 NEEDLEWORK_NEAR_KERNELS(scalar, scalar, )
 NEEDLEWORK_FOR_EACH_SIMD(NEEDLEWORK_NEAR_KERNELS)
 #undef NEEDLEWORK_NEAR_KERNELS

@@ -157,6 +157,9 @@ struct NearKernels {
   /// The same for rods, which meet where their axes are not farther apart than `distance`.
   std::size_t (*bracket_rods)(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
                               float distance);
+  /// The same for spheres: all half lengths are 0, and one vector of pairs takes one evaluation.
+  std::size_t (*bracket_spheres)(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
+                                 float distance);
 };
 
 /// Kernels of an instruction set that is available().

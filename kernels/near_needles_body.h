@@ -531,3 +531,25 @@ std::size_t bracket_rods(const Seeker& seeker, const PairColumns& pairs, std::si
                          float distance) {
   return bracket_all<true>(seeker, pairs, n, distance);
 }
+
+/// They meet when their centres come that near, which is the time at which their bounding spheres
+/// do.
+std::size_t bracket_spheres(const Seeker& seeker, const PairColumns& pairs, std::size_t n,
+                            float distance) {
+  using C = PairColumns;
+  const Floats infinity(std::numeric_limits<float>::infinity()), zero(0.0f);
+  const Floats margin(static_cast<float>(time_margin));
+  std::size_t evaluations = 0;
+  for (std::size_t k = 0; k < n; k += floats_at_once) {
+    ++evaluations;
+    const auto column = [&](int c) NEEDLEWORK_TARGET { return load_floats(pairs.column[c] + k); };
+    const SimdPairs pair = load_pairs(seeker, pairs, k);
+    const Floats until = column(C::until);
+    const SimdTimeSpan overlap =
+        overlap_of_spheres(pair, bounds_of<true>(seeker, pair, until, distance));
+    const Floats from = maximum(maximum(overlap.begin, column(C::from)) - margin, zero);
+    const Mask apart = overlap.never | (from > minimum(overlap.end, until));
+    store_floats(select(apart, infinity, from), pairs.column[C::from] + k);
+  }
+  return evaluations;
+}

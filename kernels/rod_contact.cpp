@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernels/rod_stretches.h"
+#include "kernels/sphere_contact.h"
 #include "kernels/sphere_overlap.h"
 
 namespace needlework::kernels {
@@ -15,10 +16,8 @@ namespace {
 
 // Interval length in scaled time; a power of two.
 constexpr double rod_grid = 0.5;
-// Roots in double are refined in double-double where the bound of their error is above this share
-// of the time since s = 0, or that of the distance above this share of the reach. The bounds are at
-// least three times the error, and fifty times what it is mostly.
-constexpr double rod_polish_above = 0x1p-42, rod_largest_error = 0x1p-46;
+// So are they where the bound of the error of the distance is above this share of the reach.
+constexpr double rod_largest_error = 0x1p-46;
 // Below this share of the pair's speeds, the velocity at which it separates is rounding.
 constexpr double rod_velocity_noise = 0x1p-46;
 // So often rod_time_apart() halves the time for which it finds the rods to stay apart.
@@ -364,11 +363,17 @@ double RodSearch::gap(const DoubleDouble& elapsed) {
 
 Contact rod_contact(const RodPair& pair, double from, double until, EvaluationCounters& counters,
                     const Accuracy& accuracy) {
+  if (are_spheres(pair) && accuracy.escalation != Escalation::always) {
+    if (const auto contact = sphere_contact(pair, until, counters)) return *contact;
+  }
   const OrderedRods ordered(pair);
   return RodSearch(ordered.pair(), accuracy, counters).run(from, until);
 }
 
 ContactGeometry rod_geometry(const RodPair& pair, const DoubleDouble& elapsed) {
+  if (are_spheres(pair)) {
+    if (const auto geometry = sphere_geometry(pair, elapsed)) return *geometry;
+  }
   const OrderedRods ordered(pair);
   EvaluationCounters ignored;
   ContactGeometry out = RodSearch(ordered.pair(), standard_accuracy, ignored).geometry(elapsed);
@@ -381,6 +386,9 @@ ContactGeometry rod_geometry(const RodPair& pair, const DoubleDouble& elapsed) {
 }
 
 double rod_time_apart(const RodPair& pair) {
+  if (are_spheres(pair)) {
+    if (const auto time = sphere_time_apart(pair)) return *time;
+  }
   const OrderedRods ordered(pair);
   EvaluationCounters ignored;
   return RodSearch(ordered.pair(), standard_accuracy, ignored).time_apart();

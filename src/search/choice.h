@@ -30,12 +30,39 @@ inline double density_by_mean(double density, const Composition& composition) {
   return density * (share * share * share);
 }
 
+/// How much more often rods collide than needles as long from end to end of the same density. The
+/// area of two rods' excluded body, averaged over their directions, grows by the caps and the width
+/// (2 L^2 sin + 4 pi D L + 4 pi D^2); neighbours are as much more frequent in contact as
+/// Carnahan's and Starling's equation says of spheres, which is about right for rods. 1 for
+/// needles. Density: rods per cube of the longest one.
+inline double crowding_by_width(double density, const Composition& composition) {
+  if (!composition.has_width()) return 1;
+  const double longest = composition.longest();
+  double area = 0, square = 0, volume = 0, count = 0;
+  for (const Species& each : composition.species()) {
+    const double n = static_cast<double>(each.count), length = each.length, width = each.diameter;
+    area += n * (length * length + 8 * width * (length + width));
+    square += n * (each.extent() * each.extent());
+    volume += n * each.volume();
+    count += n;
+  }
+  if (!(count > 0)) return 1;
+  const double packing = std::min(0.6, density * volume / (count * longest * longest * longest)),
+               room = 1 - packing;
+  return area / square * (1 - 0.5 * packing) / (room * room * room);
+}
+
+/// The density of the gas of needles of one length that collides as often.
+inline double crowding(double density, const Composition& composition) {
+  return density_by_mean(density, composition) * crowding_by_width(density, composition);
+}
+
 /// The search asked for by name; by `auto`, the cheaper one. Density: needles per cube of the
 /// longest one.
 inline std::string chosen_search(const std::string& asked, double density,
                                  const Composition& composition) {
   if (asked != "auto") return asked;
-  return density_by_mean(density, composition) < 2.5 ? "linked-cells" : "capsules";
+  return crowding(density, composition) < 2.5 ? "linked-cells" : "capsules";
 }
 
 /// Whether the search asked for has sizes to choose.
@@ -43,9 +70,10 @@ inline bool has_sizes(const std::string& asked) {
   return asked != "all-pairs" && asked != "linked-lists";
 }
 
-/// Radius of capsules [L]: larger ones have more neighbours, smaller ones are left sooner.
-inline double auto_capsule_radius(double density) {
-  return std::clamp(0.6 / std::cbrt(density * density), 0.02, 1.0);
+/// Radius of capsules [L] at this crowding: larger ones have more neighbours, smaller ones are left
+/// sooner.
+inline double auto_capsule_radius(double crowd) {
+  return std::clamp(0.6 / std::cbrt(crowd * crowd), 0.02, 1.0);
 }
 
 /// Side of the cells of capsules [L], of about 12 needles, which fill the vectors; a few fewer

@@ -33,6 +33,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kernels_(kernels::near_kernels(setup.isa)),
       follows_(setup.float_filter),
       widest_(static_cast<float>(gas.composition.widest() * volumes_->per_length)),
+      are_spheres_(std::ranges::none_of(gas.composition.species(), &Species::turns)),
       looks_(volumes_->classes.size()) {}
 
 NearSearch::NearSearch(const NearSearch& other, Counters& counters)
@@ -42,6 +43,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       kernels_(other.kernels_),
       follows_(other.follows_),
       widest_(other.widest_),
+      are_spheres_(other.are_spheres_),
       looks_(volumes_->classes.size()) {}
 
 Time NearSearch::place(Needle i, Time now, double half_length) {
@@ -339,6 +341,15 @@ inline void NearSearch::propose(const kernels::Found& found, std::size_t k, doub
   candidates_.push_back({from, j, found.cell[k], {}});
 }
 
+inline std::size_t NearSearch::bracket(const kernels::Seeker& seeker, const PairColumns& pairs,
+                                       std::size_t count) const {
+  if (widest_ > 0) {
+    return are_spheres_ ? kernels_.bracket_spheres(seeker, pairs, count, widest_)
+                        : kernels_.bracket_rods(seeker, pairs, count, widest_);
+  }
+  return kernels_.bracket(seeker, pairs, count);
+}
+
 // Proposes those of the needles found that may meet the seeker, with the earliest time at which
 // they may.
 inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& found,
@@ -364,8 +375,7 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
     from[k] = hit ? apart : 0;
     if (hit && !parts) propose(found, k, 0);
   }
-  counters_.bracket_steps += widest_ > 0 ? kernels_.bracket_rods(seeker, pairs, count, widest_)
-                                         : kernels_.bracket(seeker, pairs, count);
+  counters_.bracket_steps += bracket(seeker, pairs, count);
   const float ahead = seeker.ahead;
   for (std::size_t k = 0; k < count; ++k) {
     if (from[k] <= ahead) propose(found, k, from[k] / volumes.per_time);

@@ -50,9 +50,9 @@ constexpr double least_for_capsules = 3;
 
 // Needles per L^3 in a gas of one length in which needles of this class, L long, would collide as
 // often.
-double crowding(const Gas& gas, double density, double length) {
+double crowding_of_class(const Gas& gas, double density, double length) {
   const double by_longest = mean_length(gas.composition), share = length / gas.longest;
-  return density * by_longest * (share * share);
+  return density * by_longest * (share * share) * crowding_by_width(density, gas.composition);
 }
 
 }  // namespace
@@ -63,6 +63,7 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
   if (gas.composition.is_mixture() && !setup.cell_side && !setup.capsule_radius)
     out = grouped_by_length(gas);
   const double by_mean = density_by_mean(density, gas.composition),
+               crowd = crowding(density, gas.composition),
                length = mean_length(gas.composition) * gas.longest;
   if (out.all.size() < 2) {
     const bool cells = kind == BoundingVolume::cell;
@@ -73,28 +74,28 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
       one.axis = std::max(one.axis, each.length);
     }
     one.cell_side = setup.cell_side.value_or(
-        length * (cells ? auto_cell_side(by_mean) : auto_side_for_capsules(by_mean)));
+        length * (cells ? auto_cell_side(by_mean, crowd) : auto_side_for_capsules(by_mean)));
     if (!cells)
-      one.capsule_radius = setup.capsule_radius.value_or(length * auto_capsule_radius(by_mean));
+      one.capsule_radius = setup.capsule_radius.value_or(length * auto_capsule_radius(crowd));
     return out;
   }
   // Cells of few needles may be emptier than others: no grid is coarser than this, as the cells
   // that threads lock are those of the coarsest one.
-  const double widest = std::max(gas.longest, length * auto_cell_side(by_mean));
+  const double widest = std::max(gas.longest, length * auto_cell_side(by_mean, crowd));
   for (SizeClass& each : out.all) {
-    const double crowd = crowding(gas, density, each.longest);
+    const double its_crowd = crowding_of_class(gas, density, each.longest);
     const double share = static_cast<double>(each.count) / static_cast<double>(gas.size());
     const double cube = each.longest / gas.longest;
     const double own_density = density * share * (cube * cube * cube);
     each.kind = kind;
     if (setup.by_class) {
-      each.kind = crowd < least_for_capsules ? BoundingVolume::cell : BoundingVolume::capsule;
+      each.kind = its_crowd < least_for_capsules ? BoundingVolume::cell : BoundingVolume::capsule;
     }
     if (each.kind == BoundingVolume::cell) {
-      each.cell_side = each.longest * auto_cell_side(own_density, crowd);
+      each.cell_side = each.longest * auto_cell_side(own_density, its_crowd);
     } else {
       each.cell_side = each.longest * auto_side_for_capsules(own_density);
-      each.capsule_radius = each.longest * auto_capsule_radius(crowd);
+      each.capsule_radius = each.longest * auto_capsule_radius(its_crowd);
     }
     each.cell_side = std::min(each.cell_side, widest);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "src/search/choice.h"
 #include "tests/search/gas_drive.h"
@@ -83,6 +84,23 @@ TEST(Choice, OfTheSearchIsByTheMeanLength) {
     EXPECT_EQ(chosen_search("auto", density, mixture(10)), "linked-cells");
     EXPECT_EQ(chosen_search("capsules", density, mixture(10)), "capsules");
   }
+}
+
+// Rods meet more often than needles as long: at low density by the area of their excluded body, and
+// by what keeps them at contact in a dense fluid.
+TEST(Choice, KnowsThatRodsMeetMoreOftenThanNeedles) {
+  const auto rods = [](double length) {
+    return Composition({{.name = "rods", .count = 100, .length = length, .diameter = 1}}, {});
+  };
+  EXPECT_EQ(crowding_by_width(7, {}), 1);
+  EXPECT_NEAR(crowding_by_width(1e-9, rods(0)), 8, 1e-6);
+  EXPECT_NEAR(crowding_by_width(1e-9, rods(5)), 73.0 / 36, 1e-6);
+  EXPECT_NEAR(crowding_by_width(1e-9, rods(1e5)), 1, 1e-3);
+  // Spheres at a packing fraction of 0.3.
+  EXPECT_NEAR(crowding_by_width(0.3 * 6 / std::numbers::pi, rods(0)), 8 * 0.85 / 0.343, 1e-6);
+  EXPECT_EQ(chosen_search("auto", 0.6, rods(0)), "capsules");
+  EXPECT_EQ(chosen_search("auto", 0.02, rods(0)), "linked-cells");
+  EXPECT_EQ(chosen_search("auto", 0.6, {}), "linked-cells");
 }
 
 // In a box of any size.
