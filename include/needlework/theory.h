@@ -136,6 +136,10 @@ inline constexpr std::size_t most_species_of_theory = 8;
 MixtureRates mixture_rates(const Composition& composition, double volume,
                            std::span<const Temperatures> now);
 
+/// Second virial coefficient of rods whose directors are uniformly distributed, 0 for needles: at
+/// low density n the pressure of elastic rods in equilibrium is n T (1 + n B). [L^3]
+double second_virial(const Composition& composition);
+
 /// Collisions of each two species per unit time in elastic equilibrium, by Composition::pair_index,
 /// of needles with zero momentum and this energy of all in a volume: the rates at the temperature
 /// T = 2 E / (5 N - 3) of all of them, times the factor of equilibrium_rate(). At least two

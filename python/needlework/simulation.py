@@ -77,6 +77,18 @@ class WallTotals(Values):
     """Of its motion at present, in radians from 0 to 2 pi; NaN if it is at rest."""
 
 
+class RodTotals(Values):
+    """Room and pressure of rods of finite width."""
+
+    packing_fraction: float
+    """Share of the volume of the box that they take up."""
+    virial: float
+    """Sum of r12 . dp over the collisions since the start, r12 from the second centre to the first
+    and dp the impulse on the first."""
+    pressure: float
+    """(N T_tr + virial / (3 t)) / V at the present time t, T_tr and volume V; NaN at the start."""
+
+
 class EnergyBudget(Values):
     """Energy per needle that each effect has put in since the start; negative: taken out. The sum
     is the change of Totals.energy, up to rounding. Effects that the scene has not are missing."""
@@ -424,6 +436,11 @@ class Simulation(NotPickled):
         """Hits on each wall, in the order of the scene, where "both" counts as low, then high;
         empty without walls. The index of a wall here is that in rows of on_happenings()."""
         return [WallTotals(sums) for sums in self._run.wall_totals()]
+
+    @property
+    def rod_totals(self) -> RodTotals:
+        """Packing fraction and pressure of rods; for needles, packing fraction and virial are 0."""
+        return RodTotals(self._run.rod_totals())
 
     @property
     def energy_budget(self) -> EnergyBudget:

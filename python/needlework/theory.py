@@ -132,7 +132,8 @@ def mixture_rates(gas: Mapping[str, Any], t_tr: ArrayLike, t_rot: ArrayLike) -> 
     gas : what ``Simulation.gas`` has, or a dictionary with box ([3]) and, by species, counts,
         length, mass and k ([species]); epsilon and beta of each two ([species, species]). One
         number stands for all, and length = 1, mass = 1, k = 6, epsilon = 1 and beta = -1 for what
-        is not given.
+        is not given. With a diameter they are rods of finite width, homogeneous where k is not
+        given, for which this is exact at low density.
     """
     given, size = _mixture(gas)
     collisions, d_tr, d_rot = _core.mixture_rates(*given, _each("t_tr", t_tr, size),
@@ -161,6 +162,18 @@ def equipartition_k() -> float:
     return _core.equipartition_k()
 
 
+def homogeneous_k(length: ArrayLike, diameter: ArrayLike) -> np.ndarray:
+    """k = m L^2 / (2 I) of homogeneous rods with spherical caps, 6 for needles; that of spheres
+    means nothing, and is 6 as well."""
+    length, width = np.broadcast_arrays(_not_negative("length", length),
+                                        _not_negative("diameter", diameter))
+    # Times 3 L + 2 D.
+    inertia = length**3 / 4 + width * length**2 / 2 + 9 / 16 * width**2 * length + width**3 / 5
+    turns = (length > 0) & (width > 0)
+    return np.where(turns, length**2 * (3 * length + 2 * width)
+                    / np.where(turns, 2 * inertia, 1), 6.0)
+
+
 def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
     """What _core takes of a mixture, up to its volume, and the number of species."""
     counts = np.atleast_1d(numbers("counts", gas["counts"] if "counts" in gas else gas["count"]))
@@ -168,15 +181,19 @@ def _mixture(gas: Mapping[str, Any]) -> tuple[tuple[Any, ...], int]:
     if counts.ndim != 1 or size == 0:
         raise InputError(f"counts: shape {counts.shape}: expected one number for each species")
     counts = whole_numbers("counts", counts, (size,), 0, 2**32 - 2).astype(float)
-    length, mass, k = (_each(name, gas.get(name, usual), size, positive=True)
-                       for name, usual in (("length", 1.0), ("mass", 1.0), ("k", 6.0)))
+    diameter = _each("diameter", gas.get("diameter", 0.0), size)
+    length = _each("length", gas.get("length", 1.0), size)
+    if not np.all(length + diameter > 0):
+        raise InputError("length = 0: expected numbers > 0, or a diameter > 0")
+    mass, k = (_each(name, gas.get(name, usual), size, positive=True)
+               for name, usual in (("mass", 1.0), ("k", homogeneous_k(length, diameter))))
     epsilon, beta = (_each_two(name, gas.get(name, usual), size, least)
                      for name, usual, least in (("epsilon", 1.0, 0.0), ("beta", -1.0, -1.0)))
     box = numbers("box", gas["box"])
     if box.shape not in ((), (3,)) or not np.all(np.isfinite(box) & (box > 0)):
         raise InputError(f"box = {box}: expected one or three edges > 0")
     volume = float(np.prod(np.broadcast_to(box, 3)))
-    return (counts, length, mass, k, epsilon, beta, volume), size
+    return (counts, length, mass, k, diameter, epsilon, beta, volume), size
 
 
 def _each(name: str, values: ArrayLike, size: int, positive: bool = False) -> np.ndarray:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "needlework/error.h"
 #include "needlework/theory.h"
@@ -16,11 +17,39 @@ using Json = nlohmann::ordered_json;
 
 struct MixturePredictions {
   Composition composition;
+  double density;  ///< of all species
   std::vector<theory::Temperatures> initial;
   theory::MixtureRates rates;  ///< at the start
   std::vector<double> times;
   std::vector<std::vector<theory::Temperatures>> curve;  ///< by time, then species
 };
+
+// Of rods at low density. Out of equilibrium it would depend on each temperature.
+std::optional<double> pressure_of(const MixturePredictions& p) {
+  const double t = p.initial.front().t_tr;
+  for (std::size_t n = 0; n < p.composition.size(); ++n) {
+    const bool turns = p.composition[n].turns();
+    if (p.initial[n].t_tr != t || (turns && p.initial[n].t_rot != t)) return std::nullopt;
+  }
+  if (p.composition.is_inelastic()) return std::nullopt;
+  return p.density * t * (1 + p.density * theory::second_virial(p.composition));
+}
+
+Json virial_json(const MixturePredictions& p) {
+  const auto pressure = pressure_of(p);
+  return {{"packing_fraction", number(p.composition.packing_fraction(
+                                   static_cast<double>(p.composition.count()) / p.density))},
+          {"second_virial", number(theory::second_virial(p.composition))},
+          {"pressure", pressure ? number(*pressure) : Json()}};
+}
+
+std::string virial_line(const MixturePredictions& p) {
+  if (!p.composition.has_width()) return {};
+  const auto pressure = pressure_of(p);
+  return fmt::format(
+      "  second virial coefficient B = {:.8g}{}\n", theory::second_virial(p.composition),
+      pressure ? fmt::format(", pressure n T (1 + n B) = {:.8g} at low density", *pressure) : "");
+}
 
 template <class Value>
 Json by_species(const MixturePredictions& p, Value&& value) {
@@ -50,19 +79,22 @@ Json json_of(const MixturePredictions& p) {
   const auto all = [&](const std::vector<theory::Temperatures>& each) {
     return mean_of_species(p.composition, each);
   };
-  return {{"collisions_per_time", rates},
-          {"t_tr_per_time",
-           by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_tr); })},
-          {"t_rot_per_time",
-           by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_rot); })},
-          {"time", p.times},
-          {"t_tr", each_of(p.curve, [&](const auto& each) { return all(each).t_tr; })},
-          {"t_rot", each_of(p.curve, [&](const auto& each) { return all(each).t_rot; })},
-          {"energy", each_of(p.curve, [&](const auto& each) { return all(each).energy(); })},
-          {"species", by_species(p, [&](std::size_t n) -> Json {
-             return {{"t_tr", each_of(p.curve, [&](const auto& each) { return each[n].t_tr; })},
+  Json out = {{"collisions_per_time", rates},
+              {"t_tr_per_time",
+               by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_tr); })},
+              {"t_rot_per_time",
+               by_species(p, [&](std::size_t n) { return number(p.rates.temperatures[n].t_rot); })},
+              {"time", p.times},
+              {"t_tr", each_of(p.curve, [&](const auto& each) { return all(each).t_tr; })},
+              {"t_rot", each_of(p.curve, [&](const auto& each) { return all(each).t_rot; })},
+              {"energy", each_of(p.curve, [&](const auto& each) { return all(each).energy(); })},
+              {"species", by_species(p, [&](std::size_t n) -> Json {
+                 return {
+                     {"t_tr", each_of(p.curve, [&](const auto& each) { return each[n].t_tr; })},
                      {"t_rot", each_of(p.curve, [&](const auto& each) { return each[n].t_rot; })}};
-           })}};
+               })}};
+  if (p.composition.has_width()) out["rods"] = virial_json(p);
+  return out;
 }
 
 std::string mixture_table(const MixturePredictions& p) {
@@ -79,6 +111,7 @@ std::string mixture_table(const MixturePredictions& p) {
                     p.composition[n].name, p.initial[n].t_tr, p.rates.temperatures[n].t_tr,
                     p.initial[n].t_rot, p.rates.temperatures[n].t_rot);
   }
+  text += virial_line(p);
   if (p.times.empty()) return text;
   text += fmt::format("\n{:>12}  {:>16}", "time", "energy");
   for (const Species& each : p.composition.species()) {
@@ -108,8 +141,9 @@ std::string mixture_theory_of(const runs::LoadedScene& loaded, const std::vector
   const double volume = runs::volume_of(loaded.scene);
   const auto initial = runs::temperatures_by_species(loaded);
   const MixturePredictions predictions{
-      composition, initial, theory::mixture_rates(composition, volume, initial), times,
-      theory::mixture_cooling(composition, volume, initial, times)};
+      composition, static_cast<double>(composition.count()) / volume,
+      initial,     theory::mixture_rates(composition, volume, initial),
+      times,       theory::mixture_cooling(composition, volume, initial, times)};
   return json ? json_text(json_of(predictions)) + "\n" : mixture_table(predictions);
 }
 

@@ -171,6 +171,7 @@ std::string json_of(const Report& report) {
   json["t_rot"] = number(last.t_rot);
   json["momentum"] = {number(last.momentum[0]), number(last.momentum[1]), number(last.momentum[2])};
   if (!scene.species.empty()) serve::add_species(json, simulation);
+  if (simulation.composition().has_width()) serve::add_rods(json, scene, simulation);
   if (!scene.walls.empty()) serve::add_walls(json, simulation);
   if (acts_on_single_needles(scene)) serve::add_energy_budget(json, simulation);
   json["theory"] = nullptr;

@@ -12,6 +12,7 @@
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/loaded_scene.h"
+#include "src/runs/rod_totals.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::cli {
@@ -126,6 +127,13 @@ std::string species_lines(const Report& report) {
     }
   }
   return text;
+}
+
+std::string rod_line(const Report& report) {
+  if (!report.simulation.composition().has_width() || !(report.course.last.time > 0)) return {};
+  const runs::RodTotals rods = runs::rod_totals(report.scene, report.simulation);
+  return line("rods", "packing fraction {:.5g}, pressure {:.5g}", rods.packing_fraction,
+              rods.pressure);
 }
 
 std::string wall_lines(const Report& report) {
@@ -252,6 +260,7 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
   }
+  text += rod_line(report);
   text += wall_lines(report);
   text += budget_line(report);
   const int threads = scene.engine.threads.value_or(1);

@@ -37,6 +37,7 @@ inline constexpr const char* energy = "energy";
 inline constexpr const char* angle = "radians";
 inline constexpr const char* pressure = "energy per volume";
 inline constexpr const char* momentum = "mass times length per time";
+inline constexpr const char* virial = "mass times length squared per time";
 }  // namespace unit
 
 /// Which species each needle is of, by its id.
@@ -86,12 +87,13 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
 /// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
-/// walls, and what has changed the energy.
+/// walls, what has changed the energy, and the virial of rods.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
   std::vector<WallTotals> walls = {};
   EnergyBudget energy = {};
+  double virial = 0;  ///< of rods, Simulation::virial()
 };
 
 /// The gas at one instant. Holds references.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/observe/effect_sums.h"
+#include "src/observe/rod_sums.h"
 #include "src/scene/confinement.h"
 
 namespace needlework::observe {
@@ -63,6 +64,10 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
                         "sum of them all",
                         make_energy_budget(scene)});
   }
+  if (gas_.composition.has_width()) {
+    members_.push_back(
+        {"rods", "Packing fraction, virial and pressure of rods", make_rod_sums(gas_)});
+  }
   if (cooling) {
     members_.push_back({"theory",
                         "Kinetic theory of a gas that stays homogeneous, from the same "
@@ -108,7 +113,8 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
   const SpeciesSums of_all{{{gas_.count, totals.t_tr, totals.t_rot}},
                            {totals.collisions},
                            species.walls,
-                           species.energy};
+                           species.energy,
+                           species.virial};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);

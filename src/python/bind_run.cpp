@@ -87,6 +87,7 @@ void add_run(py::module_& module) {
       .def("collisions_by_pair", &Run::collisions_by_pair)
       .def("wall_totals", &Run::wall_totals)
       .def("energy_budget", &Run::energy_budget)
+      .def("rod_totals", &Run::rod_totals)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

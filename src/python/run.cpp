@@ -21,6 +21,7 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/load_checkpoint.h"
 #include "src/runs/output_path.h"
+#include "src/runs/rod_totals.h"
 #include "src/runs/state_file.h"
 
 namespace needlework::python {
@@ -322,6 +323,16 @@ py::list Run::wall_totals() {
     sums["phase"] = wall.phase;
     out.append(sums);
   }
+  return out;
+}
+
+py::dict Run::rod_totals() {
+  require_idle();
+  const runs::RodTotals rods = runs::rod_totals(run_->scene(), run_->simulation());
+  py::dict out;
+  out["packing_fraction"] = rods.packing_fraction;
+  out["virial"] = rods.virial;
+  out["pressure"] = rods.pressure;
   return out;
 }
 

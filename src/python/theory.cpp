@@ -51,7 +51,8 @@ py::tuple cooling(double epsilon, double k, double beta, double t_tr0, double t_
 
 // Arrays [species], and of each two [species][species]; the Python side has checked the shapes.
 Composition composition_of(const Column& counts, const Column& lengths, const Column& masses,
-                           const Column& ks, const Column& epsilons, const Column& betas) {
+                           const Column& ks, const Column& diameters, const Column& epsilons,
+                           const Column& betas) {
   const auto size = static_cast<std::size_t>(counts.size());
   std::vector<Species> species(size);
   for (std::size_t n = 0; n < size; ++n) {
@@ -59,6 +60,7 @@ Composition composition_of(const Column& counts, const Column& lengths, const Co
     species[n].length = lengths.data()[n];
     species[n].mass = masses.data()[n];
     species[n].k = ks.data()[n];
+    species[n].diameter = diameters.data()[n];
   }
   Composition out(std::move(species), {});
   for (std::size_t a = 0; a < size; ++a) {
@@ -78,9 +80,11 @@ std::vector<theory::Temperatures> temperatures_of(const Column& t_tr, const Colu
 // Collisions per unit of time of each two species, [species][species], and the derivatives of the
 // temperatures of each.
 py::tuple mixture_rates(const Column& counts, const Column& lengths, const Column& masses,
-                        const Column& ks, const Column& epsilons, const Column& betas,
-                        double volume, const Column& t_tr, const Column& t_rot) {
-  const Composition composition = composition_of(counts, lengths, masses, ks, epsilons, betas);
+                        const Column& ks, const Column& diameters, const Column& epsilons,
+                        const Column& betas, double volume, const Column& t_tr,
+                        const Column& t_rot) {
+  const Composition composition =
+      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas);
   const auto now = temperatures_of(t_tr, t_rot);
   const theory::MixtureRates rates = theory::mixture_rates(composition, volume, now);
   const auto size = static_cast<py::ssize_t>(composition.size());
@@ -97,10 +101,11 @@ py::tuple mixture_rates(const Column& counts, const Column& lengths, const Colum
 
 // Temperatures of each species at each time, [times][species].
 py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Column& masses,
-                          const Column& ks, const Column& epsilons, const Column& betas,
-                          double volume, const Column& t_tr0, const Column& t_rot0,
-                          const Column& times) {
-  const Composition composition = composition_of(counts, lengths, masses, ks, epsilons, betas);
+                          const Column& ks, const Column& diameters, const Column& epsilons,
+                          const Column& betas, double volume, const Column& t_tr0,
+                          const Column& t_rot0, const Column& times) {
+  const Composition composition =
+      composition_of(counts, lengths, masses, ks, diameters, epsilons, betas);
   const auto initial = temperatures_of(t_tr0, t_rot0);
   std::vector<std::vector<theory::Temperatures>> curve;
   without_lock([&] {

@@ -282,6 +282,7 @@ void RunDriver::sample(bool series, bool frame) {
       }
       species.walls = simulation_.wall_totals();
       species.energy = simulation_.energy_budget();
+      species.virial = simulation_.virial();
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }

@@ -45,6 +45,7 @@ Json summary_of(const runs::PreparedRun& run) {
               {"momentum", numbers(totals.momentum)},
               {"trajectory_hash", simulation.trajectory_hash()}};
   if (!run.scene().species.empty()) add_species(answer, simulation);
+  if (simulation.composition().has_width()) add_rods(answer, run.scene(), simulation);
   if (!run.scene().walls.empty()) add_walls(answer, simulation);
   if (acts_on_single_needles(run.scene())) add_energy_budget(answer, simulation);
   return answer;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "src/composition/pair_name.h"
+#include "src/runs/rod_totals.h"
 
 namespace needlework::serve {
 namespace {
@@ -49,6 +50,13 @@ void add_energy_budget(Json& json, const Simulation& simulation) {
   Json& budget = json["energy_budget"];
   simulation.energy_budget().for_each(
       [&](const char* name, const auto& energy) { budget[name] = energy; });
+}
+
+void add_rods(Json& json, const Scene& scene, const Simulation& simulation) {
+  const runs::RodTotals rods = runs::rod_totals(scene, simulation);
+  json["rods"] = {{"packing_fraction", rods.packing_fraction},
+                  {"virial", rods.virial},
+                  {"pressure", number_or_null(rods.pressure)}};
 }
 
 }  // namespace needlework::serve

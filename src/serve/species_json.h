@@ -1,4 +1,4 @@
-// What programs are told of the species, the walls and the energy of a simulation, by a pipe and by
+// What programs are told of the species, the walls, the energy and the pressure of a simulation, by a pipe and by
 // `run --json`.
 #pragma once
 
@@ -19,5 +19,9 @@ void add_walls(nlohmann::ordered_json& json, const Simulation& simulation);
 /// Adds "energy_budget", {pairs, walls: [], thermostat, kicks, velocities_set}, of those that there
 /// are.
 void add_energy_budget(nlohmann::ordered_json& json, const Simulation& simulation);
+
+/// Adds "rods", {packing_fraction, virial, pressure}, of rods of finite width; the latter two since
+/// the start.
+void add_rods(nlohmann::ordered_json& json, const Scene& scene, const Simulation& simulation);
 
 }  // namespace needlework::serve

@@ -47,6 +47,30 @@ TEST_F(RodsCommand, SaysWhatIsKnownOfThem) {
   EXPECT_EQ(elastic.out.find("nan"), std::string::npos) << elastic.out;
 }
 
+TEST_F(RodsCommand, GivesTheirPressure) {
+  write("spheres.toml",
+        "needles.box = 6\nuntil.collisions_per_needle = 60\n"
+        "[[species]]\nname = \"balls\"\ncount = 80\nlength = 0\ndiameter = 1\n");
+  const auto rods = json_of("run spheres.toml --json --quiet --out spheres.h5")["rods"];
+  EXPECT_NEAR(rods["packing_fraction"].get<double>(), 80 * 0.523598776 / 216, 1e-9);
+  // n T Z with Z = 2.34 of Carnahan and Starling.
+  EXPECT_NEAR(rods["pressure"].get<double>(), 80 * 2.34 / 216, 0.06);
+  EXPECT_NEAR(rods["pressure"].get<double>(),
+              (80 + rods["virial"].get<double>() /
+                        (3 * json_of("info spheres.h5 --json")["time"].get<double>())) /
+                  216,
+              1e-9);
+  EXPECT_NE(run("run spheres.toml").out.find("packing fraction 0.19393, pressure "),
+            std::string::npos);
+  const auto theory = json_of("theory spheres.toml --json")["rods"];
+  EXPECT_NEAR(theory["second_virial"].get<double>(), 2 * M_PI / 3, 1e-9);
+  EXPECT_NEAR(theory["pressure"].get<double>(), 80.0 / 216 * (1 + 80.0 / 216 * 2 * M_PI / 3), 1e-9);
+  EXPECT_NE(run("theory spheres.toml").out.find("second virial coefficient B = 2.0943951"),
+            std::string::npos);
+  // Out of equilibrium there is none.
+  EXPECT_TRUE(json_of("theory rods.toml --json")["rods"]["pressure"].is_null());
+}
+
 TEST_F(RodsCommand, DrawsThemAsWideAsTheyAre) {
   hash_to(1);
   EXPECT_EQ(run("view rods.h5 -o rods.svg --colour none").exit_code, 0);

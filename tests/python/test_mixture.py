@@ -207,6 +207,18 @@ class Theory(unittest.TestCase):
             theory.mixture_rates(self.GAS, [1, 1, 1], 1)
         with self.assertRaises(InputError):
             theory.mixture_cooling(self.GAS, 1, 1, [-1])
+        with self.assertRaisesRegex(InputError, "length = 0: .* or a diameter > 0"):
+            theory.mixture_rates({**self.GAS, "length": 0}, 1, 1)
+
+    def test_a_diameter_makes_rods(self):
+        for length, diameter, rate in ((0, 1, 7.0898154), (5, 1, 91.75811), (2.5, 0.5, 22.939528)):
+            rods = {"counts": 100000, "box": 1000, "length": length, "diameter": diameter}
+            rates = theory.mixture_rates(rods, 1, 1 if length else 0)
+            # Collisions per rod and time over n D^2 sqrt(T/m).
+            found = 2 * rates.collisions[0, 0] / 99999 / 1e-4
+            self.assertAlmostEqual(found / rate, 1, places=6)
+        self.assertAlmostEqual(float(theory.homogeneous_k(2.5, 0.5)), 4.544240, places=6)
+        self.assertEqual(float(theory.homogeneous_k(1, 0)), 6)
 
 
 if __name__ == "__main__":
