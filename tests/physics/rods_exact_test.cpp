@@ -1,0 +1,208 @@
+// Exact results of rods of finite width: rates and changes of energy at low density, the law of
+// V_n^2 / M_nn at every density, and equipartition.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "needlework/error.h"
+#include "needlework/simulation.h"
+#include "needlework/theory.h"
+#include "tests/support/rods.h"
+#include "tests/support/runs.h"
+#include "tests/support/statistics.h"
+
+namespace needlework {
+namespace {
+
+using test::agrees;
+using test::Mean;
+using test::rods_of;
+using theory::Temperatures;
+
+// From a random state with T_rot = 0.4 T_tr, epsilon = 0.7. Law: theory::mixture_rates, exact at
+// t = 0 as n -> 0, whose drift over a tenth of a mean free time is that of mixture_cooling. Rods
+// that are drawn without overlap meet too often by (2/3) n B3 / B2, here less than 4e-4, and for L
+// = 5 than 3e-4.
+struct DiluteCase {
+  const char* name;
+  std::vector<Species> species;
+  double packing;
+};
+
+std::vector<DiluteCase> dilute_cases() {
+  const auto rods = [](const char* name, double length, double diameter, double mass) {
+    return Species{.name = name,
+                   .count = 2000,
+                   .length = length,
+                   .mass = mass,
+                   .k = length > 0 ? homogeneous_k(length, diameter) : 6,
+                   .t_rot = length > 0 ? 0.4 : 1,
+                   .diameter = diameter};
+  };
+  return {{"spheres", {rods("spheres", 0, 1, 1)}, 1e-4},
+          {"L1", {rods("rods", 1, 1, 1)}, 1e-4},
+          {"L5", {rods("rods", 5, 1, 1)}, 1e-4},
+          {"L100", {rods("rods", 100, 1, 1)}, 1e-6},
+          {"unequal", {rods("a", 3, 1, 1), rods("b", 1, 0.5, 0.4), rods("c", 0, 1.5, 2)}, 1e-4}};
+}
+
+// Mean changes over the short time, as shares of those expected.
+void expect_exact_rates(const DiluteCase& which, int runs, std::uint64_t first_seed,
+                        double largest_error) {
+  Scene scene;
+  scene.species = which.species;
+  scene.collisions.epsilon = 0.7;
+  double body = 0, count = 0;
+  for (const Species& each : scene.species) {
+    body += static_cast<double>(each.count) * each.volume();
+    count += static_cast<double>(each.count);
+  }
+  const double edge = std::cbrt(body / which.packing), volume = edge * edge * edge;
+  scene.needles.box = {edge, edge, edge};
+  const Composition composition = scene.composition();
+  std::vector<Temperatures> start;
+  for (const Species& each : scene.species) {
+    start.push_back({1, each.length > 0 ? each.t_rot : 0});
+  }
+  const auto collisions_at = [&](const std::vector<Temperatures>& now) {
+    double sum = 0;
+    for (const double rate : theory::mixture_rates(composition, volume, now).collisions)
+      sum += rate;
+    return sum;
+  };
+  const double time = 0.1 * 0.5 * count / collisions_at(start);
+  const std::vector<double> times = {0.5 * time, time};
+  const auto curve = theory::mixture_cooling(composition, volume, start, times);
+  const double expected =
+      time / 6 * (collisions_at(start) + 4 * collisions_at(curve[0]) + collisions_at(curve[1]));
+
+  Mean collisions;
+  std::vector<Mean> t_tr(start.size()), t_rot(start.size());
+  for (int run = 0; run < runs; ++run) {
+    scene.needles.seed = first_seed + static_cast<std::uint64_t>(run);
+    Simulation gas(scene);
+    const std::vector<SpeciesTotals> before = gas.species_totals();
+    try {
+      if (gas.advance(test::until_time(time)) != Stop::time) continue;
+    } catch (const InvalidStateError&) {
+      continue;  // a pair that collapses: one chain of collisions of thousands
+    }
+    collisions.add(static_cast<double>(gas.collisions()) / expected);
+    const std::vector<SpeciesTotals> after = gas.species_totals();
+    for (std::size_t n = 0; n < start.size(); ++n) {
+      t_tr[n].add((after[n].t_tr - before[n].t_tr) / (curve[1][n].t_tr - start[n].t_tr));
+      if (start[n].t_rot > 0)
+        t_rot[n].add((after[n].t_rot - before[n].t_rot) / (curve[1][n].t_rot - start[n].t_rot));
+      else
+        EXPECT_EQ(after[n].t_rot, 0);
+    }
+  }
+  EXPECT_TRUE(agrees(collisions.measured(), 1, 3)) << "collisions";
+  EXPECT_LT(collisions.measured().error, largest_error);
+  for (std::size_t n = 0; n < start.size(); ++n) {
+    EXPECT_TRUE(agrees(t_tr[n].measured(), 1, 3)) << "T_tr of " << scene.species[n].name;
+    if (start[n].t_rot > 0) {
+      EXPECT_TRUE(agrees(t_rot[n].measured(), 1, 3)) << "T_rot of " << scene.species[n].name;
+    }
+  }
+}
+
+class DiluteRods : public testing::TestWithParam<DiluteCase> {};
+
+TEST_P(DiluteRods, CollideAndCoolAtTheExactRates) { expect_exact_rates(GetParam(), 25, 100, 0.02); }
+
+TEST_P(DiluteRods, CollideAndCoolAtTheExactRatesToThreeThousandths) {
+  expect_exact_rates(GetParam(), GetParam().species.size() > 1 ? 500 : 1500, 10000, 0.003);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rods, DiluteRods, testing::ValuesIn(dilute_cases()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Elastic: by the flux of pairs to contact, V_n^2 / (2 M_nn T) = |V_n dp| / (4 T) has the density
+// exp(-x), however the positions are correlated. Energy is fixed, so the mean is 1 - 1 / (Dof + 1)
+// of that, and T is 2 E / Dof with Dof = 5 N - 3, of spheres 3 N - 3.
+void expect_exponential(double length, double packing, std::uint64_t collisions_per_rod) {
+  constexpr std::uint64_t count = 256;
+  Simulation gas(rods_of(count, length, packing));
+  gas.advance(test::until_collisions(60));
+  const double degrees = (length > 0 ? 5.0 : 3.0) * count - 3;
+  const double temperature = 2 * gas.totals().energy * count / degrees;
+  constexpr int bins = 20;
+  std::vector<double> found(bins), expected(bins);
+  double sum = 0, number = 0;
+  gas.on_collision([&](const Collision& c) {
+    const double impulse = std::hypot(c.impulse[0], c.impulse[1], c.impulse[2]);
+    const double x = 0.25 * std::abs(c.normal_velocity) * impulse / temperature;
+    const auto bin = static_cast<int>(bins * -std::expm1(-x));
+    ++found[static_cast<std::size_t>(std::min(bin, bins - 1))];
+    sum += x;
+    ++number;
+  });
+  gas.advance(test::until_collisions(static_cast<double>(60 + collisions_per_rod)));
+  for (double& each : expected) each = number / bins;
+  double chi_square = 0;
+  for (int bin = 0; bin < bins; ++bin) {
+    const auto n = static_cast<std::size_t>(bin);
+    chi_square += (found[n] - expected[n]) * (found[n] - expected[n]) / expected[n];
+  }
+  // 19 degrees of freedom: 43.8 in one case of 1000.
+  EXPECT_LT(chi_square, 43.8) << "L = " << length << ", packing " << packing;
+  EXPECT_NEAR(sum / number, degrees / (degrees + 1), 4 / std::sqrt(number))
+      << "L = " << length << ", packing " << packing;
+}
+
+TEST(RodContacts, HaveExponentialEnergiesAtEveryDensity) {
+  for (const auto& [length, packing] :
+       {std::pair(5.0, 0.01), std::pair(5.0, 0.2), std::pair(5.0, 0.4), std::pair(0.0, 0.1),
+        std::pair(0.0, 0.45), std::pair(1.0, 0.3), std::pair(20.0, 0.1)}) {
+    expect_exponential(length, packing, 150);
+  }
+}
+
+TEST(RodContacts, HaveExponentialEnergiesInMillionsOfCollisions) {
+  for (const auto& [length, packing] :
+       {std::pair(5.0, 0.01), std::pair(5.0, 0.2), std::pair(5.0, 0.4), std::pair(0.0, 0.45)}) {
+    expect_exponential(length, packing, 4000);
+  }
+}
+
+// All temperatures of an elastic mixture become T = 2 E / Dof, where each rod has five degrees of
+// freedom and each sphere three, less three; translations of a mass m have 1 - m / (sum of masses)
+// of that, as the momentum is 0.
+TEST(RodMixture, SharesItsEnergyEqually) {
+  constexpr double spheres = 80, rods = 160;
+  Mean sphere_t_tr, rod_t_tr, rod_t_rot;
+  double temperature = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Scene scene = test::rods_and_spheres(80, 11, seed);
+    scene.collisions.epsilon = 1;
+    scene.collisions.tc = {};
+    Simulation gas(scene);
+    const double degrees = 5 * rods + 3 * spheres - 3;
+    temperature = 2 * gas.totals().energy * (spheres + rods) / degrees;
+    EXPECT_NEAR(gas.species_totals()[1].t_rot, 0.5, 1e-9);
+    gas.advance(test::until_collisions(60));
+    Mean of_run[3];
+    for (int n = 1; n <= 40; ++n) {
+      gas.advance(test::until_collisions(60 + 4 * n));
+      const auto now = gas.species_totals();
+      of_run[0].add(now[0].t_tr);
+      of_run[1].add(now[1].t_tr);
+      of_run[2].add(now[1].t_rot);
+      ASSERT_EQ(now[0].t_rot, 0);
+    }
+    sphere_t_tr.add(of_run[0].measured().value / temperature);
+    rod_t_tr.add(of_run[1].measured().value / temperature);
+    rod_t_rot.add(of_run[2].measured().value / temperature);
+  }
+  const double mass = 2 * spheres + rods;
+  EXPECT_TRUE(agrees(sphere_t_tr.measured(), 1 - 2 / mass, 3.5));
+  EXPECT_TRUE(agrees(rod_t_tr.measured(), 1 - 1 / mass, 3.5));
+  EXPECT_TRUE(agrees(rod_t_rot.measured(), 1, 3.5));
+  for (const Mean* each : {&sphere_t_tr, &rod_t_tr, &rod_t_rot})
+    EXPECT_LT(each->measured().error, 0.02);
+}
+
+}  // namespace
+}  // namespace needlework
