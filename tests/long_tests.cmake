@@ -26,12 +26,21 @@ set_tests_properties(
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   # RodPressure.IsThatOfTheVirialSeries
   RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
+  # RodPressure.OfDenseFluidsIsThatOfOthers
+  RodPressure.OfDenseFluidsIsThatOfOthersToSomeThousandths
+  # RodContacts.HaveExponentialEnergiesAtEveryDensity
+  RodContacts.HaveExponentialEnergiesInMillionsOfCollisions
   PROPERTIES LABELS long)
 # PredictOracle.AgreesOnEveryPair: the first tenth of these pairs
 foreach(family thermal_k6 thermal_k2 parallel tip grazing just_collided fast_spin still slow planar
                mixed_scales parallel_to_rounding tip_to_rounding back_to_rounding tip_to_tip
                grazing_to_rounding)
   set_tests_properties(Families/PredictOracle.AgreesOnEveryPairOfMany/${family} PROPERTIES LABELS long)
+endforeach()
+# DiluteRods.CollideAtTheExactRates
+foreach(rods spheres L1 L5 L100 unequal)
+  set_tests_properties(Rods/DiluteRods.CollideAtTheExactRatesToThreeThousandths/${rods}
+                       PROPERTIES LABELS long)
 endforeach()
 # InitialRates of other k, rules and initial temperatures
 foreach(gas Smooth:n0p72_k6_epsilon0p8_beta_m1_q0 Rough:n0p72_k2_epsilon1_beta_m0p5_q3

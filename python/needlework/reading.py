@@ -167,7 +167,7 @@ class Recording(NotPickled):
         and constants such as the borders of bins."""
         group = self._group(f"series/{name}", f"a run with {name!r} in output.observables")
         samples = len(self._group("series", "a file of a run with a series")["step"])
-        return Values({field: item["value"][:samples] if hasattr(item, "keys") else item[:]
+        return Values({field: item["value"][:samples] if hasattr(item, "keys") else item[()]
                        for field, item in group.items()})
 
     def by_phase(self, values: ArrayLike, bins: int = 16, wall: int | None = None,

@@ -15,7 +15,7 @@ namespace {
 class RodSums : public Observable {
  public:
   explicit RodSums(const GasSetting& gas)
-      : count_(static_cast<double>(gas.count)),
+      : count_(static_cast<double>(gas.composition.count())),
         volume_(gas.volume()),
         packing_(gas.composition.packing_fraction(gas.volume())) {}
 

@@ -1,5 +1,5 @@
-// What programs are told of the species, the walls, the energy and the pressure of a simulation, by a pipe and by
-// `run --json`.
+// What programs are told of the species, the walls, the energy and the pressure of a simulation, by
+// a pipe and by `run --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
