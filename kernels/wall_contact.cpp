@@ -216,7 +216,9 @@ class Approach {
 class TipSearch {
  public:
   TipSearch(Approach& approach, int tip, double resolution)
-      : approach_(approach), tip_(tip), tick_(resolution / 8) {}
+      : approach_(approach), tip_(tip), tick_(resolution / 8) {
+    if (!approach.is_touching(tip)) exact_zero_ = DoubleDouble();
+  }
 
   // From the tip's height at the record: its contact may be then, at 0, or come no earlier than
   // begin().
@@ -227,7 +229,7 @@ class TipSearch {
     if (!touching && rough.h > rough.error_h) return Start::above;
     // Of a tip that leaves fast, double tells enough.
     if (touching && std::abs(rough.h) < approach_.within() && rough.dh > 0x1p20 * rough.error_dh) {
-      zero_ = rough.h;
+      rough_zero_ = rough.h;
       return leave(rough.dh - rough.error_dh, rough.ddh - 0x1p-40 * approach_.bend());
     }
     const Height<DoubleDouble> exact = approach_.exact(tip_, DoubleDouble(), 0);
@@ -235,7 +237,8 @@ class TipSearch {
     if (h < -approach_.within()) return Start::across;
     if (!touching && h > exact.error_h) return Start::above;
     // It is at the wall, whatever rounding its record has done to that.
-    zero_ = exact.h;
+    rough_zero_ = h;
+    exact_zero_ = exact.h;
     const double curvature = to_double(exact.ddh);
     if (slope < -exact.error_dh || (slope <= exact.error_dh && curvature < 0)) return Start::hits;
     return leave(std::max(slope, 0.0), curvature);
@@ -266,9 +269,9 @@ class TipSearch {
   }
   // From s, where the height is above 0 or 0, to the end of the stretch, or to the last time asked
   // for.
-  double in_stretch(double s, double end, double last) const {
+  double in_stretch(double s, double end, double last) {
     while (s < end && s <= last) {
-      const Height<double> rough = approach_.rough(tip_, to_double(zero_), s);
+      const Height<double> rough = approach_.rough(tip_, rough_zero_, s);
       const double step = step_from(rough, rough.h);
       if (step > 1024 * tick_ && step > 0x1p-30 * s) {
         s += step;
@@ -280,7 +283,7 @@ class TipSearch {
         const double at = s + std::max(rough.h, 0.0) / -rough.dh;
         return at < end ? at : infinity;
       }
-      const Height<DoubleDouble> fine = approach_.exact(tip_, zero_, s);
+      const Height<DoubleDouble> fine = approach_.exact(tip_, exact_zero(), s);
       const double fine_step = step_from(fine, to_double(fine.h));
       if (fine_step > tick_ && s + fine_step > s) {
         s += fine_step;
@@ -296,6 +299,12 @@ class TipSearch {
     }
     return infinity;
   }
+  // Heights of double-double need a zero as good: that of double shifts the contact of a tip that
+  // rebounds slowly by its rounding over the tip's speed.
+  const DoubleDouble& exact_zero() {
+    if (!exact_zero_) exact_zero_ = approach_.exact(tip_, DoubleDouble(), 0).h;
+    return *exact_zero_;
+  }
   template <class T>
   double step_from(const Height<T>& at, double h) const {
     const double low = h - at.error_h;
@@ -307,7 +316,8 @@ class TipSearch {
   const int tip_;
   const double tick_;
   double begin_ = 0;
-  DoubleDouble zero_;
+  double rough_zero_ = 0;  // what is called height 0; of a tip that has hit, its height then
+  std::optional<DoubleDouble> exact_zero_;
 };
 
 }  // namespace

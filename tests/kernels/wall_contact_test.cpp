@@ -3,55 +3,23 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <random>
 
 #include "src/physics/clock.h"
-#include "src/physics/director.h"
+#include "tests/support/wall_oracle.h"
 
 namespace needlework::kernels {
 namespace {
 
-using WallQuad = boost::multiprecision::cpp_bin_float_quad;
-
-WallQuad quad_component(const Vec3d& a, int axis) { return WallQuad(component(a, axis)); }
-
-struct Approach {
-  Flight flight;
-  WallApproach approach;
-
-  Approach() { approach.flight = &flight; }
-  Approach(const Approach& other) : flight(other.flight), approach(other.approach) {
-    approach.flight = &flight;
-  }
-  Approach& operator=(const Approach&) = delete;
-
-  WallQuad height(int tip, const WallQuad& s) const {
-    const WallApproach& a = approach;
-    const int axis = a.wall.axis, next = (axis + 1) % 3, last = (axis + 2) % 3;
-    const WallQuad sign = a.wall.normal, half = a.half;
-    const WallQuad z = quad_component(flight.r, axis) - WallQuad(a.wall.place);
-    const auto w = [&](int n) { return quad_component(flight.w, n); };
-    const auto u = [&](int n) { return quad_component(flight.u, n); };
-    const WallQuad omega = sqrt(w(0) * w(0) + w(1) * w(1) + w(2) * w(2));
-    WallQuad along = u(axis);
-    if (omega > 0) {
-      const WallQuad p = (w(next) * u(last) - w(last) * u(next)) / omega;
-      along = u(axis) * cos(omega * s) + p * sin(omega * s);
-    }
-    const WallQuad turns =
-        WallQuad(a.turns.hi) + WallQuad(a.turns.lo) + WallQuad(a.wall.frequency) * s;
-    const WallQuad surface =
-        WallQuad(a.wall.amplitude) * sin(2 * boost::math::constants::pi<WallQuad>() * turns);
-    const WallQuad centre =
-        z + quad_component(flight.v, axis) * s + WallQuad(a.gravity) * s * s / 2;
-    return sign * (centre - surface + (tip == 0 ? half : WallQuad(-half)) * along);
-  }
-};
+using test::DrawnWalls;
+using test::TipHeight;
+using test::WallCase;
+using test::WallComparison;
+using test::WallFamily;
+using test::WallQuad;
 
 struct Found {
   WallQuad time;
@@ -59,18 +27,19 @@ struct Found {
 };
 
 // Looks at small steps, then bisects.
-std::optional<Found> sampled(const Approach& a, double to, int steps) {
+std::optional<Found> sampled(const WallCase& a, double to, int steps) {
   std::optional<Found> out;
   for (int tip = 0; tip < 2; ++tip) {
+    const TipHeight<WallQuad> tips(a, tip);
     WallQuad before = 0;
     for (int n = 1; n <= steps; ++n) {
       WallQuad at = WallQuad(to) * n / steps;
       if (out && before > out->time) break;
-      if (a.height(tip, at) < 0) {
+      if (tips.height(at) < 0) {
         WallQuad low = before;
         for (int k = 0; k < 110; ++k) {
           const WallQuad middle = (low + at) / 2;
-          (a.height(tip, middle) < 0 ? at : low) = middle;
+          (tips.height(middle) < 0 ? at : low) = middle;
         }
         if (!out || at < out->time) out = Found{at, tip};
         break;
@@ -81,56 +50,11 @@ std::optional<Found> sampled(const Approach& a, double to, int steps) {
   return out;
 }
 
-class Drawn {
- public:
-  explicit Drawn(std::uint64_t seed) : random_(seed) {}
-  double uniform(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random_);
-  }
-  Vec3d normal() {
-    std::normal_distribution<double> n;
-    return {n(random_), n(random_), n(random_)};
-  }
-  int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
-
-  // Both tips are above the wall at the record.
-  Approach approach(bool moves, bool falls) {
-    for (;;) {
-      Approach out;
-      WallApproach& a = out.approach;
-      a.wall.axis = below(3);
-      a.wall.normal = below(2) == 0 ? 1 : -1;
-      a.wall.place = uniform(-3, 3);
-      a.half = uniform(0.05, 1);
-      if (falls) a.gravity = a.wall.normal * uniform(-3, 1);
-      if (moves) {
-        a.wall.amplitude = uniform(0, 0.5);
-        a.wall.frequency = uniform(0.1, 3);
-        a.turns = DoubleDouble(uniform(0, 1));
-      }
-      a.resolution = 0x1p-52;
-      a.tolerance = 0x1p-44;
-      Flight& f = out.flight;
-      f.u = normalised(normal());
-      f.v = normal();
-      f.w = project_out(normal() * 3, f.u);
-      set_rotation(f);
-      const double height = a.wall.place + a.wall.normal * uniform(0, 1.5);
-      f.r = normal();
-      (a.wall.axis == 0 ? f.r.x : a.wall.axis == 1 ? f.r.y : f.r.z) = height;
-      if (out.height(0, 0) > 1e-6 && out.height(1, 0) > 1e-6) return out;
-    }
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
 TEST(WallContact, IsThatOfSamplingInQuad) {
-  Drawn drawn(1);
+  DrawnWalls drawn(1);
   int contacts = 0, none = 0;
   for (int n = 0; n < 160; ++n) {
-    const Approach a = drawn.approach(n % 2 == 1, n % 4 >= 2);
+    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
     const double to = 3;
     const WallContact found = first_wall_contact(a.approach, 0, to);
     const auto truth = sampled(a, to, 1000);
@@ -149,10 +73,25 @@ TEST(WallContact, IsThatOfSamplingInQuad) {
   EXPECT_GT(none, 10);
 }
 
+// bench_wall_accuracy counts the same over millions of cases.
+TEST(WallContact, IsThatOfTheOracleInEveryFamily) {
+  for (int n = 0; n < test::wall_families; ++n) {
+    const auto family = static_cast<WallFamily>(n);
+    DrawnWalls drawn(17 + static_cast<std::uint64_t>(n));
+    WallComparison found;
+    for (int i = 0; i < 2000; ++i) found.add(drawn.draw(family), 3);
+    EXPECT_GT(found.contacts, 300u) << name_of(family);
+    EXPECT_EQ(found.missed, 0u) << name_of(family);
+    EXPECT_EQ(found.invented, 0u) << name_of(family);
+    EXPECT_EQ(found.wrong_tip, 0u) << name_of(family);
+    EXPECT_EQ(found.off, 0u) << name_of(family);
+  }
+}
+
 TEST(WallContact, DoesNotDependOnWhenItIsAskedFor) {
-  Drawn drawn(2);
+  DrawnWalls drawn(2);
   for (int n = 0; n < 2000; ++n) {
-    const Approach a = drawn.approach(n % 2 == 1, n % 4 >= 2);
+    const WallCase a = drawn.draw(static_cast<WallFamily>(n % 4));
     const double to = 6;
     const WallContact found = first_wall_contact(a.approach, 0, to);
     const double latest = found.found ? found.elapsed : to;
@@ -174,7 +113,7 @@ TEST(WallContact, DoesNotDependOnWhenItIsAskedFor) {
 TEST(WallContact, DecidesWhetherATipGrazes) {
   for (const double depth : {1e-3, 1e-9, 1e-15, 1e-20, 1e-25}) {
     for (const double side : {1.0, -1.0}) {
-      Approach a;
+      WallCase a;
       a.approach.resolution = 0x1p-80;
       a.approach.half = 0.5;
       // The tip at -u points down after a quarter turn: h = z - sin(t) / 2.
@@ -198,7 +137,7 @@ TEST(WallContact, DecidesWhetherATipGrazes) {
 // Just after a hit, however slow, the tip does not hit at once, but when it has come back.
 TEST(WallContact, ComesBackAfterABounce) {
   for (const double speed : {1.0, 1e-4, 1e-8, 1e-12}) {
-    Approach a;
+    WallCase a;
     a.approach.resolution = 0x1p-90;
     a.approach.wall.axis = 2;
     a.approach.gravity = -2;
@@ -217,7 +156,7 @@ TEST(WallContact, ComesBackAfterABounce) {
       EXPECT_FALSE(found.unresolvable);
     }
   }
-  Approach a;
+  WallCase a;
   a.approach.resolution = 0x1p-52;
   a.approach.wall.axis = 2;
   a.approach.gravity = -2;
@@ -230,7 +169,7 @@ TEST(WallContact, ComesBackAfterABounce) {
 
 // A needle that lies on the wall, its centre coming down: the tip at +u first, at once.
 TEST(WallContact, OfBothTipsAtOnceIsThatOfTheFirst) {
-  Approach a;
+  WallCase a;
   a.approach.resolution = 0x1p-52;
   a.approach.tolerance = 0x1p-44;
   a.approach.wall.axis = 2;
@@ -255,7 +194,7 @@ TEST(WallContact, OfBothTipsAtOnceIsThatOfTheFirst) {
 
 TEST(WallContact, SeesAWallThatCatchesUp) {
   // The needle rises at speed 1; the wall, at rest at first, comes from behind at up to 6.
-  Approach a;
+  WallCase a;
   a.approach.resolution = 0x1p-52;
   a.approach.wall = {
       .axis = 0, .normal = 1, .place = 0, .amplitude = 1, .frequency = 3 / std::numbers::pi};
@@ -270,7 +209,7 @@ TEST(WallContact, SeesAWallThatCatchesUp) {
 }
 
 TEST(WallContact, TellsANeedleAcrossTheWall) {
-  Approach a;
+  WallCase a;
   a.approach.resolution = 0x1p-52;
   a.approach.tolerance = 0x1p-44;
   a.approach.wall.axis = 1;
