@@ -15,7 +15,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 DOCUMENTS = [HERE.parent / f"{name}.md" for name in (
-    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation")]
+    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation", "rods")]
 CLAIMS = HERE / "claims-all.json"
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
 

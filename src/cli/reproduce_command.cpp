@@ -28,7 +28,9 @@ std::vector<std::string> names_of_figures() {
           "vibrated",
           "walls",
           "sedimentation",
-          "settling"};
+          "settling",
+          "rods",
+          "nematic"};
 }
 
 int run(const ReproduceArguments& arguments) {

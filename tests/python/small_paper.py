@@ -49,6 +49,12 @@ GRIDS = {
                                         "output.frames": [[*range(10, 31)]]}),
     "settling": ("settling", {"needles.count": 30, "needles.box": [[4, 4, 20]],
                               "collisions.epsilon": [0.8], "until.time": 100}),
+    "rods": ("rods", {**FEW, "needles.box": 6, "needles.diameter": [1, 0.2],
+                      "collisions.epsilon": [0.8], "until.energy_ratio": 0.03}),
+    "rods-dense": ("rods", {**FEW, "needles.box": 2.5, "needles.diameter": 0.2,
+                            "collisions.epsilon": [0.8], "until.energy_ratio": 0.03}),
+    "nematic": ("nematic", {"needles.count": 144, "needles.box": [2.5478, 2.4421],
+                            "until.collisions_per_needle": 30}),
 }
 """Scene and parameters of each set; seeds are 1, 2 and 3."""
 

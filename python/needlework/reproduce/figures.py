@@ -1,7 +1,7 @@
 """All figures, those of the paper first."""
 
-from . import (alignment, causes, confined, dense, dilute, driving, flow, fluctuations, ratio,
-               relaxation)
+from . import (alignment, causes, confined, dense, dilute, driving, flow, fluctuations, nematic,
+               ratio, relaxation, rods)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -53,5 +53,9 @@ FIGURES = {figure.name: figure for figure in (
            confined.measure_sedimentation, confined.draw_sedimentation),
     Figure("settling", "Beyond the paper: inelastic needles settle on a floor", ("settling",),
            confined.measure_settling, confined.draw_settling),
+    Figure("rods", "Beyond the paper: rods of finite width that cool", ("rods", "rods-dense"),
+           rods.measure_rods, rods.draw_rods),
+    Figure("nematic", "Beyond the paper: the isotropic-nematic transition of rods", ("nematic",),
+           nematic.measure_nematic, nematic.draw_nematic),
 )}
 """By name, as the command takes it."""
