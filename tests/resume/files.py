@@ -23,6 +23,63 @@ observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
                "collision_statistics"]
 """
 
+# Other scenes, whose effects remember something of needles, walls and random numbers.
+EFFECTS = {
+    "plain": SCENE,
+    "walls": """
+needles = { count = 250, box = [7, 7, 6], k = 5 }
+forces.gravity = [0, 0, -1]
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+until.time = 15.02
+[[walls]]
+axis = "z"
+side = "low"
+epsilon = 0.9
+motion = { amplitude = 0.2, frequency = 1.7, phase = 0.4 }
+[[walls]]
+axis = "y"
+side = "both"
+temperature = 1.5
+[output]
+frames = 4
+events = true
+checkpoint_every = 0.02
+""",
+    "driving": """
+needles.box = 7
+collisions = { epsilon = 0.8, tc_relative = 1e-3 }
+driving.kicks = { every = 0.05, translational = 1, rotational = 2 }
+driving.andersen = { rate = 0.3, temperature = 2 }
+until.time = 20.03
+[[species]]
+name = "short"
+count = 150
+length = 0.7
+[[species]]
+name = "long"
+count = 60
+mass = 3
+[output]
+frames = 4
+events = true
+checkpoint_every = 0.02
+observables = ["displacement", "collision_statistics"]
+""",
+    "rods": """
+needles = { count = 200, box = [7, 7, 6], diameter = 0.2 }
+collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+driving.andersen = { rate = 0.3, temperature = 1 }
+until.time = 15.02
+[[walls]]
+axis = "z"
+side = "both"
+[output]
+frames = 4
+events = true
+checkpoint_every = 0.02
+observables = ["wall_profiles", "centre_of_mass"]
+"""}
+
 # The datasets whose lengths are the numbers of complete rows.
 TABLES = ("series/step", "particles/needles/position/step", "events/time")
 
@@ -55,6 +112,8 @@ def contents(path, opened=h5py.File):
 
 
 def bytes_of(value):
+    if getattr(value, "dtype", None) == object:
+        return value.tolist()  # texts, of which the array has but addresses
     return value.tobytes() if hasattr(value, "tobytes") else value
 
 

@@ -1,6 +1,6 @@
 """Runs that are killed at random instants and continued end as if they had not been.
 
-    kill_loop.py NEEDLEWORK KILLS [SEED]
+    kill_loop.py NEEDLEWORK KILLS [SEED]      KILLS of each scene of files.EFFECTS
 
 Whenever the program is killed, the file can be read, all its complete rows are right, and a
 continued run has the same collisions, rows and hash as one that was never stopped. The run goes on
@@ -17,7 +17,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from files import SCENE, command, complete_rows, contents, differences, require_prefix
+from files import EFFECTS, command, complete_rows, contents, differences, require_prefix
 
 ISAS = ["auto", "scalar"]
 
@@ -49,12 +49,12 @@ def kill_after(program, arguments, seconds):
 
 
 class Loop:
-    def __init__(self, program, folder, seed):
+    def __init__(self, program, folder, seed, scene):
         self.program, self.folder = program, Path(folder)
         self.draw = random.Random(seed)
         self.scene = str(self.folder / "scene.toml")
         self.file = str(self.folder / "run.h5")
-        Path(self.scene).write_text(SCENE)
+        Path(self.scene).write_text(scene)
         began = cpu_seconds_of_children()
         code, out, errors = command(program, "run", self.scene, "--out",
                                     str(self.folder / "whole.h5"), "--json", "--quiet")
@@ -115,13 +115,14 @@ def main():
     program, kills = str(Path(sys.argv[1]).resolve()), int(sys.argv[2])
     seed = int(sys.argv[3]) if len(sys.argv) > 3 else 1
     print(f"seed {seed}")
-    with tempfile.TemporaryDirectory() as folder:
-        loop = Loop(program, folder, seed)
-        while loop.kills < kills:
-            loop.one_run(4)
-        print(f"{loop.kills} kills, {loop.too_early} before there was a file, {loop.continued} "
-              f"times continued, {loop.rows} rows found after kills")
-        assert loop.continued > kills / 4 and loop.rows > kills
+    for name, scene in EFFECTS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            loop = Loop(program, folder, seed, scene)
+            while loop.kills < kills:
+                loop.one_run(4)
+            print(f"{name}: {loop.kills} kills, {loop.too_early} before there was a file, "
+                  f"{loop.continued} times continued, {loop.rows} rows found after kills")
+            assert loop.continued > kills / 4 and loop.rows > kills
 
 
 main()
