@@ -64,7 +64,16 @@ class Effect:
     neutral: list  # settings that have its code run but leave the trajectory as it is, or nearly so
     acting: list  # settings with which it acts
     flags: tuple = ()
+    scene: str = ""  # what no setting can add
 
+
+MEAN_FREE_TIME = 1.1  # of the dilute scene, about
+WALLS = "walls = [{ axis = 'z', side = 'both' }]"
+SHAKEN = """forces.gravity = [0, 0, -0.1]
+walls = [{ axis = 'z', side = 'low', motion = { amplitude = 0.05, frequency = 0.5 } }]
+"""
+
+TWO_THREADS = ("--threads", "2")  # valgrind runs them in turn and counts both
 
 EFFECTS = [
     # By itself it ends in the collapse of a pair.
@@ -73,11 +82,16 @@ EFFECTS = [
            ["collisions.beta=0"]),
     Effect("t_c rule", ["collisions.tc=1e-300"],
            ["collisions.epsilon=0.9", "collisions.tc_relative=1e-3"]),
-    Effect("kicks every mean free time", ["driving.kicks={every=1e6, translational=1e-300}"],
-           ["driving.kicks={every=0.8, translational=0.01, rotational=0.01}"]),
+    *(Effect(f"kicks every {name}", ["driving.kicks={every=1e6, translational=1e-300}"],
+             [f"driving.kicks={{every={MEAN_FREE_TIME * times!r}, translational=0.01, "
+              "rotational=0.01}"])
+      for name, times in (("10 mean free times", 10), ("mean free time", 1),
+                          ("0.1 mean free times", 0.1))),
     Effect("thermostat", ["driving.andersen={rate=1e-9, temperature=1}"],
            ["driving.andersen={rate=1, temperature=1}"]),
-    Effect("all of these",
+    Effect("two walls along z", [], [], scene=WALLS),
+    Effect("vibrated wall and gravity", [], [], scene=SHAKEN),
+    Effect("rough, with t_c rule",
            ["collisions.epsilon=0.9999999999999999", "collisions.beta=-0.9999999999999999",
             "collisions.tc=1e-300"],
            ["collisions.epsilon=0.9", "collisions.beta=0", "collisions.tc_relative=1e-3"]),
@@ -95,9 +109,11 @@ class Failure(Exception):
     """Something could not be measured."""
 
 
-def in_folder(command, left=""):
-    """Runs a command in an empty folder; returns its result and a file that it left there, if any."""
+def in_folder(command, left="", scene=""):
+    """Runs a command in a folder with this scene, scene.toml; returns its result and a file that it
+    left there, if any."""
     with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "scene.toml").write_text(scene)
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
         if done.returncode != 0:
             raise Failure(f"{' '.join(command)}: exit code {done.returncode}: {done.stderr}")
@@ -113,20 +129,22 @@ class Measured:
     isa: str
     settings: list
     flags: tuple = ()
+    scene: str = ""
 
     def command(self, tool, needles, collisions_per_needle):
         settings = [f"needles.count={needles}",
                     f"needles.box={math.cbrt(needles / self.density)!r}",
                     f"until.collisions_per_needle={collisions_per_needle}", *self.settings]
-        command = ["valgrind", *tool, self.program, "run", "/dev/null", "--isa", self.isa, "--json",
+        command = [*tool, self.program, "run", "scene.toml", "--isa", self.isa, "--json", "--quiet",
                    *self.flags]
         for setting in settings:
             command += ["--set", setting]
         return command
 
     def run(self, collisions_per_needle):
-        tool = ["--tool=callgrind", "--callgrind-out-file=/dev/null"]
-        done, _ = in_folder(self.command(tool, NEEDLES, collisions_per_needle))
+        tool = ["valgrind", "--fair-sched=yes", "--tool=callgrind",
+                "--callgrind-out-file=/dev/null"]
+        done, _ = in_folder(self.command(tool, NEEDLES, collisions_per_needle), "", self.scene)
         collected = re.search(r"Collected : (\d+)", done.stderr)
         if not collected:
             raise Failure(f"callgrind: expected a line 'Collected : N', got: {done.stderr}")
@@ -135,7 +153,7 @@ class Measured:
 
     def by_function(self, collisions_per_needle):
         """Instructions of each function, and the collisions."""
-        tool = ["--tool=callgrind", "--callgrind-out-file=callgrind"]
+        tool = ["valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind"]
         done, profile = in_folder(self.command(tool, NEEDLES, collisions_per_needle), "callgrind")
         with tempfile.NamedTemporaryFile("w") as file:
             file.write(profile)
@@ -157,8 +175,8 @@ class Measured:
 
     def heap_of_the_loop(self, needles):
         """The most bytes that are held while events happen; setting up takes as many, for a while."""
-        tool = ["--tool=massif", "--peak-inaccuracy=0.0", "--massif-out-file=massif"]
-        _, massif = in_folder(self.command(tool, needles, 0.2), "massif")
+        tool = ["valgrind", "--tool=massif", "--peak-inaccuracy=0.0", "--massif-out-file=massif"]
+        _, massif = in_folder(self.command(tool, needles, 0.2), "massif", self.scene)
         snapshots = [(int(time), int(held)) for time, held in
                      re.findall(r"time=(\d+)\nmem_heap_B=(\d+)", massif)]
         end = snapshots[-1][0]
@@ -228,38 +246,42 @@ def judge(figures, expected):
     return 1 if grown else 0
 
 
-def effects(program, out):
+def effects(program, out, only):
+    chosen = [effect for effect in EFFECTS if only in effect.name]
     build, offered = build_of(program)
     isa = "avx2" if "avx2" in offered.split() else "scalar"
 
-    def measured(settings, flags=()):
-        return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags)
+    def measured(settings, flags=(), scene=""):
+        return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags, scene)
 
-    def bytes_per_needle(effect):
-        extra = (measured(effect.neutral).heap_of_the_loop(NEEDLES)
-                 - measured([]).heap_of_the_loop(NEEDLES))
-        return extra / NEEDLES
-
-    jobs = {"off": measured([]).instructions_per_collision}
-    for effect in EFFECTS:
-        on = measured(effect.neutral, effect.flags)
+    plain_bytes = measured([]).heap_of_the_loop(NEEDLES)
+    jobs = {("off", 1): measured([]).instructions_per_collision,
+            ("off", 2): measured([], TWO_THREADS).instructions_per_collision}
+    for effect in chosen:
+        on = measured(effect.neutral, effect.flags, effect.scene)
         jobs[effect.name, "on"] = on.instructions_per_collision
         if not effect.flags:  # of what writes files, HDF5 holds much more than the engine
-            jobs[effect.name, "bytes"] = lambda effect=effect: bytes_per_needle(effect)
+            jobs[effect.name, "bytes"] = lambda on=on: on.heap_of_the_loop(NEEDLES)
+            in_action = measured(effect.acting or effect.neutral, TWO_THREADS, effect.scene)
+            jobs[effect.name, 2] = in_action.instructions_per_collision
         if effect.acting:
             jobs[effect.name, "acting"] = measured(effect.acting).instructions_per_collision
     counted = measure_all(jobs)
 
-    off, trajectory = counted["off"]
-    lines = ["| effect | off | on | costs | in action | bytes per needle |",
-             "|---|---|---|---|---|---|"]
-    for effect in EFFECTS:
+    (off, trajectory), (off_by_two, _) = counted["off", 1], counted["off", 2]
+    lines = [f"| effect | off | on | costs | in action | two threads ({off_by_two:.0f} without) | "
+             "bytes per needle |",
+             "|---|---|---|---|---|---|---|"]
+    for effect in chosen:
         on, its_trajectory = counted[effect.name, "on"]
         same = "" if its_trajectory == trajectory else " *"
         acting = f"{counted[effect.name, 'acting'][0]:.0f}" if effect.acting else ""
-        held = "" if effect.flags else f"{counted[effect.name, 'bytes']:+.1f}"
+        held = by_two = ""
+        if not effect.flags:
+            held = f"{(counted[effect.name, 'bytes'] - plain_bytes) / NEEDLES:+.1f}"
+            by_two = f"{counted[effect.name, 2][0]:.0f}"
         lines.append(f"| {effect.name} | {off:.0f} | {on:.0f}{same} | {100 * (on / off - 1):+.1f} % "
-                     f"| {acting} | {held} |")
+                     f"| {acting} | {by_two} | {held} |")
     text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle of "
             f"{NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; {build['compiler']}, "
             f"{build['flags']}.\n\n" + "\n".join(lines) + "\n")
@@ -332,7 +354,11 @@ def main():
                         help="guard: write the figures instead of comparing with them")
     parser.add_argument("--out", type=Path, default=EFFECTS_TABLE,
                         help="effects: the file to write")
+    parser.add_argument("--only", default="", metavar="TEXT",
+                        help="effects: only those with this in their names; needs --out")
     arguments = parser.parse_args()
+    if arguments.only and arguments.out == EFFECTS_TABLE:
+        parser.error("--only needs --out: expected a file other than that of all effects")
     program = Path(arguments.program)
     arguments.program = measured.built(program.parent, program.name)
     try:
@@ -342,7 +368,7 @@ def main():
             return shares(arguments.program)
         if arguments.what == "baseline":
             return baseline(arguments.program)
-        return effects(arguments.program, arguments.out)
+        return effects(arguments.program, arguments.out, arguments.only)
     except (Failure, OSError, subprocess.CalledProcessError) as error:
         print(f"instructions.py: {error}", file=sys.stderr)
         return 2
