@@ -1,0 +1,270 @@
+// Contacts of needles that slide on each other, against contacts held by a force in quad precision.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "kernels/sliding_entry.h"
+#include "tests/support/sliding_oracle.h"
+
+namespace needlework::kernels {
+namespace {
+
+constexpr SlidingBody rod{.half = 0.5, .mass = 1, .inertia = 1. / 12};
+const SlidingBodies alike{rod, rod};
+const SlidingBodies unlike{rod, {.half = 0.8, .mass = 2.5, .inertia = 0.3}};
+
+// Collisions as a gas in equilibrium has them, in proportion to |u1 x u2| |V_n|.
+class Collisions {
+ public:
+  explicit Collisions(const SlidingBodies& bodies) : bodies_(bodies) {}
+
+  SlidingState draw() {
+    for (;;) {
+      SlidingState s;
+      s.u_first = direction(), s.u_second = direction();
+      s.v = std::sqrt(1 / bodies_.first.mass + 1 / bodies_.second.mass) * normal();
+      s.w_first = spin(s.u_first, bodies_.first), s.w_second = spin(s.u_second, bodies_.second);
+      s.r = s.u_second * arm(bodies_.second) - s.u_first * arm(bodies_.first);
+      const SlidingContact contact = sliding_contact(bodies_, s);
+      if (12 * uniform_(source_) < contact.sin_angle * std::abs(contact.speed)) return s;
+    }
+  }
+
+  // One that begins a contact with epsilon = 0.
+  SlidingEntry contact() {
+    for (;;) {
+      const SlidingEntry entry = sliding_entry(bodies_, draw(), 0, 0);
+      if (entry.decision == SlidingDecision::Enters) return entry;
+    }
+  }
+
+ private:
+  Vec3d normal() {
+    const double x = gauss_(source_), y = gauss_(source_), z = gauss_(source_);
+    return {x, y, z};
+  }
+  Vec3d direction() {
+    const Vec3d a = normal();
+    return a * (1 / std::sqrt(dot(a, a)));
+  }
+  Vec3d spin(const Vec3d& u, const SlidingBody& body) {
+    const Vec3d w = normal() * (1 / std::sqrt(body.inertia));
+    return w - dot(w, u) * u;
+  }
+  double arm(const SlidingBody& body) { return body.half * (2 * uniform_(source_) - 1); }
+
+  SlidingBodies bodies_;
+  std::mt19937_64 source_{43};
+  std::normal_distribution<double> gauss_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+struct Held {
+  std::vector<double> end, velocity, energy, gap, position;
+  int steps = 0, forces = 0, contacts = 0;
+};
+
+// Follows contacts with the kernel and the oracle side by side.
+void follow(const SlidingBodies& bodies, Collisions& collisions, Held& held) {
+  const SlidingEntry entry = collisions.contact();
+  test::SlidingOracle oracle(bodies, entry.after, entry.side);
+  const double energy = sliding_energy(bodies, entry.after);
+  SlidingState state = entry.after;
+  double gap = 0, position = 0;
+  for (;;) {
+    const SlidingStep step = sliding_step(bodies, state, entry.side, INFINITY);
+    ASSERT_NE(step.end, SlidingEnd::Unresolvable);
+    ++held.steps;
+    for (const double part : {0.37, 0.83}) {
+      const SlidingState inside = step.at(part * step.duration);
+      const SlidingContact contact = sliding_contact(bodies, inside);
+      gap = std::max(gap, std::abs(contact.gap) * contact.sin_angle);
+      test::SlidingOracle then = oracle;
+      then.advance(part * step.duration);
+      ASSERT_FALSE(then.has_ended());
+      position = std::max(position, then.difference(inside).position);
+      ASSERT_NEAR(static_cast<double>(then.force() - then.force_by_curvature()), 0, 1e-15);
+    }
+    if (step.end != SlidingEnd::None) {
+      const test::SlidingOracle::End end = oracle.end_near(step.duration, step.end);
+      held.end.push_back(std::abs(static_cast<double>(end.time - step.duration)));
+      held.forces += step.end == SlidingEnd::Force;
+      oracle.advance(step.duration);
+      state = state_after(bodies, step);
+      break;
+    }
+    oracle.advance(step.duration);
+    state = state_after(bodies, step);
+  }
+  ++held.contacts;
+  held.velocity.push_back(oracle.difference(state).velocity);
+  held.energy.push_back(std::abs(sliding_energy(bodies, state) / energy - 1));
+  held.gap.push_back(gap);
+  held.position.push_back(position);
+}
+
+class SlidingAgainstQuad : public testing::TestWithParam<SlidingBodies> {};
+
+TEST_P(SlidingAgainstQuad, EndsAndMovesAsAContactHeldByAForce) {
+  Collisions collisions(GetParam());
+  Held held;
+  for (int n = 0; n < 20; ++n) ASSERT_NO_FATAL_FAILURE(follow(GetParam(), collisions, held));
+  // Medians, and what near parallel needles reach.
+  EXPECT_LT(median(held.end), 2e-15);
+  EXPECT_LT(*std::ranges::max_element(held.end), 1e-12);
+  EXPECT_LT(median(held.velocity), 1e-14);
+  EXPECT_LT(*std::ranges::max_element(held.velocity), 8e-12);
+  EXPECT_LT(median(held.energy), 2e-15);
+  EXPECT_LT(*std::ranges::max_element(held.energy), 1e-13);
+  EXPECT_LT(*std::ranges::max_element(held.gap), 4e-14);
+  EXPECT_LT(*std::ranges::max_element(held.position), 4e-14);
+  EXPECT_LT(held.steps, 8 * held.contacts);
+  EXPECT_GT(held.forces, 0);
+  EXPECT_LT(held.forces, held.contacts);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, SlidingAgainstQuad, testing::Values(alike, unlike));
+
+// Needles in contact whose contact points approach or part with a speed.
+SlidingState with_speed(const SlidingBodies& bodies, const SlidingState& touching, double speed) {
+  const SlidingContact contact = sliding_contact(bodies, touching);
+  return after_impulse(bodies, touching, contact, (speed - contact.speed) / contact.inverse);
+}
+
+TEST(SlidingEntry, IsForTrainsOnly) {
+  Collisions collisions(alike);
+  for (int n = 0; n < 200; ++n) {
+    const SlidingEntry contact = collisions.contact();
+    const double into = -contact.side * 1e-9;
+    const SlidingState slow = with_speed(alike, contact.after, into);
+    EXPECT_EQ(sliding_entry(alike, slow, 1, 1e-3).decision, SlidingDecision::Elastic);
+    EXPECT_EQ(sliding_entry(alike, slow, 0.8, 1e-14).decision, SlidingDecision::LongFlight);
+    // From the other side the same force pulls.
+    const SlidingState other = with_speed(alike, contact.after, -into);
+    EXPECT_EQ(sliding_entry(alike, other, 0.8, 1e-3).decision, SlidingDecision::Parts);
+
+    const SlidingEntry entry = sliding_entry(alike, slow, 0.8, 1e-3);
+    if (entry.decision == SlidingDecision::ShortContact) continue;
+    ASSERT_EQ(entry.decision, SlidingDecision::Enters);
+    EXPECT_EQ(entry.side, contact.side);
+    const double before = sliding_energy(alike, slow), after = sliding_energy(alike, entry.after);
+    EXPECT_NEAR(entry.loss, before - after, 1e-14 * before);
+    const SlidingContact pressed = sliding_contact(alike, entry.after);
+    const double a = entry.side * pressed.force * pressed.inverse;
+    EXPECT_NEAR(entry.train * 0.2 * a / (2 * 0.8 * 1e-9), 1, 1e-5);
+    EXPECT_LT(std::abs(pressed.speed), 1e-14);
+  }
+}
+
+// Whether a contact lasts long enough is computed ahead: next to its end a pair bounces.
+TEST(SlidingEntry, NeedsAContactThatLastsTwiceTheTrain) {
+  Collisions collisions(alike);
+  int refused = 0;
+  for (int n = 0; n < 100; ++n) {
+    const SlidingEntry contact = collisions.contact();
+    SlidingState state = contact.after;
+    SlidingStep step = sliding_step(alike, state, contact.side, INFINITY);
+    while (step.end == SlidingEnd::None) {
+      state = state_after(alike, step);
+      step = sliding_step(alike, state, contact.side, INFINITY);
+    }
+    const double left = 1e-3 * step.duration;
+    const SlidingState late = in_contact(alike, step.at(step.duration - left));
+    const SlidingContact pressed = sliding_contact(alike, late);
+    const double a = contact.side * pressed.force * pressed.inverse;
+    // Trains of 4 and of 0.25 times what is left, at epsilon = 0.5: V0 = |V_n| / 2 = a train / 4.
+    const auto train_of = [&](double times) {
+      return with_speed(alike, late, -contact.side * a * times * left / 2);
+    };
+    const auto decision = [&](double times) {
+      return sliding_entry(alike, train_of(times), 0.5, INFINITY).decision;
+    };
+    if (step.end == SlidingEnd::Force) continue;
+    EXPECT_NE(decision(4), SlidingDecision::Enters);
+    EXPECT_EQ(decision(0.25), SlidingDecision::Enters);
+    refused += decision(4) == SlidingDecision::ShortContact;
+  }
+  EXPECT_GT(refused, 20);
+}
+
+TEST(SlidingStep, IsCutByTheLimitOnly) {
+  Collisions collisions(alike);
+  const SlidingEntry contact = collisions.contact();
+  const SlidingStep whole = sliding_step(alike, contact.after, contact.side, INFINITY);
+  const double limit = whole.duration / 3;
+  const SlidingStep cut = sliding_step(alike, contact.after, contact.side, limit);
+  EXPECT_EQ(cut.duration, limit);
+  EXPECT_EQ(cut.end, SlidingEnd::None);
+  const SlidingState a = cut.at(limit), b = whole.at(limit);
+  EXPECT_NEAR(a.r.x, b.r.x, 1e-14);
+  EXPECT_NEAR(a.v.x, b.v.x, 1e-13);
+}
+
+// Velocities by 2^-p and times by 2^p: the same bits.
+TEST(SlidingStep, KnowsNoUnitOfTime) {
+  Collisions collisions(unlike);
+  for (int n = 0; n < 20; ++n) {
+    const SlidingEntry contact = collisions.contact();
+    SlidingState slow = contact.after;
+    for (Vec3d* a : {&slow.v, &slow.w_first, &slow.w_second}) *a = *a * 0x1p-40;
+    const SlidingStep fast = sliding_step(unlike, contact.after, contact.side, INFINITY);
+    const SlidingStep step = sliding_step(unlike, slow, contact.side, INFINITY);
+    EXPECT_EQ(step.duration, fast.duration * 0x1p40);
+    EXPECT_EQ(step.end, fast.end);
+    const SlidingState there = state_after(unlike, step), then = state_after(unlike, fast);
+    EXPECT_TRUE(there.r == then.r);
+    EXPECT_TRUE(there.w_first == then.w_first * 0x1p-40);
+  }
+}
+
+// Needles without a turn, or in uniform motion on each other, press on nothing: the contact is held
+// until an arm has run off, and its side is not lost.
+TEST(SlidingStep, HoldsWhatNothingPresses) {
+  SlidingState state;
+  state.u_first = {1, 0, 0}, state.u_second = {0, 1, 0};
+  state.v = {0.25, 0, 0};
+  for (const int side : {-1, 1}) {
+    SlidingState now = state;
+    double elapsed = 0;
+    SlidingStep step;
+    do {
+      step = sliding_step(alike, now, side, INFINITY);
+      now = state_after(alike, step);
+      elapsed += step.duration;
+    } while (step.end == SlidingEnd::None);
+    EXPECT_EQ(step.end, SlidingEnd::Tip);
+    EXPECT_NEAR(elapsed, 2, 1e-14);
+    EXPECT_EQ(now.r.z, 0);
+    EXPECT_EQ(side_after(step.end, side), -side);
+  }
+}
+
+TEST(SlidingStep, EndsAtOnceAtATipThatMovesOut) {
+  SlidingState state;
+  state.u_first = {1, 0, 0}, state.u_second = {0, 1, 0};
+  state.r = {-0.5, 0, 0};
+  state.v = {-1, 0, 0};
+  const SlidingStep step = sliding_step(alike, state, 1, INFINITY);
+  EXPECT_EQ(step.end, SlidingEnd::Tip);
+  EXPECT_LT(step.duration, 1e-15);
+}
+
+TEST(SlidingStep, SaysThatParallelNeedlesAreBeyondIt) {
+  SlidingState state;
+  state.u_first = state.u_second = {1, 0, 0};
+  state.r = {0, 0, 0.1};
+  state.v = {1, 0, 0};
+  EXPECT_EQ(sliding_step(alike, state, 1, 1).end, SlidingEnd::Unresolvable);
+}
+
+}  // namespace
+}  // namespace needlework::kernels
