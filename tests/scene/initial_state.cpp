@@ -73,7 +73,8 @@ TEST(InitialState, HasNoMomentumFromTwoNeedlesOn) {
     for (std::size_t i = 0; i < 3; ++i) {
       const long double momentum =
           mean(state.velocity, [i](const Vector& v) { return v[i]; }) * count;
-      EXPECT_LE(std::abs(static_cast<double>(momentum)), 1e-14 * count) << count;
+      EXPECT_LE(std::abs(static_cast<double>(momentum)), 1e-14 * static_cast<double>(count))
+          << count;
     }
   }
 }
