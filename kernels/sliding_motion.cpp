@@ -165,7 +165,8 @@ class End {
     for (int b = 0; b < bounds; ++b) {
       for (int n = 0; n <= parts; ++n) {
         const double here = step_.span * n / parts;
-        if (here > step_.duration) break;
+        // The part in which another bound ends the step may hold an earlier end.
+        if (n > 0 && step_.span * (n - 1) / parts >= step_.duration) break;
         if (value[n][b] < 0) {
           end_at(b, n == 0 ? 0 : root(b, step_.span * (n - 1) / parts, here));
           break;

@@ -209,6 +209,19 @@ TEST(SlidingStep, IsCutByTheLimitOnly) {
   EXPECT_NEAR(a.v.x, b.v.x, 1e-13);
 }
 
+// Also where both arms run off within one part of the search.
+TEST(SlidingStep, EndsAtTheFirstOfBothTips) {
+  Collisions collisions(alike);
+  for (int n = 0; n < 1000; ++n) {
+    const SlidingEntry contact = collisions.contact();
+    SlidingStep step = sliding_step(alike, contact.after, contact.side, INFINITY);
+    while (step.end == SlidingEnd::None)
+      step = sliding_step(alike, state_after(alike, step), contact.side, INFINITY);
+    const SlidingContact last = sliding_contact(alike, step.at(step.duration));
+    EXPECT_LT(std::max(std::abs(last.arm_first), std::abs(last.arm_second)), 0.5 + 1e-13);
+  }
+}
+
 // Velocities by 2^-p and times by 2^p: the same bits.
 TEST(SlidingStep, KnowsNoUnitOfTime) {
   Collisions collisions(unlike);
