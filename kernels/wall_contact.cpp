@@ -178,8 +178,8 @@ class Approach {
     const double v = sizes_.v + sizes_.turn * sizes_.omega + sizes_.amplitude * sizes_.rate;
     // Besides the rounding of the record, that of the time of a contact.
     within_ = given.tolerance + 4 * given.resolution * v;
-    const double rate =
-        std::max({v / given.half, sizes_.omega, sizes_.rate, std::sqrt(sizes_.g / given.half)});
+    const double size = given.half + given.radius;
+    const double rate = std::max({v / size, sizes_.omega, sizes_.rate, std::sqrt(sizes_.g / size)});
     stretch_ = rate > 0 ? times_power_of_two(1, 3 - exponent_of(rate)) : infinity;
     bend_ = sizes_.bend() * roundup;
     twist_ = sizes_.twist() * roundup;

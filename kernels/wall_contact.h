@@ -27,7 +27,8 @@ struct WallPlane {
 struct WallApproach {
   const Flight* flight = nullptr;
   double gravity = 0;  ///< acceleration along the positive axis [L / time^2]
-  double half = 0.5;   ///< half the needle's length [L]
+  double half = 0.5;   ///< half the needle's length; 0: a sphere, of the radius [L]
+  double radius = 0;   ///< of what touches the wall beyond the tips; its place has room for it [L]
   WallPlane wall;
   DoubleDouble turns;  ///< phase of the wall's motion at the record, in [0, 1)
   unsigned touching =

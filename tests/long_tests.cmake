@@ -28,6 +28,8 @@ set_tests_properties(
   RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
   # RodPressure.OfDenseFluidsIsThatOfOthers
   RodPressure.OfDenseFluidsIsThatOfOthersToSomeThousandths
+  # DrawnRods.CollideAndCoolAtTheExactRates
+  DrawnRods.CollideAndCoolAtTheExactRatesForEveryShape
   # RodContacts.HaveExponentialEnergiesAtEveryDensity
   RodContacts.HaveExponentialEnergiesInMillionsOfCollisions
   PROPERTIES LABELS long)

@@ -276,8 +276,9 @@ ReplacedRecords Run::kick() {
   std::vector<Kicks::Change> changes(gas.size());
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
-      changes[i] =
-          kicks->change(gas.ids[i], number, gas.motion_from(gas.records[i], now).director());
+      const Record& record = gas.records[i];
+      changes[i] = kicks->change(gas.ids[i], number, gas.motion_from(record, now).director());
+      if (!gas.species_of(record).turns()) changes[i].angular_velocity = {};
     }
   });
   const auto [x, y, z] = exact_sums(gas.records, team.threads(), [&](const Record& record) {

@@ -10,7 +10,8 @@
 //                    (2 / pi) sin^2
 //   normal_velocity  |V_n| in units of sigma, sigma^2 = 2 T_tr / m + T_rot (s12^2 + s21^2) / I with
 //                    the temperatures of the sample before (for two species T_tr / m + T_rot s^2 /
-//                    I of each); in equilibrium its density is x exp(-x^2 / 2)
+//                    I of each; rods of finite width: times |u x n|^2, n along the impulse); in
+//                    equilibrium its density is x exp(-x^2 / 2)
 //
 // With several species each is counted for each two of them; a collision with a needle of any
 // species ends a chain. Values outside the borders are left out.
@@ -36,6 +37,17 @@ struct Chain {
 };
 
 void transfer(Archive& archive, Chain& chain) { archive(chain.partner, chain.length); }
+
+/// What the rotation of one of the bodies adds to the variance of V_n. Rods of finite width are not
+/// normal to the impulse at their caps; spheres do not turn.
+double turning(const Species& species, double t_rot, double arm,
+               const std::array<double, 3>& director, const std::array<double, 3>& impulse) {
+  if (!species.turns()) return 0;
+  const double square = t_rot * arm * arm / species.inertia();
+  if (species.diameter == 0) return square;
+  const double along = dot(director, impulse), size = dot(impulse, impulse);
+  return size > 0 ? square * (1 - along * along / size) : square;
+}
 
 /// What is counted of the collisions of two species.
 struct Counts {
@@ -106,12 +118,13 @@ class CollisionStatistics : public Observable {
     Counts& counts = counts_[gas_.composition.pair_index(a, b)];
     ++counts.collisions;
     follow_chains(c.first, c.second, counts);
-    counts.arms.add(c.arm_first / first.length);
-    counts.arms.add(c.arm_second / second.length);
+    counts.arms.add(first.length > 0 ? c.arm_first / first.length : 0);
+    counts.arms.add(second.length > 0 ? c.arm_second / second.length : 0);
     counts.angle.add(std::atan2(c.sin_angle, dot(c.after[0].orientation, c.after[1].orientation)));
-    const double squares = last_[a].t_tr / first.mass + last_[b].t_tr / second.mass +
-                           last_[a].t_rot * c.arm_first * c.arm_first / first.inertia() +
-                           last_[b].t_rot * c.arm_second * c.arm_second / second.inertia();
+    const double squares =
+        last_[a].t_tr / first.mass + last_[b].t_tr / second.mass +
+        turning(first, last_[a].t_rot, c.arm_first, c.after[0].orientation, c.impulse) +
+        turning(second, last_[b].t_rot, c.arm_second, c.after[1].orientation, c.impulse);
     counts.normal_velocity.add(std::abs(c.normal_velocity) / std::sqrt(squares));
   }
 

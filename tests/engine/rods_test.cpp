@@ -147,6 +147,58 @@ TEST(Rods, BounceOffWallsByTheirCaps) {
   }
 }
 
+// A ball under gravity between a floor and a ceiling: between hits it flies as a point does whose
+// box is lower by its diameter.
+TEST(Rods, SpheresBounceAsPointsInALowerBox) {
+  Scene scene;
+  scene.needles.box = {4, 4, 3};
+  scene.species = {{.name = "balls", .count = 1, .length = 0, .t_rot = 0, .diameter = 1}};
+  scene.walls = {{.axis = "z", .side = "both"}};
+  scene.forces.gravity = {0, 0, -0.5};
+  State state = draw_initial_state(scene);
+  state.position = {{1, 1, 1.5}};
+  state.velocity = {{0.3, 0, 1.5}};
+  Simulation gas(scene, state);
+  // Up from z = 1 above the floor to the ceiling at 2, down to the floor, and up again.
+  const double to_ceiling = (1.5 - std::sqrt(1.5 * 1.5 - 4 * 0.25)) / 0.5;
+  const double at_ceiling = std::sqrt(1.5 * 1.5 - 1.0), at_floor = std::sqrt(1.5 * 1.5 + 1.0);
+  const double across = (at_floor - at_ceiling) / 0.5;
+  std::vector<double> times;
+  gas.on_happening([&](const Happening& h) { times.push_back(h.event.time); });
+  gas.advance(until_time(to_ceiling + 9.5 * across));
+  ASSERT_EQ(times.size(), 10u);
+  for (std::size_t n = 0; n < times.size(); ++n) {
+    EXPECT_NEAR(times[n], to_ceiling + static_cast<double>(n) * across, 1e-11);
+  }
+}
+
+// Rotation is none of theirs, whatever drives them.
+TEST(Rods, SpheresDoNotTurnWhenDriven) {
+  Scene scene;
+  scene.species = {
+      {.name = "balls", .count = 20, .length = 0, .mass = 2, .t_rot = 0, .diameter = 1.2},
+      {.name = "rods", .count = 20, .length = 2, .diameter = 0.8}};
+  scene.needles.box = {8, 8, 8};
+  scene.forces.gravity = {0, 0, -1};
+  Scene::Wall floor, ceiling;
+  floor.axis = ceiling.axis = "z";
+  floor.side = "low";
+  floor.motion = Scene::WallMotion{.amplitude = 0.1, .frequency = 0.5};
+  ceiling.side = "high";
+  ceiling.temperature = 2;
+  scene.walls = {floor, ceiling};
+  scene.driving.andersen = {.rate = 0.5, .temperature = 1.5};
+  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(course_of(scene, with("capsules", "cell-calendar"), 3).hash, first.hash);
+  scene.driving.kicks = {.every = 0.5, .translational = 0.1, .rotational = 0.2};
+  Simulation gas(scene);
+  gas.advance(until_time(3));
+  const auto species = gas.species_totals();
+  EXPECT_EQ(species[0].t_rot, 0);
+  EXPECT_GT(species[1].t_rot, 0.1);
+  EXPECT_TRUE(std::isfinite(gas.totals().energy));
+}
+
 TEST(RodPacking, FindsRoomUpToHighDensity) {
   for (const auto& [length, packing] :
        {std::pair(0.0, 0.49), std::pair(1.0, 0.45), std::pair(5.0, 0.55)}) {

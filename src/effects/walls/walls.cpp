@@ -104,6 +104,7 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
     const kernels::WallApproach approach{.flight = &record.flight,
                                          .gravity = component(gas.gravity, wall.plane.axis),
                                          .half = 0.5 * species.length,
+                                         .radius = 0.5 * species.diameter,
                                          .wall = plane,
                                          .turns = turns_at(gas.clock, wall, record.time),
                                          .touching = touching(record, i, n),
