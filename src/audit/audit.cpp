@@ -48,8 +48,11 @@ double unit_of(const Composition& composition) {
 std::vector<Body> bodies_of(const Composition& composition, double unit) {
   std::vector<Body> out;
   for (const Species& each : composition.species()) {
-    out.push_back(
-        {.species = out.size(), .length = each.length / unit, .mass = each.mass, .k = each.k});
+    out.push_back({.species = out.size(),
+                   .length = each.length / unit,
+                   .mass = each.mass,
+                   .k = each.k,
+                   .diameter = each.diameter / unit});
   }
   return out;
 }
@@ -348,6 +351,7 @@ void Audit::check_walls(Index i, const Instant& now, const Collision* hit) {
   ++findings_.at_walls;
   for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
     for (const int tip : {1, -1}) {
+      if (tip > 0 && needle.body.length == 0) continue;  // a sphere has both in one place
       const TipFlight flight(needle, space_.gravity, walls_[wall], tip);
       const auto crossing = flight.crossing(0, duration, tip_tolerance());
       if (!crossing) continue;

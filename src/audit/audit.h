@@ -20,6 +20,7 @@
 #include "src/audit/encounters.h"
 #include "src/audit/kicks.h"
 #include "src/audit/pair_flight.h"
+#include "src/audit/rod_flight.h"
 #include "src/audit/rule.h"
 #include "src/audit/walls.h"
 #include "src/audit/windows.h"
@@ -174,6 +175,11 @@ class Audit {
   std::optional<Continuation> take_continuation(Index i, Index j);
   void keep_continuation(const Flown& flown, const Start& start);
   void settle(const PairFlight& pair, bool undecided);
+  void check_rods_apart(const Flown& flown);
+  void check_rods_touching(const Flown& flown);
+  double after_overlap(const Flown& flown, RodFlight& pair) const;
+  void keep_if_overlapping(const Flown& flown, RodFlight& pair);
+  void settle(const RodFlight& pair);
   double tolerance(PairFlight& pair, double s) const;
   /// How far rounding may move a tip into a wall. [L]
   double tip_tolerance() const { return space_.continued(); }

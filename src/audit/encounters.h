@@ -28,10 +28,10 @@ struct Encounter {
   double begin, end;
 };
 
-/// Needles can touch when their centres are within the mean of their lengths; includes a margin for
+/// Needles can touch when their centres are within the mean of their extents; includes a margin for
 /// rounding. [L]
 inline double reach_of(const Body& first, const Body& second) {
-  return first.length / 2 + second.length / 2 + 0x1p-20;
+  return first.extent() / 2 + second.extent() / 2 + 0x1p-20;
 }
 
 /// Calls `found` for each encounter in [0, duration].

@@ -103,6 +103,7 @@ void Audit::settle(const PairFlight& pair, bool undecided) {
 }
 
 void Audit::check_apart(const Flown& flown) {
+  if (setup_.composition.has_width()) return check_rods_apart(flown);
   const double duration = flown.duration, last = flown.encounter.end;
   const bool to_the_end = last >= duration;
   PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
@@ -139,6 +140,7 @@ void Audit::check_apart(const Flown& flown) {
 }
 
 void Audit::check_touching(const Flown& flown) {
+  if (setup_.composition.has_width()) return check_rods_touching(flown);
   const double duration = flown.duration;
   const Start& start = flown.start;
   PairFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,

@@ -80,11 +80,13 @@ double excess_over_kick(const Needle& before, const Vector<double>& gravity, con
   add_place(excess, there, after.r, after.u, space);
   // Directors are off by half units, which grow with the angle turned; changes by what logarithm
   // and roots round.
-  const double off = 16 * unit * (2 + there.turned + there.flown / before.body.length);
+  const double off = 16 * unit * (2 + there.turned + there.flown / before.body.extent());
   const double speed = magnitude(norm(there.v)) + largest;
   const double spin = magnitude(norm(there.w)) + magnitude(norm(change.w));
   const Vector<Quad> v = there.v + change.v - of_all;
-  const Vector<Quad> w = there.w + change.w - there.u * dot(there.u, change.w);
+  // Spheres do not turn.
+  const Vector<Quad> turn = change.w * Quad(before.body.length > 0 ? 1 : 0);
+  const Vector<Quad> w = there.w + turn - there.u * dot(there.u, turn);
   for (int axis = 0; axis < 3; ++axis) {
     excess.add(v[axis] - Quad(after.v[axis]), off * speed);
     excess.add(w[axis] - Quad(after.w[axis]), off * spin);

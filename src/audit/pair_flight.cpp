@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/audit/relative_motion.h"
+
 namespace needlework::audit {
 namespace {
 
@@ -11,29 +13,6 @@ constexpr double half_unit = 0x1p-53;
 /// For numbers below this, and their products, the engine's double-double arithmetic loses digits.
 /// [L]
 constexpr double underflow = 0x1p-960;
-
-template <class Number>
-Vector<Number> separation(const Flight<Number>& first, const Flight<Number>& second,
-                          const Number& t1, const Number& t2, const Vector<double>& shift,
-                          const std::array<double, 3>& box) {
-  Vector<Number> r = first.r - second.r;
-  for (int axis = 0; axis < 3; ++axis) r[axis] = r[axis] - Number(shift[axis]) * Number(box[axis]);
-  return r + (first.v * t1 - second.v * t2);
-}
-
-// A needle that has fallen for the time `delay` since its record, as one that flies freely: centre
-// and velocity then are those of the parabola. What gravity does from then on, it does to all.
-template <class Real>
-Flight<Ball<Real>> without_gravity(Flight<Ball<Real>> flight, const Vector<double>& gravity,
-                                   const Ball<Real>& delay) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (gravity[axis] == 0) continue;
-    const Ball<Real> gained = Ball<Real>(gravity[axis]) * delay;
-    flight.v[axis] = flight.v[axis] + gained;
-    flight.r[axis] = flight.r[axis] - gained * delay * Ball<Real>(0.5);
-  }
-  return flight;
-}
 
 template <class Real>
 Sample evaluate(const Flight<Ball<Real>>& first, const Flight<Ball<Real>>& second,

@@ -17,6 +17,15 @@ using Shift = std::array<std::int32_t, 3>;
 struct Body {
   std::size_t species = 0;  ///< index
   double length = 1, mass = 1, k = 6;
+  double diameter = 0;  ///< 0 of thin needles
+
+  double extent() const { return length + diameter; }  ///< from end to end [L]
+  /// I = m L^2 / (2 k); spheres, whose length is 0, do not turn.
+  template <class Real>
+  Real inverse_inertia() const {
+    if (length == 0) return Real(0);
+    return 2 * Real(k) / Real(mass) / (Real(length) * length);
+  }
 };
 
 /// A needle's record, and its flight prepared for double.
@@ -32,8 +41,9 @@ struct Needle {
 struct Start {
   enum Kind {
     apart,
-    collided,  ///< with each other: f starts at 0, on `side`, or with unknown side if that is 0
-    touching,  ///< f(0) cannot be distinguished from 0, but the pair is on `side` of a contact
+    collided,     ///< with each other: f starts at 0, on `side`, or with unknown side if that is 0
+    touching,     ///< f(0) cannot be distinguished from 0, but the pair is on `side` of a contact
+    overlapping,  ///< rods of which a missed or late contact has been reported
   };
   Kind kind = apart;
   int side = 0;

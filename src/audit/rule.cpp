@@ -55,11 +55,51 @@ struct Partner {
     fastest = magnitude(norm(middle(flight.v))) + norm(gravity) * magnitude(age.middle);
     flown = magnitude(Quad(norm(v) * age.middle)) +
             norm(gravity) * magnitude(Quad(age.middle * age.middle));
-    age_in_lengths = flown / needle.body.length;
+    age_in_lengths = flown / needle.body.extent();
     age_in_radians = magnitude(Quad(flight.omega.middle * age.middle));
   }
   bool may_be_renewed() const { return std::max(age_in_lengths, age_in_radians) > longest_record; }
 };
+
+/// Where two needles touch. The arms of needles, and all normals, are off by what rounding does.
+struct Contact {
+  Quad s12, s21;
+  Vector3 n;
+  double geometry;  ///< what rounding does to lengths [L]
+  double share;     ///< the same of speeds at the contact and of M, which depend on arms in lengths
+};
+
+/// Errors that rounding explains are half units of centres and directors, which grow with the
+/// distance flown. The arms and the normal lose digits near parallel directors.
+Contact contact_of_needles(const Partner& a, const Partner& b, const Vector3& r, double flexible,
+                           double renewed, double shortest) {
+  const Vector3 x = cross(a.u, b.u);
+  const Quad xx = dot(x, x), sine = norm(x);
+  Contact out{dot(cross(b.u, r), x) / xx, dot(cross(a.u, r), x) / xx, x * Quad(1 / sine),
+              (flexible + renewed) / magnitude(sine), 0};
+  out.share = out.geometry / shortest;
+  return out;
+}
+
+/// Of nearly parallel rods, rounding decides which points are nearest; those of the report are,
+/// where the distance grows from them in both directions, or on from the ends. All else follows
+/// from them.
+Contact contact_of_rods(const Partner& a, const Partner& b, const Vector3& r,
+                        const std::array<Body, 2>& bodies, const Collision& collision,
+                        double geometry, Excess& excess) {
+  const std::array arms = {collision.arm_first, collision.arm_second};
+  const Vector3 p = r + a.u * Quad(arms[0]) - b.u * Quad(arms[1]);
+  const std::array rates = {magnitude(dot(p, a.u)), magnitude(dot(p, b.u))};
+  const std::array outwards = {dot(p, a.u) * arms[0], -dot(p, b.u) * arms[1]};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double half = 0.5 * bodies[i].length, arm = std::abs(arms[i]);
+    excess.add(std::max(0.0, arm - half), half * 0x1p-51);
+    const bool at_end = arm >= half * (1 - 0x1p-51);
+    excess.add(half == 0 || (at_end && outwards[i] < 0) ? 0.0 : rates[i], geometry);
+  }
+  const double distance = 0.5 * (bodies[0].diameter + bodies[1].diameter);
+  return {arms[0], arms[1], p * Quad(1 / norm(p)), geometry, geometry / distance};
+}
 
 }  // namespace
 
@@ -77,23 +117,31 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     r[axis] -= Quad(space.box[axis]) * boxes;
     right_image = right_image && boxes == collision.shift[axis];
   }
-  const Vector3 x = cross(a.u, b.u);
-  const Quad xx = dot(x, x), sine = norm(x);
-  const Vector3 n = x * Quad(1 / sine);
-  const Quad s12 = dot(cross(b.u, r), x) / xx, s21 = dot(cross(a.u, r), x) / xx;
+  const std::array<Body, 2> bodies = {first.body, second.body};
+  const bool wide = first.body.diameter > 0;
+  constexpr double unit = 0x1p-53;
+  const double flexible =
+      8 * unit * (2 + a.flown + b.flown + (a.age_in_radians + b.age_in_radians));
+  const double off_by_renewal = renewed ? space.rounding() : 0;
+  Excess excess;
+  const Contact contact =
+      wide ? contact_of_rods(a, b, r, bodies, collision, flexible + off_by_renewal, excess)
+           : contact_of_needles(a, b, r, flexible, off_by_renewal,
+                                std::min(bodies[0].length, bodies[1].length));
+  const auto& [s12, s21, n, geometry, share] = contact;
+  const Quad sine = norm(cross(a.u, b.u));
   const Vector3 velocity = a.v - b.v + cross(a.w, a.u) * s12 - cross(b.w, b.u) * s21;
-  const Quad vn = dot(velocity, n);
+  // Of rods, the engine takes a velocity that rounding makes part them as 0.
+  const Quad along_normal = dot(velocity, n);
+  const Quad vn = wide && along_normal > 0 ? Quad(0) : along_normal;
   const Quad epsilon = collision.contact_time_rule ? 1 : rule.epsilon;
   const Quad beta = collision.contact_time_rule ? -1 : rule.beta;
 
   // M = (1/m1 + 1/m2) 1 + (s12^2/I1)(1 - u1 u1) + (s21^2/I2)(1 - u2 u2), and the right-hand side.
-  const std::array<Body, 2> bodies = {first.body, second.body};
   std::array<Quad, 2> inverse_mass, inverse_inertia;
   for (int i = 0; i < 2; ++i) {
-    const Body& body = bodies[i];
-    inverse_mass[i] = Quad(1) / Quad(body.mass);
-    // I = m L^2 / (2 k).
-    inverse_inertia[i] = 2 * Quad(body.k) * inverse_mass[i] / (Quad(body.length) * body.length);
+    inverse_mass[i] = Quad(1) / Quad(bodies[i].mass);
+    inverse_inertia[i] = bodies[i].inverse_inertia<Quad>();
   }
   const Quad masses = inverse_mass[0] + inverse_mass[1];
   const Quad c1 = inverse_inertia[0] * s12 * s12, c2 = inverse_inertia[1] * s21 * s21;
@@ -103,28 +151,26 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     mass[i][i] += masses + c1 + c2;
   }
   const Vector3 tangential = velocity - n * vn;
-  const Vector3 impulse = solve(mass, n * Quad(-(1 + epsilon) * vn) - tangential * Quad(1 + beta));
+  // The impulse of smooth rods is along the normal, which M n is not.
+  const auto mass_times = [&](const Vector3& p) {
+    return mass[0] * p[0] + mass[1] * p[1] + mass[2] * p[2];
+  };
+  const Vector3 impulse =
+      wide ? n * Quad(-(1 + epsilon) * vn / dot(n, mass_times(n)))
+           : solve(mass, n * Quad(-(1 + epsilon) * vn) - tangential * Quad(1 + beta));
   const Vector3 turn_first = cross(a.u, impulse) * Quad(inverse_inertia[0] * s12);
   const Vector3 turn_second = cross(b.u, impulse) * Quad(inverse_inertia[1] * s21);
 
-  // Errors that rounding explains: half units of centres and directors, which grow with the
-  // distance flown. The arms and the normal lose digits near parallel directors.
-  constexpr double unit = 0x1p-53;
-  const double flown = a.flown + b.flown;
-  const double turned = a.age_in_radians + b.age_in_radians;
-  const double flexible = 8 * unit * (2 + flown + turned) / magnitude(sine);
   const double speed = a.fastest + b.fastest +
                        magnitude(Quad(norm(a.w) * bodies[0].length + norm(b.w) * bodies[1].length));
   // Twice the ratio of the largest and the smallest M, which has its tips.
-  const auto at_tip = [&](int i) { return bodies[i].k / 2 * magnitude(inverse_mass[i]); };
+  const auto at_tip = [&](int i) {
+    return bodies[i].length > 0 ? bodies[i].k / 2 * magnitude(inverse_mass[i]) : 0.0;
+  };
   const double least_mass = magnitude(masses);
   const double stiffness = 2 * (least_mass + at_tip(0) + at_tip(1)) / least_mass;
   // Of an impulse that changes the relative velocity by 1.
   const double push = 2 / least_mass;
-  const double geometry = flexible + (renewed ? space.rounding() / magnitude(sine) : 0);
-  // Of speeds at the contact and of M, which depend on arms in lengths.
-  const double share = geometry / std::min(bodies[0].length, bodies[1].length);
-  Excess excess;
   // Renewals wrap centres, and the shift changes with them.
   excess.add(right_image || renewed ? 0.0 : NAN, 1);
   excess.add(magnitude(Quad(s12 - collision.arm_first)), geometry);
@@ -134,7 +180,7 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
   excess.add(difference(impulse, collision.impulse), push * stiffness * share * speed);
   // The energy change is the impulse times the mean of the relative velocities before and after
   // it, which differ by M dp.
-  const Vector3 kick = mass[0] * impulse[0] + mass[1] * impulse[1] + mass[2] * impulse[2];
+  const Vector3 kick = mass_times(impulse);
   const Quad energy = dot(impulse, velocity + kick * Quad(0.5));
   excess.add(magnitude(Quad(energy - collision.energy_change)),
              push * stiffness * share * speed * speed);
@@ -153,8 +199,10 @@ double excess_over_rule(const Needle& first, const Needle& second, const Instant
     // The velocity itself is rounded, too, however heavy the needle is.
     const double kicked = std::max(1.0, push * magnitude(inverse_mass[i]));
     excess.add(difference(v_after[i], after.velocity), kicked * stiffness * share * speed);
+    const Body& body = bodies[i];
+    const double turning = body.length > 0 ? body.k / body.length : 0;
     excess.add(difference(w_after[i], after.angular_velocity),
-               (2 + bodies[i].k) * kicked * stiffness * share * speed / bodies[i].length);
+               (2 / body.extent() + turning) * kicked * stiffness * share * speed);
   }
   return excess.most();
 }

@@ -51,7 +51,8 @@ std::vector<Wall> walls_of(const std::vector<Scene::Wall>& walls, const std::arr
 
 TipFlight::TipFlight(const Needle& needle, const Vector<double>& gravity, const Wall& wall, int tip)
     : sign_(wall.sign()),
-      centre_(needle.record.r[wall.axis] - wall.place),
+      // The caps of rods touch with half their diameter.
+      centre_(needle.record.r[wall.axis] - wall.place - sign_ * 0.5 * needle.body.diameter),
       speed_(needle.record.v[wall.axis]),
       half_fall_(gravity[wall.axis] / 2),
       arm_(tip * needle.body.length / 2),
@@ -127,17 +128,17 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   const Quad tip = n * (there.v[wall.axis] + turn[wall.axis] * arm);
   const Quad vn = tip - n * surface;
   const Quad inverse_mass = Quad(1) / Quad(body.mass);
-  const Quad inverse_inertia = 2 * Quad(body.k) * inverse_mass / (Quad(body.length) * body.length);
+  const Quad inverse_inertia = body.inverse_inertia<Quad>();
   const Quad give = inverse_mass + inverse_inertia * arm * arm * (1 - lift * lift);
 
   // What rounding explains: directors are off by half units, which grow with the angle turned; the
   // phase of the wall likewise.
-  const double speed = magnitude(norm(there.v)) + magnitude(norm(there.w)) * body.length +
+  const double speed = magnitude(norm(there.v)) + magnitude(norm(there.w)) * body.extent() +
                        magnitude(surface) +
                        norm(gravity) * magnitude(elapsed<Quad>(needle.record.time, now).middle);
   const double shaken = wall.amplitude * two_pi * wall.frequency * 16 * unit *
                         (1 + std::abs(phase)) * (1 + two_pi * wall.frequency);
-  const double off = 32 * unit * (2 + there.turned + there.flown / body.length) * speed + shaken;
+  const double off = 32 * unit * (2 + there.turned + there.flown / body.extent()) * speed + shaken;
   const double push = 2 * body.mass;  // of an impulse that changes the speed of the tip by 1
   const double stiffness = 1 + body.k;
   excess.add(vn - Quad(hit.normal_velocity), off);
@@ -157,7 +158,7 @@ double excess_over_wall_rule(const Needle& needle, const Vector<double>& gravity
   const Vector<Quad> spun = there.w + cross(there.u, kick) * Quad(inverse_inertia * arm);
   for (int axis = 0; axis < 3; ++axis) {
     excess.add(spun[axis] - Quad(hit.after[0].angular_velocity[axis]),
-               4 * stiffness * off / body.length);
+               4 * stiffness * off / body.extent());
   }
   return excess.most();
 }

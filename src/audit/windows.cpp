@@ -62,7 +62,7 @@ double energy_of(std::span<const Needle> needles) {
 namespace {
 
 // The mean of sqrt(a + b y^2) over y from 0 to 1/2.
-double mean_root(double a, double b) {
+double mean_over_side(double a, double b) {
   constexpr double half = 0.5;
   const double tip = std::sqrt(a + b * half * half);
   if (!(b > 0)) return tip;
@@ -71,18 +71,46 @@ double mean_root(double a, double b) {
   return (half * tip + rest) / 2 / half;
 }
 
-// <sigma>. One of the means is elementary; a feature at small x, where the other needle decides, is
-// spread out by x = t^2 / 2.
-double mean_sigma(const Temperatures& gas_a, const Body& a, const Temperatures& gas_b,
-                  const Body& b) {
+// The mean of sqrt(a + b (1 - mu^2) / 4) over mu from 0 to 1.
+double mean_over_end(double a, double b) {
+  const double most = a + b / 4;
+  if (!(b > 0)) return std::sqrt(a);
+  const double root = std::sqrt(b) / 2;
+  return (std::sqrt(a) + most / root * std::asin(std::min(1.0, root / std::sqrt(most)))) / 2;
+}
+
+enum class Touches { side, end };
+
+// <sigma> of a contact with these parts of the two. One of the means is elementary; a feature at
+// small arms, where the other needle decides, is spread out by x = t^2 / 2.
+double mean_sigma(const Temperatures& gas_a, const Body& a, Touches part_a,
+                  const Temperatures& gas_b, const Body& b, Touches part_b) {
   const double flight = gas_a.t_tr / a.mass + gas_b.t_tr / b.mass;
   // T_rot s^2 / I with s = L x.
   const double turn_a = 2 * a.k * gas_a.t_rot / a.mass, turn_b = 2 * b.k * gas_b.t_rot / b.mass;
   const auto over_first = [&](double t) {
-    const double x = t * t / 2;
-    return 2 * t * mean_root(flight + turn_a * x * x, turn_b);
+    // Of an end 1 - mu = t^2, so that small arms are at small t.
+    const double x = t * t / 2, y = t * t;
+    const double square = part_a == Touches::side ? x * x : y * (2 - y) / 4;
+    const double rest = flight + turn_a * square;
+    return 2 * t *
+           (part_b == Touches::side ? mean_over_side(rest, turn_b) : mean_over_end(rest, turn_b));
   };
   return boost::math::quadrature::gauss<double, 30>::integrate(over_first, 0.0, 1.0);
+}
+
+// The mean of sigma over what the axes of two rods exclude, times sqrt(8 / pi) / 2 of its area.
+double excluded(const Temperatures& gas_a, const Body& a, const Temperatures& gas_b,
+                const Body& b) {
+  const auto sigma = [&](Touches part_a, Touches part_b) {
+    return mean_sigma(gas_a, a, part_a, gas_b, b, part_b);
+  };
+  using enum Touches;
+  const double sides = a.length * b.length * sigma(side, side);
+  const double distance = 0.5 * (a.diameter + b.diameter);
+  if (distance == 0) return sides;
+  return sides + 4 * distance * (a.length * sigma(side, end) + b.length * sigma(end, side)) +
+         8 * distance * distance * sigma(end, end);
 }
 
 }  // namespace
@@ -93,10 +121,10 @@ double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> b
   for (std::size_t a = 0; a < gas.size(); ++a) {
     count += gas[a].count;
     for (std::size_t b = 0; b < gas.size(); ++b) {
-      const double partners = gas[b].count - (a == b && gas.size() > 1 ? 1 : 0);
+      const bool counts_itself = gas.size() == 1 && bodies[a].diameter == 0;
+      const double partners = gas[b].count - (a == b && !counts_itself ? 1 : 0);
       if (!(gas[a].count > 0 && partners > 0)) continue;
-      collisions += gas[a].count * partners * bodies[a].length * bodies[b].length *
-                    mean_sigma(gas[a], bodies[a], gas[b], bodies[b]);
+      collisions += gas[a].count * partners * excluded(gas[a], bodies[a], gas[b], bodies[b]);
     }
   }
   if (!(collisions > 0)) return std::numeric_limits<double>::infinity();

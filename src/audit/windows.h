@@ -25,8 +25,10 @@ double energy_of(std::span<const Needle> needles);
 /// Mean time between two collisions of a needle at these temperatures, over all needles, by the
 /// kinetic theory of hard needles: needles of species a and b collide n_a n_b sqrt(pi / 8) L_a L_b
 /// <sigma> times per volume and time, sigma^2 = T_a / m_a + T_b / m_b + T_rot,a s^2 / I_a + T_rot,b
-/// s'^2 / I_b averaged over the needles; half as often if a is b. In a mixture a needle is no
-/// partner of its own, as the engine counts. Infinite if nothing moves.
+/// s'^2 / I_b averaged over the needles; half as often if a is b. The axes of rods exclude more
+/// than these sides: their ends add 4 D L to L_a L_b for each of the two, and 8 D^2, where only the
+/// part (L / 2)^2 (1 - mu^2) of the square of an arm counts, mu uniform. In a mixture, and among
+/// rods, a needle is no partner of its own, as the engine counts. Infinite if nothing moves.
 double mean_free_time(std::span<const Temperatures> gas, std::span<const Body> bodies,
                       double volume);
 

@@ -210,11 +210,6 @@ int run(const AuditArguments& arguments) {
   }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
-  if (scene.composition().has_width()) {
-    throw InputError(fmt::format(
-        "{}: rods of finite width, whose contacts the audit does not know: expected thin needles",
-        arguments.scene.path));
-  }
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);

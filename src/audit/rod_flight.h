@@ -1,0 +1,88 @@
+// Two rods of finite width and one periodic image between their collisions: whether they overlap.
+//
+// The distance of the axes is at least what separates them along any direction m that is not 0:
+//   d |m| >= m . r12 - (L_a / 2) |m . u1| - (L_b / 2) |m . u2|.
+// Here m moves with the rods: as the common normal of two sides, as the normal of one side through
+// an end of the other rod, or as the line through two points. On an interval of time, middles and
+// rates of change of |m|^2 and m . u, in interval arithmetic, bound the right-hand side from below.
+// Other intervals are halved. An overlap is proven by two points of the axes that are nearer than
+// the rods allow. Double decides nearly all of it, and 113 bits the rest.
+#pragma once
+
+#include <optional>
+
+#include "src/audit/pair_flight.h"
+#include "src/audit/relative_motion.h"
+
+namespace needlework::audit {
+
+/// Times s are counted from the later of both records.
+class RodFlight {
+ public:
+  /// `slack` is the uncertainty of times in addition to their resolution.
+  RodFlight(const Needle& first, const Needle& second, const Shift& shift, const Space& space,
+            double slack = 0);
+
+  double contact() const { return contact_; }  ///< distance of the axes at a contact [L]
+  /// By how much the rods may overlap at s, which is what rounding explains: 1e-13 of the diameter,
+  /// and what the numbers of the records do not hold. [L]
+  double limit(double s) const;
+
+  /// Bounds on the distance of the axes at one time, and about its rate of change.
+  struct Distance {
+    double least, most, rate;
+  };
+  Distance at(double s);
+  /// A velocity at which rods that touch may part although they have met, by rounding.
+  double noise_of_rate(double s) const;
+  double speed() const { return speed_; }  ///< bound on relative velocities of points of the axes
+  double rate() const { return speed_ / size_; }  ///< of changes of the pair [1 / time]
+
+  /// The time of an overlap by more than the limit, the first one, if there is any in [from, to].
+  std::optional<double> overlap(double from, double to);
+  /// The first time in [from, to] that is found at which the rods do not overlap; else `to`.
+  double end_of_overlap(double from, double to);
+
+  bool needed_quad() const { return precise_.has_value(); }
+  bool gave_up() const { return gave_up_; }     ///< overlap() has not looked at all of its interval
+  int looked_at() const { return looked_at_; }  ///< number of intervals examined so far
+
+ private:
+  template <class Real>
+  struct Motion {
+    std::array<Flight<Ball<Real>>, 2> flights;
+    std::array<Ball<Real>, 2> delay;
+    Vector<Ball<Real>> r, v;  ///< r12 at s = 0, and its rate of change
+  };
+  struct Stretch {
+    double begin, end;
+  };
+  enum class Verdict { free, overlapping, open };
+  struct Settled {
+    Verdict verdict;
+    bool exact;  ///< the arithmetic has digits enough
+  };
+
+  template <class Real>
+  Motion<Real> motion() const;
+  const Motion<Quad>& in_quad();
+  template <class Real>
+  Settled settle(const Motion<Real>& motion, const Stretch& stretch, double limit) const;
+  double crossing(double from, double to, double limit) const;
+
+  const Needle& first_;
+  const Needle& second_;
+  Vector<double> shift_;
+  Space space_;
+  double slack_, contact_, size_;
+  std::array<double, 2> half_lengths_, omega_, velocity_, delays_;
+  Motion<double> motion_;
+  std::optional<Motion<Quad>> precise_;
+  double distance_ = 0;  ///< of the centres at s = 0
+  double centres_ = 0;   ///< relative velocity of the centres
+  double speed_ = 0;
+  int looked_at_ = 0;
+  bool gave_up_ = false;
+};
+
+}  // namespace needlework::audit

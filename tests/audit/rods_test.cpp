@@ -1,0 +1,176 @@
+// The audit of rods of finite width: it finds nothing wrong with the engine, and all that is
+// planted.
+#include "tests/support/rods.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "src/audit/audit.h"
+#include "tests/support/audit_setup.h"
+#include "tests/support/by_build.h"
+#include "tests/support/runs.h"
+
+namespace needlework::test {
+namespace {
+
+using audit::Findings;
+using audit::Kind;
+
+constexpr int fewer = test::by_build(1, 10);
+
+std::string summary_of(const Findings& findings) {
+  std::string text;
+  for (const Kind kind : audit::kinds) {
+    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
+  }
+  text += "undecided " + std::to_string(findings.undecided) + ", collisions " +
+          std::to_string(findings.collisions) + ", checked " + std::to_string(findings.checked);
+  for (const auto& d : findings.listed) {
+    text += "\n" + std::string(audit::name(d.kind)) + " " + std::to_string(d.time) + " " +
+            std::to_string(d.first) + " " + std::to_string(d.second);
+  }
+  return text;
+}
+
+/// A run of the engine, recorded with all that the audit needs.
+struct RodRun {
+  State initial;
+  std::vector<Happening> happenings;
+  audit::Setup setup;
+  Scene scene;
+  double end = 0;
+
+  RodRun(const Scene& given, double per_rod) : scene(given) {
+    Simulation run(scene);
+    initial = run.copy();
+    setup = audit_setup(scene, run.epoch_length());
+    run.on_happening([&](const Happening& happening) { happenings.push_back(happening); });
+    run.advance(until_collisions(per_rod / fewer));
+    end = run.time();
+  }
+
+  Findings audited() const {
+    audit::Audit audit(initial, setup);
+    audit.check_start(scene, nullptr);
+    for (const Happening& happening : happenings) audit.add(happening);
+    audit.finish(end);
+    return audit.findings();
+  }
+};
+
+TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
+  std::vector<Scene> scenes = {rods_of(150, 5, 0.3), rods_of(60, 5, 0.02), rods_of(100, 0, 0.3),
+                               rods_and_spheres(30, 9), rods_of(60, 100, 4e-4)};
+  Scene& cooling = scenes.emplace_back(rods_of(60, 1, 0.2));
+  cooling.collisions.epsilon = 0.5;
+  cooling.collisions.tc_relative = 1e-3;
+  Scene& mixture = scenes.emplace_back(rods_and_spheres(30, 9));
+  mixture.collisions.tc.reset();
+  mixture.collisions.tc_relative = 1e-2;
+  Scene& walled = scenes.emplace_back(rods_of(60, 2, 0.05));
+  walled.walls = {{.axis = "z", .side = "both", .epsilon = 0.9}};
+  walled.forces.gravity = {0, 0, -1};
+  for (const Scene& scene : scenes) {
+    const RodRun run(scene, 5);
+    const Findings findings = run.audited();
+    EXPECT_TRUE(findings.clean()) << name_of(scene) << ": " << summary_of(findings);
+    EXPECT_EQ(findings.undecided, 0u) << name_of(scene);
+    EXPECT_EQ(findings.contacts, findings.collisions);
+    EXPECT_GT(findings.contacts, 50u / fewer);
+  }
+}
+
+class FalseReportOfRods : public testing::TestWithParam<double> {
+ protected:
+  FalseReportOfRods()
+      : run(rods_of(GetParam() > 0 ? 130 : 50, GetParam(), 0.25), 10),
+        n(run.happenings.size() / 2) {}
+  Collision& victim() { return run.happenings[n].event; }
+  std::uint64_t count(Kind kind) const { return run.audited().count(kind); }
+  template <class Alter>
+  std::uint64_t altered(Kind kind, const Alter& alter) {
+    const Collision kept = victim();
+    alter(victim());
+    const std::uint64_t found = count(kind);
+    victim() = kept;
+    return found;
+  }
+
+  RodRun run;
+  std::size_t n;
+};
+
+TEST_P(FalseReportOfRods, OfACollisionLeftOutIsSeen) {
+  run.happenings.erase(run.happenings.begin() + static_cast<std::ptrdiff_t>(n));
+  EXPECT_GE(count(Kind::missed), 1u);
+}
+
+TEST_P(FalseReportOfRods, OfACollisionThatWasNotIsSeen) {
+  Happening invented = run.happenings[n];
+  invented.event.offset -= 1e-4;
+  invented.event.time -= 1e-4;
+  while (n > 0 && invented.event.time < run.happenings[n - 1].event.time) --n;
+  run.happenings.insert(run.happenings.begin() + static_cast<std::ptrdiff_t>(n), invented);
+  const Findings findings = run.audited();
+  EXPECT_GE(findings.count(Kind::spurious) + findings.count(Kind::early), 1u);
+  EXPECT_GE(findings.count(Kind::wrong_rule), 1u);
+}
+
+// Rods that have just collided part.
+TEST_P(FalseReportOfRods, OfACollisionAgainIsSeen) {
+  Happening again = run.happenings[n];
+  again.event.offset += 0x1p-50;
+  run.happenings.insert(run.happenings.begin() + static_cast<std::ptrdiff_t>(n) + 1, again);
+  EXPECT_GE(count(Kind::spurious), 1u);
+}
+
+TEST_P(FalseReportOfRods, OfTheTimeIsSeen) {
+  EXPECT_GE(altered(Kind::late, [](Collision& c) { c.offset += 1e-9; }), 1u);
+  EXPECT_GE(altered(Kind::early, [](Collision& c) { c.offset -= 1e-9; }), 1u);
+  // By what rounding does not explain.
+  EXPECT_GE(altered(Kind::late, [](Collision& c) { c.offset += 4e-12; }), 1u);
+}
+
+TEST_P(FalseReportOfRods, OfAnyNumberIsSeen) {
+  const auto wrong = [&](auto&& alter) { return altered(Kind::wrong_rule, alter); };
+  EXPECT_EQ(count(Kind::wrong_rule), 0u);
+  EXPECT_EQ(wrong([](Collision& c) { c.arm_first += 1e-10; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.arm_second -= 1e-10; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.sin_angle += 1e-10; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.shift[0] += 1; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.normal_velocity *= 1 + 1e-10; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.impulse[1] += 1e-10; }), 1u);
+  EXPECT_EQ(wrong([](Collision& c) { c.energy_change += 1e-10; }), 1u);
+  EXPECT_GE(wrong([](Collision& c) { c.after[0].position[2] += 1e-10; }), 1u);
+  EXPECT_GE(wrong([](Collision& c) { c.after[1].velocity[0] += 1e-10; }), 1u);
+  EXPECT_GE(wrong([](Collision& c) { c.after[0].angular_velocity[1] += 1e-10; }), 1u);
+}
+
+TEST_P(FalseReportOfRods, OfOtherRodsIsSeen) {
+  const auto found = [&](Kind kind, auto&& alter) {
+    std::vector<Species> species = run.setup.composition.species();
+    alter(species[0]);
+    RodRun other = run;
+    other.setup.composition = Composition(species, {});
+    return other.audited().count(kind);
+  };
+  EXPECT_GT(found(Kind::late, [](Species& rod) { rod.diameter *= 1 + 1e-6; }), 0u);
+  // Smaller spheres are not even within reach where they have collided.
+  const Kind too_soon = GetParam() == 0 ? Kind::spurious : Kind::early;
+  EXPECT_GT(found(too_soon, [](Species& rod) { rod.diameter *= 1 - 1e-6; }), 0u);
+  if (GetParam() == 0) return;
+  EXPECT_GT(found(Kind::wrong_rule, [](Species& rod) { rod.k *= 1 + 1e-8; }), 0u);
+  EXPECT_GT(found(Kind::missed, [](Species& rod) { rod.length *= 1.01; }), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(SpheresAndRods, FalseReportOfRods, testing::Values(0.0, 5.0),
+                         [](const auto& info) {
+                           return info.param == 0 ? std::string("Spheres") : std::string("Rods");
+                         });
+
+}  // namespace
+}  // namespace needlework::test
