@@ -179,7 +179,6 @@ TEST(Rods, SpheresDoNotTurnWhenDriven) {
       {.name = "balls", .count = 20, .length = 0, .mass = 2, .t_rot = 0, .diameter = 1.2},
       {.name = "rods", .count = 20, .length = 2, .diameter = 0.8}};
   scene.needles.box = {8, 8, 8};
-  scene.forces.gravity = {0, 0, -1};
   Scene::Wall floor, ceiling;
   floor.axis = ceiling.axis = "z";
   floor.side = "low";

@@ -167,14 +167,14 @@ TEST(DrawnRods, CollideAndCoolAtTheExactRates) {
 }
 
 TEST(DrawnRods, CollideAndCoolAtTheExactRatesForEveryShape) {
-  expect_exact_start({drawn_rods("spheres", 0, 1, 1, 0, 20000)}, 1e-3, 200);
-  expect_exact_start({drawn_rods("rods", 1, 1, 1, 0.4, 20000)}, 1e-3, 200);
-  expect_exact_start({drawn_rods("rods", 5, 1, 1, 0.4, 20000)}, 1e-3, 400);
-  expect_exact_start({drawn_rods("rods", 100, 1, 1, 0.4, 20000)}, 5e-6, 200);
+  expect_exact_start({drawn_rods("spheres", 0, 1, 1, 0, 20000)}, 1e-3, 100);
+  expect_exact_start({drawn_rods("rods", 1, 1, 1, 0.4, 20000)}, 1e-3, 100);
+  expect_exact_start({drawn_rods("rods", 5, 1, 1, 0.4, 20000)}, 1e-3, 150);
+  expect_exact_start({drawn_rods("rods", 100, 1, 1, 0.4, 20000)}, 5e-6, 100);
   expect_exact_start(
-      {drawn_rods("rods", 3, 1, 1, 0.4, 8000), drawn_rods("balls", 0, 1.5, 2, 0, 8000)}, 1e-3, 300);
+      {drawn_rods("rods", 3, 1, 1, 0.4, 8000), drawn_rods("balls", 0, 1.5, 2, 0, 8000)}, 1e-3, 150);
   expect_exact_start({drawn_rods("a", 3, 1, 1, 0.4, 8000), drawn_rods("b", 1, 0.5, 0.4, 1.7, 8000)},
-                     1e-3, 300);
+                     1e-3, 150);
 }
 
 // Elastic: by the flux of pairs to contact, V_n^2 / (2 M_nn T) = |V_n dp| / (4 T) has the density
