@@ -10,14 +10,8 @@ set_tests_properties(
   Failing.AnyWriteMayFindTheDiskFull
   # the first of these seeds, below
   Seeds/Borders.AreDecidedToTheLastBit/1
-  Seeds/Borders.AreDecidedToTheLastBit/2
-  Seeds/Borders.AreDecidedToTheLastBit/3
-  Seeds/Borders.AreDecidedToTheLastBit/4
-  Seeds/Borders.AreDecidedToTheLastBit/5
   Seeds/Borders.AreDecidedToTheLastBit/6
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/1
-  Seeds/ManyThroughOnePointTogether.KeepTheirSides/2
-  Seeds/ManyThroughOnePointTogether.KeepTheirSides/3
   # other scenes of ParallelRun
   Scenes/ParallelRun.IsThatOfOneThread/rare
   # Walls.KeepAnAccountOfTheEnergyThatCloses
@@ -26,8 +20,6 @@ set_tests_properties(
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   # RodPressure.IsThatOfTheVirialSeries
   RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
-  # RodPressure.OfDenseFluidsIsThatOfOthers
-  RodPressure.OfDenseFluidsIsThatOfOthersToSomeThousandths
   # DrawnRods.CollideAndCoolAtTheExactRates
   DrawnRods.CollideAndCoolAtTheExactRatesForEveryShape
   # RodContacts.HaveExponentialEnergiesAtEveryDensity
@@ -39,10 +31,20 @@ foreach(family thermal_k6 thermal_k2 parallel tip grazing just_collided fast_spi
                grazing_to_rounding)
   set_tests_properties(Families/PredictOracle.AgreesOnEveryPairOfMany/${family} PROPERTIES LABELS long)
 endforeach()
-# DiluteRods.CollideAtTheExactRates
+# Minutes each, or more seeds of the same: slow. DiluteRods.CollideAtTheExactRates,
+# RodPressure.OfDenseFluidsIsThatOfOthers and the first seeds are in ./test.sh or above.
+set_tests_properties(
+  Seeds/Borders.AreDecidedToTheLastBit/2
+  Seeds/Borders.AreDecidedToTheLastBit/3
+  Seeds/Borders.AreDecidedToTheLastBit/4
+  Seeds/Borders.AreDecidedToTheLastBit/5
+  Seeds/ManyThroughOnePointTogether.KeepTheirSides/2
+  Seeds/ManyThroughOnePointTogether.KeepTheirSides/3
+  RodPressure.OfDenseFluidsIsThatOfOthersToSomeThousandths
+  PROPERTIES LABELS slow)
 foreach(rods spheres L1 L5 L100 unequal)
   set_tests_properties(Rods/DiluteRods.CollideAtTheExactRatesToThreeThousandths/${rods}
-                       PROPERTIES LABELS long)
+                       PROPERTIES LABELS slow)
 endforeach()
 # InitialRates of other k, rules and initial temperatures
 foreach(gas Smooth:n0p72_k6_epsilon0p8_beta_m1_q0 Rough:n0p72_k2_epsilon1_beta_m0p5_q3
