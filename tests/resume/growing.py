@@ -42,12 +42,12 @@ def main():
                 assert process.poll() is None, "the run has ended"
                 time.sleep(0.05)
             reads, end = [], time.monotonic() + SECONDS
-            while time.monotonic() < end:
+            while time.monotonic() < end or len(reads) < 3:
                 reads.append(contents(file, open_growing))
                 code, _, message = command(program, "report", file, "--force", "--out", page)
                 assert code == 0, message
             openings, end = 0, time.monotonic() + SECONDS / 2
-            while time.monotonic() < end:
+            while time.monotonic() < end or openings <= 500:
                 open_growing(file).close()
                 openings += 1
             assert process.poll() is None, "the run has ended"
