@@ -11,6 +11,7 @@
 
 #include "src/audit/audit.h"
 #include "tests/support/audit_setup.h"
+#include "tests/support/audited.h"
 #include "tests/support/by_build.h"
 #include "tests/support/runs.h"
 
@@ -21,20 +22,6 @@ using audit::Findings;
 using audit::Kind;
 
 constexpr int fewer = test::by_build(1, 10);
-
-std::string summary_of(const Findings& findings) {
-  std::string text;
-  for (const Kind kind : audit::kinds) {
-    text += std::string(audit::name(kind)) + " " + std::to_string(findings.count(kind)) + ", ";
-  }
-  text += "undecided " + std::to_string(findings.undecided) + ", collisions " +
-          std::to_string(findings.collisions) + ", checked " + std::to_string(findings.checked);
-  for (const auto& d : findings.listed) {
-    text += "\n" + std::string(audit::name(d.kind)) + " " + std::to_string(d.time) + " " +
-            std::to_string(d.first) + " " + std::to_string(d.second);
-  }
-  return text;
-}
 
 /// A run of the engine, recorded with all that the audit needs.
 struct RodRun {
@@ -77,7 +64,7 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   for (const Scene& scene : scenes) {
     const RodRun run(scene, 5);
     const Findings findings = run.audited();
-    EXPECT_TRUE(findings.clean()) << name_of(scene) << ": " << summary_of(findings);
+    EXPECT_TRUE(findings.clean()) << name_of(scene) << ": " << listed(findings);
     EXPECT_EQ(findings.undecided, 0u) << name_of(scene);
     EXPECT_EQ(findings.contacts, findings.collisions);
     EXPECT_GT(findings.contacts, 50u / fewer);

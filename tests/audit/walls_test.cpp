@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "src/audit/audit.h"
+#include "tests/support/audited.h"
 
 namespace needlework::test {
 namespace {
@@ -168,15 +169,6 @@ OneNeedle vibrated() {
   return out;
 }
 
-std::string text_of(const Findings& findings) {
-  std::string text;
-  for (const auto& each : findings.listed) {
-    text += std::string(audit::name(each.kind)) + " at " + std::to_string(each.time) + ", wall " +
-            std::to_string(each.second) + "\n";
-  }
-  return text;
-}
-
 TEST(AuditOfWalls, FindsNothingWrongWithNeedlesBetweenWalls) {
   OneNeedle straight;
   straight.walls = {wall("low"), wall("high")};
@@ -186,7 +178,7 @@ TEST(AuditOfWalls, FindsNothingWrongWithNeedlesBetweenWalls) {
   for (const OneNeedle& needle : {straight, falling, turning(), vibrated()}) {
     const int hits = needle.walls[0].epsilon == 0.5 ? 6 : 40;  // it comes to rest
     const Findings findings = made(needle, hits).audited();
-    EXPECT_TRUE(findings.clean()) << text_of(findings);
+    EXPECT_TRUE(findings.clean()) << listed(findings);
     EXPECT_EQ(findings.hits, static_cast<std::uint64_t>(hits));
     EXPECT_GE(findings.at_walls, static_cast<std::uint64_t>(hits));
   }
@@ -277,7 +269,7 @@ TEST(AuditOfWalls, FollowsNeedlesThroughAThermostat) {
   start.happenings = needle.happenings;
   start.end = static_cast<double>(needle.time);
   const Findings findings = start.audited();
-  EXPECT_TRUE(findings.clean()) << text_of(findings);
+  EXPECT_TRUE(findings.clean()) << listed(findings);
   EXPECT_EQ(findings.draws, 1u);
   EXPECT_EQ(findings.hits, 5u);
   start.happenings[1].event.after[0].orientation[0] += 1e-6;
