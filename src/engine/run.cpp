@@ -303,8 +303,9 @@ ReplacedRecords Run::kick() {
 }
 
 bool Run::nothing_can_happen() const {
-  if (kicks && gas.size() > 0) return false;
-  if (!sources.empty() && gas.size() > 0) {
+  if (gas.size() == 0) return true;
+  if (kicks) return false;
+  if (!sources.empty()) {
     const auto sets_in_motion = [](const auto& source) {
       return std::isfinite(source->usual_time());
     };

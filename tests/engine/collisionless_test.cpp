@@ -92,6 +92,13 @@ TEST(Collisionless, TimePassesWithoutEvents) {
   }
 }
 
+TEST(Collisionless, TimePassesWithoutNeedlesBetweenWalls) {
+  Scene scene = test::scene_of(0, 4);
+  scene.walls = {{.axis = "z", .side = "both"}};
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.advance(until_time(1)), Stop::time);
+}
+
 TEST(Collisionless, OneNeedleThatDiffersIsEnough) {
   const Scene scene = test::scene_of(500, 8);
   for (const int differing : {0, 250, 499}) {
