@@ -339,6 +339,24 @@ NEEDLEWORK_API int needlework_get_species_pair(needlework_simulation* simulation
 NEEDLEWORK_API int needlework_get_species_of_needles(needlework_simulation* simulation,
                                                      uint8_t* species);
 
+/* ---- Rods of finite width -------------------------------------------------------------------- */
+
+/* Room and pressure of rods of finite width, or of spheres. Of needles, packing fraction and virial
+ * are 0. */
+typedef struct needlework_rods {
+  double packing_fraction; /* volume of all rods over that of the box */
+  double virial; /* sum of r12 . dp over the collisions since the start, r12 from the second centre
+                    to the first and dp the impulse on the first */
+  double pressure; /* (N t_tr + virial / (3 t)) / V at the present time t; NaN at the start */
+} needlework_rods;
+
+/* Copies what is known of rods at the present time. [handle] */
+NEEDLEWORK_API int needlework_get_rods(needlework_simulation* simulation, needlework_rods* rods);
+/* Writes the diameter of a species, 0 of needles, and its moment of inertia about an axis through
+ * the centre and normal to its own, 0 of spheres (NULL: not wanted). [handle] */
+NEEDLEWORK_API int needlework_get_species_shape(needlework_simulation* simulation, size_t index,
+                                                double* diameter, double* inertia);
+
 /* ---- Walls ----------------------------------------------------------------------------------- */
 
 /* Hits on one wall since the start. Walls are indexed in the order of the scene, where "both"
@@ -441,6 +459,20 @@ typedef struct needlework_pairs {
  * names the pair, and the results before it are written. [any] */
 NEEDLEWORK_API int needlework_predict(const needlework_pairs* pairs, double* time, double* s12,
                                       double* s21, needlework_error* error);
+
+/* What the bodies of each pair measure; arrays [count]. With diameters they are rods of finite
+ * width, or spheres where the length is 0, which meet when their axes are as near each other as
+ * half the sum of both diameters. */
+typedef struct needlework_pair_sizes {
+  const double *length1, *length2;     /* of the axes, without the caps; NULL: all 1 */
+  const double *diameter1, *diameter2; /* 0: a needle; both of a pair or none. NULL: all 0 */
+} needlework_pair_sizes;
+
+/* needlework_predict() for bodies of any size; NULL: needles of length 1. Rods that overlap are
+ * NEEDLEWORK_INPUT. [any] */
+NEEDLEWORK_API int needlework_predict_with_sizes(const needlework_pairs* pairs,
+                                                 const needlework_pair_sizes* sizes, double* time,
+                                                 double* s12, double* s21, needlework_error* error);
 
 /* ---- Kinetic theory, for needles of length 1 and mass 1 -------------------------------------- */
 

@@ -68,6 +68,16 @@ module needlework
     type(c_ptr) :: horizon = c_null_ptr, skip = c_null_ptr, accuracy = c_null_ptr
   end type
 
+  ! Each is c_loc() of an array, where it is given.
+  type, bind(c) :: needlework_pair_sizes
+    type(c_ptr) :: length1 = c_null_ptr, length2 = c_null_ptr
+    type(c_ptr) :: diameter1 = c_null_ptr, diameter2 = c_null_ptr
+  end type
+
+  type, bind(c) :: needlework_rods
+    real(c_double) :: packing_fraction, virial, pressure
+  end type
+
   type, bind(c) :: needlework_gas
     real(c_double) :: k = 6, epsilon = 1, beta = -1
   end type
@@ -390,6 +400,30 @@ module needlework
       type(needlework_pairs), intent(in) :: pairs
       real(c_double), intent(inout), optional :: time(*), s12(*), s21(*)
       type(needlework_error), intent(out), optional :: error
+    end function
+
+    integer(c_int) function needlework_predict_with_sizes(pairs, sizes, time, s12, s21, error) &
+        bind(c)
+      import :: c_int, c_double, needlework_pairs, needlework_pair_sizes, needlework_error
+      type(needlework_pairs), intent(in) :: pairs
+      type(needlework_pair_sizes), intent(in), optional :: sizes
+      real(c_double), intent(inout), optional :: time(*), s12(*), s21(*)
+      type(needlework_error), intent(out), optional :: error
+    end function
+
+    integer(c_int) function needlework_get_rods(simulation, rods) bind(c)
+      import :: c_ptr, c_int, needlework_rods
+      type(c_ptr), value :: simulation
+      type(needlework_rods), intent(inout) :: rods
+    end function
+
+    ! `index` counts from 0.
+    integer(c_int) function needlework_get_species_shape(simulation, index, diameter, inertia) &
+        bind(c)
+      import :: c_ptr, c_int, c_double, c_size_t
+      type(c_ptr), value :: simulation
+      integer(c_size_t), value :: index
+      real(c_double), intent(inout), optional :: diameter, inertia
     end function
 
     integer(c_int) function needlework_ratio(gas, ratio, error) bind(c)

@@ -29,15 +29,21 @@ void require_vectors(const needlework_pairs& p) {
   require(p.horizon, "pairs->horizon");
 }
 
-FirstContact contact_of(const needlework_pairs& p, std::size_t n, const Accuracy& accuracy) {
+FirstContact contact_of(const needlework_pairs& p, const needlework_pair_sizes& sizes,
+                        std::size_t n, const Accuracy& accuracy) {
+  const auto size = [n](const double* sizes, double usual) { return sizes ? sizes[n] : usual; };
   const FreeNeedle first{.position = vector_at(p.r1, n),
                          .orientation = vector_at(p.u1, n),
                          .velocity = vector_at(p.v1, n),
-                         .angular_velocity = vector_at(p.w1, n)};
+                         .angular_velocity = vector_at(p.w1, n),
+                         .length = size(sizes.length1, 1),
+                         .diameter = size(sizes.diameter1, 0)};
   const FreeNeedle second{.position = vector_at(p.r2, n),
                           .orientation = vector_at(p.u2, n),
                           .velocity = vector_at(p.v2, n),
-                          .angular_velocity = vector_at(p.w2, n)};
+                          .angular_velocity = vector_at(p.w2, n),
+                          .length = size(sizes.length2, 1),
+                          .diameter = size(sizes.diameter2, 0)};
   try {
     return predict(first, second, p.horizon[n], p.skip && p.skip[n], accuracy);
   } catch (const InputError& error) {
@@ -80,12 +86,18 @@ int needlework_has(const char* capability) {
 
 int needlework_predict(const needlework_pairs* pairs, double* time, double* s12, double* s21,
                        needlework_error* error) {
+  return needlework_predict_with_sizes(pairs, nullptr, time, s12, s21, error);
+}
+
+int needlework_predict_with_sizes(const needlework_pairs* pairs, const needlework_pair_sizes* sizes,
+                                  double* time, double* s12, double* s21, needlework_error* error) {
   return c::guarded(error, [&] {
     c::require(pairs, "pairs");
     if (pairs->count > 0) c::require_vectors(*pairs);
     const Accuracy accuracy = c::accuracy_named(pairs->accuracy);
+    const needlework_pair_sizes of = sizes ? *sizes : needlework_pair_sizes{};
     for (std::size_t n = 0; n < pairs->count; ++n) {
-      const FirstContact contact = c::contact_of(*pairs, n, accuracy);
+      const FirstContact contact = c::contact_of(*pairs, of, n, accuracy);
       if (time) time[n] = contact.time;
       if (s12) s12[n] = contact.arm_first;
       if (s21) s21[n] = contact.arm_second;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "src/c/handle.h"
+#include "src/runs/rod_totals.h"
 
 using namespace needlework;
 
@@ -41,6 +42,27 @@ int needlework_get_species(needlework_simulation* simulation, size_t index,
                 .k = body.k,
                 .t_tr = totals.t_tr,
                 .t_rot = totals.t_rot};
+  });
+}
+
+int needlework_get_species_shape(needlework_simulation* simulation, size_t index, double* diameter,
+                                 double* inertia) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    const Composition& composition = self.run.simulation().composition();
+    require_species(composition, "index", index);
+    if (diameter) *diameter = composition[index].diameter;
+    if (inertia) *inertia = composition[index].inertia();
+  });
+}
+
+int needlework_get_rods(needlework_simulation* simulation, needlework_rods* rods) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(rods, "rods");
+    const Simulation& source = self.run.simulation();
+    const runs::RodTotals totals = runs::rod_totals(self.run.scene(), source);
+    *rods = {.packing_fraction = totals.packing_fraction,
+             .virial = totals.virial,
+             .pressure = totals.pressure};
   });
 }
 

@@ -27,12 +27,14 @@ Accuracy level(const std::string& name) {
   throw InputError("accuracy = \"" + name + "\": expected \"fast\", \"standard\" or \"rigorous\"");
 }
 
-/// States of one needle of each pair, [M][3] each.
+/// States of one needle of each pair, [M][3] each, and its sizes, [M].
 struct Needles {
   Rows position, orientation, velocity, angular_velocity;
+  Column length, diameter;
 
   FreeNeedle operator[](std::size_t i) const {
-    return {row(position, i), row(orientation, i), row(velocity, i), row(angular_velocity, i)};
+    return {row(position, i),         row(orientation, i), row(velocity, i),
+            row(angular_velocity, i), length.data()[i],    diameter.data()[i]};
   }
 };
 
@@ -43,10 +45,13 @@ void look_at_signals() {
 
 // Arrays time, s12, s21 [M].
 py::tuple predict_pairs(Rows r1, Rows u1, Rows v1, Rows w1, Rows r2, Rows u2, Rows v2, Rows w2,
+                        Column length1, Column length2, Column diameter1, Column diameter2,
                         const Column& horizon, const Flags& skip, const std::string& accuracy) {
   const Accuracy settings = level(accuracy);
-  const Needles first{std::move(r1), std::move(u1), std::move(v1), std::move(w1)};
-  const Needles second{std::move(r2), std::move(u2), std::move(v2), std::move(w2)};
+  const Needles first{std::move(r1), std::move(u1),      std::move(v1),
+                      std::move(w1), std::move(length1), std::move(diameter1)};
+  const Needles second{std::move(r2), std::move(u2),      std::move(v2),
+                       std::move(w2), std::move(length2), std::move(diameter2)};
   const auto count = static_cast<std::size_t>(horizon.size());
   Column time(horizon.size()), s12(horizon.size()), s21(horizon.size());
   double* const times = time.mutable_data();

@@ -115,6 +115,18 @@ std::optional<std::vector<std::uint8_t>> species_in(const Json& request, const c
   return rows_in<std::uint8_t>(request, field, "one byte");
 }
 
+std::optional<std::vector<double>> numbers_in(const Json& request, const char* field,
+                                              std::size_t count) {
+  const Json* value = find(request, field);
+  if (!value) return std::nullopt;
+  if (value->is_number()) return std::vector<double>(count, value->get<double>());
+  if (!value->is_string()) throw wrong(field, *value, "a number, or an array in base64");
+  auto numbers = rows_in<double>(request, field, "one number of 8 bytes");
+  if (numbers->size() != count)
+    throw RequestError(fmt::format("{}: {} numbers: expected {}", field, numbers->size(), count));
+  return numbers;
+}
+
 void require_only(const Json& request, std::initializer_list<const char*> fields) {
   for (const auto& [name, value] : request.items()) {
     if (name == "do" || name == "id") continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -31,6 +32,9 @@ std::optional<std::vector<std::array<std::int32_t, 3>>> images_in(const Json& re
                                                                   const char* field);
 std::optional<std::vector<std::uint32_t>> ids_in(const Json& request, const char* field);
 std::optional<std::vector<std::uint8_t>> species_in(const Json& request, const char* field);
+/// One number for each of `count` pairs: an array in base64, or a number that is that of all.
+std::optional<std::vector<double>> numbers_in(const Json& request, const char* field,
+                                              std::size_t count);
 
 /// Throws RequestError for a field that is neither "do" nor "id" nor one of these.
 void require_only(const Json& request, std::initializer_list<const char*> fields);

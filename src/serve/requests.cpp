@@ -21,6 +21,7 @@
 #include "src/serve/arrays.h"
 #include "src/serve/collisions.h"
 #include "src/serve/fields.h"
+#include "src/serve/prediction.h"
 #include "src/serve/shallow_json.h"
 #include "src/serve/species_json.h"
 
@@ -206,7 +207,8 @@ const std::map<std::string, Requests::Handler> Requests::handlers = {
     {"resume", &Requests::resume},
     {"checkpoint", &Requests::checkpoint},
     {"sample", &Requests::sample},
-    {"data", &Requests::data}};
+    {"data", &Requests::data},
+    {"predict", &Requests::predict}};
 
 Json Requests::answer(const Json& request, const Connection& connection) {
   const std::optional<std::string> name = text_in(request, "do");
@@ -374,6 +376,8 @@ Json Requests::velocities(const Json& request, const Connection&) {
   run.set_velocities(*velocity, *angular_velocity);
   return summary_of(run);
 }
+
+Json Requests::predict(const Json& request, const Connection&) { return first_contacts(request); }
 
 Json Requests::checkpoint(const Json& request, const Connection&) {
   require_only(request, {"simulation"});

@@ -48,6 +48,7 @@ class Requests {
   Json velocities(const Json& request, const Connection&);
   Json sample(const Json& request, const Connection&);
   Json data(const Json& request, const Connection&);
+  Json predict(const Json& request, const Connection&);
   Json close(const Json& request, const Connection&);
 
   runs::PreparedRun& run_of(const Json& request);

@@ -33,10 +33,12 @@ stopped by 1
 events counted: T
 counters have names: T
 effects: elastic
+needles have no width 0.0 0.0 0.0833
 data: 0 3 T
 named bytes
 data: notes = {"a": expected JSON in UTF-8
 first contact 2.0000 0.2500
+of a rod and a sphere 1.3876 0.2500
 theory T  1.0  0.0T
 """
 

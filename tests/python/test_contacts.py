@@ -25,6 +25,22 @@ class Contacts(unittest.TestCase):
         self.assertAlmostEqual(s21, -0.1, places=14)
         self.assertEqual(np.shape(time), ())
 
+    def test_rods_meet_half_the_sum_of_their_diameters_apart(self):
+        falling = [REST, X, REST, REST, [0.25, 0.125, 2], Y, -Z, REST, 10]
+        contacts = predict(*falling, length1=3, length2=[1, 0], diameter1=0.5, diameter2=0.75)
+        # The sphere falls onto the side of the rod, 0.125 from its axis.
+        np.testing.assert_allclose(contacts.time, [2 - 0.625, 2 - np.sqrt(0.375)], rtol=1e-15)
+        np.testing.assert_allclose(contacts.s12, 0.25)
+        np.testing.assert_array_equal(contacts.s21, [-0.125, 0])
+        with self.assertRaisesRegex(InputError, "^pair 1: the rods overlap: their axes are 2 "):
+            predict(*falling, diameter1=1, diameter2=[1, 4])
+        with self.assertRaisesRegex(InputError, "^pair 0: diameters 1 and 0: expected both"):
+            predict(*falling, diameter1=1)
+        with self.assertRaisesRegex(InputError, "^length2: expected an array of numbers"):
+            predict(*falling, length2="long")
+        with self.assertRaisesRegex(InputError, r"length1 \(3,\).*expected shapes that can be"):
+            predict(*falling, length1=[1, 2, 3], diameter2=[1, 2])
+
     def test_no_contact_is_infinity_and_nan(self):
         time, s12, s21 = predict(REST, X, REST, REST, Z, Y, Z, REST, 10)
         self.assertEqual(time, np.inf)
@@ -51,13 +67,23 @@ class Contacts(unittest.TestCase):
         columns = [rng.normal(size=(300, 3)) for _ in range(8)]
         for place in (0, 4):  # near each other, often
             columns[place] *= 0.2
-        for accuracy in ("fast", "standard", "rigorous"):
-            ours = predict(*columns, 5.0, accuracy=accuracy)
+        sizes = rng.uniform(0.1, 0.4, size=(300, 4))
+        sizes[::4, 1] = 0  # spheres
+        apart = columns[0] + 3 * rng.permutation(np.eye(3))[0]
+        approaching = columns[2] + 0.6 * (columns[0] - apart) + 0.3 * columns[6]
+        rods = {name: sizes[:, n] for n, name in
+                enumerate(("length1", "length2", "diameter1", "diameter2"))}
+        for accuracy, wide in (("fast", False), ("standard", False), ("rigorous", False),
+                               ("standard", True)):
+            if wide:
+                columns[4], columns[6] = apart, approaching
+            ours = predict(*columns, 5.0, accuracy=accuracy, **(rods if wide else {}))
             with tempfile.TemporaryDirectory() as folder:
                 path = Path(folder, "pairs.csv")
                 path.write_text("".join(
                     ",".join([str(i), "random", "5.0", *(repr(float(x)) for column in columns
-                                                         for x in column[i]), "0"]) + "\n"
+                                                         for x in column[i]), "0",
+                              *(repr(float(x)) for x in sizes[i] if wide)]) + "\n"
                     for i in range(300)))
                 printed = subprocess.run([PROGRAM, "predict", path, "--accuracy", accuracy],
                                          check=True, capture_output=True, text=True).stdout

@@ -6,12 +6,15 @@ program all
   type(c_ptr) :: gas
   type(needlework_limits) :: limits
   type(needlework_pairs) :: pairs
+  type(needlework_pair_sizes) :: sizes
+  type(needlework_rods) :: rods
   type(needlework_gas) :: theory
   type(needlework_error) :: error
   character(kind=c_char), target :: notes(4) = ['{', '"', 'a', '"'], more(2) = [':', '}']
   character(kind=c_char), target :: bytes(3) = [achar(0), achar(27), achar(10)], copy(8)
   real(c_double), target :: r1(3, 1), u1(3, 1), rest(3, 1), r2(3, 1), u2(3, 1), v2(3, 1), horizon(1)
-  real(c_double) :: box(3), time(1), s12(1), ratio, t_tr(2), t_rot(2)
+  real(c_double), target :: length2(1), width(1)
+  real(c_double) :: box(3), time(1), s12(1), ratio, t_tr(2), t_rot(2), diameter, inertia
   integer(c_int64_t) :: events
   integer(c_size_t) :: length
   integer(c_int) :: stopped, kind
@@ -44,6 +47,10 @@ program all
   print '(a, l1)', 'counters have names: ', c_associated(needlework_counter_name(0_c_size_t))
   print '(2a)', 'effects: ', needlework_text(needlework_setting(gas, 'effects' // c_null_char))
 
+  call require(needlework_get_rods(gas, rods))
+  call require(needlework_get_species_shape(gas, 0_c_size_t, diameter, inertia))
+  print '(a, 2f4.1, f7.4)', 'needles have no width', rods%packing_fraction, diameter, inertia
+
   call require(needlework_sample(gas, 1_c_int))
   call require(needlework_set_data(gas, 'bytes' // c_null_char, needlework_data_bytes, c_loc(bytes), &
                                    3_c_size_t))
@@ -74,6 +81,11 @@ program all
     horizon=c_loc(horizon))
   if (needlework_predict(pairs, time, s12) /= needlework_ok) stop 6
   print '(a, 2f7.4)', 'first contact', time, s12
+  length2 = 0
+  width = 0.625d0
+  sizes = needlework_pair_sizes(length2=c_loc(length2), diameter1=c_loc(width), diameter2=c_loc(width))
+  if (needlework_predict_with_sizes(pairs, sizes, time, s12) /= needlework_ok) stop 10
+  print '(a, 2f7.4)', 'of a rod and a sphere', time, s12
 
   theory = needlework_gas(k=6, epsilon=0.8d0, beta=-1)
   if (needlework_ratio(theory, ratio) /= needlework_ok) stop 7
