@@ -103,6 +103,10 @@ def _theory(series: Series, gas: Values, by_species: Values | None) -> tuple[np.
         share = gas.counts / gas.count
         return times, Values({"energy": curve.energy, "t_tr": curve.t_tr @ share,
                               "t_rot": curve.t_rot @ share})
+    if "diameter" in gas:
+        curve = theory.mixture_cooling(gas, series.t_tr[0], series.t_rot[0], times)
+        return times, Values({"energy": curve.energy, "t_tr": curve.t_tr[:, 0],
+                              "t_rot": curve.t_rot[:, 0]})
     # Needles of length L and mass m collide as often as those of length 1 and mass 1 at the
     # density n L^2 / sqrt(m).
     density = gas.count / np.prod(gas.box) * gas.length**2 / np.sqrt(gas.mass)

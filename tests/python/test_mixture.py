@@ -210,6 +210,29 @@ class Theory(unittest.TestCase):
         with self.assertRaisesRegex(InputError, "length = 0: .* or a diameter > 0"):
             theory.mixture_rates({**self.GAS, "length": 0}, 1, 1)
 
+    def test_gas_of_rods_has_their_diameter(self):
+        # The theory of needles would be another one.
+        bodies = ([{"name": "rod", "count": 20, "length": 2, "diameter": 0.4}],
+                  [{"name": "rod", "count": 20, "length": 2, "diameter": 0.4},
+                   {"name": "ball", "count": 10, "length": 0, "diameter": 0.6}])
+        with tempfile.TemporaryDirectory() as folder:
+            for species in bodies:
+                file = Path(folder, f"{len(species)}.h5")
+                with needlework.Simulation({"needles": {"box": 8}, "species": species,
+                                            "output": {"file": str(file)}}) as sim:
+                    sim.run(time=0.1)
+                    gas = sim.gas
+                with needlework.read(file) as run:
+                    recorded = run.gas
+                given = {"box": [8, 8, 8], "counts": [each["count"] for each in species],
+                         **{name: [each[name] for each in species]
+                            for name in ("length", "diameter")}}
+                expected = theory.mixture_rates(given, 1, 1).collisions
+                for found in (gas, recorded):
+                    np.testing.assert_allclose(found.diameter, given["diameter"])
+                    np.testing.assert_allclose(theory.mixture_rates(found, 1, 1).collisions,
+                                               expected, rtol=1e-12)
+
     def test_a_diameter_makes_rods(self):
         for length, diameter, rate in ((0, 1, 7.0898154), (5, 1, 91.75811), (2.5, 0.5, 22.939528)):
             rods = {"counts": 100000, "box": 1000, "length": length, "diameter": diameter}
