@@ -20,6 +20,9 @@ set_tests_properties(
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   # RodPressure.IsThatOfTheVirialSeries
   RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
+  # the same of 6 needles
+  Needles/FiniteCount.RateAndTemperaturesAreExact/24
+  Needles/FiniteCount.RateAndTemperaturesAreExact/24_between_walls
   # DrawnRods.CollideAndCoolAtTheExactRates
   DrawnRods.CollideAndCoolAtTheExactRatesForEveryShape
   # RodContacts.HaveExponentialEnergiesAtEveryDensity

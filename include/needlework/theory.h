@@ -44,7 +44,10 @@ double collision_rate(double density, Temperatures temperatures, double k);
 /// The elastic equilibrium collision rate of one needle, for N needles with zero momentum and
 /// fixed energy in a volume V: density (N - 1) / V, temperature 2 E_total / (5 N - 3), times the
 /// microcanonical factor sqrt(D/2) Gamma(D/2) / Gamma((D+1)/2), D = 5 N - 3. `count` >= 2.
-double equilibrium_rate(double count, double volume, double total_energy, double k);
+/// `conserved` is the number of components of the momentum that are conserved, 0 to 3, which is in
+/// the place of that 3: walls leave those along the periodic axes alone.
+double equilibrium_rate(double count, double volume, double total_energy, double k,
+                        int conserved = 3);
 
 /// d(T_tr, T_rot) / d tau at this instant, with tau = gamma t and gamma = (2/3) sqrt(pi) n. Exact
 /// for Gaussian velocities. Either temperature may be 0. In an elastic gas the energy 3/2 T_tr +
@@ -143,9 +146,9 @@ double second_virial(const Composition& composition);
 /// Collisions of each two species per unit time in elastic equilibrium, by Composition::pair_index,
 /// of needles with zero momentum and this energy of all in a volume: the rates at the temperature
 /// T = 2 E / (5 N - 3) of all of them, times the factor of equilibrium_rate(). At least two
-/// needles.
+/// needles. `conserved` as there.
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
-                                              double total_energy);
+                                              double total_energy, int conserved = 3);
 
 /// The temperatures of all needles together, so that they give the mean energy: spheres, which do
 /// not turn, count with a rotational temperature of 0.

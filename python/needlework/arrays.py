@@ -48,7 +48,8 @@ def whole_numbers(name: str, values: ArrayLike, shape: tuple[int, ...], least: i
     bad = ~((array >= least) & (array <= most) & (array == np.floor(array)))
     if bad.any():
         place = tuple(int(index) for index in np.argwhere(bad)[0])
-        raise InputError(f"{name}[{', '.join(map(str, place))}] = {np.asarray(values)[place]}: "
+        index = f"[{', '.join(map(str, place))}]" if place else ""
+        raise InputError(f"{name}{index} = {np.asarray(values)[place]}: "
                          f"expected a whole number from {least} to {most}")
     return array.astype(np.int64)
 

@@ -19,7 +19,8 @@ from .errors import InputError
 from .values import Table, Values
 
 __all__ = ["CoolingCurve", "MixtureCurve", "MixtureRates", "collision_rate", "cooling",
-           "equilibrium_rate", "equipartition_k", "mixture_cooling", "mixture_rates", "ratio", "tau"]
+           "equilibrium_rate", "equipartition_k", "factor_between_walls", "mixture_cooling",
+           "mixture_rates", "ratio", "tau"]
 
 
 class CoolingCurve(Table):
@@ -57,14 +58,28 @@ def collision_rate(k: ArrayLike, n: ArrayLike, t_tr: ArrayLike = 1.0,
     return _core.collision_rate(k, _not_negative("n", n), t_tr, t_rot)
 
 
-def equilibrium_rate(k: ArrayLike, count: ArrayLike, volume: ArrayLike,
-                     energy: ArrayLike) -> np.ndarray:
+def equilibrium_rate(k: ArrayLike, count: ArrayLike, volume: ArrayLike, energy: ArrayLike,
+                     conserved: ArrayLike = 3) -> np.ndarray:
     """Collision rate of one needle in elastic equilibrium, exact for a finite gas [1 / time].
 
     For ``count`` needles (at least 2) without total momentum, of the total energy ``energy``, in a
-    box of the volume ``volume`` [L^3]. Arguments are broadcast.
+    box of the volume ``volume`` [L^3]. ``conserved`` is the number of periodic axes, along which
+    the momentum stays 0. With walls along one axis it is 2, and the rate is to be multiplied by
+    factor_between_walls(). Arguments are broadcast.
     """
-    return _core.equilibrium_rate(k, count, volume, _not_negative("energy", energy))
+    return _core.equilibrium_rate(k, count, volume, _not_negative("energy", energy),
+                                  whole_numbers("conserved", conserved, np.shape(conserved), 0, 3))
+
+
+def factor_between_walls(k: ArrayLike, gap: ArrayLike, t_tr: ArrayLike = 1.0,
+                         t_rot: ArrayLike = 1.0) -> np.ndarray:
+    """Rate of collisions between two walls, over that in a periodic box of the same volume.
+
+    For walls along one axis, ``gap`` [L] from each other, at least 1, and for needles of which
+    nothing is known but that both tips are inside: in elastic equilibrium and in a drawn state.
+    Exact to 1e-6. Arguments are broadcast.
+    """
+    return _core.factor_between_walls(k, gap, t_tr, t_rot)
 
 
 def ratio(epsilon: ArrayLike, k: ArrayLike, beta: ArrayLike = -1.0) -> np.ndarray:

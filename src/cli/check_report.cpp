@@ -344,6 +344,7 @@ std::string json_of(const runs::Explanation& e) {
   json["t_rot"] = e.initial.t_rot;
   json["energy"] = e.initial.energy();
   json["mean_free_time"] = number(e.mean_free_time);
+  json["collision_rate_exact"] = number(e.rate_exact);
   json["epsilon"] = of_one(composition.restitution(0, 0).epsilon);
   json["beta"] = of_one(composition.restitution(0, 0).beta);
   if (!scene.species.empty()) json["species"] = species_json(e, composition);
@@ -403,6 +404,10 @@ std::string text_of(const runs::Explanation& e) {
   text +=
       line("mean free time", fmt::format("{:.4g}{}", e.mean_free_time,
                                          composition.has_width() ? ", that of low density" : ""));
+  if (std::isfinite(e.rate_exact))
+    text +=
+        line("exact rate", fmt::format("{:.6g} per needle and time, in equilibrium of {} needles",
+                                       e.rate_exact, scene.needles.count));
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   text += wall_lines(e);

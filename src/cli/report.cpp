@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <span>
 #include <utility>
 
 #include "needlework/initial_state.h"
 #include "src/cli/json.h"
 #include "src/observe/forecast.h"
+#include "src/runs/exact_rates.h"
 #include "src/runs/loaded_scene.h"
 #include "src/runs/resources.h"
 #include "src/scene/accuracy.h"
@@ -46,20 +46,8 @@ double Report::collision_rate_error() const {
 }
 
 double Report::collision_rate_exact() const {
-  if (!runs::starts_in_equilibrium(scene) || !course.theory_holds) return undefined;
-  const auto& box = scene.needles.box;
-  const double count = static_cast<double>(scene.needles.count);
-  const Composition composition = scene.composition();
-  if (composition.has_width()) return undefined;
-  if (composition.is_mixture()) {
-    const std::vector<double> rates = pair_rates_exact();
-    return 2 * std::accumulate(rates.begin(), rates.end(), 0.0) / count;
-  }
-  const Species& species = composition[0];
-  const double cube = species.length * species.length * species.length;
-  return theory::equilibrium_rate(count, box[0] * box[1] * box[2] / cube,
-                                  count * course.initial.energy, species.k) /
-         (species.length * std::sqrt(species.mass));
+  if (!course.theory_holds) return undefined;
+  return runs::equilibrium_rate(scene, course.initial.energy);
 }
 
 double Report::collisions_per_needle() const {
@@ -72,13 +60,8 @@ double Report::us_per_collision() const {
 }
 
 std::vector<double> Report::pair_rates_exact() const {
-  const Composition composition = scene.composition();
-  if (!composition.is_mixture() || composition.has_width() || !runs::starts_in_equilibrium(scene) ||
-      !course.theory_holds) {
-    return {};
-  }
-  const double energy = static_cast<double>(scene.needles.count) * course.initial.energy;
-  return theory::mixture_equilibrium_rates(composition, runs::volume_of(scene), energy);
+  if (!scene.composition().is_mixture() || !course.theory_holds) return {};
+  return runs::equilibrium_rates_by_pair(scene, course.initial.energy);
 }
 
 MixtureTheory::MixtureTheory(const Composition& composition, double volume,

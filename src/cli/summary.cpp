@@ -11,7 +11,7 @@
 #include "src/composition/pair_name.h"
 #include "src/runs/amount_text.h"
 #include "src/runs/engine_choice.h"
-#include "src/runs/loaded_scene.h"
+#include "src/runs/exact_rates.h"
 #include "src/runs/rod_totals.h"
 #include "src/scene/confinement.h"
 

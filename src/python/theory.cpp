@@ -21,8 +21,15 @@ double collision_rate(double k, double density, double t_tr, double t_rot) {
   return theory::collision_rate(density, {t_tr, t_rot}, k);
 }
 
-double equilibrium_rate(double k, double count, double volume, double energy) {
-  return theory::equilibrium_rate(count, volume, energy, k);
+double equilibrium_rate(double k, double count, double volume, double energy, int conserved) {
+  return theory::equilibrium_rate(count, volume, energy, k, conserved);
+}
+
+double factor_between_walls(double k, double gap, double t_tr, double t_rot) {
+  Species needle;
+  needle.k = k;
+  const theory::Temperatures now{t_tr, t_rot};
+  return theory::pair_factor_between_walls(needle, now, needle, now, gap);
 }
 
 double ratio(double epsilon, double k, double beta) {
@@ -128,6 +135,7 @@ py::tuple mixture_cooling(const Column& counts, const Column& lengths, const Col
 void add_theory(py::module_& module) {
   module.def("collision_rate", py::vectorize(collision_rate));
   module.def("equilibrium_rate", py::vectorize(equilibrium_rate));
+  module.def("factor_between_walls", py::vectorize(factor_between_walls));
   module.def("ratio", py::vectorize(ratio));
   module.def("cooling", cooling);
   module.def("mixture_rates", mixture_rates);

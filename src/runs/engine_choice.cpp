@@ -12,6 +12,7 @@
 #include "needlework/error.h"
 #include "needlework/simulation.h"
 #include "src/machine/available_cores.h"
+#include "src/runs/exact_rates.h"
 #include "src/scene/check.h"
 
 namespace needlework::runs {

@@ -6,6 +6,7 @@
 #include "src/calendar/choice.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
+#include "src/runs/exact_rates.h"
 #include "src/scene/accuracy.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
@@ -104,6 +105,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       initial(initial_temperatures(loaded)),
       by_species(temperatures_by_species(loaded)),
       mean_free_time(1 / initial_collision_rate(loaded)),
+      rate_exact(equilibrium_rate(scene, initial.energy())),
       rates(rates_of(loaded)),
       walls(walls_of(loaded)),
       gravity(gravity_of(loaded)),

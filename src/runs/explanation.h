@@ -37,6 +37,7 @@ struct Explanation {
   theory::Temperatures initial;                  ///< as drawn or read
   std::vector<theory::Temperatures> by_species;  ///< the same of each species
   double mean_free_time;                         ///< at the start, 1 / theory::collision_rate
+  double rate_exact;  ///< that of a gas in equilibrium, as runs::equilibrium_rate(); else NaN
   /// Of a mixture: collisions of each two species per time at the start, by
   /// Composition::pair_index; empty if they are too many.
   std::vector<double> rates;

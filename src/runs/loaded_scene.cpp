@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "needlework/error.h"
@@ -14,7 +12,6 @@
 #include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
 #include "src/scene/check.h"
-#include "src/scene/confinement.h"
 
 namespace needlework::runs {
 namespace {
@@ -125,67 +122,6 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
 
 bool has_mixture_theory(const Composition& composition) {
   return !composition.is_needle_gas() && composition.size() <= theory::most_species_of_theory;
-}
-
-namespace {
-
-// By how much needles of two species collide more often between walls, in a state that is drawn. 1
-// where that is not known exactly.
-double factor_between_walls(const Scene& scene, const Species& a, theory::Temperatures at_a,
-                            const Species& b, theory::Temperatures at_b) {
-  if (a.diameter > 0 || b.diameter > 0) return 1;
-  double factor = 1;
-  int walled = 0;
-  const std::array<Gap, 3> gaps = gaps_of(scene);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!gaps[axis].is_walled()) continue;
-    if (++walled > 1 || gaps[axis].is_open()) return 1;
-    const double edge = scene.needles.box[axis], gap = edge + gaps[axis].high - gaps[axis].low;
-    factor = edge / gap * theory::pair_factor_between_walls(a, at_a, b, at_b, gap);
-  }
-  return factor;
-}
-
-}  // namespace
-
-std::vector<double> initial_rates_by_pair(const LoadedScene& loaded) {
-  const Scene& scene = loaded.scene;
-  const Composition composition = scene.composition();
-  const auto start = temperatures_by_species(loaded);
-  std::vector<double> rates =
-      theory::mixture_rates(composition, volume_of(scene), start).collisions;
-  for (std::size_t a = 0; a < composition.size() && !loaded.initial; ++a) {
-    for (std::size_t b = a; b < composition.size(); ++b) {
-      double& rate = rates[composition.pair_index(a, b)];
-      if (!(rate > 0)) continue;
-      rate *= factor_between_walls(scene, composition[a], start[a], composition[b], start[b]);
-    }
-  }
-  return rates;
-}
-
-double initial_collision_rate(const LoadedScene& loaded) {
-  const Scene& scene = loaded.scene;
-  const Composition composition = scene.composition();
-  if (composition.is_needle_gas()) {
-    const theory::Temperatures start = initial_temperatures(loaded);
-    const Species& all = composition[0];
-    const double factor = loaded.initial ? 1 : factor_between_walls(scene, all, start, all, start);
-    return factor * theory::collision_rate(theory_density_of(scene), start, all.k);
-  }
-  const std::vector<double> rates = initial_rates_by_pair(loaded);
-  const double all = std::accumulate(rates.begin(), rates.end(), 0.0);
-  return 2 * all / static_cast<double>(composition.count());
-}
-
-bool starts_in_equilibrium(const Scene& scene) {
-  const Composition composition = scene.composition();
-  const double t = composition[0].t_tr;
-  return !composition.is_inelastic() && !acts_on_single_needles(scene) &&
-         scene.initial.file.empty() && t > 0 &&
-         std::ranges::all_of(composition.species(),
-                             [&](const Species& s) { return s.t_tr == t && s.t_rot == t; }) &&
-         composition.count() >= 2;
 }
 
 double volume_of(const Scene& scene) {

@@ -37,16 +37,6 @@ std::vector<theory::Temperatures> temperatures_by_species(const LoadedScene& loa
 /// Whether kinetic theory follows this mixture: it has not too many species.
 bool has_mixture_theory(const Composition& composition);
 
-/// Collisions of each two species per time at the start by kinetic theory, by
-/// Composition::pair_index: exact for a state that is drawn, also between two walls along one axis.
-/// [1 / time]
-std::vector<double> initial_rates_by_pair(const LoadedScene& loaded);
-/// The same as collisions that a needle takes part in, on average over all needles. [1 / time]
-double initial_collision_rate(const LoadedScene& loaded);
-
-/// Whether all is known of the gas from the start: elastic needles, drawn with equal temperatures.
-bool starts_in_equilibrium(const Scene& scene);
-
 double volume_of(const Scene& scene);  ///< of the box [L^3]
 /// Needles per volume of the box, in cubes of the needle length [1].
 double density_of(const Scene& scene);

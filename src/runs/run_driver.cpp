@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "src/runs/loaded_scene.h"
+#include "src/runs/exact_rates.h"
 #include "src/scene/confinement.h"
 #include "src/trajectory/saved_totals.h"
 

@@ -39,34 +39,37 @@ double collision_rate(double density, Temperatures temperatures, double k) {
 
 namespace {
 
-// The temperature of needles with zero momentum and a fixed energy, and their mean speed relative
-// to that at this temperature, as velocities lie on a sphere in 5 N - 3 dimensions.
+// The temperature of needles with a fixed energy, and zero momentum in as many directions, and
+// their mean speed relative to that at this temperature: velocities lie on a sphere in 5 N - 3
+// dimensions if all of the momentum is conserved. A relative velocity does not depend on the
+// momentum.
 struct Equilibrium {
   double temperature, speed;
 };
 
-Equilibrium equilibrium_of(double count, double volume, double total_energy) {
+Equilibrium equilibrium_of(double count, double volume, double total_energy, int conserved) {
   require(std::isfinite(count) && count >= 2.0, "count", count, "a finite number, 2 or more");
   require_positive("volume", volume);
   require_not_negative("total_energy", total_energy);
-  const double degrees = 5.0 * count - 3.0;
+  require(conserved >= 0 && conserved <= 3, "conserved", conserved, "0, 1, 2 or 3");
+  const double degrees = 5.0 * count - conserved;
   return {2.0 * total_energy / degrees,
           std::sqrt(0.5 * degrees) * boost::math::tgamma_delta_ratio(0.5 * degrees, 0.5)};
 }
 
 }  // namespace
 
-double equilibrium_rate(double count, double volume, double total_energy, double k) {
-  const auto [temperature, speed] = equilibrium_of(count, volume, total_energy);
+double equilibrium_rate(double count, double volume, double total_energy, double k, int conserved) {
+  const auto [temperature, speed] = equilibrium_of(count, volume, total_energy, conserved);
   return speed *
          collision_rate((count - 1.0) / volume, {.t_tr = temperature, .t_rot = temperature}, k);
 }
 
 // Momentum correlates velocities of two needles just so that their relative one has T/m + T/m'.
 std::vector<double> mixture_equilibrium_rates(const Composition& composition, double volume,
-                                              double total_energy) {
+                                              double total_energy, int conserved) {
   const double count = static_cast<double>(composition.count());
-  const Equilibrium gas = equilibrium_of(count, volume, total_energy);
+  const Equilibrium gas = equilibrium_of(count, volume, total_energy, conserved);
   const std::vector<Temperatures> now(composition.size(), {gas.temperature, gas.temperature});
   std::vector<double> out = mixture_rates(composition, volume, now).collisions;
   for (double& rate : out) rate *= gas.speed;

@@ -1,14 +1,16 @@
 // Exact results for equilibrium hold for a few needles, with their finite-N terms.
 //
-// Laws, for the microcanonical ensemble with momentum 0 (3 (N - 1) translational and 2 N
-// rotational degrees of freedom): the rate is theory::equilibrium_rate, and T_tr / T_rot is (N -
-// 1) / N. Tolerance: 3 standard errors, from the scatter of batches, each more than 100 mean free
-// times long. The values for infinitely many needles must be far outside, so that the test is
-// sensitive to these terms.
+// Laws, for the microcanonical ensemble with momentum 0 along p axes (3 N - p translational and 2 N
+// rotational degrees of freedom): the rate is theory::equilibrium_rate, and T_tr / T_rot is 1 - p /
+// (3 N). In a periodic box p is 3; between walls along one axis it is 2, and the rate is multiplied
+// by theory::pair_factor_between_walls. Tolerance: 3 standard errors, from the scatter of batches,
+// each more than 100 mean free times long. The values for infinitely many needles must be far
+// outside, so that the test is sensitive to these terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <iostream>
+#include <string>
 
 #include "needlework/theory.h"
 #include "tests/support/runs.h"
@@ -25,7 +27,7 @@ struct Averages {
 };
 
 constexpr int batches = 100;
-constexpr double collisions = 1.2e5;
+constexpr double collisions = 2e5;
 
 // Time averages of a run, the temperatures sampled twice per mean free time.
 Averages averages(const Scene& scene) {
@@ -55,34 +57,56 @@ Averages averages(const Scene& scene) {
   return {rate.measured(), t_tr.measured(), t_rot.measured()};
 }
 
-class FiniteCount : public testing::TestWithParam<std::uint64_t> {};
+struct FiniteGas {
+  std::uint64_t count;
+  double gap = 0;  ///< between walls along z, if there are any
+};
+
+class FiniteCount : public testing::TestWithParam<FiniteGas> {};
 
 TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
-  const double count = static_cast<double>(GetParam());
+  const auto [needles, gap] = GetParam();
+  const double count = static_cast<double>(needles);
   const double side = 2.5;
-  const double volume = side * side * side;
-  const Scene scene = test::scene_of(GetParam(), side, 2024);
+  Scene scene = test::scene_of(needles, side, 2024);
   SCOPED_TRACE(test::name_of(scene));
+  double factor = 1, volume = side * side * side;
+  int conserved = 3;
+  if (gap > 0) {
+    scene.needles.box[2] = gap;
+    scene.walls = {{.axis = "z", .side = "both"}};
+    factor = theory::pair_factor_between_walls({}, {1, 1}, {}, {1, 1}, gap);
+    volume *= gap / side;
+    conserved = 2;
+  }
   const Averages run = averages(scene);
 
-  const double energy = 2.5 * count;
-  const Measured rate = run.rate / theory::equilibrium_rate(count, volume, energy, scene.needles.k);
-  const Measured t_rot = run.t_rot / (energy / (2.5 * count - 1.5));
-  const Measured t_tr = run.t_tr / ((energy / (2.5 * count - 1.5)) * (count - 1) / count);
+  const double energy = 2.5 * count, temperature = 2 * energy / (5 * count - conserved);
+  const double share = 1 - conserved / (3 * count);
+  const Measured rate = run.rate / (factor * theory::equilibrium_rate(count, volume, energy,
+                                                                      scene.needles.k, conserved));
+  const Measured t_rot = run.t_rot / temperature;
+  const Measured t_tr = run.t_tr / (temperature * share);
   std::cout << "rate / exact: " << rate << ", T_tr: " << t_tr << ", T_rot: " << t_rot << '\n';
   EXPECT_TRUE(test::agrees(rate, 1, 3));
+  EXPECT_LT(rate.error, 0.003);
   EXPECT_TRUE(test::agrees(t_tr, 1, 3));
   EXPECT_TRUE(test::agrees(t_rot, 1, 3));
 
   // Energy is conserved, so the two temperatures are fully correlated.
-  EXPECT_NEAR(run.t_tr.value / run.t_rot.value, (count - 1) / count,
-              3 * (run.t_tr.error + run.t_rot.error));
-  const double infinite = theory::collision_rate(count / volume, {1, 1}, scene.needles.k);
+  EXPECT_NEAR(run.t_tr.value / run.t_rot.value, share, 3 * (run.t_tr.error + run.t_rot.error));
+  const double infinite = factor * theory::collision_rate(count / volume, {1, 1}, scene.needles.k);
   EXPECT_FALSE(test::agrees(run.rate, infinite, 5));
   EXPECT_FALSE(test::agrees(run.t_rot, 1, 5));
 }
 
-INSTANTIATE_TEST_SUITE_P(Needles, FiniteCount, testing::Values(6, 24));
+INSTANTIATE_TEST_SUITE_P(Needles, FiniteCount,
+                         testing::Values(FiniteGas{6}, FiniteGas{24}, FiniteGas{6, 1.4},
+                                         FiniteGas{24, 2.5}),
+                         [](const auto& each) {
+                           const FiniteGas& gas = each.param;
+                           return std::to_string(gas.count) + (gas.gap > 0 ? "_between_walls" : "");
+                         });
 
 }  // namespace
 }  // namespace needlework

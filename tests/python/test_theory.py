@@ -31,6 +31,14 @@ class Theory(unittest.TestCase):
         rates = theory.collision_rate(6, np.array([[1.0], [2.0]]), [1.0, 4.0, 9.0], 0)
         np.testing.assert_allclose(rates, np.sqrt(np.pi) / 2 * np.outer([1, 2], [1, 2, 3]))
 
+    def test_rates_of_finite_gases_between_walls(self):
+        factor = theory.factor_between_walls(6, [2, 2.5])
+        np.testing.assert_allclose(factor, [2 * (2 - 0.753889) / 2.25, 2.5 * (2.5 - 0.753889) / 4],
+                                   rtol=2e-6)
+        periodic, walled = theory.equilibrium_rate(6, 1e6, 1e6, 2.5e6, [3, 2])
+        self.assertAlmostEqual(periodic, float(theory.collision_rate(6, 1)), places=5)
+        self.assertLess(walled, periodic)
+
     def test_ratio_takes_arrays_and_is_one_at_equipartition(self):
         ratios = theory.ratio([0.2, 0.9], theory.equipartition_k())
         np.testing.assert_allclose(ratios, 1, rtol=1e-10)
@@ -50,6 +58,10 @@ class Theory(unittest.TestCase):
                               (lambda: theory.collision_rate(6, -1), "^n = -1: expected"),
                               (lambda: theory.equilibrium_rate(6, 9, 1, -1),
                                "^energy = -1: expected"),
+                              (lambda: theory.equilibrium_rate(6, 9, 1, 1, 2.5),
+                               "^conserved = 2.5: expected a whole number from 0 to 3"),
+                              (lambda: theory.factor_between_walls(6, 0.9),
+                               "gap = 0.9: expected"),
                               (lambda: theory.cooling(0.5, 6, tau="x"), "tau: expected an array"),
                               (lambda: theory.cooling(0.5, 6, tau=[-1]), "tau.* = -1: expected")):
             with self.assertRaisesRegex(InputError, message):

@@ -126,16 +126,17 @@ TEST(CollisionRate, AllowsEitherTemperatureToVanish) {
 }
 
 TEST(EquilibriumRate, CorrectsForFewNeedles) {
-  for (const double count : {2.0, 6.0, 24.0}) {
+  for (const auto& [count, conserved] :
+       {std::pair(2.0, 3), std::pair(6.0, 3), std::pair(24.0, 3), std::pair(6.0, 2)}) {
     const double volume = 30.0;
     const double energy = 2.5 * count;
-    const double degrees = 5.0 * count - 3.0;
+    const double degrees = 5.0 * count - conserved;
     const double temperature = 2.0 * energy / degrees;
     const double factor =
         std::sqrt(0.5 * degrees) * std::tgamma(0.5 * degrees) / std::tgamma(0.5 * (degrees + 1.0));
     const double expected =
         1.237662397803 * (count - 1.0) / volume * std::sqrt(temperature) * factor;
-    EXPECT_NEAR(equilibrium_rate(count, volume, energy, 6.0), expected, 1e-11 * expected)
+    EXPECT_NEAR(equilibrium_rate(count, volume, energy, 6.0, conserved), expected, 1e-11 * expected)
         << "count " << count;
   }
   // Without the corrections, 6 needles are off by 11 % and 24 by 3 %.
@@ -346,6 +347,7 @@ TEST(Theory, RejectsNumbersOutOfRange) {
     EXPECT_THROW(equilibrium_rate(10.0, 1.0, bad, 6.0), std::invalid_argument) << bad;
   }
   EXPECT_THROW(equilibrium_rate(1.0, 1.0, 2.5, 6.0), std::invalid_argument);
+  EXPECT_THROW(equilibrium_rate(10.0, 1.0, 25.0, 6.0, 4), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Collision rates that are known exactly before a gas runs: in a state that is drawn, and in the
+// equilibrium of elastic needles.
+#pragma once
+
+#include <vector>
+
+#include "needlework/scene.h"
+#include "src/runs/loaded_scene.h"
+
+namespace needlework::runs {
+
+/// Collisions of each two species per time at the start by kinetic theory, by
+/// Composition::pair_index: exact for a state that is drawn, also between two walls along one axis.
+/// [1 / time]
+std::vector<double> initial_rates_by_pair(const LoadedScene& loaded);
+/// The same as collisions that a needle takes part in, on average over all needles. [1 / time]
+double initial_collision_rate(const LoadedScene& loaded);
+
+/// Whether all is known of the gas from the start: elastic needles that are drawn with equal
+/// temperatures, and whose energy nothing changes. Elastic walls at rest may be around them.
+bool starts_in_equilibrium(const Scene& scene);
+
+/// Collisions of each two species per time in a gas that starts in equilibrium, by
+/// Composition::pair_index, at this energy per needle: exact for any number of needles, with walls
+/// along one axis too. Empty where that is not known: of rods of finite width, between walls along
+/// several axes, and of a gas that does not start in equilibrium. [1 / time]
+std::vector<double> equilibrium_rates_by_pair(const Scene& scene, double energy);
+/// The same as collisions that a needle takes part in, on average over all needles; NaN where it is
+/// not known. [1 / time]
+double equilibrium_rate(const Scene& scene, double energy);
+
+}  // namespace needlework::runs
