@@ -20,6 +20,7 @@ from .data import Data
 from .errors import Error, InputError, InvalidStateError, IoError
 from .frames import Frame, Frames
 from .gsd_file import to_gsd
+from .order import NematicOrder, nematic_order
 from .reading import Events, Recording, Series, VelocitiesSet, read
 from .simulation import (Counters, EnergyBudget, SceneWarning, Simulation, SpeciesTotals, Totals,
                          WallTotals)
@@ -28,6 +29,6 @@ from .values import Table, Values
 
 __all__ = ["COLLISION", "COLLISION_WITH_STATES", "Counters", "Data", "EnergyBudget", "Error",
            "Events", "FirstContacts", "Frame", "Frames", "HAPPENING", "HAPPENING_WITH_STATES", "InputError",
-           "InvalidStateError", "IoError", "KINDS", "Recording", "SceneWarning", "Series",
+           "InvalidStateError", "IoError", "KINDS", "NematicOrder", "Recording", "SceneWarning", "Series",
            "Simulation", "SpeciesTotals", "State", "Table", "Totals", "Values", "VelocitiesSet",
-           "WallTotals", "plot", "predict", "read", "theory", "to_gsd", "__version__"]
+           "WallTotals", "nematic_order", "plot", "predict", "read", "theory", "to_gsd", "__version__"]

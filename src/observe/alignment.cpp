@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "src/observe/histogram.h"
+#include "src/observe/order_tensor.h"
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -46,24 +47,18 @@ class Alignment : public Observable {
   void sample(const Snapshot& now, Row& row) override {
     along_velocity_.clear();
     for (Histogram& histogram : along_axes_) histogram.clear();
-    std::array<Vector, 3> squares{};
+    OrderTensor order;
     for (std::size_t i = 0; i < now.state.size(); ++i) {
       const Vector& u = now.state.orientation[i];
       const Vector& v = now.state.velocity[i];
       const double along = dot(u, v);
       add(along_velocity_, along * along / dot(v, v));
-      for (std::size_t a = 0; a < 3; ++a) {
-        add(along_axes_[a], u[a] * u[a]);
-        for (std::size_t b = 0; b < 3; ++b) squares[a][b] += u[a] * u[b];
-      }
+      for (std::size_t a = 0; a < 3; ++a) add(along_axes_[a], u[a] * u[a]);
+      order.add(u);
     }
     row.put_all(along_velocity_.counts());
     for (const Histogram& histogram : along_axes_) row.put_all(histogram.counts());
-    const double count = static_cast<double>(now.state.size());
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b) {
-        row.put(1.5 * squares[a][b] / count - (a == b ? 0.5 : 0));
-      }
+    order.put(row);
   }
 
  private:

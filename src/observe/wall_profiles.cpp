@@ -6,6 +6,7 @@
 //   t_tr, t_rot   m <v^2> / 3, I <w^2> / 2
 //   t_normal      m <(v . e)^2>
 //   p2            <(3 (u . e)^2 - 1) / 2>
+//   order_tensor  <(3 u u - 1) / 2>, whose component along e twice is p2
 //   outside       number of needles in no slab
 //
 // Temperatures are those of the whole motion, as /series/t_tr is, so that means over slabs,
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/observe/order_tensor.h"
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -22,6 +24,7 @@ namespace {
 // Sums over the needles in one slab.
 struct SlabSums {
   double count = 0, v_normal = 0, v2 = 0, v2_normal = 0, w2 = 0, p2 = 0;
+  OrderTensor order;
 };
 
 class WallProfiles : public Observable {
@@ -35,6 +38,8 @@ class WallProfiles : public Observable {
     const std::vector<SeriesField::Extent> axes{{"walled axes", slabs.size()}};
     auto each = axes;
     each.push_back({"slabs", count});
+    auto tensors = each;
+    tensors.insert(tensors.end(), {{"3", 3}, {"3", 3}});
     std::vector<double> axis, thickness, middles;
     for (const Slabs& of : slabs) {
       axis.push_back(static_cast<double>(of.axis));
@@ -57,6 +62,8 @@ class WallProfiles : public Observable {
          unit::energy, each},
         {"p2", "Mean of (3 cos^2 - 1) / 2 of the angle between orientation and axis in each slab",
          unit::none, each},
+        {"order_tensor", "Mean of (3 u u - 1) / 2 over the orientations u in each slab", unit::none,
+         tensors},
         {"outside", "Number of needles in no slab across each axis", unit::none, axes,
          SeriesField::Kind::count},
         {"axis", "Number of each axis with walls: 0 x, 1 y, 2 z", unit::none, axes, constant, axis},
@@ -91,6 +98,8 @@ class WallProfiles : public Observable {
     put_mean(&SlabSums::w2, gas_.inertia / 2);
     put_mean(&SlabSums::v2_normal, gas_.mass);
     put_mean(&SlabSums::p2, 1);
+    for (const std::vector<SlabSums>& slabs : axes)
+      for (const SlabSums& slab : slabs) slab.order.put(row);
     row.put_all(outside);
   }
 
@@ -108,7 +117,9 @@ class WallProfiles : public Observable {
       sums.v2 += dot(v, v);
       sums.v2_normal += normal * normal;
       sums.w2 += dot(w, w);
-      sums.p2 += second_legendre(state.orientation[i][slabs.axis]);
+      const Vector& u = state.orientation[i];
+      sums.p2 += second_legendre(u[slabs.axis]);
+      sums.order.add(u);
     }
     return out;
   }

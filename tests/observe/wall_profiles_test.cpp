@@ -39,8 +39,18 @@ TEST(WallProfiles, AreThoseOfTheNeedlesInEachSlab) {
   EXPECT_DOUBLE_EQ(values["p2"][1], (1 - 0.5) / 2);
   EXPECT_DOUBLE_EQ(values["p2"][0], 1.5 * 0.64 - 0.5);
   EXPECT_DOUBLE_EQ(values["p2"][3], -0.5);
-  for (const char* name : {"flow", "t_tr", "t_rot", "t_normal", "p2"}) {
-    EXPECT_TRUE(std::isnan(values[name][2])) << name;
+  // Of u = (0, 0, 1) and (1, 0, 0), and of (0, 0.6, 0.8).
+  const auto tensor = [&](std::size_t slab) {
+    const auto begin = values["order_tensor"].begin() + static_cast<std::ptrdiff_t>(9 * slab);
+    return std::vector<double>(begin, begin + 9);
+  };
+  ASSERT_EQ(values["order_tensor"].size(), 4u * 9);
+  EXPECT_EQ(tensor(1), (std::vector<double>{0.25, 0, 0, 0, -0.5, 0, 0, 0, 0.25}));
+  EXPECT_DOUBLE_EQ(tensor(0)[5], 1.5 * 0.6 * 0.8);
+  EXPECT_DOUBLE_EQ(tensor(0)[7], 1.5 * 0.6 * 0.8);
+  EXPECT_DOUBLE_EQ(tensor(0)[8], values["p2"][0]);
+  for (const char* name : {"flow", "t_tr", "t_rot", "t_normal", "p2", "order_tensor"}) {
+    EXPECT_TRUE(std::isnan(values[name][values[name].size() / 2])) << name;
   }
 }
 
@@ -110,10 +120,10 @@ TEST(WallProfiles, AreOfEachSpecies) {
   const std::vector<SeriesField>& fields = groups.back().fields;
   EXPECT_EQ(fields.at(0).shape.front().name, "species");
   EXPECT_EQ(fields.at(0).width(), 8u);
-  EXPECT_EQ(fields.at(8).name, "position");
-  EXPECT_EQ(fields.at(8).values, (std::vector<double>{1, 3, 5, 7}));  // of both
+  EXPECT_EQ(fields.at(9).name, "position");
+  EXPECT_EQ(fields.at(9).values, (std::vector<double>{1, 3, 5, 7}));  // of both
   // Densities, flows and t_tr of both.
-  const auto values = row.last(6 * 8 + 2);
+  const auto values = row.last(6 * 8 + 9 * 8 + 2);
   const double volume = 4 * 5 * 2;
   EXPECT_EQ(std::vector(values.begin(), values.begin() + 8),
             (std::vector<double>{1 / volume, 0, 0, 1 / volume, 0, 0, 1 / volume, 0}));

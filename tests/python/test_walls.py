@@ -50,6 +50,41 @@ class Walls(unittest.TestCase):
         self.assertEqual(Simulation({"needles": {"count": 9, "box": 5.0}}).wall_totals, [])
 
 
+class Order(unittest.TestCase):
+    def test_order_and_director_of_tensors(self):
+        direction = np.array([0.6, 0, 0.8])
+        parallel = 1.5 * np.outer(direction, direction) - np.eye(3) / 2
+        in_plane = np.diag([0.25, -0.5, 0.25])
+        found = needlework.nematic_order([[parallel, in_plane], [np.full((3, 3), np.nan)] * 2])
+        self.assertEqual(found.order.shape, (2, 2))
+        np.testing.assert_allclose(found.order[0], [1, 0.25])
+        np.testing.assert_allclose(found.eigenvalues[0], [[1, -0.5, -0.5], [0.25, 0.25, -0.5]])
+        self.assertAlmostEqual(abs(found.director[0, 0] @ direction), 1)
+        self.assertTrue(np.isnan(found.order[1]).all() and np.isnan(found.director[1]).all())
+        for bad in (np.eye(2), 3, "x"):
+            with self.assertRaises(needlework.InputError):
+                needlework.nematic_order(bad)
+
+    def test_directors_lie_along_near_walls(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "run.h5")
+            scene = {"needles": {"count": 2000, "box": [9, 9, 2]}, "walls": WALLED["walls"][:1],
+                     "output": {"file": str(file), "observables": ["wall_profiles"]}}
+            with Simulation(scene) as sim:
+                sim.run(time=0)
+            with needlework.read(file) as recording:
+                rows = recording.observable("wall_profiles")
+                tensor, p2 = rows.order_tensor[0, 0], rows.p2[0, 0]
+        self.assertEqual(tensor.shape, (16, 3, 3))
+        np.testing.assert_allclose(tensor[:, 2, 2], p2, atol=1e-12)
+        found = needlework.nematic_order(tensor)
+        # (x^2 - 1)/2 with x from 0 to 1/4 across, half of that in the plane.
+        for slab in (0, 15):
+            self.assertAlmostEqual(found.eigenvalues[slab, 2], -0.49, delta=0.02)
+            self.assertLess(abs(found.director[slab, 2]), 0.1)
+            self.assertGreater(found.order[slab], 0.2)
+
+
 # A needle on end that bounces on a floor in motion and hits it at its highest, where it is at rest:
 # its height is known at each phase.
 AMPLITUDE = 0.005
