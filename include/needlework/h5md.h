@@ -197,7 +197,9 @@ struct RecordedRun {
   std::string version;            ///< version of the program
   std::uint64_t needles = 0;      ///< number of needles
   std::vector<Totals> series;     ///< empty if `with_series` was false
-  std::vector<WallTotals> walls;  ///< at the end; the same
+  std::vector<WallTotals> walls;  ///< at the end, without area; the same
+  std::vector<double> pressure;   ///< mean over the run on each of these walls
+  EnergyBudget energy;            ///< at the end, where there are walls or driving
 };
 
 /// Reads a file that a Writer wrote. Throws IoError if it cannot be read, and InputError if

@@ -46,11 +46,13 @@ std::vector<std::string> matches(hid_t file, const std::string& pattern, const s
     if (pattern != "/" && !hdf5::exists(file, pattern, place)) return {};
     return {pattern};
   }
-  const std::string parent = pattern.substr(0, star);
+  const auto begin = pattern.rfind('/', star) + 1;
+  const std::string parent = pattern.substr(0, begin), start = pattern.substr(begin, star - begin);
   if (!hdf5::is_group(file, parent, place)) return {};
   std::vector<std::string> paths;
   for (const std::string& name :
        hdf5::children(hdf5::open_group(file, parent, place).get(), place)) {
+    if (!name.starts_with(start)) continue;
     const auto more = matches(file, parent + name + pattern.substr(star + 1), place);
     paths.insert(paths.end(), more.begin(), more.end());
   }
@@ -292,6 +294,13 @@ std::vector<Description> sweep_summary_descriptions() {
       {"/results/collision_rate", "Collisions per needle and unit of time, over the whole run",
        "inverse time", none},
       {"/results/energy_ratio", "Energy divided by the energy at the start", none, none},
+      {"/results/hits_*", "Hits on this wall", none, none},
+      {"/results/impulse_*", "Sum of the magnitudes of the impulses of hits on this wall", momentum,
+       none},
+      {"/results/pressure_*", "Mean pressure on this wall over the run", "energy per volume", none},
+      {"/results/budget_*",
+       "Energy per needle that this effect has put in since the start; negative: taken out", energy,
+       none},
       {"/results/*/mean", "Mean over the runs of each point, in the unit of the quantity", none,
        "[points]"},
       {"/results/*/standard_error", "Standard error of the mean, in the unit of the quantity", none,

@@ -1,5 +1,6 @@
 // Reads the series of finished runs.
 #include <algorithm>
+#include <optional>
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
@@ -41,33 +42,71 @@ void read_series(const Source& source, const std::string& name, std::vector<Tota
 
 // Adding a member fails to compile here.
 static void transfer(Archive& archive, RecordedRun& run) {
-  auto& [scene, version, needles, series, walls] = run;
-  archive(scene, version, needles, series, walls);
+  auto& [scene, version, needles, series, walls, pressure, energy] = run;
+  archive(scene, version, needles, series, walls, pressure);
+  archive(energy.pairs, energy.walls, energy.thermostat, energy.kicks, energy.velocities_set);
 }
 
-static std::vector<WallTotals> read_walls(const Source& source, std::size_t samples) {
-  const std::string group = "/series/walls";
-  if (samples == 0 || !hdf5::is_group(source.get(), group, source.place(group))) return {};
-  const std::vector<double> axes = Element(source, group + "/axis").read<double>(std::nullopt);
-  const std::vector<double> high = Element(source, group + "/high").read<double>(std::nullopt);
-  const Element hits(source, group + "/hits"), impulse(source, group + "/impulse");
-  const auto require = [&](bool condition) {
-    if (!condition) throw InputError(source.place(group) + ": expected walls as run writes them");
-  };
-  require(high.size() == axes.size());
-  std::vector<WallTotals> out;
-  for (const Element* each : {&hits, &impulse}) {
-    require(each->shape().size() == 2 && each->shape()[1] == axes.size() &&
-            each->rows() >= samples);
-  }
-  const auto counts = hits.read<std::uint64_t>(samples - 1);
-  const auto sums = impulse.read<double>(samples - 1);
-  for (std::size_t n = 0; n < axes.size(); ++n) {
-    require(axes[n] == 0 || axes[n] == 1 || axes[n] == 2);
-    out.push_back({static_cast<int>(axes[n]), high[n] != 0, counts[n], sums[n]});
-  }
+namespace {
+
+// A dataset [samples][walls] of a group.
+Element of_each_wall(const Source& source, const std::string& path, std::size_t samples,
+                     std::size_t walls) {
+  Element out(source, path);
+  if (out.shape().size() != 2 || out.shape()[1] != walls || out.rows() < samples)
+    throw InputError(source.place(path) + ": expected walls as run writes them");
   return out;
 }
+
+bool has_group(const Source& source, const std::string& group) {
+  return hdf5::is_group(source.get(), group, source.place(group));
+}
+
+void read_walls(const Source& source, RecordedRun& run) {
+  const std::string group = "/series/walls";
+  const std::size_t samples = run.series.size();
+  if (samples == 0 || !has_group(source, group)) return;
+  const std::vector<double> axes = Element(source, group + "/axis").read<double>(std::nullopt);
+  const std::vector<double> high = Element(source, group + "/high").read<double>(std::nullopt);
+  const auto of_each = [&](const char* name) {
+    return of_each_wall(source, group + "/" + name, samples, axes.size());
+  };
+  const auto hits = of_each("hits").read<std::uint64_t>(samples - 1);
+  const auto impulses = of_each("impulse").read<double>(samples - 1);
+  const auto pressures = of_each("pressure").read<double>(std::nullopt);
+  for (std::size_t n = 0; n < axes.size(); ++n) {
+    if (high.size() != axes.size() || !(axes[n] == 0 || axes[n] == 1 || axes[n] == 2))
+      throw InputError(source.place(group) + ": expected walls as run writes them");
+    run.walls.push_back({static_cast<int>(axes[n]), high[n] != 0, hits[n], impulses[n]});
+    // Each row is a mean since the one before.
+    double sum = 0;
+    for (std::size_t row = 1; row < samples; ++row) {
+      const double step = run.series[row].time - run.series[row - 1].time;
+      if (step > 0) sum += step * pressures[row * axes.size() + n];
+    }
+    run.pressure.push_back(sum / (run.series.back().time - run.series.front().time));
+  }
+}
+
+void read_energy_budget(const Source& source, RecordedRun& run) {
+  const std::string group = "/series/energy_budget";
+  const std::size_t samples = run.series.size();
+  if (samples == 0 || !has_group(source, group)) return;
+  const auto last = [&](const char* name) -> std::optional<double> {
+    const std::string path = group + "/" + name;
+    if (!has_group(source, path)) return {};
+    return Element(source, path).read<double>(samples - 1).at(0);
+  };
+  run.energy.pairs = last("pairs").value_or(0);
+  run.energy.thermostat = last("thermostat");
+  run.energy.kicks = last("kicks");
+  run.energy.velocities_set = last("velocities_set").value_or(0);
+  if (run.walls.empty()) return;
+  run.energy.walls =
+      of_each_wall(source, group + "/walls", samples, run.walls.size()).read<double>(samples - 1);
+}
+
+}  // namespace
 
 static RecordedRun read_run_here(const std::string& path, bool with_series) {
   const Source source(path);
@@ -93,7 +132,8 @@ static RecordedRun read_run_here(const std::string& path, bool with_series) {
   read_series<double>(source, "momentum", run.series, [](Totals& sample, const double* value) {
     std::copy_n(value, 3, sample.momentum.begin());
   });
-  run.walls = read_walls(source, run.series.size());
+  read_walls(source, run);
+  read_energy_budget(source, run);
   return run;
 }
 

@@ -1,6 +1,7 @@
 #include "src/report/run_section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -143,9 +144,9 @@ std::vector<std::string> species_of(const io::Contents& contents) {
 // What the observables of a mixture are of: each species, or each two of them.
 enum class Of { all, species, pairs };
 Of what_of(const std::string& group) {
-  if (group == "totals" || group == "theory" || group == "species" || group == "walls") {
-    return Of::all;
-  }
+  constexpr std::array of_all = {"totals", "theory",        "species",       "walls",
+                                 "rods",   "energy_budget", "centre_of_mass"};
+  if (std::ranges::find(of_all, group) != of_all.end()) return Of::all;
   const bool of_pairs =
       group == "pair_correlation" || group == "structure_factor" || group == "collision_statistics";
   return of_pairs ? Of::pairs : Of::species;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "src/scene/confinement.h"
+
 namespace needlework::runs::sweep {
 namespace {
 
@@ -107,32 +109,59 @@ Series series_over(const SeriesOf& kind, std::span<const Run> runs, std::span<co
   return series;
 }
 
-// Hits on a wall and their impulses at the end.
-void add_wall(const WallTotals& wall, std::span<const Run> runs, PointSummary& point) {
-  const auto add = [&](const char* name, double (*value)(const WallTotals&)) {
-    std::vector<double> values;
-    for (const Run& run : runs) {
-      const auto found = std::ranges::find_if(run.walls, [&](const WallTotals& each) {
-        return each.axis == wall.axis && each.high == wall.high;
-      });
-      values.push_back(found == run.walls.end() ? undefined : value(*found));
-    }
-    point.results.push_back(
-        {fmt::format("{}_{}_{}", name, axis_name(wall), side_name(wall)), estimate(values)});
-  };
-  add("hits", [](const WallTotals& each) { return static_cast<double>(each.hits); });
-  add("impulse", [](const WallTotals& each) { return each.impulse; });
+// A number of each run, NaN where that has none.
+void add_result(std::string name, std::span<const Run> runs, PointSummary& point,
+                const std::function<std::optional<double>(const Run&)>& value_of) {
+  std::vector<double> values;
+  for (const Run& run : runs) values.push_back(value_of(run).value_or(undefined));
+  point.results.push_back({std::move(name), estimate(values)});
 }
 
-void add_estimates(PointSummary& point, std::span<const Run> runs,
-                   const std::vector<Scene::WallSide>& walls) {
+// What hits on a wall have done until the end.
+void add_wall(const WallTotals& wall, std::span<const Run> runs, PointSummary& point) {
+  using Place = std::optional<std::size_t>;  // of the wall among those of a run
+  const auto place_in = [wall](const Run& run) -> Place {
+    const auto found = std::ranges::find_if(run.walls, [&](const WallTotals& each) {
+      return each.axis == wall.axis && each.high == wall.high;
+    });
+    if (found == run.walls.end()) return {};
+    return static_cast<std::size_t>(found - run.walls.begin());
+  };
+  const auto add = [&](const char* name, double (*value)(const Run&, std::size_t)) {
+    add_result(fmt::format("{}_{}_{}", name, axis_name(wall), side_name(wall)), runs, point,
+               [&](const Run& run) -> std::optional<double> {
+                 const Place place = place_in(run);
+                 if (!place) return {};
+                 return value(run, *place);
+               });
+  };
+  add("hits",
+      [](const Run& run, std::size_t n) { return static_cast<double>(run.walls.at(n).hits); });
+  add("impulse", [](const Run& run, std::size_t n) { return run.walls.at(n).impulse; });
+  add("pressure", [](const Run& run, std::size_t n) { return run.pressure.at(n); });
+  add("budget", [](const Run& run, std::size_t n) { return run.energy.walls.at(n); });
+}
+
+void add_budget(const Scene& scene, std::span<const Run> runs, PointSummary& point) {
+  if (!acts_on_single_needles(scene)) return;
+  add_result("budget_pairs", runs, point, [](const Run& run) { return run.energy.pairs; });
+  if (scene.driving.andersen) {
+    add_result("budget_thermostat", runs, point,
+               [](const Run& run) { return run.energy.thermostat; });
+  }
+  if (scene.driving.kicks)
+    add_result("budget_kicks", runs, point, [](const Run& run) { return run.energy.kicks; });
+}
+
+void add_estimates(PointSummary& point, std::span<const Run> runs, const Scene& scene) {
   std::vector<double> values(runs.size());
   for (const ResultOf& result : results) {
     std::transform(runs.begin(), runs.end(), values.begin(), result.value);
     point.results.push_back({result.name, estimate(values)});
   }
-  for (const Scene::WallSide& side : walls)
+  for (const Scene::WallSide& side : scene.wall_sides())
     add_wall({.axis = static_cast<int>(side.axis), .high = side.is_high}, runs, point);
+  add_budget(scene, runs, point);
   point.times = common_times(runs);
   for (const SeriesOf& kind : all_series) {
     point.series.push_back(series_over(kind, runs, point.times));
@@ -152,7 +181,7 @@ Estimate estimate(std::span<const double> values) {
 
 std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finished_run) {
   std::vector<PointSummary> summary(grid.points());
-  const auto walls = grid.members.front().scene.wall_sides();
+  const Scene& scene = grid.members.front().scene;
   for (std::size_t point = 0; point < summary.size(); ++point) {
     std::vector<Run> runs;
     for (std::size_t seed = 0; seed < grid.seeds.size(); ++seed) {
@@ -161,7 +190,7 @@ std::vector<PointSummary> summarise(const Grid& grid, const FinishedRun& finishe
       summary[point].seeds.push_back(grid.seeds[seed]);
       runs.push_back(*std::move(run));
     }
-    add_estimates(summary[point], runs, walls);
+    add_estimates(summary[point], runs, scene);
   }
   return summary;
 }

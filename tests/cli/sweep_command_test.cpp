@@ -98,6 +98,36 @@ TEST_F(SweepCommand, GivesMeansAndStandardErrorsOfItsRuns) {
   EXPECT_EQ(series["momentum"]["mean"][1].size(), 3u);
 }
 
+// From the files of the members.
+TEST_F(SweepCommand, SumsUpWhatWallsAndDrivingHaveDone) {
+  write("driven.toml", R"(needles = { count = 40, box = [5, 4, 3] }
+until.time = 3
+driving.kicks = { every = 0.5, translational = 1, rotational = 1 }
+driving.andersen = { rate = 0.5, temperature = 2 }
+[[walls]]
+axis = "z"
+side = "both"
+epsilon = 0.7
+[collisions]
+tc_relative = 1e-3
+)");
+  write("one.toml", "scene = \"driven.toml\"\nseeds = [4]\n");
+  const json results = result("one.toml --out one")["points"][0]["results"];
+  const json alone = json_of("run driven.toml --json --quiet --set needles.seed=4");
+  const auto mean = [&](const char* name) { return results[name]["mean"].get<double>(); };
+  for (const int n : {0, 1}) {
+    const json& wall = alone["walls"][n];
+    const std::string name = n == 0 ? "z_low" : "z_high";
+    EXPECT_EQ(mean(("hits_" + name).c_str()), wall["hits"]);
+    EXPECT_EQ(mean(("impulse_" + name).c_str()), wall["impulse"]);
+    EXPECT_NEAR(mean(("pressure_" + name).c_str()), wall["pressure"].get<double>(), 1e-12);
+    EXPECT_EQ(mean(("budget_" + name).c_str()), alone["energy_budget"]["walls"][n]);
+  }
+  for (const char* name : {"pairs", "thermostat", "kicks"}) {
+    EXPECT_EQ(mean((std::string("budget_") + name).c_str()), alone["energy_budget"][name]) << name;
+  }
+}
+
 TEST_F(SweepCommand, SummaryDoesNotDependOnThreadsOrShares) {
   const json one = result("grid.toml --out one --threads 1");
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a time in the file would differ

@@ -24,6 +24,14 @@ count = 20
 box = 5
 [until]
 time = 1
+[driving]
+kicks = { every = 0.5, translational = 1, rotational = 1 }
+[[walls]]
+axis = "z"
+side = "low"
+[[walls]]
+axis = "z"
+side = "high"
 """
 
 MIXTURE = """

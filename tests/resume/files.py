@@ -29,7 +29,7 @@ EFFECTS = {
     "walls": """
 needles = { count = 250, box = [7, 7, 6], k = 5 }
 forces.gravity = [0, 0, -1]
-collisions = { epsilon = 0.9, tc_relative = 1e-3 }
+collisions = { epsilon = 0.9, beta = 0.3, tc_relative = 1e-3 }
 until.time = 15.02
 [[walls]]
 axis = "z"

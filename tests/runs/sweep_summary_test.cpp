@@ -60,6 +60,41 @@ TEST(Summary, HasTheTimesThatAllRunsHave) {
   EXPECT_DOUBLE_EQ(summary[0].results[0].estimate.mean, 2.1);
 }
 
+TEST(Summary, HasWhatWallsAndDrivingHaveDone) {
+  Grid grid = two_seeds();
+  for (Member& member : grid.members) {
+    member.scene.walls = {{.axis = "z", .side = "both"}};
+    member.scene.driving.kicks = {.every = 1, .translational = 1, .rotational = 0};
+  }
+  const auto summary = summarise(grid, [](const Member& member) {
+    io::RecordedRun run = run_sampled_at({0, 2}, 5);
+    const double more = member.seed == 1 ? 0 : 2;
+    // In another order than the scene has.
+    run.walls = {{2, true, 7, 3.0}, {2, false, 5, 4.0 + more}};
+    run.pressure = {1, 1.5 + more};
+    run.energy.pairs = -3;
+    run.energy.walls = {0.5, 0.25 + more};
+    run.energy.kicks = 2 + more;
+    return std::optional(run);
+  });
+  const auto mean = [&](const std::string& name) {
+    for (const Result& result : summary.at(0).results) {
+      if (result.name == name) return result.estimate.mean;
+    }
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  EXPECT_EQ(mean("hits_z_high"), 7);
+  EXPECT_EQ(mean("impulse_z_low"), 5);
+  EXPECT_EQ(mean("pressure_z_high"), 1);
+  EXPECT_EQ(mean("pressure_z_low"), 2.5);
+  EXPECT_EQ(mean("budget_z_high"), 0.5);
+  EXPECT_EQ(mean("budget_z_low"), 1.25);
+  EXPECT_EQ(mean("budget_pairs"), -3);
+  EXPECT_EQ(mean("budget_kicks"), 3);
+  for (const Result& result : summary[0].results) EXPECT_NE(result.name, "budget_thermostat");
+}
+
 TEST(Summary, LeavesOutWhatIsNotThere) {
   const auto summary = summarise(two_seeds(), [](const Member& member) {
     return member.seed == 2 ? std::optional(run_sampled_at({0, 1}, 5)) : std::nullopt;

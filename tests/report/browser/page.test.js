@@ -39,7 +39,8 @@ needles = { count = 60, box = [5, 5, 3] }
 forces.gravity = [0, 0, -1]
 collisions = { epsilon = 0.9, tc_relative = 1e-3 }
 until.time = 20
-output = { file = "shaken.h5", series_every = 0.5, frames = [0.25, 0.75] }
+output = { file = "shaken.h5", series_every = 0.5, frames = [0.25, 0.75], observables = ["wall_profiles", "centre_of_mass"] }
+driving.kicks = { every = 0.7, translational = 0.3, rotational = 0.3 }
 [[walls]]
 axis = "z"
 side = "low"
@@ -199,6 +200,38 @@ test("hits, forces and what acts on the gas are told", async () => {
   assert.match(await chart(page, "Cooling curve").locator("figcaption").textContent(), /that of the weight/);
   const momentum = await chart(page, "Conservation of momentum").locator("figcaption").textContent();
   assert.match(momentum, /along the periodic axes/);
+  await close();
+});
+
+test("walls have pressures, profiles with their means, and a budget of energy that closes", async () => {
+  const { page, close } = await open(browser, "shaken.html");
+  const legend = (title) => chart(page, title).locator(".legend").textContent();
+  assert.match(await legend("Pressure on walls"), /z low.*weight over area/);
+  assert.match(await legend("Energy put in and taken out"), /collisions.*kicks.*wall at z low.*change of the energy/);
+  assert.match(await legend("Power put in and taken out"), /collisions.*kicks.*wall at z low/);
+  const off = (await chart(page, "Energy put in and taken out").locator("figcaption").textContent()).match(/met to ([\d.]+)×10⁻(\S+)\./);
+  assert.ok(off && off[2].length === 2, `${off}`); // 1e-10 or less
+  assert.match(await legend("Centre of mass"), /z/);
+  for (const [title, names] of [
+    ["Between walls: density", ["along z", "along z, mean of the later half"]],
+    ["Between walls: temperatures", ["T_tr z", "T_rot z", "T along the axis z", "T_tr z, mean of the later half"]],
+    ["Between walls: flow", ["along z"]],
+    ["Between walls: order", ["P₂ along z", "nematic order z", "nematic order z, mean of the later half", "random directors"]],
+  ]) {
+    assert.equal(await chart(page, title).count(), 1, title);
+    const text = await legend(title);
+    for (const name of names) assert.ok(text.includes(name), `${title}: ${name}: ${text}`);
+    assert.ok((await chart(page, title).locator("svg path").count()) > 0, title);
+  }
+  // The slabs reach to three heights of the box; what is above them is not in the mean.
+  const density = chart(page, "Between walls: density");
+  await density.getByText("Table").click();
+  await density.locator("tbody tr").first().waitFor();
+  const sum = await density.locator("tbody tr").evaluateAll((rows) => rows.reduce((sum, row) => sum + (Number(row.cells[2].textContent) || 0), 0));
+  const slabs = await density.locator("tbody tr").count();
+  assert.equal(slabs, 76);
+  const needles = (sum * 25 * 9.5) / slabs;
+  assert.ok(needles > 15 && needles <= 60, `${needles}`);
   await close();
 });
 

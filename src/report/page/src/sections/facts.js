@@ -82,6 +82,11 @@ export function weightOn({ axis, high }, { scene, frames }) {
   return bears && alone ? frames.needles_in_file * scene.mass * Math.abs(gravity) : null;
 }
 
+/** The area of the face of the box at which a wall is. */
+export function areaOf({ axis }, { frames }) {
+  return frames.box.reduce((product, edge, n) => (n === axis ? product : product * edge), 1);
+}
+
 /** The walls of the series, in its order, as sides. */
 export function wallsOf({ groups }) {
   const { axis, high } = groups.walls.datasets;

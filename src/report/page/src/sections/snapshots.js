@@ -1,13 +1,20 @@
 // Charts of a run at one time, as a table: histograms, profiles and correlations.
 import { numbers, rowOf } from "../data.js";
 import { laws, overBins, poisson } from "./laws.js";
+import { isGeometric, largestEigenvalue } from "./timelines.js";
 
 const axes = ["x", "y", "z"];
 
+// What is drawn of vectors and tensors, one for each place: of how many numbers, and which of them.
+const lateral = { width: 3, of: (vector, axis) => Math.hypot(...vector.map((value, n) => (n === axis ? 0 : value))) };
+const nematic = { width: 9, of: largestEigenvalue };
+
 /** Each: the group, what it says, the datasets of its curves with their names, and where x comes
  * from: `borders` of bins, `places` of values, or neither for whole numbers from `first` on. A dataset
- * [samples][3][...] has a curve for each axis. Histograms are divided by their sum and the widths of
- * their bins. */
+ * [samples][3][...] has a curve for each axis, or for each axis with walls if the group says which
+ * these are. Histograms are divided by their sum and the widths of their bins. Where samples have one
+ * distance, `averaged` adds the mean over their later half, weighted by the density. `robust` is that of
+ * curvesChart. */
 const snapshots = [
   {
     group: "distributions", title: "Needles in a cell", x: "needles", y: "share of the cells", histogram: true,
@@ -45,9 +52,31 @@ const snapshots = [
     datasets: [[name, "along"]], places: "position", caption: "Means over slabs across each axis.",
   })),
   {
-    group: "profiles", title: "Profile: flow", x: "position", y: "length / time", datasets: [["flow", "along"]],
-    places: "position", component: "lateral",
+    group: "profiles", title: "Profile: flow", x: "position", y: "length / time", datasets: [["flow", "along", lateral]],
+    places: "position",
     caption: "Size of the mean velocity parallel to the slabs across each axis: shear flow shows here.",
+  },
+  {
+    group: "wall_profiles", title: "Between walls: density", x: "position", y: "needles per volume",
+    datasets: [["density", "along"]], places: "position", averaged: true,
+    caption: "Of centres, in slabs across each axis with walls.",
+  },
+  {
+    group: "wall_profiles", title: "Between walls: temperatures", x: "position", y: "energy",
+    datasets: [["t_tr", "T_tr"], ["t_rot", "T_rot"], ["t_normal", "T along the axis"]], places: "position", averaged: true,
+    robust: true,
+    caption: "Of translation, of rotation, and of the motion along the axis alone.",
+  },
+  {
+    group: "wall_profiles", title: "Between walls: flow", x: "position", y: "length / time",
+    datasets: [["flow", "along"]], places: "position", averaged: true, robust: true,
+    caption: "Mean velocity along the axis.",
+  },
+  {
+    group: "wall_profiles", title: "Between walls: order", x: "position", y: "order",
+    datasets: [["p2", "P₂ along"], ["order_tensor", "nematic order", nematic]], places: "position", averaged: true,
+    level: [0, "random directors"],
+    caption: "P₂ = ⟨(3 cos² − 1)/2⟩ of the angle to the axis: 1 along it, −1/2 across it. The nematic order is the largest eigenvalue of ⟨(3 u u − 1)/2⟩; of n needles at random it is of the order 1/√n.",
   },
   {
     group: "pair_correlation", title: "Pair correlation", x: "distance", y: "g", datasets: [["g", "g"]],
@@ -103,24 +132,53 @@ function snapshotsOfGroups(run) {
     .map((spec) => {
       const group = run.groups[spec.group];
       const log = spec.log ?? "";
+      const means = meansOf(spec, group);
       return {
         group,
         chart: {
           title: spec.title,
           caption: spec.caption,
+          robust: spec.robust,
           x: { label: spec.x, log: log.includes("x") },
           y: { label: spec.y, log: log.includes("y") },
         },
-        curvesAt: (row) => curvesAt(spec, group, row),
+        curvesAt: (row) => curvesAt(spec, group, row, means),
       };
     });
 }
 
-function curvesAt(spec, group, row) {
-  const curves = curvesOfRow(spec, group, row);
+function curvesAt(spec, group, row, means) {
+  const curves = curvesOfRow(spec, group, (dataset) => rowOf(dataset, row));
   const law = lawOf(spec, group, curves);
-  const all = law ? [...curves, law] : curves;
+  const drawn = means.length ? curves.map((curve) => ({ ...curve, points: "alone" })) : curves;
+  const all = [...drawn, ...means, law].filter(Boolean);
   return spec.untilEmpty ? all.map((curve) => shortened(curve, lastFilled(curves) + 2)) : all;
+}
+
+// Curves of the mean over the later half of the samples.
+function meansOf(spec, group) {
+  if (!spec.averaged || group.rows < 4 || isGeometric(numbers(group.time))) return [];
+  const weights = group.datasets.density;
+  const slabs = rowOf(weights, 0).length;
+  const meanOf = (dataset) => {
+    const width = rowOf(dataset, 0).length / slabs;
+    const sum = new Float64Array(slabs * width);
+    const total = new Float64Array(slabs);
+    const first = Math.floor(group.rows / 2);
+    for (let row = first; row < group.rows; ++row) {
+      const [values, weight] = [rowOf(dataset, row), rowOf(weights, row)];
+      for (let n = 0; n < slabs; ++n) {
+        total[n] += weight[n];
+        // Without needles a slab has no values.
+        for (let k = n * width; weight[n] > 0 && k < (n + 1) * width; ++k) sum[k] += values[k] * weight[n];
+      }
+    }
+    if (dataset === weights) return total.map((value) => value / (group.rows - first));
+    return sum.map((value, k) => value / total[Math.floor(k / width)]);
+  };
+  return curvesOfRow(spec, group, meanOf).map((curve) => (
+    { ...curve, name: `${curve.name}, mean of the later half`, points: false }
+  ));
 }
 
 function lastFilled(curves) {
@@ -132,33 +190,36 @@ function shortened(curve, length) {
   return { ...curve, x: curve.x.slice(0, length), y: curve.y.slice(0, length), borders };
 }
 
-function curvesOfRow(spec, group, row) {
-  return spec.datasets.flatMap(([name, text]) => {
+// Of the values that a dataset has.
+function curvesOfRow(spec, group, valuesOf) {
+  const inFile = spec.datasets.filter(([name]) => group.datasets[name]);
+  return inFile.flatMap(([name, text, reduced], number) => {
     const dataset = group.datasets[name];
-    const values = rowOf(dataset, row);
-    const perAxis = dataset.shape.length > 2;
-    const parts = perAxis ? axes : [""];
+    const values = valuesOf(dataset);
+    const parts = dataset.shape.length > 2 ? axesOf(group) : [""];
     return parts.map((axis, n) => {
-      const part = partOf(spec, dataset, values, n, parts.length);
+      const part = partOf(values, n, parts, reduced);
       const x = placesOf(spec, group, part.length, n);
       return {
-        name: `${text} ${axis}`.trim(), x, y: ordinates(spec, group, part), colour: n,
+        name: `${text} ${axis}`.trim(), x, y: ordinates(spec, group, part), colour: number * parts.length + n,
         borders: spec.histogram && bordersOf(spec, group, x), points: Boolean(spec.places),
       };
     });
   });
 }
 
-// The part of a row that belongs to axis n, and of vectors the size of what lies across that axis.
-function partOf(spec, dataset, values, n, parts) {
-  const size = values.length / parts;
+function axesOf({ datasets }) {
+  return datasets.axis ? Array.from(numbers(datasets.axis), (n) => axes[n]) : axes;
+}
+
+// The part of a row that belongs to axis n.
+function partOf(values, n, parts, reduced) {
+  const size = values.length / parts.length;
   const part = values.subarray(n * size, (n + 1) * size);
-  if (spec.component !== "lateral") return part;
-  return Float64Array.from({ length: size / 3 }, (_, slab) => {
-    const vector = [...part.subarray(3 * slab, 3 * slab + 3)];
-    vector[n] = 0;
-    return Math.hypot(...vector);
-  });
+  if (!reduced) return part;
+  const { width, of } = reduced;
+  const axis = axes.indexOf(parts[n]);
+  return Float64Array.from({ length: size / width }, (_, place) => of([...part.subarray(place * width, (place + 1) * width)], axis));
 }
 
 function placesOf(spec, group, length, n) {

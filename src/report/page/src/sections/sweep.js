@@ -14,6 +14,23 @@ const results = [
   ["t_rot", "Rotational temperature at the end", "energy"],
 ];
 
+// Those of each wall, and of each effect that gives energy.
+const families = [
+  [/^hits_(.)_(low|high)$/, "Hits on the wall at $1 $2", "hits"],
+  [/^pressure_(.)_(low|high)$/, "Pressure on the wall at $1 $2", "energy / volume"],
+  [/^budget_(.)_(low|high)$/, "Energy put in: wall at $1 $2", "energy per needle"],
+  [/^budget_pairs$/, "Energy put in: collisions", "energy per needle"],
+  [/^budget_(thermostat|kicks)$/, "Energy put in: $1", "energy per needle"],
+];
+
+/** All results that have charts: [name, title, label]. */
+function chartedResults(sweep) {
+  const more = Object.keys(sweep.results).flatMap((name) => families
+    .filter(([pattern]) => pattern.test(name))
+    .map(([pattern, title, label]) => [name, name.replace(pattern, title), label]));
+  return [...results.filter(([name]) => sweep.results[name]), ...more];
+}
+
 /** Elements of the section. */
 export function sweepSection(sweep) {
   const keys = Object.keys(sweep.parameters);
@@ -63,8 +80,7 @@ function estimatesOf(quantity) {
 
 function resultCharts(sweep, axis) {
   const values = sweep.parameters[axis];
-  return results
-    .filter(([name]) => sweep.results[name])
+  return chartedResults(sweep)
     .map(([name, title, label]) => {
       const { y, low, high } = estimatesOf(sweep.results[name]);
       const curves = new Map();
