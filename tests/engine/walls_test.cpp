@@ -322,7 +322,35 @@ TEST(OneNeedle, IsCaughtByAWallFromBehind) {
   EXPECT_GT(run.copy().velocity[0][2], 1);
 }
 
-// A wall that moves away as fast as the tip follows never meets it, and one a little slower does.
+// The tip begins at the surface, as fast as it, and the surface leaves it ever faster, until it
+// comes back: then the needle is hit, and not at the first touch.
+TEST(OneNeedle, IsLeftByAWallThatMovesAwayAsFast) {
+  Scene scene = one_needle(4);
+  constexpr double frequency = 0.25, amplitude = 0.5, turn = 2 * std::numbers::pi * frequency;
+  for (const double phase : {0.55, 0.75, 0.95}) {
+    const double begin = phase * std::numbers::pi;
+    scene.walls[2] = {.axis = "z",
+                      .side = "low",
+                      .motion = Scene::WallMotion{
+                          .amplitude = amplitude, .frequency = frequency, .phase = begin}};
+    scene.walls.push_back({.axis = "z", .side = "high"});
+    const double low = amplitude * std::sin(begin), speed = amplitude * turn * std::cos(begin);
+    Simulation run(scene, state_of(scene, {2, 2, low + 0.5}, {0, 0, 1}, {0, 0, speed}, {0, 0, 0}));
+    scene.walls.pop_back();
+    std::vector<Hit> hits = hits_of(run, 3.9);
+    // What rounding leaves of the touch is no hit that could be noticed.
+    std::erase_if(hits, [](const Hit& hit) { return hit.time < 1e-6 && hit.velocity > -1e-12; });
+    ASSERT_FALSE(hits.empty()) << phase;
+    const double t = hits[0].time;
+    EXPECT_GT(t, 0.2) << phase;
+    EXPECT_NEAR(low + speed * t, amplitude * std::sin(begin + turn * t), 1e-12) << phase;
+    // There has been no other contact before.
+    for (double s = 0.05; s < t - 1e-3; s += 1e-3)
+      ASSERT_GT(low + speed * s, amplitude * std::sin(begin + turn * s)) << phase << ", " << s;
+  }
+}
+
+// A wall that first moves away slower than the tip is met by it.
 TEST(OneNeedle, FollowsAWallThatMovesAway) {
   Scene scene = one_needle(4);
   constexpr double frequency = 0.25, amplitude = 0.5;
