@@ -49,11 +49,13 @@ std::size_t bytes_allocated = 0;  // by new, in one thread
 namespace needlework {
 namespace {
 
-/// A collide() of the event processor, as the compiler has made it for one model.
+/// The code of the event processor that the compiler has made for one model: its collide(), and
+/// what it has for walls and thermostats, which are sources of events.
 struct CollideCode {
   int smooth_calls = 0, rough_calls = 0;  ///< of the collision rule without and with beta
   int contact_times = 0;                  ///< instructions that read the contact time of the run
   int species = 0;                        ///< instructions that read the species of a record
+  int sources = 0;  ///< functions that ask sources, or let their events happen
 };
 
 /// By object file and search, then by whether the model has effects.
@@ -79,7 +81,8 @@ CodeByLoop read_library() {
   const std::unique_ptr<FILE, decltype(close)> pipe(popen(command.c_str(), "r"), close);
   const std::regex loop(
       "<needlework::EventProcessor<needlework::(\\w+), "
-      "needlework::NeedleModel<(true|false), needlework::NeedleContact> *>::collide\\(");
+      "needlework::NeedleModel<(true|false), needlework::NeedleContact> *>::"
+      "(collide|consider_sources|happen)\\(");
   std::string object;
   CollideCode* code = nullptr;
   char buffer[1 << 16];  // names of templates are long
@@ -91,7 +94,12 @@ CodeByLoop read_library() {
       code = nullptr;
       const std::string symbol = line.substr(line.find('<'));
       if (!std::regex_search(symbol, match, loop)) continue;
-      code = &out[object + ", " + match[1].str()][match[2] == "true"];
+      CollideCode& of_model = out[object + ", " + match[1].str()][match[2] == "true"];
+      if (match[3] == "collide") {
+        code = &of_model;
+      } else {
+        ++of_model.sources;
+      }
     } else if (code && line.find("R_") != line.npos) {
       code->smooth_calls += line.find("needlework::collide<(needlework::Surface)0>") != line.npos;
       code->rough_calls += line.find("needlework::collide<(needlework::Surface)1>") != line.npos;
@@ -120,6 +128,7 @@ TEST(EffectThatIsOff, HasNoCodeInTheLoop) {
       EXPECT_EQ(code.rough_calls > 0, has_effects);
       EXPECT_EQ(code.contact_times > 0, has_effects);
       EXPECT_EQ(code.species > 0, has_effects);
+      EXPECT_EQ(code.sources > 0, has_effects);
     }
   }
 }
