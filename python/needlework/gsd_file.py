@@ -34,7 +34,9 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     Returns the number of frames written. GSD holds numbers in single precision. Centres are shifted
     by half the box, because its boxes have their centre in the origin. Its quaternion ``orientation``
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
-    that OVITO draws needles. The species of a mixture are its types. GSD has no angular velocity: it
+    that OVITO draws needles; of rods of finite width they are meshes of cylinders with spherical
+    caps, or spheres, and ``diameter`` is theirs. Lengths and diameters of the types are in
+    ``log["length"]`` and ``log["diameter"]``. The species of a mixture are its types. GSD has no angular velocity: it
     is in ``log["particles/angular_velocity"]``, in double precision, and the time is in
     ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes with walls.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
@@ -84,14 +86,14 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     snapshot.configuration.box = [*frame.box, 0, 0, 0]
     # One number, or one for each species of a mixture.
     lengths, masses, shapes = (np.atleast_1d(value) for value in (gas.length, gas.mass, gas.k))
+    diameters = np.atleast_1d(gas.get("diameter", np.zeros_like(lengths)))
     inertia = masses * lengths**2 / (2 * shapes)
     species = frame.species if len(lengths) > 1 else np.zeros(count, dtype=np.uint8)
     particles = snapshot.particles
     particles.N = count
     particles.types = names
-    particles.type_shapes = [{"type": "Ellipsoid", "a": DRAWN_RADIUS * length,
-                              "b": DRAWN_RADIUS * length, "c": length / 2}
-                             for length in lengths.tolist()]
+    particles.type_shapes = [_shape(length, diameter) for length, diameter in
+                             zip(lengths.tolist(), diameters.tolist())]
     particles.typeid = species.astype(np.uint32)
     particles.position = frame.position - frame.box / 2
     particles.image = frame.image
@@ -99,11 +101,46 @@ def _snapshot(frame: Any, gas: Any, names: list[str]) -> Any:
     particles.orientation = quaternions(frame.orientation)
     particles.mass = masses[species]
     particles.moment_inertia = np.stack([inertia, inertia, 0 * inertia], axis=1)[species]
-    particles.diameter = lengths[species]
+    particles.diameter = np.where(diameters > 0, diameters, lengths)[species]
     snapshot.log = {"particles/angular_velocity": np.asarray(frame.angular_velocity),
                     "time": np.array([frame.time]),
+                    "length": lengths.astype(float), "diameter": diameters.astype(float),
                     "periodic": frame.periodic.astype(np.uint8)}
     return snapshot
+
+
+def _shape(length: float, diameter: float) -> dict[str, Any]:
+    """How a body is drawn along the axis z. The format has no cylinders with caps."""
+    if diameter == 0:
+        width = DRAWN_RADIUS * length
+        return {"type": "Ellipsoid", "a": width, "b": width, "c": length / 2}
+    if length == 0:
+        return {"type": "Sphere", "diameter": diameter}
+    vertices, triangles = capsule(length, diameter)
+    return {"type": "Mesh", "vertices": vertices.tolist(), "indices": triangles.tolist()}
+
+
+def capsule(length: float, diameter: float, around: int = 24,
+            rings: int = 6) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices [V, 3] on a cylinder along z with spherical caps, and triangles [T, 3] of them that
+    face outwards: `rings` circles of vertices on each cap, and its pole."""
+    heights = np.pi / 2 * np.arange(rings) / rings  # angles above the rim of a cap
+    angles = 2 * np.pi * np.arange(around) / around
+    circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(around)], axis=1)
+    cap = [diameter / 2 * (np.cos(h) * circle + [0, 0, np.sin(h)]) for h in heights]
+    upper = [ring + [0, 0, length / 2] for ring in cap]
+    circles = [ring * [1, 1, -1] for ring in upper[::-1]] + upper  # from below
+    pole = (length + diameter) / 2
+    vertices = np.concatenate([[[0, 0, -pole]], *circles, [[0, 0, pole]]])
+    triangles, last = [], len(vertices) - 1
+    for j in range(around):
+        k = (j + 1) % around
+        triangles.append([0, 1 + k, 1 + j])
+        for ring in range(len(circles) - 1):
+            a, b = 1 + ring * around, 1 + (ring + 1) * around
+            triangles += [[a + j, a + k, b + k], [a + j, b + k, b + j]]
+        triangles.append([last - around + j, last - around + k, last])
+    return vertices, np.array(triangles)
 
 
 def quaternions(directors: np.ndarray) -> np.ndarray:

@@ -32,18 +32,14 @@ std::string endings(bool many) {
 
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
   io::Material material = io::read_material(path);
-  if (!material.diameter.empty()) {
-    throw InputError(
-        fmt::format("{}: rods of finite width: expected thin needles, as which other "
-                    "formats are written",
-                    path));
-  }
   if (!format.whole_material) return material;
   if (material.species() > 1) {
     throw InputError(fmt::format("{}: {} species: expected one, as in {}", path, material.species(),
                                  format.what));
   }
   io::require_complete(material, path);
+  // Spheres are those of DynamO, and so are their walls.
+  if (io::has_width(material)) return material;
   if (!material.beta.empty() && material.beta[0] != -1) {
     print_warning(fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path,
                               material.beta[0]));

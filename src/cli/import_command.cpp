@@ -52,9 +52,10 @@ std::string path_in_toml(const std::string& path) {
 void warn_of_what_is_assumed(const io::Material& material, const std::string& path) {
   const Scene::Species species;
   const Scene::Collisions collisions;
+  const double k = io::has_width(material) ? io::species_of(material).front().k : species.k;
   for (const auto& [name, values, assumed] :
        {std::tuple("length", &material.length, species.length),
-        std::tuple("mass", &material.mass, species.mass), std::tuple("k", &material.k, species.k),
+        std::tuple("mass", &material.mass, species.mass), std::tuple("k", &material.k, k),
         std::tuple("epsilon", &material.epsilon, collisions.epsilon)}) {
     if (!values->empty()) continue;
     print_warning(
@@ -104,8 +105,9 @@ Composition counted(const io::Configuration& read, const std::string& from) {
 std::string species_text(const Composition& composition) {
   std::string text;
   for (const Species& each : composition.species()) {
-    text += fmt::format("[[species]]\nname = {}\ncount = {}\nlength = {}\nmass = {}\nk = {}\n\n",
+    text += fmt::format("[[species]]\nname = {}\ncount = {}\nlength = {}\nmass = {}\nk = {}\n",
                         toml(printable(each.name)), each.count, each.length, each.mass, each.k);
+    text += each.diameter == 0 ? "\n" : fmt::format("diameter = {}\n\n", each.diameter);
   }
   return text;
 }

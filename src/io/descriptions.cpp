@@ -348,6 +348,8 @@ std::vector<Description> vtkhdf_descriptions() {
       {"/VTKHDF/Offsets", "Position in Connectivity where each line begins, and its length", none,
        "[needles + 1]"},
       {"/VTKHDF/Types", "VTK type of each cell, 3 for a line", none, "[needles]"},
+      {"/VTKHDF/PointData", "Data of the ends of rods", none, none},
+      {"/VTKHDF/PointData/radius", "Radius of the rod", length, "[points]"},
       {"/VTKHDF/CellData", "Data of the needles", none, none},
       {"/VTKHDF/CellData/id", "Identity of each needle", none, "[needles]"},
       {"/VTKHDF/CellData/velocity", "Velocity of the centre of each needle", speed, "[needles][3]"},

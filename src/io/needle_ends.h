@@ -23,4 +23,15 @@ inline std::vector<std::array<double, 3>> ends_of(const State& state,
   return ends;
 }
 
+/// The radius at the tail of each rod, then at its tip. `diameters` are those of the species [L].
+inline std::vector<double> radii_of_ends(const State& state, const std::vector<double>& diameters) {
+  std::vector<double> radii;
+  radii.reserve(2 * state.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const double radius = 0.5 * diameters.at(state.species.empty() ? 0 : state.species[i]);
+    radii.insert(radii.end(), {radius, radius});
+  }
+  return radii;
+}
+
 }  // namespace needlework::io

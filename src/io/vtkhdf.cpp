@@ -69,7 +69,7 @@ void write_cell_data(hid_t group, const State& state, const std::string& place) 
 }  // namespace
 
 void write_vtkhdf(const std::string& path, bool force, const State& state,
-                  const std::vector<double>& lengths) {
+                  const std::vector<double>& lengths, const std::vector<double>& diameters) {
   const hdf5::Session session;
   AtomicFile atomic(path, force);
   OutputFile file(atomic.temporary(), path, OutputFile::Use::in_one_go);
@@ -85,6 +85,11 @@ void write_vtkhdf(const std::string& path, bool force, const State& state,
       hdf5::write_attribute(root.get(), "periodic", periodic, {3}, path);
     }
     write_lines(root.get(), state, lengths, path);
+    if (!diameters.empty()) {
+      const std::vector<double> radii = radii_of_ends(state, diameters);
+      write_array<double>(create_group(root.get(), "PointData", path).get(), "radius",
+                          {radii.size()}, radii, path);
+    }
     write_cell_data(create_group(root.get(), "CellData", path).get(), state, path);
   }
   write_descriptions(file.get(), vtkhdf_descriptions(), path);

@@ -84,11 +84,47 @@ TEST_F(RodsCommand, AuditsThem) {
   EXPECT_TRUE(findings["differences"].empty()) << findings;
 }
 
-TEST_F(RodsCommand, RefusesWhatKnowsNeedlesAlone) {
+TEST_F(RodsCommand, ExportsAndImportsThem) {
   hash_to(1);
-  const Outcome exported = run("export rods.h5 rods.xyz");
-  EXPECT_EQ(exported.exit_code, 3);
-  EXPECT_TRUE(exported.complains("rods.h5: rods of finite width: expected thin needles"));
+  for (const char* name : {"rods.vtkhdf", "rods.pvd"}) {
+    const Outcome exported = run(std::string("export rods.h5 ") + name);
+    EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  }
+  const std::string on = " --set until.collisions_per_needle=1 --set collisions.tc_relative=1e-3";
+  std::string first;
+  for (const std::string name : {"rods.xyz", "rods.dump"}) {
+    EXPECT_EQ(run("export rods.h5 " + name).exit_code, 0);
+    const Outcome imported = run("import " + name + " --out " + name + "-folder");
+    EXPECT_EQ(imported.exit_code, 0) << imported.err;
+    const std::string scene = read(name + "-folder/scene.toml");
+    EXPECT_NE(scene.find("length = 0\nmass = 2\nk = 6\ndiameter = 1.2\n"), scene.npos) << scene;
+    EXPECT_NE(scene.find("diameter = 0.5\n"), scene.npos) << scene;
+    const auto result = json_of("run " + name + "-folder/scene.toml --json --quiet" + on +
+                                " --set collisions.epsilon=0.9");
+    EXPECT_EQ(result["collisions"], 50);
+    EXPECT_NEAR(result["rods"]["packing_fraction"].get<double>(), 0.141822, 1e-6);
+    if (first.empty()) first = result["trajectory_hash"];
+    EXPECT_EQ(result["trajectory_hash"], first) << name;
+  }
+  for (const char* name : {"rods.data", "rods.xml"}) {
+    const Outcome refused = run(std::string("export rods.h5 ") + name);
+    EXPECT_EQ(refused.exit_code, 3) << name;
+    EXPECT_FALSE(exists(name));
+  }
+}
+
+TEST_F(RodsCommand, ExchangesSpheresWithDynamo) {
+  write("spheres.toml",
+        "needles.box = 6\nuntil.collisions_per_needle = 3\noutput.file = \"spheres.h5\"\n"
+        "[[species]]\nname = \"balls\"\ncount = 80\nlength = 0\ndiameter = 1\n");
+  ASSERT_EQ(run("run spheres.toml --quiet").exit_code, 0);
+  const Outcome exported = run("export spheres.h5 spheres.xml");
+  EXPECT_EQ(exported.exit_code, 0);
+  EXPECT_EQ(exported.err, "");
+  const Outcome imported = run("import spheres.xml --out folder");
+  EXPECT_EQ(imported.exit_code, 0);
+  EXPECT_EQ(imported.err, "");
+  EXPECT_EQ(json_of("run folder/scene.toml --json --quiet")["collisions"], 400);
 }
 
 }  // namespace

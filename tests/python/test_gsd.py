@@ -11,7 +11,7 @@ support.require("numpy", "h5py", "gsd")
 import gsd.hoomd
 import needlework
 import numpy as np
-from needlework.gsd_file import quaternions
+from needlework.gsd_file import capsule, quaternions
 
 
 def turned(q):
@@ -92,6 +92,38 @@ class ToGsd(unittest.TestCase):
         with gsd.hoomd.open(out, "rb") as file:
             shape, = file[0].particles.type_shapes
             self.assertEqual(shape, {"type": "Ellipsoid", "a": 0.06, "b": 0.06, "c": 1.5})
+
+    def test_rods_are_as_wide_as_they_are(self):
+        scene = {"needles": {"box": 9}, "species": [
+            {"name": "rod", "count": 10, "length": 3, "diameter": 0.5, "inertia": 2},
+            {"name": "ball", "count": 5, "length": 0, "diameter": 1.5}]}
+        out = self.path("rods.gsd")
+        needlework.to_gsd(needlework.Simulation(scene), out)
+        with gsd.hoomd.open(out, "rb") as file:
+            snapshot = file[0]
+            rod, ball = snapshot.particles.type_shapes
+            self.assertEqual(ball, {"type": "Sphere", "diameter": 1.5})
+            self.assertEqual(rod["type"], "Mesh")
+            self.assertEqual(np.abs(rod["vertices"]).max(axis=0).tolist(), [0.25, 0.25, 1.75])
+            np.testing.assert_array_equal(snapshot.particles.diameter, [0.5] * 10 + [1.5] * 5)
+            np.testing.assert_array_equal(snapshot.log["length"], [3, 0])
+            np.testing.assert_array_equal(snapshot.log["diameter"], [0.5, 1.5])
+            np.testing.assert_allclose(snapshot.particles.moment_inertia[[0, 10]],
+                                       [[2, 2, 0], [0, 0, 0]])
+
+    def test_capsules_are_closed_and_of_the_right_volume(self):
+        length, diameter = 5.0, 2.0
+        vertices, triangles = capsule(length, diameter, around=96, rings=24)
+        # All vertices are on the surface.
+        along = np.clip(vertices[:, 2], -length / 2, length / 2)
+        axis = np.stack([0 * along, 0 * along, along], axis=1)
+        np.testing.assert_allclose(np.linalg.norm(vertices - axis, axis=1), diameter / 2)
+        # Each edge belongs to two triangles, which pass it in opposite directions.
+        edges = {(a, b) for t in triangles.tolist() for a, b in zip(t, t[1:] + t[:1])}
+        self.assertEqual(len(edges), 3 * len(triangles))
+        self.assertEqual({(b, a) for a, b in edges}, edges)
+        volume = np.linalg.det(vertices[triangles]).sum() / 6
+        self.assertAlmostEqual(volume / (np.pi * (length + 2 * diameter / 3)), 1, delta=2e-3)
 
     def test_species_are_types(self):
         run = self.path("mixture.h5")

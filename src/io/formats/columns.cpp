@@ -53,14 +53,19 @@ double rounding_along(const Row& row, const VectorColumns& columns, const Vector
   return 1.01 * half * (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2]));
 }
 
-// `common` has 0 for a species of which nothing is known yet.
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// `common` has NaN for a species of which nothing is known yet.
 void read_common(const Row& row, std::optional<std::size_t> column, const char* name,
-                 std::size_t species, std::vector<double>& common) {
+                 std::size_t species, std::vector<double>& common, bool may_be_zero = false) {
   if (!column) return;
   const double value = row.read(*column, name);
-  if (!(value > 0)) row.reject(fmt::format("{} = {}: expected a number > 0", name, value));
-  if (common.size() <= species) common.resize(species + 1);
-  if (common[species] != 0 && common[species] != value) {
+  if (!(value > 0 || (may_be_zero && value == 0))) {
+    row.reject(fmt::format("{} = {}: expected a number > 0{}", name, value,
+                           may_be_zero ? ", or 0 for a sphere" : ""));
+  }
+  if (common.size() <= species) common.resize(species + 1, unknown);
+  if (!std::isnan(common[species]) && common[species] != value) {
     row.reject(
         fmt::format("{} = {}: expected {}, as of the needles before: those of a species are "
                     "equal",
@@ -70,11 +75,8 @@ void read_common(const Row& row, std::optional<std::size_t> column, const char* 
 }
 
 std::pair<const char*, std::vector<double> Material::*> const materials[] = {
-    {"length", &Material::length},
-    {"mass", &Material::mass},
-    {"k", &Material::k},
-    {"epsilon", &Material::epsilon},
-    {"beta", &Material::beta}};
+    {"length", &Material::length},   {"mass", &Material::mass}, {"k", &Material::k},
+    {"epsilon", &Material::epsilon}, {"beta", &Material::beta}, {"diameter", &Material::diameter}};
 
 }  // namespace
 
@@ -125,7 +127,9 @@ void NeedleReader::read(const Row& row) {
     state.species.push_back(static_cast<SpeciesIndex>(species));
   }
   Material& material = configuration_.material;
-  read_common(row, columns_.length, "length", species, material.length);
+  read_common(row, columns_.length, "length", species, material.length,
+              columns_.diameter.has_value());
+  read_common(row, columns_.diameter, "diameter", species, material.diameter);
   read_common(row, columns_.mass, "mass", species, material.mass);
   read_common(row, columns_.k, "k", species, material.k);
 }
@@ -236,8 +240,9 @@ void NeedleReader::leave_out_unknown_species() {
     renumbered[i] = count;
     if (present[i]) ++count;
   }
-  for (std::vector<double>* list : {&material.length, &material.mass, &material.k}) {
-    if (list->size() <= 1 && !(list->size() == 1 && list->at(0) == 0)) continue;  // of all
+  for (std::vector<double>* list :
+       {&material.length, &material.mass, &material.k, &material.diameter}) {
+    if (list->size() <= 1 && !(list->size() == 1 && std::isnan(list->at(0)))) continue;  // of all
     std::vector<double> kept;
     for (std::size_t i = 0; i < list->size() && i < most_species; ++i) {
       if (present[i]) kept.push_back(list->at(i));

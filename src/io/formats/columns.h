@@ -22,7 +22,7 @@ struct Columns {
   std::optional<VectorColumns> position, velocity, orientation, angular_velocity, image;
   std::optional<std::size_t> id;
   std::int64_t first_id = 0;  ///< the id in the file of the needle whose id is 0
-  std::optional<std::size_t> length, mass, k;
+  std::optional<std::size_t> length, mass, k, diameter;
   std::optional<VectorColumns> force;  ///< not read by NeedleReader
   std::optional<std::size_t> species;
   std::int64_t first_species = 0;    ///< the number in the file of the species whose index is 0
@@ -80,9 +80,9 @@ class NeedleReader {
   std::vector<SlowRotation> slow_;
 };
 
-/// Sets numbers of the material by their name: length, mass, k, epsilon, beta, names, walls,
-/// wall_epsilon or gravity. Several are separated by commas or blanks. Other names are left alone.
-/// Throws InputError for what is not a number, or is set already.
+/// Sets numbers of the material by their name: length, mass, k, epsilon, beta, diameter, names,
+/// walls, wall_epsilon or gravity. Several are separated by commas or blanks. Other names are left
+/// alone. Throws InputError for what is not a number, or is set already.
 void set_material(Material& material, std::string_view name, std::string_view value,
                   const Row& row);
 /// The same numbers as text: "length=1 mass=1 k=6 epsilon=0.9 beta=-1", or "length=1,1.5 ...

@@ -72,41 +72,57 @@ void require_all(const XmlElement& element, const char* range, const char* earli
   }
 }
 
-// Returns the moment of inertia for a unit of mass, with digits beyond those of a double: only
-// these may lead back to a given k.
-long double read_species(const XmlElement& simulation, Material& material) {
+// Lines have a moment of inertia, points, which are the centres of spheres, have none.
+struct Body {
+  bool is_sphere = false;
+  long double inertia = 0;  // for a unit of mass, with digits beyond those of a double: only these
+                            // may lead back to a given k
+};
+
+Body read_species(const XmlElement& simulation, Material& material) {
   const XmlElement genus = simulation.child("Genus");
   genus.require_only({}, {"Species"});
   if (const auto species = genus.first("Species"); species && species->next()) {
     species->next()->reject("a second species cannot be carried over: expected one");
   }
   const XmlElement species = genus.child("Species");
-  species.require_word("Type", {"SphericalTop", "Lines"},
-                       "SphericalTop or Lines: other particles cannot be carried over");
+  species.require_word("Type", {"SphericalTop", "Lines", "Point"},
+                       "SphericalTop, Lines or Point: other particles cannot be carried over");
   species.require_only({"Type", "Name", "IntName", "Mass", "InertiaConstant", "Range"},
                        {"IDRange"});
   require_all(species, "IDRange", "All");
   material.names = {std::string(species.text("Name"))};
   material.mass = {common_number(species, "Mass")};
   if (!(material.mass[0] > 0)) species.reject("Mass", "a number > 0");
+  if (species.text("Type") == "Point") return {.is_sphere = true};
   positive_number(species, "InertiaConstant");
-  return std::strtold(std::string(species.text("InertiaConstant")).c_str(), nullptr);
+  return {.inertia = std::strtold(std::string(species.text("InertiaConstant")).c_str(), nullptr)};
 }
 
-void read_interaction(const XmlElement& simulation, Material& material) {
+void read_interaction(const XmlElement& simulation, bool of_spheres, Material& material) {
   const XmlElement interactions = simulation.child("Interactions");
   interactions.require_only({}, {"Interaction"});
   for (auto each = interactions.first("Interaction"); each; each = each->next()) {
-    each->require_word("Type", {"Lines"}, "Lines: other interactions cannot be carried over");
+    if (of_spheres) {
+      each->require_word("Type", {"HardSphere"},
+                         "HardSphere, as of points: other interactions cannot be carried over");
+    } else {
+      each->require_word("Type", {"Lines"},
+                         "Lines, as of particles that turn: other interactions cannot be carried "
+                         "over");
+    }
   }
-  const XmlElement lines = interactions.child("Interaction");
+  const XmlElement contact = interactions.child("Interaction");
+  const char* size = of_spheres ? "Diameter" : "Length";
   // A CaptureMap lists which pairs are near each other, and follows from the positions.
-  lines.require_only({"Type", "Name", "Length", "Elasticity", "Range"},
-                     {"IDPairRange", "CaptureMap"});
-  require_all(lines, "IDPairRange", "2All");
-  material.length = {common_number(lines, "Length")};
-  if (!(material.length[0] > 0)) lines.reject("Length", "a number > 0");
-  material.epsilon = {elasticity_of(lines)};
+  contact.require_only({"Type", "Name", size, "Elasticity", "Range"},
+                       {"IDPairRange", "CaptureMap"});
+  require_all(contact, "IDPairRange", "2All");
+  const double value = common_number(contact, size);
+  if (!(value > 0)) contact.reject(size, "a number > 0");
+  material.length = {of_spheres ? 0 : value};
+  if (of_spheres) material.diameter = {value};
+  material.epsilon = {elasticity_of(contact)};
 }
 
 // Along which axes the boundary is periodic.
@@ -141,6 +157,16 @@ struct Plane {
   Scene::Wall wall;
   double place = 0;  // along the axis
 };
+
+// Walls stop spheres at their surface, and needles at a ball around the centre.
+void require_fitting_wall(const XmlElement& local, const Material& material) {
+  if (!has_width(material) ||
+      (local.has("Diameter") && local.number("Diameter") == material.diameter[0]))
+    return;
+  local.reject(fmt::format("Diameter {}: expected {}, that of the spheres",
+                           local.has("Diameter") ? local.text("Diameter") : "is missing",
+                           material.diameter[0]));
+}
 
 Plane read_plane(const XmlElement& local) {
   local.require_word("Type", {"Wall"}, "Wall: other local objects cannot be carried over");
@@ -205,6 +231,7 @@ void read_walls(const XmlElement& simulation, Configuration& configuration) {
     locals.require_only({}, {"Local"});
     for (auto each = locals.first("Local"); each; each = each->next()) {
       Plane plane = read_plane(*each);
+      require_fitting_wall(*each, configuration.material);
       for (const Plane& other : planes) {
         if (other.wall.axis != plane.wall.axis || other.wall.side != plane.wall.side) continue;
         each->reject("a second wall with this normal: expected one at each end of an axis");
@@ -222,7 +249,7 @@ void read_walls(const XmlElement& simulation, Configuration& configuration) {
     place_walls(simulation, axis, periodic[axis], find("low"), find("high"), configuration.state);
   }
   for (Plane& plane : planes) configuration.material.walls.push_back(std::move(plane.wall));
-  if (planes.empty()) return;
+  if (planes.empty() || has_width(configuration.material)) return;
   configuration.note =
       "walls of DynamO stop balls around the centres, whose diameters are left out: needles touch "
       "walls by their tips";
@@ -295,9 +322,21 @@ void read_particle(const XmlElement& particle, Configuration& configuration) {
   State& state = configuration.state;
   const std::size_t number = state.size();
   if (particle.has("Static")) particle.reject("Static", "none: all needles move");
-  particle.require_only({"ID"}, {"P", "V", "O", "U", "Director"});
+  const bool is_sphere = has_width(configuration.material);
+  if (is_sphere) {
+    particle.require_only({"ID"}, {"P", "V"});
+  } else {
+    particle.require_only({"ID"}, {"P", "V", "O", "U", "Director"});
+  }
   if (particle.has("ID") && particle.number("ID") != static_cast<double>(number)) {
     particle.reject("ID", fmt::format("{}: particles are numbered in order", number));
+  }
+  state.position.push_back(read_vector(particle, "P"));
+  state.velocity.push_back(read_vector(particle, "V"));
+  if (is_sphere) {  // which does not turn
+    state.orientation.push_back({0, 0, 1});
+    state.angular_velocity.push_back({});
+    return;
   }
   const Vector u = read_director(particle);
   Vector w = read_vector(particle, "O");
@@ -310,8 +349,6 @@ void read_particle(const XmlElement& particle, Configuration& configuration) {
     w = without_part_along(w, u);
     configuration.roundings.add(part);
   }
-  state.position.push_back(read_vector(particle, "P"));
-  state.velocity.push_back(read_vector(particle, "V"));
   state.orientation.push_back(u);
   state.angular_velocity.push_back(w);
 }
@@ -319,7 +356,10 @@ void read_particle(const XmlElement& particle, Configuration& configuration) {
 void read_particles(const XmlElement& root, Configuration& configuration) {
   const XmlElement data = root.child("ParticleData");
   data.require_only({"OrientationData", "N"}, {"Pt"});
-  if (!data.has("OrientationData")) {
+  const bool of_spheres = has_width(configuration.material);
+  if (of_spheres && data.has("OrientationData"))
+    data.reject("OrientationData", "none: points do not turn");
+  if (!of_spheres && !data.has("OrientationData")) {
     data.reject(
         "OrientationData is missing: expected OrientationData=\"Y\", and U and O in each Pt");
   }
@@ -353,10 +393,11 @@ Configuration read_dynamo(const std::string& path) {
 
   Configuration configuration;
   Material& material = configuration.material;
-  const long double inertia = read_species(simulation, material);
-  read_interaction(simulation, material);
+  const Body body = read_species(simulation, material);
+  read_interaction(simulation, body.is_sphere, material);
   const long double length = material.length[0];
-  material.k = {static_cast<double>(length * length / (2 * inertia))};
+  material.k = {body.is_sphere ? Species{}.k
+                               : static_cast<double>(length * length / (2 * body.inertia))};
   material.beta = {-1};  // the impulse is normal to both lines
   configuration.state.box = read_box(simulation);
   read_particles(root, configuration);

@@ -17,17 +17,24 @@ class DynamoWriter : public FrameWriter {
  public:
   DynamoWriter(const std::string& path, bool force, const Material& material)
       : path_(path),
-        length_(material.length.at(0)),
+        spheres_(are_spheres(material)),
+        length_(spheres_ ? material.diameter[0] : material.length.at(0)),
         mass_(material.mass.at(0)),
         k_(material.k.at(0)),
         epsilon_(material.epsilon.at(0)),
         walls_(single_walls(material.walls)),
         gravity_(material.gravity),
-        file_(path, force) {}
+        file_(path, force) {
+    if (spheres_ || !has_width(material)) return;
+    throw InputError(fmt::format(
+        "{}: rods of finite width: expected thin needles or spheres, as DynamO knows no "
+        "cylinders with caps",
+        path));
+  }
 
   void add(const Frame& frame) override {
     write_simulation(frame.state);
-    file_.print("  <Properties/>\n  <ParticleData OrientationData=\"Y\">\n");
+    file_.print("  <Properties/>\n  <ParticleData{}>\n", spheres_ ? "" : " OrientationData=\"Y\"");
     for (std::size_t i = 0; i < frame.state.size(); ++i) write_particle(frame.state, i);
     file_.print("  </ParticleData>\n</DynamOconfig>\n");
   }
@@ -35,6 +42,8 @@ class DynamoWriter : public FrameWriter {
 
  private:
   void write_simulation(const State& state);
+  std::string species() const;
+  std::string interaction() const;
   std::string boundary(const State& state, Vector& size) const;
   std::string locals(const Vector& box) const;
   std::string dynamics() const;
@@ -44,7 +53,8 @@ class DynamoWriter : public FrameWriter {
   }
 
   std::string path_;
-  double length_;
+  bool spheres_;
+  double length_;  // of lines; of spheres their diameter
   double mass_;
   double k_;
   double epsilon_;
@@ -115,6 +125,20 @@ std::string DynamoWriter::dynamics() const {
                      gravity_[0], gravity_[1], gravity_[2]);
 }
 
+std::string DynamoWriter::species() const {
+  if (spheres_) return fmt::format(R"(Mass="{}" Name="Bulk" Type="Point")", mass_);
+  // With more digits than a double has, so that k follows from it without an error.
+  const long double length = length_;
+  const long double inertia = length * length / (2 * static_cast<long double>(k_));
+  return fmt::format(R"(InertiaConstant="{:.21g}" Mass="{}" Name="Bulk" Type="SphericalTop")",
+                     inertia, mass_);
+}
+
+std::string DynamoWriter::interaction() const {
+  return spheres_ ? fmt::format(R"(Type="HardSphere" Diameter="{}")", length_)
+                  : fmt::format(R"(Type="Lines" Length="{}")", length_);
+}
+
 void DynamoWriter::write_simulation(const State& state) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool walled = std::any_of(walls_.begin(), walls_.end(), [&](const Scene::Wall& wall) {
@@ -128,9 +152,6 @@ void DynamoWriter::write_simulation(const State& state) {
   }
   Vector size = state.box;
   const std::string type = boundary(state, size);
-  // With more digits than a double has, so that k follows from it without an error.
-  const long double length = length_;
-  const long double inertia = length * length / (2 * static_cast<long double>(k_));
   file_.print(R"(<?xml version="1.0"?>
 <DynamOconfig version="1.5.0">
   <Simulation>
@@ -139,14 +160,14 @@ void DynamoWriter::write_simulation(const State& state) {
     </Scheduler>
     <SimulationSize x="{}" y="{}" z="{}"/>
     <Genus>
-      <Species InertiaConstant="{:.21g}" Mass="{}" Name="Bulk" Type="SphericalTop">
+      <Species {}>
         <IDRange Type="All"/>
       </Species>
     </Genus>
     <BC Type="{}"/>
     <Topology/>
     <Interactions>
-      <Interaction Type="Lines" Length="{}" Elasticity="{}" Name="Bulk">
+      <Interaction {} Elasticity="{}" Name="Bulk">
         <IDPairRange Type="All"/>
       </Interaction>
     </Interactions>
@@ -154,13 +175,11 @@ void DynamoWriter::write_simulation(const State& state) {
     <SystemEvents/>
 {}  </Simulation>
 )",
-              size[0], size[1], size[2], inertia, mass_, type, length_, epsilon_, locals(state.box),
-              dynamics());
+              size[0], size[1], size[2], species(), type, interaction(), epsilon_,
+              locals(state.box), dynamics());
 }
 
 void DynamoWriter::write_particle(const State& state, std::size_t i) {
-  const Vector& u = state.orientation[i];
-  const auto [w, x, y, z] = quaternion_of(u);
   file_.print("    <Pt ID=\"{}\">\n", i);
   // The origin is in the middle of the box.
   Vector centre = state.position[i];
@@ -169,9 +188,13 @@ void DynamoWriter::write_particle(const State& state, std::size_t i) {
   }
   write_vector("P", centre);
   write_vector("V", state.velocity[i]);
-  write_vector("O", state.angular_velocity[i]);
-  file_.print("      <U x=\"{}\" y=\"{}\" z=\"{}\" w=\"{}\"/>\n", x, y, z, w);
-  write_vector("Director", u);
+  if (!spheres_) {
+    const Vector& u = state.orientation[i];
+    const auto [w, x, y, z] = quaternion_of(u);
+    write_vector("O", state.angular_velocity[i]);
+    file_.print("      <U x=\"{}\" y=\"{}\" z=\"{}\" w=\"{}\"/>\n", x, y, z, w);
+    write_vector("Director", u);
+  }
   file_.print("    </Pt>\n");
 }
 

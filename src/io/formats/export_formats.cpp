@@ -14,20 +14,24 @@ namespace {
 
 class VtkhdfWriter : public FrameWriter {
  public:
-  VtkhdfWriter(std::string path, bool force, std::vector<double> lengths)
-      : path_(std::move(path)), force_(force), lengths_(std::move(lengths)) {}
-  void add(const Frame& frame) override { write_vtkhdf(path_, force_, frame.state, lengths_); }
+  VtkhdfWriter(std::string path, bool force, const Material& material)
+      : path_(std::move(path)), force_(force), lengths_(lengths_of(material)) {
+    if (has_width(material)) diameters_ = diameters_of(material);
+  }
+  void add(const Frame& frame) override {
+    write_vtkhdf(path_, force_, frame.state, lengths_, diameters_);
+  }
   void publish() override {}
 
  private:
   std::string path_;
   bool force_;
-  std::vector<double> lengths_;
+  std::vector<double> lengths_, diameters_;
 };
 
 std::unique_ptr<FrameWriter> open_vtkhdf(const std::string& path, bool force,
                                          const Material& material) {
-  return std::make_unique<VtkhdfWriter>(path, force, lengths_of(material));
+  return std::make_unique<VtkhdfWriter>(path, force, material);
 }
 
 }  // namespace

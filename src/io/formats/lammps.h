@@ -2,8 +2,9 @@
 //
 // Needles are atoms of the style `hybrid sphere dipole`, because that has a direction and an
 // angular velocity: the dipole moment is the director, the diameter is the length. Ids are counted
-// from 1. https://docs.lammps.org/read_data.html and https://docs.lammps.org/dump.html describe the
-// formats.
+// from 1. Dumps of rods of finite width have both length and diameter; data files have no room for
+// the two. https://docs.lammps.org/read_data.html and https://docs.lammps.org/dump.html describe
+// the formats.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,8 @@ bool is_lammps_data(std::string_view beginning);
 /// Reads the last frame of a dump in text with a rectangular box (pp, ff between two walls, fs or
 /// sf where one side is open) and the columns vx, vy, vz, mux, muy, muz (a unit vector), omegax,
 /// omegay, omegaz and one set of positions: x, y, z; scaled xs, ys, zs; unwrapped xu, yu, zu; or
-/// both, xsu, ysu, zsu. id, ix, iy, iz, diameter, mass and fx, fy, fz are optional; gravity is what
+/// both, xsu, ysu, zsu. id, ix, iy, iz, diameter (with a column length: that of rods; else the
+/// length of needles), mass, k and fx, fy, fz are optional; gravity is what
 /// gives all needles the same acceleration. Numbers are not changed, except that scaled positions
 /// are multiplied by the edges, unwrapped ones are wrapped into the box and counted in the images,
 /// and what is rounded is projected as NeedleReader says. Throws IoError if the file cannot be
@@ -41,7 +43,7 @@ std::string lammps_boundary(const State& state, const Material& material, std::s
 /// quaternion and shape OVITO draws needles.
 std::unique_ptr<FrameWriter> write_lammps_dump(const std::string& path, bool force,
                                                const Material& material);
-/// Writes one frame.
+/// Writes one frame. Throws InputError, "PATH: reason", for rods of finite width.
 std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool force,
                                                const Material& material);
 

@@ -261,6 +261,12 @@ Configuration read_lammps_data(const std::string& path) {
 
 std::unique_ptr<FrameWriter> write_lammps_data(const std::string& path, bool force,
                                                const Material& material) {
+  if (has_width(material)) {
+    throw InputError(
+        fmt::format("{}: rods of finite width: expected thin needles, as an atom of a data file "
+                    "has a diameter, but no length beside it; a dump has both",
+                    path));
+  }
   return std::make_unique<DataWriter>(path, force, material);
 }
 

@@ -149,7 +149,8 @@ Columns read_columns(const Lines& lines) {
   columns.velocity = find_vector("vx", "vy", "vz");
   columns.orientation = find_vector("mux", "muy", "muz");
   columns.angular_velocity = find_vector("omegax", "omegay", "omegaz");
-  columns.length = find("diameter");
+  columns.length = find("length");
+  (columns.length ? columns.diameter : columns.length) = find("diameter");
   columns.mass = find("mass");
   columns.k = find("k");
   columns.species = find("type");
@@ -178,20 +179,23 @@ class DumpWriter : public FrameWriter {
   DumpWriter(const std::string& path, bool force, const Material& material)
       : material_(material), file_(path, force) {
     const std::vector<Species> all = species_of(material);
-    if (!material.length.empty()) names_ += " diameter";
+    const bool wide = has_width(material), with_k = wide || all.size() > 1;
+    if (wide) names_ += " length";
+    if (wide || !material.length.empty()) names_ += " diameter";
     if (!material.mass.empty()) names_ += " mass";
-    if (all.size() > 1) names_ += " k";
+    if (with_k) names_ += " k";
     const std::array<double, 3>& gravity = material.gravity;
     const bool falls = gravity != std::array<double, 3>{};
     if (falls) names_ += " fx fy fz";
     for (const Species& each : all) {
-      // Diameters of an ellipsoid, as LAMMPS has them.
-      const double width = 2 * drawn_radius * each.length;
-      std::string& ending =
-          endings_.emplace_back(fmt::format(" {} {} {}", width, width, each.length));
-      if (!material.length.empty()) ending += fmt::format(" {}", each.length);
+      // Diameters of an ellipsoid, as LAMMPS has them; OVITO halves them.
+      std::string& ending = endings_.emplace_back();
+      for (const double semi_axis : drawn_shape(each, are_spheres(material)))
+        ending += fmt::format(" {}", 2 * semi_axis);
+      if (wide || !material.length.empty()) ending += fmt::format(" {}", each.length);
+      if (wide) ending += fmt::format(" {}", each.diameter);
       if (!material.mass.empty()) ending += fmt::format(" {}", each.mass);
-      if (all.size() > 1) ending += fmt::format(" {}", each.k);
+      if (with_k) ending += fmt::format(" {}", each.k);
       for (const double g : gravity) {
         if (falls) ending += fmt::format(" {}", each.mass * g);
       }

@@ -115,9 +115,8 @@ static Material read_material_here(const std::string& path) {
   Material material;
   material.diameter = read_positive(source, "/parameters/diameter");
   // A rod without an axis is a sphere.
-  const bool has_width = !material.diameter.empty();
-  material.length = has_width ? read_numbers(source, "/parameters/length")
-                              : read_positive(source, "/parameters/length");
+  material.length = has_width(material) ? read_numbers(source, "/parameters/length")
+                                        : read_positive(source, "/parameters/length");
   // Without needles, the group of them does not hold their mass.
   material.mass = read_positive(source, "/parameters/mass");
   if (material.mass.empty()) material.mass = read_masses_of_needles(source);
@@ -130,7 +129,8 @@ static Material read_material_here(const std::string& path) {
 }
 
 std::size_t Material::species() const {
-  return std::max({std::size_t{1}, names.size(), length.size(), mass.size(), k.size()});
+  return std::max(
+      {std::size_t{1}, names.size(), length.size(), mass.size(), k.size(), diameter.size()});
 }
 
 std::vector<Species> species_of(const Material& material) {
@@ -143,7 +143,10 @@ std::vector<Species> species_of(const Material& material) {
     }
     each.length = value_at(material.length, i, each.length);
     each.mass = value_at(material.mass, i, each.mass);
-    each.k = value_at(material.k, i, each.k);
+    each.diameter = value_at(material.diameter, i, each.diameter);
+    each.k = value_at(
+        material.k, i,
+        each.diameter > 0 && each.turns() ? homogeneous_k(each.length, each.diameter) : each.k);
   }
   return all;
 }
@@ -173,6 +176,19 @@ std::vector<double> lengths_of(const Material& material) {
   return lengths;
 }
 
+std::vector<double> diameters_of(const Material& material) {
+  std::vector<double> diameters;
+  for (const Species& each : species_of(material)) diameters.push_back(each.diameter);
+  return diameters;
+}
+
+bool has_width(const Material& material) { return !material.diameter.empty(); }
+
+bool are_spheres(const Material& material) {
+  return has_width(material) &&
+         std::ranges::none_of(species_of(material), [](const Species& s) { return s.turns(); });
+}
+
 Composition composition_of(const Material& material, const std::string& path) {
   const std::size_t count = material.species();
   if (count > most_species) {
@@ -180,7 +196,7 @@ Composition composition_of(const Material& material, const std::string& path) {
   }
   for (const auto& [name, values] :
        {std::pair("length", &material.length), std::pair("mass", &material.mass),
-        std::pair("k", &material.k)}) {
+        std::pair("k", &material.k), std::pair("diameter", &material.diameter)}) {
     if (fits(*values, count)) continue;
     throw InputError(fmt::format("{}: {} numbers of {}: expected {}, one for each species", path,
                                  values->size(), name, count));

@@ -40,8 +40,12 @@ std::vector<Scene::Wall> single_walls(const std::vector<Scene::Wall>& walls);
 /// The wall at this end of an axis (0, 1, 2 for x, y, z), none if there is none.
 const Scene::Wall* wall_at(const Material& material, std::size_t axis, bool high);
 
-/// The lengths of the species.
+/// The lengths of the species, and their diameters, 0 of needles.
 std::vector<double> lengths_of(const Material& material);
+std::vector<double> diameters_of(const Material& material);
+/// Whether they are rods of finite width or spheres, and whether all of them are spheres.
+bool has_width(const Material& material);
+bool are_spheres(const Material& material);
 
 /// The index of the species of a needle.
 inline std::size_t species_at(const State& state, std::size_t i) {

@@ -62,7 +62,7 @@ std::vector<Vector> outline(const Vector& box) {
 
 class PvdWriter : public FrameWriter {
  public:
-  PvdWriter(const std::string& path, bool force, std::vector<double> lengths);
+  PvdWriter(const std::string& path, bool force, const Material& material);
   ~PvdWriter() override;
 
   void add(const Frame& frame) override;
@@ -75,8 +75,8 @@ class PvdWriter : public FrameWriter {
   std::string file_of(const std::string& name);
   void list(double time, int part, const std::string& name);
 
-  std::vector<double> lengths_;
-  bool force_;
+  std::vector<double> lengths_, diameters_;
+  bool force_, wide_;
   TextFile collection_;
   fs::path folder_;
   bool made_folder_ = false;
@@ -85,8 +85,13 @@ class PvdWriter : public FrameWriter {
   std::string box_name_;
 };
 
-PvdWriter::PvdWriter(const std::string& path, bool force, std::vector<double> lengths)
-    : lengths_(std::move(lengths)), force_(force), collection_(path, force), folder_(path) {
+PvdWriter::PvdWriter(const std::string& path, bool force, const Material& material)
+    : lengths_(lengths_of(material)),
+      diameters_(diameters_of(material)),
+      force_(force),
+      wide_(has_width(material)),
+      collection_(path, force),
+      folder_(path) {
   folder_.replace_extension();
   if (folder_ == fs::path(path)) folder_ += "-frames";
   if (fs::exists(folder_)) {
@@ -174,6 +179,7 @@ void PvdWriter::write_needles(const std::string& name, const State& state) {
   file.add("speed", speeds, 1);
   file.add("spin", spins, 1);
   file.add("species", species);
+  if (wide_) file.add("radius", radii_of_ends(state, diameters_), 1);
   file.begin("CellData");
   file.add("velocity", flat(state.velocity), 3);
   file.add("orientation", flat(state.orientation), 3);
@@ -203,7 +209,7 @@ void PvdWriter::publish() {
 
 std::unique_ptr<FrameWriter> write_pvd(const std::string& path, bool force,
                                        const Material& material) {
-  return std::make_unique<PvdWriter>(path, force, lengths_of(material));
+  return std::make_unique<PvdWriter>(path, force, material);
 }
 
 }  // namespace needlework::io

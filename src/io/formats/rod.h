@@ -1,16 +1,28 @@
 // How other programs are told to draw a needle: as a thin ellipsoid along the z axis, turned by a
-// quaternion. OVITO and HOOMD-blue draw that; they do not know directors.
+// quaternion. OVITO and HOOMD-blue draw that; they do not know directors. Rods of finite width are
+// spherocylinders of OVITO.
 #pragma once
 
 #include <array>
 #include <cmath>
 
+#include "needlework/composition.h"
 #include "src/io/needle_check.h"
 
 namespace needlework::io {
 
 /// Needles have no thickness. They are drawn with this radius in the middle, in lengths [1].
 inline constexpr double drawn_radius = 0.02;
+
+/// What OVITO calls the aspherical shape: of needles the semi-axes of an ellipsoid; of rods of
+/// finite width radius, radius and length of the axis, by which it draws spherocylinders, also
+/// spheres among them; in a gas of spheres alone their radii, which are semi-axes as well. [L]
+inline std::array<double, 3> drawn_shape(const Species& body, bool all_are_spheres) {
+  const double radius = 0.5 * body.diameter;
+  if (all_are_spheres) return {radius, radius, radius};
+  if (radius > 0) return {radius, radius, body.length};
+  return {drawn_radius * body.length, drawn_radius * body.length, 0.5 * body.length};
+}
 
 /// A unit quaternion (w, x, y, z) that turns (0, 0, 1) into the direction of a.
 inline std::array<double, 4> quaternion_of(const std::array<double, 3>& a) {

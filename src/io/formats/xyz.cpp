@@ -1,6 +1,7 @@
 #include "src/io/formats/xyz.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,10 +150,9 @@ class XyzWriter : public FrameWriter {
  public:
   XyzWriter(const std::string& path, bool force, const Material& material)
       : material_(text_of(material)), file_(path, force) {
-    for (const double length : lengths_of(material)) {
-      // Semi-axes of an ellipsoid.
+    for (const Species& each : species_of(material)) {
       endings_.push_back(
-          fmt::format(" {} {} {}", drawn_radius * length, drawn_radius * length, 0.5 * length));
+          fmt::format(" {}", fmt::join(drawn_shape(each, are_spheres(material)), " ")));
     }
     if (endings_.size() == 1) return;
     for (std::size_t i = 0; i < endings_.size(); ++i) endings_[i] += fmt::format(" {}", i);
