@@ -39,7 +39,7 @@ needles = { count = 60, box = [5, 5, 3] }
 forces.gravity = [0, 0, -1]
 collisions = { epsilon = 0.9, tc_relative = 1e-3 }
 until.time = 20
-output = { file = "shaken.h5", series_every = 0.5, frames = [0.25, 0.75], observables = ["wall_profiles", "centre_of_mass"] }
+output = { file = "shaken.h5", series_every = 0.45, frames = [0.25, 0.75], observables = ["wall_profiles", "centre_of_mass"] }
 driving.kicks = { every = 0.7, translational = 0.3, rotational = 0.3 }
 [[walls]]
 axis = "z"
@@ -212,6 +212,10 @@ test("walls have pressures, profiles with their means, and a budget of energy th
   const off = (await chart(page, "Energy put in and taken out").locator("figcaption").textContent()).match(/met to ([\d.]+)×10⁻(\S+)\./);
   assert.ok(off && off[2].length === 2, `${off}`); // 1e-10 or less
   assert.match(await legend("Centre of mass"), /z/);
+  // Samples are at 20 phases, of which two share a bin four times.
+  for (const title of ["Pressure by phase", "Temperatures by phase", "Centre of mass by phase"]) {
+    assert.match(await chart(page, title).getAttribute("data-points"), /^16( 16)*$/, title);
+  }
   for (const [title, names] of [
     ["Between walls: density", ["along z", "along z, mean of the later half"]],
     ["Between walls: temperatures", ["T_tr z", "T_rot z", "T along the axis z", "T_tr z, mean of the later half"]],
@@ -241,6 +245,7 @@ test("walls on two axes are four, and nothing is open", async () => {
   const facts = await page.locator(".facts").first().textContent();
   assert.ok(facts.includes("periodic along y, with a thermal wall at x low, a thermal wall at x high, a wall at z low and a wall at z high"), facts);
   assert.ok(facts.includes("Wall at x lowtemperature 2"));
+  assert.equal(await chart(page, "Temperatures by phase").count(), 0); // no wall moves
   assert.ok(facts.includes("Density"));
   assert.equal(await chart(page, "Hits on walls").getAttribute("data-points").then((points) => points.split(" ").length), 4);
   await close();

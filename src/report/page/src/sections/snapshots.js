@@ -1,7 +1,8 @@
 // Charts of a run at one time, as a table: histograms, profiles and correlations.
 import { numbers, rowOf } from "../data.js";
 import { laws, overBins, poisson } from "./laws.js";
-import { isGeometric, largestEigenvalue } from "./timelines.js";
+import { isGeometric } from "./series.js";
+import { largestEigenvalue } from "./timelines.js";
 
 const axes = ["x", "y", "z"];
 

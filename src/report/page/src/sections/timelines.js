@@ -1,25 +1,14 @@
 // Charts of a run over time, as a table: what each shows of which datasets.
 import { column, numbers } from "../data.js";
-import { sideName } from "../boundaries.js";
-import { numberText } from "../numbers.js";
-import { areaOf, pairNames, wallsOf, weightOn } from "./facts.js";
+import { pairNames } from "./facts.js";
+import { compact, divided, isGeometric, totals } from "./series.js";
+import { wallTimelines } from "./wall_timelines.js";
 
 // Where a run has needles, each of these is a function of its groups. A chart is shown if the group
 // it is about is in the file.
-const divided = (a, b) => a.map((value, n) => value / b[n]);
-
-function totals(groups) {
-  const { datasets, time } = groups.totals;
-  return { t: numbers(time), of: (name, component) => column(datasets[name], component) };
-}
-
 function theoryOf(groups, name) {
   const dataset = groups.theory?.datasets[name];
   return dataset && { x: numbers(groups.theory.time), y: column(dataset) };
-}
-
-function compact(curves) {
-  return curves.filter((curve) => curve && curve.x && curve.y);
 }
 
 function withTheory(groups, name, curve) {
@@ -133,84 +122,6 @@ function ofPairs({ groups, scene }) {
   const { datasets, time } = groups.species;
   const names = pairNames((scene?.species ?? []).map(({ name }) => name));
   return names.map((name, n) => ({ name, x: numbers(time), y: column(datasets.collisions, n), colour: n, points: true }));
-}
-
-// Of each wall what its counter has gained since the sample before, per time and `unit`.
-function ratesAtWalls(run, name, unit) {
-  const { datasets, time } = run.groups.walls;
-  const x = numbers(time);
-  return wallsOf(run).map((wall, n) => {
-    const values = column(datasets[name], n);
-    const y = x.map((t, row) => (row ? (values[row] - values[row - 1]) / (t - x[row - 1]) / unit : NaN));
-    return { name: sideName(wall), x, y, colour: n, points: true };
-  });
-}
-
-function forces(run) {
-  const x = numbers(run.groups.walls.time);
-  const weight = wallsOf(run).map((wall) => weightOn(wall, run)).find(Boolean);
-  return [...ratesAtWalls(run, "impulse", 1), weight && { name: "weight", x, y: x.map(() => weight), colour: -1, dashed: true }];
-}
-
-// That of the normal components alone.
-function pressures(run) {
-  const { datasets, time } = run.groups.walls;
-  const x = numbers(time);
-  const walls = wallsOf(run);
-  const bearing = walls.find((wall) => weightOn(wall, run));
-  const level = bearing && weightOn(bearing, run) / areaOf(bearing, run);
-  return [
-    ...walls.map((wall, n) => ({ name: sideName(wall), x, y: column(datasets.pressure, n), colour: n, points: true })),
-    level && { name: "weight over area", x, y: x.map(() => level), colour: -1, dashed: true },
-  ];
-}
-
-// What each effect has put into the energy per needle since the start.
-function sourcesOfEnergy(run) {
-  const { datasets } = run.groups.energy_budget;
-  const walls = datasets.walls ? wallsOf(run).map((wall, n) => [`wall at ${sideName(wall)}`, column(datasets.walls, n)]) : [];
-  const single = [["pairs", "collisions"], ["thermostat", "thermostat"], ["kicks", "kicks"], ["velocities_set", "velocities set"]]
-    .filter(([name]) => datasets[name])
-    .map(([name, text]) => [text, column(datasets[name])]);
-  return [...single, ...walls].filter(([text, values]) => text !== "velocities set" || values.some((value) => value !== 0));
-}
-
-function changeOfEnergy({ groups }) {
-  const { t, of } = totals(groups);
-  const energy = of("energy");
-  return { t, change: energy.map((e) => e - energy[0]) };
-}
-
-function budget(run) {
-  const { t, change } = changeOfEnergy(run);
-  return [
-    ...sourcesOfEnergy(run).map(([name, y], colour) => ({ name, x: t, y, colour, points: true })),
-    { name: "change of the energy", x: t, y: change, colour: -1, dashed: true },
-  ];
-}
-
-// By how much the sources miss the change of the energy, at most.
-function budgetCaption(run) {
-  const { change } = changeOfEnergy(run);
-  const sources = sourcesOfEnergy(run);
-  const off = change.map((value, n) => Math.abs(sources.reduce((sum, [, values]) => sum + values[n], -value)));
-  return `Energy per needle since the start; below 0 it is taken out. The sum of all is the change of the energy${run.scene?.gravity.some((g) => g !== 0) ? ", that of the weight included" : ""}: it is met to ${numberText(Math.max(...off), 2)}.`;
-}
-
-// Since the sample before.
-function powers(run) {
-  const { t } = totals(run.groups);
-  return sourcesOfEnergy(run).map(([name, values], colour) => ({
-    name, x: t, colour, points: true,
-    y: t.map((time, n) => (n ? (values[n] - values[n - 1]) / (time - t[n - 1]) : NaN)),
-  }));
-}
-
-function centreOfMass({ groups }) {
-  const { datasets, time } = groups.centre_of_mass;
-  return Array.from(numbers(datasets.axis), (axis, n) => (
-    { name: ["x", "y", "z"][axis], x: numbers(time), y: column(datasets.position, n), colour: n, points: true }
-  ));
 }
 
 // That of the weight is counted, too.
@@ -342,31 +253,7 @@ const timelines = [
     group: "totals", title: "Conservation of momentum", y: "thermal momenta", log: "x", curves: momentum,
     caption: "Change of the total momentum since the start along the periodic axes, in units of its thermal size √(N m T_tr(0)). Rounding alone changes it.",
   },
-  {
-    group: "walls", title: "Hits on walls", y: "hits per needle and time", log: "x",
-    curves: (run) => ratesAtWalls(run, "hits", run.count),
-    caption: "Since the sample before.",
-  },
-  {
-    group: "walls", title: "Force on walls", y: "force", log: "x", curves: forces,
-    caption: "Impulses per time since the sample before, as the sum of their magnitudes: those along the surface, which thermal walls give, count too.",
-  },
-  {
-    group: "walls", title: "Pressure on walls", y: "energy / volume", log: "x", curves: pressures,
-    caption: "Impulses along the normal since the sample before, over time and area.",
-  },
-  {
-    group: "energy_budget", title: "Energy put in and taken out", y: "energy", log: "x", curves: budget,
-    caption: budgetCaption,
-  },
-  {
-    group: "energy_budget", title: "Power put in and taken out", y: "energy / time", log: "x", robust: true, curves: powers,
-    caption: "Energy per needle and time since the sample before. In a steady state the sum is 0 in the mean.",
-  },
-  {
-    group: "centre_of_mass", title: "Centre of mass", y: "length", log: "x", curves: centreOfMass,
-    caption: "Along each axis with walls, from the low edge of the box.",
-  },
+  ...wallTimelines,
   {
     group: "species", title: "Translational temperature of each species", y: "energy", log: "xy",
     curves: ofSpecies("t_tr", "T_tr"), caption: "Two thirds of the mean energy of translation, with kinetic theory.",
@@ -465,10 +352,4 @@ export function notesOf(group) {
 function spansDecades(times) {
   const first = times.find((t) => t > 0);
   return first !== undefined && times.at(-1) / first > 30 && times.length > 3 && isGeometric(times);
-}
-
-/** Samples at multiples of one interval belong to a steady state, which is shown on a linear axis. */
-export function isGeometric(times) {
-  const middle = times[Math.floor(times.length / 2)];
-  return middle < 0.3 * times.at(-1);
 }
