@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "needlework/error.h"
 #include "needlework/theory.h"
 #include "src/cli/boltzmann_theory.h"
 #include "src/cli/json.h"
@@ -25,6 +26,7 @@
 #include "src/runs/exit_codes.h"
 #include "src/runs/explanation.h"
 #include "src/runs/loaded_scene.h"
+#include "src/scene/confinement.h"
 
 namespace needlework::cli {
 
@@ -277,12 +279,26 @@ std::string boltzmann_text(const TheoryArguments& arguments,
   return boltzmann_theory_of(settings, question.taus, question.density, arguments.json);
 }
 
+// Theory of a gas that is left to itself, in a periodic box, would look like one of any other.
+void require_homogeneous(const Scene& scene, const std::string& path) {
+  const char* found = nullptr;
+  if (is_pushed(scene)) found = "[driving]";
+  if (!scene.walls.empty()) found = "[[walls]]";  // gravity needs some
+  if (!found) return;
+  throw InputError(fmt::format(
+      "{}: {}: expected none, as theory is that of a homogeneous gas which is left to itself; "
+      "check knows rates between walls, and --epsilon, --k and --density give the course of a gas "
+      "without them",
+      path, found));
+}
+
 std::string text_of(TheoryArguments arguments) {
   take_scene(arguments.taus, arguments.scene);
   take_scene(arguments.times, arguments.scene);
   std::optional<runs::LoadedScene> loaded;
   if (!arguments.scene.empty()) {
     loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
+    require_homogeneous(loaded->scene, arguments.scene);
     if (!loaded->scene.composition().is_needle_gas()) {
       if (!arguments.boltzmann.empty()) {
         throw std::invalid_argument(fmt::format(

@@ -22,6 +22,15 @@ double collisions_of(const std::optional<Forecast>& expected, const Scene& scene
   return 0.5 * expected->collisions_per_needle * static_cast<double>(scene.needles.count);
 }
 
+// At which equal needles in a periodic box collide as often as those of the scene, which may be
+// between walls.
+double density_of_theory(const LoadedScene& loaded) {
+  const double density = theory_density_of(loaded.scene);
+  const double rate = theory::collision_rate(density, initial_temperatures(loaded),
+                                             loaded.scene.composition()[0].k);
+  return rate > 0 ? density * (initial_collision_rate(loaded) / rate) : density;
+}
+
 // Of one species, or of a mixture that theory follows.
 std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
@@ -30,7 +39,7 @@ std::optional<Forecast> expected_of(const LoadedScene& loaded) {
   if (composition.is_needle_gas()) {
     const Restitution& rule = composition.restitution(0, 0);
     return forecast({composition[0].k, rule.epsilon, rule.beta}, initial_temperatures(loaded),
-                    theory_density_of(scene), scene.until);
+                    density_of_theory(loaded), scene.until);
   }
   if (!has_mixture_theory(composition)) return std::nullopt;
   return forecast(composition, volume_of(scene), temperatures_by_species(loaded), scene.until);

@@ -40,6 +40,24 @@ TEST_F(ExactRate, IsThatOfAFiniteGasBetweenWalls) {
   EXPECT_NE(run("run gas.toml").out.find(", exact "), std::string::npos);
 }
 
+// Of an inelastic gas, which collides as often as one without walls does at another density.
+TEST_F(ExactRate, SetsTheTimeThatIsExpectedBetweenWalls) {
+  write("gas.toml",
+        "needles = { count = 500, box = [8, 8, 1.5] }\nuntil.energy_ratio = 0.1\n"
+        "collisions = { epsilon = 0.8, tc_relative = 1e-3 }\n"
+        "[[walls]]\naxis = \"z\"\nside = \"both\"\n");
+  write("open.toml",
+        "needles = { count = 500, box = [8, 4, 3] }\nuntil.energy_ratio = 0.1\n"
+        "collisions = { epsilon = 0.8, tc_relative = 1e-3 }\n");
+  Species needle;
+  const double factor = theory::pair_factor_between_walls(needle, {1, 1}, needle, {1, 1}, 1.5);
+  const json walled = json_of("check gas.toml --json"), open = json_of("check open.toml --json");
+  EXPECT_NEAR(walled["mean_free_time"].get<double>() * factor, open["mean_free_time"].get<double>(),
+              1e-12);
+  EXPECT_NEAR(walled["expected"]["time"].get<double>() * factor,
+              open["expected"]["time"].get<double>(), 1e-9);
+}
+
 TEST_F(ExactRate, IsThatOfEachTwoSpeciesBetweenWalls) {
   const std::string scene =
       "needles.box = [4, 5, 1.5]\nuntil.time = 3\n"

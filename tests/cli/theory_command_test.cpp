@@ -108,6 +108,21 @@ TEST_F(TheoryCommand, TakesTheContactTimeOfAScene) {
       "the temperature\n");
 }
 
+// It would be the course of another gas.
+TEST_F(TheoryCommand, RefusesWhatItDoesNotDescribe) {
+  const std::string gas = "needles = { count = 20, box = 4 }\nuntil.time = 1\n";
+  const std::string walls = "[[walls]]\naxis = \"z\"\nside = \"low\"\n";
+  for (const auto& [more, name] :
+       {std::pair(walls + "[[walls]]\naxis = \"z\"\nside = \"high\"\n", "[[walls]]"),
+        {"driving.kicks = { every = 1, translational = 1, rotational = 1 }\n", "[driving]"},
+        {"driving.andersen = { rate = 1, temperature = 1 }\n", "[driving]"}}) {
+    write("pushed.toml", gas + more);
+    const Outcome outcome = run("theory pushed.toml");
+    EXPECT_EQ(outcome.exit_code, 3) << more;
+    EXPECT_TRUE(outcome.complains("pushed.toml: " + std::string(name) + ": expected none"));
+  }
+}
+
 TEST_F(TheoryCommand, NamesFlagValueAndExpectation) {
   struct Case {
     const char *arguments, *message;
