@@ -65,6 +65,7 @@ class Effect:
     acting: list  # settings with which it acts
     flags: tuple = ()
     scene: str = ""  # what no setting can add
+    long: float = LONG  # collisions per needle in which it acts often enough
 
 
 MEAN_FREE_TIME = 1.1  # of the dilute scene, about
@@ -84,7 +85,7 @@ EFFECTS = [
            ["collisions.epsilon=0.9", "collisions.tc_relative=1e-3"]),
     *(Effect(f"kicks every {name}", ["driving.kicks={every=1e6, translational=1e-300}"],
              [f"driving.kicks={{every={MEAN_FREE_TIME * times!r}, translational=0.01, "
-              "rotational=0.01}"])
+              "rotational=0.01}"], long=max(LONG, SHORT + 2 * times))
       for name, times in (("10 mean free times", 10), ("mean free time", 1),
                           ("0.1 mean free times", 0.1))),
     Effect("thermostat", ["driving.andersen={rate=1e-9, temperature=1}"],
@@ -130,6 +131,7 @@ class Measured:
     settings: list
     flags: tuple = ()
     scene: str = ""
+    long: float = LONG
 
     def command(self, tool, needles, collisions_per_needle):
         settings = [f"needles.count={needles}",
@@ -170,7 +172,7 @@ class Measured:
 
     def instructions_per_collision(self):
         start, first, _ = self.run(SHORT)
-        end, last, trajectory = self.run(LONG)
+        end, last, trajectory = self.run(self.long)
         return (end - start) / (last - first), trajectory
 
     def heap_of_the_loop(self, needles):
@@ -251,28 +253,32 @@ def effects(program, out, only):
     build, offered = build_of(program)
     isa = "avx2" if "avx2" in offered.split() else "scalar"
 
-    def measured(settings, flags=(), scene=""):
-        return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags, scene)
+    def measured(settings, flags=(), scene="", long=LONG):
+        return Measured(program, DENSITIES["dilute"], isa, PLAIN + settings, flags, scene, long)
 
     plain_bytes = measured([]).heap_of_the_loop(NEEDLES)
-    jobs = {("off", 1): measured([]).instructions_per_collision,
-            ("off", 2): measured([], TWO_THREADS).instructions_per_collision}
+    jobs = {("off", 2): measured([], TWO_THREADS).instructions_per_collision}
+    for long in {effect.long for effect in chosen}:
+        jobs["off", 1, long] = measured([], long=long).instructions_per_collision
     for effect in chosen:
-        on = measured(effect.neutral, effect.flags, effect.scene)
+        on = measured(effect.neutral, effect.flags, effect.scene, effect.long)
         jobs[effect.name, "on"] = on.instructions_per_collision
         if not effect.flags:  # of what writes files, HDF5 holds much more than the engine
             jobs[effect.name, "bytes"] = lambda on=on: on.heap_of_the_loop(NEEDLES)
-            in_action = measured(effect.acting or effect.neutral, TWO_THREADS, effect.scene)
+            in_action = measured(effect.acting or effect.neutral, TWO_THREADS, effect.scene,
+                                 effect.long)
             jobs[effect.name, 2] = in_action.instructions_per_collision
         if effect.acting:
-            jobs[effect.name, "acting"] = measured(effect.acting).instructions_per_collision
+            acting = measured(effect.acting, long=effect.long)
+            jobs[effect.name, "acting"] = acting.instructions_per_collision
     counted = measure_all(jobs)
 
-    (off, trajectory), (off_by_two, _) = counted["off", 1], counted["off", 2]
+    off_by_two = counted["off", 2][0]
     lines = [f"| effect | off | on | costs | in action | two threads ({off_by_two:.0f} without) | "
              "bytes per needle |",
              "|---|---|---|---|---|---|---|"]
     for effect in chosen:
+        off, trajectory = counted["off", 1, effect.long]
         on, its_trajectory = counted[effect.name, "on"]
         same = "" if its_trajectory == trajectory else " *"
         acting = f"{counted[effect.name, 'acting'][0]:.0f}" if effect.acting else ""
@@ -280,11 +286,13 @@ def effects(program, out, only):
         if not effect.flags:
             held = f"{(counted[effect.name, 'bytes'] - plain_bytes) / NEEDLES:+.1f}"
             by_two = f"{counted[effect.name, 2][0]:.0f}"
-        lines.append(f"| {effect.name} | {off:.0f} | {on:.0f}{same} | {100 * (on / off - 1):+.1f} % "
+        until = f", to {effect.long:g}" if effect.long != LONG else ""
+        costs = 100 * (on / off - 1)
+        lines.append(f"| {effect.name}{until} | {off:.0f} | {on:.0f}{same} | {costs:+.1f} % "
                      f"| {acting} | {by_two} | {held} |")
-    text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle of "
-            f"{NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; {build['compiler']}, "
-            f"{build['flags']}.\n\n" + "\n".join(lines) + "\n")
+    text = (f"Instructions per collision, from {SHORT} to {LONG} collisions per needle, or to as "
+            f"many as a row says, of {NEEDLES} needles at n L^3 = {DENSITIES['dilute']:.2f}, {isa}; "
+            f"{build['compiler']}, {build['flags']}.\n\n" + "\n".join(lines) + "\n")
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(text)
     if out == EFFECTS_TABLE:
