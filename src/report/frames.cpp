@@ -78,39 +78,41 @@ Json drawn_walls(std::span<const picture::WallSurface> walls) {
   return out;
 }
 
-std::vector<float> shares_of_length(const State& state, std::span<const std::size_t> chosen,
-                                    std::span<const double> lengths, double longest) {
+// Adds the largest size as NAME and, of several species, that of each needle in units of it as
+// share_of_NAME. In a gas of spheres alone all lengths are 0, and so are the shares.
+void add_sizes(Json& out, const std::string& name, const std::vector<double>& sizes,
+               const State& state, std::span<const std::size_t> chosen, Arrays& arrays) {
+  const double largest = sizes.empty() ? 1 : std::ranges::max(sizes);
+  out[name] = largest;
+  if (sizes.size() <= 1) return;
   std::vector<float> shares;
   for (const std::size_t i : chosen) {
     const std::size_t species = i < state.species.size() ? state.species[i] : 0;
-    shares.push_back(static_cast<float>(lengths[std::min(species, lengths.size() - 1)] / longest));
+    const double size = sizes[std::min(species, sizes.size() - 1)];
+    shares.push_back(largest > 0 ? static_cast<float>(size / largest) : 0);
   }
-  return shares;
+  out["share_of_" + name] = arrays.add(std::span<const float>(shares), {shares.size()});
 }
 
 }  // namespace
 
-Json frames_of(const std::string& path, std::span<const double> lengths,
-               std::span<const Scene::Wall> walls, const Limits& limits, Arrays& arrays) {
+Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const Scene::Wall> walls,
+               const Limits& limits, Arrays& arrays) {
   const io::FrameFile file(path);
   const State first = file.read(0);
   const std::size_t needles = first.size();
-  const double length = lengths.empty() ? 1 : *std::ranges::max_element(lengths);
   const auto chosen = evenly(needles, limits.needles);
   const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
   const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
-  Json out = {{"length", length},
-              {"box", first.box},
+  Json out = {{"box", first.box},
               {"periodic", first.periodic},
               {"walls", drawn_walls(picture::surfaces_of(walls, first.box, {}))},
               {"needles_in_file", needles},
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
               {"frames", Json::array()}};
-  if (lengths.size() > 1) {
-    const auto shares = shares_of_length(first, chosen, lengths, length);
-    out["share_of_length"] = arrays.add(std::span<const float>(shares), {shares.size()});
-  }
+  add_sizes(out, "length", sizes.lengths, first, chosen, arrays);
+  if (!sizes.diameters.empty()) add_sizes(out, "diameter", sizes.diameters, first, chosen, arrays);
   for (const std::size_t frame : frames) {
     Json one = {{"number", frame}, {"time", nullptr}};
     const auto time = file.time(frame);

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "needlework/scene.h"
 #include "src/report/arrays.h"
@@ -11,18 +12,25 @@
 
 namespace needlework::report {
 
+/// Of each species.
+struct BodySizes {
+  std::vector<double> lengths = {1.0};  ///< of axes [L]
+  std::vector<double> diameters = {};   ///< of rods of finite width; none of needles [L]
+};
+
 /// Reads the frames of an H5MD file: box, along which axes it is periodic, axis, side and kind of
 /// each wall, numbers of needles and frames in the file and of those shown, and for each frame its
 /// time, the corners `low` and `high` of the part of space that is drawn (see picture::region_of),
 /// the place of each wall, and arrays of the needles shown [n]. `position` [n][3] is the centre
 /// between these corners, along periodic axes wrapped, in units of their distance / 65536,
 /// `orientation` [n][3] the director in units of 1 / 32767, `speed` |v|, `spin` |w|, and
-/// `alignment` and `density` are those of needlework view, see picture::values_of. `lengths` are
+/// `alignment` and `density` are those of needlework view, see picture::values_of. `sizes` are
 /// those of the species: of several, `share_of_length` [n] is the length of each needle shown over
-/// that of the longest. `walls` are each of one side.
+/// that of the longest. Of rods of finite width there is the largest `diameter`, and
+/// `share_of_diameter` of several species. `walls` are each of one side.
 ///
 /// Frames and needles beyond the limits are left out evenly, the same needles in all frames.
-nlohmann::ordered_json frames_of(const std::string& path, std::span<const double> lengths,
+nlohmann::ordered_json frames_of(const std::string& path, const BodySizes& sizes,
                                  std::span<const Scene::Wall> walls, const Limits& limits,
                                  Arrays& arrays);
 

@@ -217,10 +217,13 @@ Json run_section(const std::string& path, const io::Contents& contents, const Li
       out["parts"] = parts_of(contents, species, limits, arrays);
     }
   }
-  const auto lengths = contents.has("/parameters/length") ? contents.numbers("/parameters/length")
-                                                          : std::vector<double>{1.0};
+  BodySizes sizes;
+  for (const auto& [name, values] : {std::pair("/parameters/length", &sizes.lengths),
+                                     {"/parameters/diameter", &sizes.diameters}}) {
+    if (contents.has(name)) *values = contents.numbers(name);
+  }
   const auto walls = io::single_walls(scene ? scene->walls : std::vector<Scene::Wall>{});
-  out["frames"] = frames_of(path, lengths, walls, limits, arrays);
+  out["frames"] = frames_of(path, sizes, walls, limits, arrays);
   return out;
 }
 

@@ -48,6 +48,7 @@ Json species_of(const Composition& composition) {
     out.push_back({{"name", each.name},
                    {"count", each.count},
                    {"length", each.length},
+                   {"diameter", each.diameter},
                    {"mass", each.mass},
                    {"k", each.k},
                    {"t_tr", each.t_tr},
@@ -103,7 +104,7 @@ Json driving_of(const Scene::Driving& driving) {
 
 }  // namespace
 
-// Of a mixture the longest length and the mean mass; what belongs to each species is with it.
+// Of a mixture the longest extent and the mean mass; what belongs to each species is with it.
 Json scene_facts(const Scene& scene) {
   const Composition composition = scene.composition();
   const Species& needle = composition[0];
@@ -113,11 +114,16 @@ Json scene_facts(const Scene& scene) {
     mass += each.mass *
             (one ? 1 : static_cast<double>(each.count) / static_cast<double>(composition.count()));
   }
+  const auto& box = scene.needles.box;
+  const double volume = box[0] * box[1] * box[2];
   const auto of_one = [&](double value) { return one ? Json(value) : Json(nullptr); };
   return {{"species", one ? Json::array() : species_of(composition)},
           {"pairs", pairs_of(composition, {scene.collisions.epsilon, scene.collisions.beta})},
           {"k", of_one(needle.k)},
-          {"length", composition.longest()},
+          {"length", one ? needle.length : composition.longest()},
+          {"diameter", of_one(needle.diameter)},
+          {"packing_fraction",
+           composition.has_width() ? Json(composition.packing_fraction(volume)) : Json(nullptr)},
           {"mass", mass},
           {"t_tr", of_one(needle.t_tr)},
           {"t_rot", of_one(needle.t_rot)},

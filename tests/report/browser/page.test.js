@@ -65,6 +65,19 @@ side = "high"
 `);
   needlework("run", "between.toml", "--quiet");
   needlework("report", "between.h5", "-o", "between.html");
+  for (const [name, length, diameter] of [["rod", 3, 0.5], ["ball", 0, 0.5], ["wide", 0, 1]]) {
+    write(`${name}.toml`, `needles.box = 8
+until.time = 1
+output.file = "${name}.h5"
+[[species]]
+name = "${name}"
+count = 1
+length = ${length}
+diameter = ${diameter}
+`);
+    needlework("run", `${name}.toml`, "--quiet");
+    needlework("report", `${name}.h5`, "-o", `${name}.html`);
+  }
   needlework("report", "gas.h5", "-o", "gas.html");
   needlework("report", "gas.h5", "other.h5", "sweep/summary.h5", "bench.json", "-o", "all.html");
   samples = Number(needlework("info", "gas.h5").match(/(\d+) samples/)[1]);
@@ -165,6 +178,48 @@ test("walls are drawn where they are, and what bounds the box is said", async ()
   assert.equal(await view(page).evaluate((figure) => figure.view.scene.box.geometry.getAttribute("position").count), 16);
   assert.deepEqual(complaints, []);
   await close();
+});
+
+// How many pixels a single rod covers, and the largest number in a row or column of them.
+function covered(page) {
+  return view(page).evaluate((figure) => {
+    const { scene } = figure.view;
+    scene.box.visible = false;
+    scene.draw();
+    const gl = scene.renderer.getContext();
+    const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    const pixels = new Uint32Array(width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
+    const rows = new Float64Array(height);
+    const columns = new Float64Array(width);
+    pixels.forEach((pixel, n) => {
+      if (pixel === pixels[0]) return;
+      rows[Math.floor(n / width)] += 1;
+      columns[n % width] += 1;
+    });
+    const count = rows.reduce((sum, value) => sum + value, 0);
+    return { count, wide: Math.max(...rows), high: Math.max(...columns) };
+  });
+}
+
+test("rods and spheres are as wide as they are", async () => {
+  const areas = {};
+  for (const name of ["rod", "ball", "wide"]) {
+    const { page, complaints, close } = await open(browser, `${name}.html`);
+    await drawn(page);
+    areas[name] = await covered(page);
+    const facts = await page.locator("dl.facts").textContent();
+    assert.match(facts, name === "rod" ? /Length, diameter, mass3, 0.5, 1/ : /Length, diameter, mass0, /);
+    assert.match(facts, /Packing fraction/);
+    assert.deepEqual(complaints, []);
+    await close();
+  }
+  // A ball is a disc.
+  const { count, wide, high } = areas.wide;
+  assert.ok(Math.abs(wide - high) < 4 && wide > 20, `${wide} ${high}`);
+  assert.ok(Math.abs(count / (Math.PI / 4 * wide * high) - 1) < 0.1, `${count} in ${wide} times ${high}`);
+  assert.ok(areas.rod.count > 2 * areas.ball.count, `${areas.rod.count} ${areas.ball.count}`);
+  assert.ok(areas.wide.count > 2.5 * areas.ball.count, `${areas.wide.count} ${areas.ball.count}`);
 });
 
 test("the place of a needle in the table is that in the box, whatever is drawn", async () => {

@@ -6,7 +6,8 @@ import { openSides } from "../boundaries.js";
 import { numbers } from "../data.js";
 import { Wall } from "./wall.js";
 
-// A needle is a ribbon of four corners that faces the viewer. The GPU places it, so that another frame
+// A needle is a ribbon of four corners that faces the viewer; of a rod of finite width, what is
+// beyond its round ends is left out. The GPU places it, so that another frame
 // or another colour is another array and nothing else. Each corner has the data of its needle: drawing
 // instances of one ribbon would save that, but is ten times slower where a CPU draws.
 const vertexShader = `
@@ -17,6 +18,11 @@ const vertexShader = `
   attribute float shareOfLength;  // of the longest needles
   uniform vec3 box;
   uniform float needleLength;
+  #ifdef RODS
+  attribute float shareOfDiameter;  // of the widest rods
+  varying vec2 onRibbon;              // on the ribbon, in radii; the ends of the axis are at ends
+  varying float ends;
+  #endif
   uniform vec2 range;
   uniform float pixel;         // size at distance 1
   uniform float width;
@@ -30,11 +36,25 @@ const vertexShader = `
   void main() {
     vec4 middle = viewMatrix * vec4((centre - 0.5) * box, 1.0);
     vec3 along = mat3(viewMatrix) * orientation * (needleLength * shareOfLength);
+    #ifdef RODS
+    // The outline of a rod seen from a direction is that of its axis, projected, with round ends. The
+    // ribbon goes through the axis, so that rods which cross hide each other where they do.
+    float radius = max(0.5 * width * shareOfDiameter, 0.55 * pixel * -middle.z);
+    vec3 view = normalize(middle.xyz);
+    vec3 sideways = along - view * dot(along, view);
+    float projected = length(sideways);
+    vec3 e1 = projected > 1e-6 * radius ? sideways / projected : normalize(cross(view, vec3(0.3, 0.5, 0.8)));
+    vec3 e2 = cross(view, e1);
+    vec3 place = middle.xyz + corner.x * (along + 2.0 * radius * e1) + 2.0 * corner.y * radius * e2;
+    ends = 0.5 * projected / radius;
+    onRibbon = vec2(2.0 * corner.x * (ends + 1.0), 2.0 * corner.y);
+    #else
     vec3 place = middle.xyz + corner.x * along;
     vec3 side = cross(along, place);
     float least = 1.1 * pixel * -place.z;
     float size = max(width, least);
     place += corner.y * size * side / max(length(side), 1e-6);
+    #endif
     gl_Position = projectionMatrix * vec4(place, 1.0);
     float share = (value - range.x) / (range.y - range.x);
     bool defined = value == value;
@@ -49,7 +69,18 @@ const fragmentShader = `
   varying vec3 lit;
   varying vec3 ground;
   varying float across;
+  #ifdef RODS
+  varying vec2 onRibbon;
+  varying float ends;
+  #endif
   void main() {
+    #ifdef RODS
+    vec2 off = vec2(max(abs(onRibbon.x) - ends, 0.0), onRibbon.y);
+    float square = dot(off, off);
+    if (square > 1.0) discard;
+    gl_FragColor = vec4(lit * (0.35 + 0.65 * sqrt(1.0 - square)) + ground, 1.0);
+    return;
+    #endif
     gl_FragColor = vec4(lit * (1.0 - 1.1 * across * across) + ground, 1.0);
   }`;
 
@@ -66,8 +97,10 @@ function drawnByCpu() {
 /** Draws on the canvas. Throws if there is no WebGL. */
 export class NeedleScene {
   constructor(canvas, frames) {
-    const { length, share_of_length: shares } = frames;
+    const { length, share_of_length: shares, diameter, share_of_diameter: widths } = frames;
     this.shares = shares && numbers(shares);
+    this.widths = widths && numbers(widths);
+    this.haveWidth = diameter !== undefined;
     this.renderer = new three.WebGLRenderer({ canvas, antialias: !drawnByCpu(), powerPreference: "low-power" });
     this.camera = new three.PerspectiveCamera(35, 1, 0.1, 1000);
     this.camera.up.set(0, 0, 1);
@@ -80,7 +113,7 @@ export class NeedleScene {
       needleLength: { value: length },
       range: { value: new three.Vector2(0, 1) },
       pixel: { value: 0 },
-      width: { value: 0.035 * length },
+      width: { value: diameter ?? 0.035 * length },
       depth: { value: new three.Vector2(0, 1) },
       palette: { value: null },
       background: { value: new three.Color() },
@@ -89,7 +122,7 @@ export class NeedleScene {
     this.geometry = new three.BufferGeometry();
     this.count = 0;
     const material = new three.ShaderMaterial({
-      uniforms: this.uniforms, vertexShader, fragmentShader, side: three.DoubleSide,
+      uniforms: this.uniforms, vertexShader, fragmentShader, side: three.DoubleSide, defines: this.haveWidth ? { RODS: 1 } : {},
     });
     this.needles = new three.Mesh(this.geometry, material);
     this.needles.frustumCulled = false;
@@ -123,6 +156,7 @@ export class NeedleScene {
     const index = Uint32Array.from({ length: 6 * count }, (_, n) => 4 * Math.floor(n / 6) + corners[n % 6]);
     this.geometry.setIndex(new three.BufferAttribute(index, 1));
     this.setAttribute("shareOfLength", this.shares ?? new Float32Array(count).fill(1), 1, false);
+    if (this.haveWidth) this.setAttribute("shareOfDiameter", this.widths ?? new Float32Array(count).fill(1), 1, false);
   }
 
   // Gives the corners of each needle its numbers, in the array of the frame before where there is one.

@@ -37,15 +37,23 @@ function contactTime({ tc, tc_relative }) {
   return tc_relative === null ? "none" : `t_c = ${numberText(tc_relative)} mean free times`;
 }
 
-function ofOneSpecies({ k, length, mass }) {
+function ofOneSpecies({ k, length, diameter, mass }) {
+  if (diameter > 0) {
+    return [
+      ["Shape k", length > 0 ? k : null],
+      ["Length, diameter, mass", [length, diameter, mass].map((value) => numberText(value)).join(", ")],
+    ];
+  }
   return [
     ["Shape k", k],
     ["Length, mass", length === 1 && mass === 1 ? null : `${numberText(length)}, ${numberText(mass)}`],
   ];
 }
 
-function speciesFact({ name, count, length, mass, k, t_tr, t_rot }) {
-  const properties = { length, mass, k, "T_tr": t_tr, "T_rot": t_rot };
+function speciesFact({ name, count, length, diameter, mass, k, t_tr, t_rot }) {
+  const width = diameter > 0 ? { diameter } : {};
+  const turns = length > 0 ? { k, "T_tr": t_tr, "T_rot": t_rot } : { "T_tr": t_tr };
+  const properties = { length, ...width, mass, ...turns };
   const text = Object.entries(properties).map(([key, value]) => `${key} ${numberText(value)}`);
   return [`Species ${name}`, `${numberText(count)} needles: ${text.join(", ")}`];
 }
@@ -145,10 +153,11 @@ export function factsOfRun({ scene, parameters, frames }) {
       ...scene.walls.map(wallFact),
       ["Gravity", gravityText(scene.gravity)],
       ...drivingFacts(scene.driving),
-      ["Density n L³", openSides(frames).length ? null : (frames.needles_in_file * scene.length ** 3) / volume],
+      ["Density n L³", openSides(frames).length || scene.packing_fraction !== null ? null : (frames.needles_in_file * scene.length ** 3) / volume],
       ["Restitution ε, β", `${numberText(scene.epsilon)}, ${numberText(scene.beta)}`],
       ...scene.pairs.map(({ name, epsilon, beta }) => [`Restitution of ${name}`, `${numberText(epsilon)}, ${numberText(beta)}`]),
       ...(scene.species.length ? scene.species.map(speciesFact) : ofOneSpecies(scene)),
+      ["Packing fraction", scene.packing_fraction],
       ["Initial state", scene.initial_file || (scene.species.length ? "drawn" : `drawn, T_tr = ${numberText(scene.t_tr)}, T_rot = ${numberText(scene.t_rot)}`)],
       ["Contact-time rule", contactTime(scene)],
       ["Started to run until", endText(scene.until)],
