@@ -49,6 +49,15 @@ motion = { amplitude = 0.5, frequency = 1 }
 `);
   needlework("run", "shaken.toml", "--quiet");
   needlework("report", "shaken.h5", "-o", "shaken.html");
+  write("shaken_grid.toml", `scene = "shaken.toml"
+seeds = [1, 2]
+out = "shaken"
+[parameters]
+"walls.z-low.epsilon" = [0.9, 0.95]
+"until.time" = 2
+`);
+  needlework("sweep", "shaken_grid.toml", "--quiet");
+  needlework("report", "shaken/summary.h5", "-o", "shaken_sweep.html");
   write("between.toml", `needles = { count = 60, box = [5, 5, 3] }
 until.time = 2
 output.file = "between.h5"
@@ -291,6 +300,19 @@ test("walls have pressures, profiles with their means, and a budget of energy th
   assert.equal(slabs, 76);
   const needles = (sum * 25 * 9.5) / slabs;
   assert.ok(needles > 15 && needles <= 60, `${needles}`);
+  await close();
+});
+
+test("a sweep has pressures, hits and the budget of its members", async () => {
+  const { page, complaints, close } = await open(browser, "shaken_sweep.html");
+  for (const title of [
+    "Hits on the wall at z low", "Pressure on the wall at z low", "Energy put in: wall at z low", "Energy put in: collisions",
+    "Energy put in: kicks",
+  ]) {
+    assert.equal(await chart(page, title).count(), 1, title);
+    assert.equal(await chart(page, title).getAttribute("data-points"), "2", title);
+  }
+  assert.deepEqual(complaints, []);
   await close();
 });
 
