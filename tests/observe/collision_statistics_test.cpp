@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "tests/observe/observed.h"
+#include "tests/support/rods.h"
 
 namespace needlework::observe {
 namespace {
@@ -88,6 +89,64 @@ TEST(CollisionStatistics, OfAGasInEquilibriumFollowItsLaws) {
   EXPECT_NEAR(square / count, 2, 6 * 2 / std::sqrt(count));
   EXPECT_NEAR(sine / count, 0.75, 6 * 0.25 / std::sqrt(count));
   EXPECT_NEAR(values["repeats"][0] / count, 0.14, 0.02);
+}
+
+// A rod that is hit along its axis does not turn: only the other one's rotation adds to V_n.
+TEST(CollisionStatistics, OfRodsCountTheNormalOfTheContact) {
+  Scene scene = test::rods_of(2, 2, 0.01);
+  scene.output.observables = {"collision_statistics"};
+  const double inertia = scene.species[0].inertia(), arm = 0.91;
+  Observed observed(scene);
+  Totals totals;
+  totals.t_tr = 1;
+  totals.t_rot = 0.5;
+  observed.sample({}, totals);
+  const auto bin_for = [&](const Vector& impulse, double squares) {
+    Collision c = collision_of(0, 1);
+    c.arm_first = 1;
+    c.arm_second = arm;
+    c.after[1].orientation = {1, 0, 0};
+    c.sin_angle = 1;
+    c.impulse = impulse;
+    c.normal_velocity = -1.55 * std::sqrt(squares);  // in the middle of bin 15
+    observed.collision(c);
+    const Values values = observed.sample({}, totals);
+    EXPECT_EQ(values.at("arms")[47], 1) << "0.91 of 2";
+    EXPECT_EQ(values.at("arms")[49], 1) << "1 of 2, a tip";
+    return values.at("normal_velocity")[15];
+  };
+  const double first = 0.5 * 1 / inertia, second = 0.5 * arm * arm / inertia;
+  EXPECT_EQ(bin_for({0, 0, 3}, 2 + second), 1);
+  EXPECT_EQ(bin_for({2, 0, 0}, 2 + first), 1);
+  EXPECT_EQ(bin_for({0, -1, 0}, 2 + first + second), 1);
+  EXPECT_EQ(bin_for({0, 0.6, 0.8}, 2 + 0.36 * first + second), 1);
+}
+
+// In equilibrium <x^2> = 2 with variance 4 at every density, whatever the shape; errors as above.
+TEST(CollisionStatistics, OfRodsAndSpheresFollowTheLawOfNormalVelocities) {
+  for (const double length : {0.0, 5.0}) {
+    Scene scene = test::rods_of(200, length, 0.2);
+    scene.output.observables = {"collision_statistics"};
+    Simulation simulation(scene);
+    Observed observed(scene);
+    simulation.on_collision([&](const Collision& c) { observed.collision(c); });
+    observed.sample({}, simulation.totals());
+    simulation.advance(test::until_collisions(100));
+    const Values values = observed.sample({}, simulation.totals());
+    const double count = values.at("collisions")[0];
+    ASSERT_EQ(count, 10000);
+    double square = 0;
+    for (std::size_t bin = 0; bin < 60; ++bin) {
+      const double x = (double(bin) + 0.5) / 10;
+      square += values.at("normal_velocity")[bin] * x * x;
+    }
+    EXPECT_NEAR(square / count, 2, 5 * 2 / std::sqrt(count)) << length;
+    const std::vector<double>& arms = values.at("arms");
+    EXPECT_EQ(sum(arms), 2 * count) << length;
+    if (length == 0) {
+      EXPECT_EQ(arms[25], 2 * count) << "at the centre";
+    }
+  }
 }
 
 }  // namespace
