@@ -16,6 +16,7 @@
 #include "src/engine/initial_state.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/present_state.h"
+#include "src/engine/rods_apart.h"
 #include "src/engine/subdomains.h"
 #include "src/physics/permutation.h"
 #include "src/physics/vectors.h"
@@ -115,6 +116,12 @@ struct Simulation::Implementation {
       sizing.emplace(run.gas, run.now);
     }
     begin_loop();
+#ifndef NDEBUG
+    overlap_limit = explained_overlap(run.gas);
+    // A state that is given may overlap by what is taken for a touch.
+    if (find_overlap(run.gas, run.now, isa, overlap_limit))
+      overlap_limit = run.gas.touch_tolerance();
+#endif
   }
 
   void begin_loop() {
@@ -189,6 +196,9 @@ struct Simulation::Implementation {
 
   Stop advance(const Scene::Until& until) {
     const Stop stop = advance(Limits(run, until));
+#ifndef NDEBUG
+    require_rods_apart(run.gas, run.now, isa, overlap_limit);
+#endif
     // An interruption must not be lost when it comes just as a condition is met.
     return run.interrupted.exchange(false) ? Stop::interrupted : stop;
   }
@@ -244,6 +254,9 @@ struct Simulation::Implementation {
   ReplacedRecords replaced;  ///< by a caller at the present time, not known to a loop yet
   std::string search, calendar;
   kernels::Isa isa;
+#ifndef NDEBUG
+  double overlap_limit = 0;  ///< by how much rods may overlap [L]
+#endif
   std::string placement;  ///< how rods of a drawn state have found room
 };
 

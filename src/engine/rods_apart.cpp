@@ -1,0 +1,61 @@
+#include "src/engine/rods_apart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "needlework/error.h"
+#include "src/engine/present_state.h"
+#include "src/scene/rod_grid.h"
+
+namespace needlework {
+namespace {
+
+/// Rods never overlap by more than this share of their diameter, but for what rounding adds.
+constexpr double most_overlap_of_rods = 1e-13;
+
+}  // namespace
+
+double explained_overlap(const Gas& gas) {
+  double smallest = gas.composition.widest();
+  for (const Species& each : gas.composition.species())
+    smallest = std::min(smallest, each.diameter);
+  // Positions and directors are rounded when records are made, and again when they are moved on.
+  const double rounding = 0x1p-51 * (gas.longest + ((gas.box[0] + gas.box[1]) + gas.box[2]));
+  return most_overlap_of_rods * smallest + rounding;
+}
+
+std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa,
+                                       double tolerance) {
+  if (!gas.composition.has_width()) return {};
+  std::vector<Needle> order;
+  for (Needle i{0}; i < gas.size(); ++i) order.push_back(i);
+  State state;
+  copy_state(gas, at, isa, order, state);
+  std::array<bool, 3> periodic{};
+  for (std::size_t axis = 0; axis < 3; ++axis) periodic[axis] = !gas.walled[axis];
+  RodGrid grid(gas.composition, gas.box, periodic, gas.size());
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const SpeciesIndex species = state.species.empty() ? SpeciesIndex{0} : state.species[i];
+    const auto overlap = grid.overlap(state.position[i], state.orientation[i], species, tolerance);
+    grid.enter(state.position[i], state.orientation[i], species);
+    if (!overlap) continue;
+    const auto [first, second] = std::minmax(state.id[overlap->other], state.id[i]);
+    return RodOverlap{first, second, overlap->expected - overlap->distance};
+  }
+  return {};
+}
+
+void require_rods_apart(const Gas& gas, Time at, kernels::Isa isa, double tolerance) {
+  const auto found = find_overlap(gas, at, isa, tolerance);
+  if (!found) return;
+  throw InvalidStateError(
+      fmt::format("rods {} and {} overlap by {:.3g} at time {:.17g}, expected at most {:.3g}: a "
+                  "contact was missed; this is a defect of the program",
+                  found->first, found->second, found->depth, gas.clock.since_start(at), tolerance),
+      {{found->first, found->second}});
+}
+
+}  // namespace needlework

@@ -1,0 +1,29 @@
+// The law that no event may break: rods of finite width never overlap but by rounding.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "kernels/isa.h"
+#include "src/physics/gas.h"
+
+namespace needlework {
+
+/// By how much rods may overlap, which is what rounding explains: 1e-13 of the smallest diameter,
+/// and what positions in this box do not hold. [L]
+double explained_overlap(const Gas& gas);
+
+/// Two rods that overlap.
+struct RodOverlap {
+  std::uint32_t first, second;  ///< ids, the lower one first
+  double depth;                 ///< [L]
+};
+
+/// Two rods that overlap by more than `tolerance` at this time, if there are any. All records are
+/// from then or earlier.
+std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa, double tolerance);
+
+/// Throws InvalidStateError, which names two rods, if any overlap by more than `tolerance`.
+void require_rods_apart(const Gas& gas, Time at, kernels::Isa isa, double tolerance);
+
+}  // namespace needlework
