@@ -18,9 +18,9 @@ from .arrays import numbers, whole_numbers
 from .errors import InputError
 from .values import Table, Values
 
-__all__ = ["CoolingCurve", "MixtureCurve", "MixtureRates", "collision_rate", "cooling",
-           "equilibrium_rate", "equipartition_k", "factor_between_walls", "mixture_cooling",
-           "mixture_rates", "ratio", "tau"]
+__all__ = ["CoolingCurve", "Diffusion", "MixtureCurve", "MixtureRates", "collision_rate", "cooling",
+           "diffusion", "equilibrium_rate", "equipartition_k", "factor_between_walls",
+           "mixture_cooling", "mixture_rates", "ratio", "tau"]
 
 
 class CoolingCurve(Table):
@@ -80,6 +80,30 @@ def factor_between_walls(k: ArrayLike, gap: ArrayLike, t_tr: ArrayLike = 1.0,
     Exact to 1e-6. Arguments are broadcast.
     """
     return _core.factor_between_walls(k, gap, t_tr, t_rot)
+
+
+class Diffusion(Values):
+    """Of smooth elastic needles whose successive collisions are not correlated (Enskog)."""
+
+    velocity_decay: np.ndarray
+    """-d ln <v(0).v(t)> / dt at t = 0 [1 / time]; exact at every density."""
+    angular_velocity_decay: np.ndarray
+    """-d ln <w(0).w(t)> / dt at t = 0 [1 / time]; exact at every density."""
+    d: np.ndarray
+    """Diffusion constant of a centre, (T/m) / velocity_decay [L^2 / time]."""
+    d_rot: np.ndarray
+    """Diffusion constant of a director, (T/I) / angular_velocity_decay [1 / time]."""
+
+
+def diffusion(k: ArrayLike, n: ArrayLike, t: ArrayLike = 1.0) -> Diffusion:
+    """Diffusion of needles at number density n [1 / L^3] and temperature t, as far as kinetic
+    theory without correlations gives it. Arguments are broadcast."""
+    columns = np.broadcast_arrays(np.asarray(k, dtype=float), _not_negative("n", n),
+                                  np.asarray(t, dtype=float))
+    shape = columns[0].shape
+    out = _core.diffusion(*(np.ascontiguousarray(column).ravel() for column in columns))
+    return Diffusion({name: column.reshape(shape) for name, column in zip(
+        ("velocity_decay", "angular_velocity_decay", "d", "d_rot"), out)})
 
 
 def ratio(epsilon: ArrayLike, k: ArrayLike, beta: ArrayLike = -1.0) -> np.ndarray:

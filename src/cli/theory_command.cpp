@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "needlework/diffusion.h"
 #include "needlework/error.h"
 #include "needlework/theory.h"
 #include "src/cli/boltzmann_theory.h"
@@ -68,6 +69,8 @@ struct Predictions : Question {
   double equipartition_k;  ///< NaN for rough needles, where it depends on epsilon and beta
   std::vector<theory::Temperatures> curve;
   std::vector<double> collisions;  ///< per needle
+
+  std::optional<theory::Transport> transport;  ///< of smooth elastic needles of a known density
 
   double time(std::size_t i) const { return taus[i] / theory_time_scale(*density); }
 };
@@ -159,9 +162,14 @@ Question question_of(const TheoryArguments& arguments,
 
 Predictions predictions_of(const TheoryArguments& arguments,
                            const std::optional<runs::LoadedScene>& loaded) {
-  Predictions result{question_of(arguments, loaded), not_computed, not_computed, {}, {}};
+  Predictions result{question_of(arguments, loaded), not_computed, not_computed, {}, {}, {}};
   result.ratio = theory::asymptotic_ratio(result.gas);
   if (result.gas.beta == -1.0) result.equipartition_k = theory::equipartition_k();
+  const bool is_elastic = result.gas.epsilon == 1 && result.gas.beta == -1;
+  const double temperature = result.initial.energy() / 2.5;
+  if (is_elastic && result.density && temperature > 0) {
+    result.transport = theory::uncorrelated_transport(*result.density, temperature, result.gas.k);
+  }
   result.curve = theory::cooling_curve(result.gas, result.initial, result.taus);
   result.collisions = theory::collisions_per_needle(result.gas, result.initial, result.taus);
   return result;
@@ -190,6 +198,13 @@ std::string json_of(const Predictions& predictions) {
     json["time"] = times;
     json["collisions_per_needle"] = predictions.collisions;
   }
+  if (predictions.transport) {
+    const theory::Transport& transport = *predictions.transport;
+    json["diffusion"] = {{"d", number(transport.diffusion)},
+                         {"d_rot", number(transport.rotational_diffusion)},
+                         {"velocity_decay", transport.velocity_decay},
+                         {"angular_velocity_decay", transport.angular_velocity_decay}};
+  }
   return json_text(json) + "\n";
 }
 
@@ -203,6 +218,13 @@ std::string table_text(const Predictions& predictions) {
   if (!std::isnan(predictions.equipartition_k)) {
     text += fmt::format("c = 1, equipartition, for every epsilon at k = {:.10g}\n",
                         predictions.equipartition_k);
+  }
+  if (predictions.transport) {
+    text += fmt::format(
+        "in equilibrium, without correlations: D = {:.10g}, D_rot = {:.10g}\n"
+        "<v(0).v(t)> decays at the rate {:.10g} at first, <w(0).w(t)> at {:.10g}\n",
+        predictions.transport->diffusion, predictions.transport->rotational_diffusion,
+        predictions.transport->velocity_decay, predictions.transport->angular_velocity_decay);
   }
   if (predictions.taus.empty()) return text;
 

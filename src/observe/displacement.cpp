@@ -14,11 +14,11 @@
 // the stride doubled. So memory is bounded, the first sample is always a reference, and a run of
 // any length has lags from one sample to all of it. Samples at equal steps make lags that repeat
 // and can be averaged; at logarithmic times, references are spread over the decades.
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
+#include "src/observe/moved.h"
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -35,10 +35,6 @@ struct Reference {
 void transfer(Archive& archive, Reference& reference) {
   archive(reference.sample, reference.time, reference.position, reference.orientation);
 }
-
-struct Means {
-  double parallel = 0, perpendicular = 0, p1 = 0, p2 = 0;
-};
 
 class Displacement : public Observable {
  public:
@@ -59,14 +55,15 @@ class Displacement : public Observable {
   }
 
   void sample(const Snapshot& now, Row& row) override {
-    const std::vector<Vector> position = unwrapped(now.state);
+    const std::vector<Vector> position = unwrapped(now.state, gas_.box);
     keep(now, position);
-    std::vector<Means> means;
+    std::vector<Moved> means;
     for (const Reference& reference : references_) {
-      means.push_back(compare(reference, position, now.state.orientation));
+      means.push_back(
+          moved(reference.position, reference.orientation, position, now.state.orientation));
     }
     put(row, [&](std::size_t n) { return now.totals.time - references_[n].time; });
-    for (double Means::*mean : {&Means::parallel, &Means::perpendicular, &Means::p1, &Means::p2}) {
+    for (double Moved::*mean : {&Moved::parallel, &Moved::perpendicular, &Moved::p1, &Moved::p2}) {
       put(row, [&](std::size_t n) { return means[n].*mean; });
     }
   }
@@ -84,15 +81,6 @@ class Displacement : public Observable {
   }
 
  private:
-  std::vector<Vector> unwrapped(const State& state) const {
-    std::vector<Vector> out = state.position;
-    for (std::size_t i = 0; i < state.image.size(); ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        out[i][axis] += state.image[i][axis] * gas_.box[axis];
-      }
-    return out;
-  }
-
   void keep(const Snapshot& now, const std::vector<Vector>& position) {
     const std::size_t sample = samples_++;
     if (sample % stride_ != 0) return;
@@ -104,22 +92,6 @@ class Displacement : public Observable {
     references_.push_back({sample, now.totals.time, position, now.state.orientation});
   }
   static_assert(places % 2 == 0);
-
-  static Means compare(const Reference& reference, const std::vector<Vector>& position,
-                       const std::vector<Vector>& orientation) {
-    Means sum;
-    for (std::size_t i = 0; i < position.size(); ++i) {
-      const Vector way = minus(position[i], reference.position[i]);
-      const double along = dot(way, reference.orientation[i]);
-      const double cosine = dot(orientation[i], reference.orientation[i]);
-      sum.parallel += along * along;
-      sum.perpendicular += std::max(dot(way, way) - along * along, 0.0);
-      sum.p1 += cosine;
-      sum.p2 += second_legendre(cosine);
-    }
-    const double count = static_cast<double>(position.size());
-    return {sum.parallel / count, sum.perpendicular / count, sum.p1 / count, sum.p2 / count};
-  }
 
   template <class Value>
   void put(Row& row, Value value) const {

@@ -27,6 +27,8 @@ constexpr Entry entries[] = {
     {"displacement",
      "Displacement and rotation since reference times, of which a bounded number is kept",
      make_displacement},
+    {"time_correlation", "Correlation of motion and velocities in time, at lags of many sizes",
+     make_time_correlation},
     {"collision_statistics", "Collisions since the sample before", make_collision_statistics, true},
     {"wall_profiles", "Density, temperatures and order in slabs between walls, or over one",
      make_wall_profiles},

@@ -30,6 +30,7 @@ ObservablePointer make_temperature_by_axis(const GasSetting& gas);
 ObservablePointer make_pair_correlation(const GasSetting& gas);
 ObservablePointer make_structure_factor(const GasSetting& gas);
 ObservablePointer make_displacement(const GasSetting& gas);
+ObservablePointer make_time_correlation(const GasSetting& gas);
 ObservablePointer make_collision_statistics(const GasSetting& gas);
 ObservablePointer make_wall_profiles(const GasSetting& gas);
 ObservablePointer make_centre_of_mass(const GasSetting& gas);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "needlework/diffusion.h"
 #include "src/python/arrays.h"
 #include "src/python/interpreter.h"
 #include "src/python/parts.h"
@@ -30,6 +31,20 @@ double factor_between_walls(double k, double gap, double t_tr, double t_rot) {
   needle.k = k;
   const theory::Temperatures now{t_tr, t_rot};
   return theory::pair_factor_between_walls(needle, now, needle, now, gap);
+}
+
+// Decay rates of v and w, then D and D_R.
+py::tuple diffusion(const Column& ks, const Column& densities, const Column& temperatures) {
+  Column out[4] = {Column(ks.size()), Column(ks.size()), Column(ks.size()), Column(ks.size())};
+  for (py::ssize_t i = 0; i < ks.size(); ++i) {
+    const theory::Transport transport =
+        theory::uncorrelated_transport(densities.data()[i], temperatures.data()[i], ks.data()[i]);
+    out[0].mutable_data()[i] = transport.velocity_decay;
+    out[1].mutable_data()[i] = transport.angular_velocity_decay;
+    out[2].mutable_data()[i] = transport.diffusion;
+    out[3].mutable_data()[i] = transport.rotational_diffusion;
+  }
+  return py::make_tuple(out[0], out[1], out[2], out[3]);
 }
 
 double ratio(double epsilon, double k, double beta) {
@@ -136,6 +151,7 @@ void add_theory(py::module_& module) {
   module.def("collision_rate", py::vectorize(collision_rate));
   module.def("equilibrium_rate", py::vectorize(equilibrium_rate));
   module.def("factor_between_walls", py::vectorize(factor_between_walls));
+  module.def("diffusion", diffusion);
   module.def("ratio", py::vectorize(ratio));
   module.def("cooling", cooling);
   module.def("mixture_rates", mixture_rates);

@@ -22,6 +22,7 @@ constexpr double bytes_per_needle = 580;
 constexpr double bytes_per_needle_of_a_frame = 100;
 constexpr double bytes_per_needle_of_a_checkpoint = 400;  // while it is written
 constexpr double bytes_per_needle_of_displacement = 500;  // eight references, of 48 each, and more
+constexpr double bytes_per_needle_of_time_correlation = 4500;  // 40 states of 96 each, and more
 
 }  // namespace
 
@@ -31,8 +32,11 @@ double estimated_memory(const Scene& scene) {
     per_needle += bytes_per_needle_of_a_frame;
     if (scene.output.checkpoint_every > 0) per_needle += bytes_per_needle_of_a_checkpoint;
     const auto& names = scene.output.observables;
-    const bool displaced = std::find(names.begin(), names.end(), "displacement") != names.end();
-    if (displaced) per_needle += bytes_per_needle_of_displacement;
+    const auto observes = [&](const char* name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (observes("displacement")) per_needle += bytes_per_needle_of_displacement;
+    if (observes("time_correlation")) per_needle += bytes_per_needle_of_time_correlation;
   }
   return base_bytes + per_needle * static_cast<double>(scene.needles.count);
 }

@@ -26,7 +26,7 @@ frames = 4
 events = true
 observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
                "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
-               "collision_statistics"]
+               "time_correlation", "collision_statistics"]
 """
 
 

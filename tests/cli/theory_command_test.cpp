@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "needlework/boltzmann.h"
+#include "needlework/diffusion.h"
 #include "needlework/theory.h"
 #include "tests/cli/program.h"
 
@@ -48,6 +49,23 @@ TEST_F(TheoryCommand, PrintsNullForWhatIsUndefined) {
   const auto rough = run("theory --epsilon 1 --k 6 --beta -0.5 --json").json();
   EXPECT_TRUE(rough["c"].is_number());
   EXPECT_TRUE(rough["k_star"].is_null());
+}
+
+TEST_F(TheoryCommand, SaysHowElasticNeedlesDiffuse) {
+  const auto expected = theory::uncorrelated_transport(8, (1.5 + 0.4) / 2.5, 6);
+  const auto json = run("theory --epsilon 1 --k 6 --t-rot0 0.4 --density 8 --json").json();
+  EXPECT_EQ(json["diffusion"]["d"], expected.diffusion);
+  EXPECT_EQ(json["diffusion"]["d_rot"], expected.rotational_diffusion);
+  EXPECT_EQ(json["diffusion"]["velocity_decay"], expected.velocity_decay);
+  EXPECT_EQ(json["diffusion"]["angular_velocity_decay"], expected.angular_velocity_decay);
+  EXPECT_NE(run("theory --epsilon 1 --k 6 --density 8").out.find("D_rot ="), std::string::npos);
+  EXPECT_TRUE(
+      run("theory --epsilon 1 --k 6 --density 0 --json").json()["diffusion"]["d"].is_null());
+  for (const char* other :
+       {"--epsilon 0.9 --density 8", "--epsilon 1", "--epsilon 1 --beta 1 --density 8"}) {
+    const auto without = run(std::string("theory --k 6 --json ") + other).json();
+    EXPECT_FALSE(without.contains("diffusion")) << other;
+  }
 }
 
 TEST_F(TheoryCommand, StartsWithEqualTemperatures) {

@@ -38,7 +38,7 @@ output.events = true
 output.grid = 1
 output.observables = ["fields", "profiles", "flow_order", "distributions", "alignment",
     "velocity_moments", "temperature_by_axis", "pair_correlation", "structure_factor",
-    "displacement", "collision_statistics"]
+    "displacement", "time_correlation", "collision_statistics"]
 output.file = ")" +
             path + "\"\n");
   return path;

@@ -26,7 +26,7 @@ LAYERS = [
     Layer("random", ["src/random"], []),
     Layer("archive", ["src/archive"], [], ["base"]),
     Layer("kernels", ["kernels"], ["accuracy.h"], ["base", "memory"]),
-    Layer("theory", ["src/theory"], ["theory.h"], ["base", "composition"]),
+    Layer("theory", ["src/theory"], ["theory.h", "diffusion.h"], ["base", "composition"]),
     Layer("trajectory", ["src/trajectory"],
           ["collision.h", "happening.h", "totals.h", "series.h", "counters.h", "stop.h"],
           ["base", "archive", "kernels"]),

@@ -114,7 +114,7 @@ TEST(BySpecies, IsWhatEachSpeciesHasAlone) {
       }
     }
   }
-  EXPECT_EQ(seen, 9);
+  EXPECT_EQ(seen, 10);
 }
 
 TEST(BySpecies, SumsAreThoseOfTheSimulation) {

@@ -39,6 +39,21 @@ class Theory(unittest.TestCase):
         self.assertAlmostEqual(periodic, float(theory.collision_rate(6, 1)), places=5)
         self.assertLess(walled, periodic)
 
+    def test_diffusion_is_that_of_the_program_and_takes_arrays(self):
+        printed = subprocess.run(
+            [PROGRAM, "theory", "--epsilon", "1", "--k", "6", "--density", "8", "--json"],
+            check=True, capture_output=True, text=True).stdout
+        expected = json.loads(printed)["diffusion"]
+        diffusion = theory.diffusion(6, [[8.0], [16.0]], [1.0, 4.0])
+        for name, value in expected.items():
+            self.assertEqual(diffusion[name].shape, (2, 2))
+            self.assertEqual(diffusion[name][0, 0], value)
+        np.testing.assert_allclose(diffusion.d, expected["d"] * np.array([[1, 2], [0.5, 1]]))
+        with self.assertRaisesRegex(InputError, "^n = -1: expected"):
+            theory.diffusion(6, -1)
+        with self.assertRaisesRegex(InputError, "^temperature = 0: expected"):
+            theory.diffusion(6, 1, 0)
+
     def test_ratio_takes_arrays_and_is_one_at_equipartition(self):
         ratios = theory.ratio([0.2, 0.9], theory.equipartition_k())
         np.testing.assert_allclose(ratios, 1, rtol=1e-10)

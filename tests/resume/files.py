@@ -20,7 +20,7 @@ events = true
 checkpoint_every = 0.02
 observables = ["fields", "profiles", "flow_order", "distributions", "alignment", "velocity_moments",
                "temperature_by_axis", "pair_correlation", "structure_factor", "displacement",
-               "collision_statistics"]
+               "time_correlation", "collision_statistics"]
 """
 
 # Other scenes, whose effects remember something of needles, walls and random numbers.

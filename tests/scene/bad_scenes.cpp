@@ -49,7 +49,8 @@ TEST(BadScene, ValueOutOfRangeOrOfWrongTypeIsNamedWithItsLine) {
   const std::string observables =
       "expected an array of names among \"fields\", \"profiles\", \"flow_order\", "
       "\"distributions\", \"alignment\", \"velocity_moments\", \"temperature_by_axis\", "
-      "\"pair_correlation\", \"structure_factor\", \"displacement\", \"collision_statistics\", "
+      "\"pair_correlation\", \"structure_factor\", \"displacement\", "
+      "\"time_correlation\", \"collision_statistics\", "
       "\"wall_profiles\", \"centre_of_mass\", "
       "\"t_tr\", \"t_rot\", \"energy\", \"momentum\", \"collisions\", \"tc_collisions\"";
   const BadLine table[] = {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
+#include "needlework/diffusion.h"
 #include "needlework/theory.h"
 
 namespace needlework::theory {
@@ -154,6 +156,41 @@ TEST(ContactSampling, GivesTheCoolingRates) {
       EXPECT_LT(t_tr[i].error(), 0.03 * (std::abs(expected.t_tr) + std::abs(expected.t_rot)));
     }
   }
+}
+
+// Law: in equilibrium <v(0).v(t)> and <w(0).w(t)> change by <v.dv> and <w.dw> of each collision at
+// first. Tolerance: 4 standard errors.
+TEST(ContactSampling, GivesTheDecayOfVelocities) {
+  for (const double k : {2.0, 6.0}) {
+    const double temperature = 1.7;
+    Sampler sampler({temperature, temperature}, k);
+    Mean velocity, angular_velocity;
+    for (int sample = 0; sample < 50000; ++sample) {
+      const Contact before = sampler.draw();
+      const double flux = before.first.director.cross(before.second.director).norm() *
+                          std::abs(before.relative_velocity().dot(before.normal()));
+      const Contact after =
+          collided(before, {k, 1.0, -1.0}, Eigen::PartialPivLU<Matrix3d>(response(before, k)));
+      const Vector3d dv = after.first.velocity - before.first.velocity;
+      const Vector3d dw = after.first.angular_velocity - before.first.angular_velocity;
+      velocity.add(-flux * before.first.velocity.dot(dv) / (3 * temperature));
+      angular_velocity.add(-flux * before.first.angular_velocity.dot(dw) / (4 * k * temperature));
+    }
+    const Transport expected = uncorrelated_transport(1.0, temperature, k);
+    EXPECT_NEAR(velocity.value(), expected.velocity_decay, 4.0 * velocity.error());
+    EXPECT_NEAR(angular_velocity.value(), expected.angular_velocity_decay,
+                4.0 * angular_velocity.error());
+    EXPECT_LT(velocity.error(), 0.02 * expected.velocity_decay);
+    EXPECT_LT(angular_velocity.error(), 0.02 * expected.angular_velocity_decay);
+    EXPECT_DOUBLE_EQ(expected.diffusion, temperature / expected.velocity_decay);
+    EXPECT_DOUBLE_EQ(expected.rotational_diffusion,
+                     2 * k * temperature / expected.angular_velocity_decay);
+  }
+  EXPECT_EQ(uncorrelated_transport(0, 1, 6).velocity_decay, 0);
+  EXPECT_TRUE(std::isinf(uncorrelated_transport(0, 1, 6).diffusion));
+  EXPECT_THROW(uncorrelated_transport(-1, 1, 6), std::invalid_argument);
+  EXPECT_THROW(uncorrelated_transport(1, 0, 6), std::invalid_argument);
+  EXPECT_THROW(uncorrelated_transport(1, 1, 0), std::invalid_argument);
 }
 
 }  // namespace
