@@ -23,6 +23,8 @@ set_tests_properties(
   # the same of 6 needles
   Needles/FiniteCount.RateAndTemperaturesAreExact/24
   Needles/FiniteCount.RateAndTemperaturesAreExact/24_between_walls
+  Needles/FiniteCount.RateAndTemperaturesAreExact/6_in_a_thermostat
+  Needles/FiniteCount.RateAndTemperaturesAreExact/6_between_thermal_walls
   # DrawnRods.CollideAndCoolAtTheExactRates
   DrawnRods.CollideAndCoolAtTheExactRatesForEveryShape
   # RodContacts.HaveExponentialEnergiesAtEveryDensity

@@ -56,6 +56,24 @@ int conserved_momenta(const Scene& scene) {
   return static_cast<int>(std::ranges::count(periodic, true));
 }
 
+// Whether nothing changes the distribution of velocities at this temperature: thermal walls and the
+// thermostat have it, and other walls are elastic and at rest.
+bool stays_at_temperature(const Scene& scene, double t) {
+  const auto leaves_it = [&](const Scene::Wall& wall) {
+    return !wall.motion && (wall.temperature ? *wall.temperature == t : wall.epsilon == 1);
+  };
+  const Scene::Driving& driving = scene.driving;
+  return !has_gravity(scene) && !driving.kicks &&
+         !(driving.andersen && driving.andersen->temperature != t) &&
+         std::ranges::all_of(scene.walls, leaves_it);
+}
+
+// Of a gas that starts in equilibrium.
+theory::Temperatures temperatures_of(const Scene& scene) {
+  const double t = scene.composition()[0].t_tr;
+  return {t, t};
+}
+
 bool has_exact_equilibrium(const Scene& scene) {
   return starts_in_equilibrium(scene) && !scene.composition().has_width();
 }
@@ -89,7 +107,8 @@ double initial_collision_rate(const LoadedScene& loaded) {
 bool starts_in_equilibrium(const Scene& scene) {
   const Composition composition = scene.composition();
   const double t = composition[0].t_tr;
-  return !composition.is_inelastic() && !is_pushed(scene) && scene.initial.file.empty() && t > 0 &&
+  return !composition.is_inelastic() && stays_at_temperature(scene, t) &&
+         scene.initial.file.empty() && t > 0 &&
          std::ranges::all_of(composition.species(),
                              [&](const Species& s) { return s.t_tr == t && s.t_rot == t; }) &&
          composition.count() >= 2;
@@ -98,11 +117,14 @@ bool starts_in_equilibrium(const Scene& scene) {
 std::vector<double> equilibrium_rates_by_pair(const Scene& scene, double energy) {
   if (!has_exact_equilibrium(scene)) return {};
   const Composition composition = scene.composition();
-  std::vector<double> rates = theory::mixture_equilibrium_rates(
-      composition, volume_of(scene), static_cast<double>(scene.needles.count) * energy,
-      conserved_momenta(scene));
-  // Temperatures of all species are the same, and only their ratios count.
-  const std::vector<theory::Temperatures> same(composition.size(), {1, 1});
+  // Those of all species are the same, and for the factor only their ratios count.
+  const std::vector<theory::Temperatures> same(composition.size(), temperatures_of(scene));
+  std::vector<double> rates =
+      exchanges_energy(scene)
+          ? theory::mixture_rates(composition, volume_of(scene), same).collisions
+          : theory::mixture_equilibrium_rates(composition, volume_of(scene),
+                                              static_cast<double>(scene.needles.count) * energy,
+                                              conserved_momenta(scene));
   if (!put_between_walls(scene, same, rates)) return {};
   return rates;
 }
@@ -121,10 +143,13 @@ double equilibrium_rate(const Scene& scene, double energy) {
   const auto factor = factor_between_walls(scene, species, {1, 1}, species, {1, 1});
   if (!factor) return unknown;
   const double cube = species.length * species.length * species.length;
-  return *factor *
-         theory::equilibrium_rate(count, volume_of(scene) / cube, count * energy, species.k,
-                                  conserved_momenta(scene)) /
-         (species.length * std::sqrt(species.mass));
+  const double volume = volume_of(scene) / cube;
+  const double rate =
+      exchanges_energy(scene)
+          ? theory::collision_rate((count - 1) / volume, temperatures_of(scene), species.k)
+          : theory::equilibrium_rate(count, volume, count * energy, species.k,
+                                     conserved_momenta(scene));
+  return *factor * rate / (species.length * std::sqrt(species.mass));
 }
 
 }  // namespace needlework::runs

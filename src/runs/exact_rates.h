@@ -17,13 +17,15 @@ std::vector<double> initial_rates_by_pair(const LoadedScene& loaded);
 double initial_collision_rate(const LoadedScene& loaded);
 
 /// Whether all is known of the gas from the start: elastic needles that are drawn with equal
-/// temperatures, and whose energy nothing changes. Elastic walls at rest may be around them.
+/// temperatures, which nothing changes. Elastic walls at rest may be around them, or thermal ones
+/// of this temperature, and they may have a thermostat of it.
 bool starts_in_equilibrium(const Scene& scene);
 
 /// Collisions of each two species per time in a gas that starts in equilibrium, by
-/// Composition::pair_index, at this energy per needle: exact for any number of needles, with walls
-/// along one axis too. Empty where that is not known: of rods of finite width, between walls along
-/// several axes, and of a gas that does not start in equilibrium. [1 / time]
+/// Composition::pair_index, at this energy per needle, or at the temperature of its heat bath:
+/// exact for any number of needles, with walls along one axis too. Empty where that is not known:
+/// of rods of finite width, between walls along several axes, and of a gas that does not start in
+/// equilibrium. [1 / time]
 std::vector<double> equilibrium_rates_by_pair(const Scene& scene, double energy);
 /// The same as collisions that a needle takes part in, on average over all needles; NaN where it is
 /// not known. [1 / time]

@@ -82,6 +82,17 @@ TEST_F(ExactRate, IsThatOfEachTwoSpeciesBetweenWalls) {
   EXPECT_NE(run("run gas.toml").out.find("ratio to the exact rate"), std::string::npos);
 }
 
+// Velocities are those of Maxwell then.
+TEST_F(ExactRate, IsThatOfTheTemperatureOfAHeatBath) {
+  Species needle;
+  const double expected = theory::pair_factor_between_walls(needle, {1, 1}, needle, {1, 1}, 1.5) *
+                          theory::collision_rate(11.0 / 30, {2, 2}, 6);
+  const std::string thermostat = "driving.andersen = { rate = 1, temperature = 2 }\n";
+  EXPECT_NEAR(of(between_walls("temperature = 2\n")).get<double>(), expected, 1e-10);
+  EXPECT_NEAR(of(between_walls("", thermostat)).get<double>(), expected, 1e-10);
+  EXPECT_TRUE(of(between_walls("temperature = 3\n", thermostat)).is_null());
+}
+
 TEST_F(ExactRate, IsNotClaimedWhereItIsNotKnown) {
   for (const char* wall :
        {"epsilon = 0.9\n", "temperature = 3\n", "motion = { amplitude = 0.1, frequency = 1 }\n",
@@ -89,7 +100,8 @@ TEST_F(ExactRate, IsNotClaimedWhereItIsNotKnown) {
     EXPECT_TRUE(of(between_walls(wall)).is_null()) << wall;
   }
   for (const char* more :
-       {"forces.gravity = [0, 0, -1]\n", "driving.andersen = { rate = 1, temperature = 2 }\n",
+       {"forces.gravity = [0, 0, -1]\n", "driving.andersen = { rate = 1, temperature = 3 }\n",
+        "driving.kicks = { every = 1, translational = 1, rotational = 1 }\n",
         "collisions = { epsilon = 0.9, tc_relative = 1e-3 }\n"}) {
     EXPECT_TRUE(of(between_walls("", more)).is_null()) << more;
   }

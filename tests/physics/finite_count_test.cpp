@@ -3,9 +3,11 @@
 // Laws, for the microcanonical ensemble with momentum 0 along p axes (3 N - p translational and 2 N
 // rotational degrees of freedom): the rate is theory::equilibrium_rate, and T_tr / T_rot is 1 - p /
 // (3 N). In a periodic box p is 3; between walls along one axis it is 2, and the rate is multiplied
-// by theory::pair_factor_between_walls. Tolerance: 3 standard errors, from the scatter of batches,
-// each more than 100 mean free times long. The values for infinitely many needles must be far
-// outside, so that the test is sensitive to these terms.
+// by theory::pair_factor_between_walls. With a heat bath, thermal walls or the thermostat,
+// velocities are those of Maxwell at its temperature: the rate is that of N - 1 needles, and p is
+// 0. Tolerance: 3 standard errors, from the scatter of batches, each more than 100 mean free times
+// long. The values for infinitely many needles must be far outside, so that the test is sensitive
+// to these terms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +29,7 @@ struct Averages {
 };
 
 constexpr int batches = 100;
-constexpr double collisions = 2e5;
+constexpr double collisions = 2.5e5;
 
 // Time averages of a run, the temperatures sampled twice per mean free time.
 Averages averages(const Scene& scene) {
@@ -59,13 +61,14 @@ Averages averages(const Scene& scene) {
 
 struct FiniteGas {
   std::uint64_t count;
-  double gap = 0;  ///< between walls along z, if there are any
+  double gap = 0;         ///< between walls along z, if there are any
+  bool has_bath = false;  ///< these walls are thermal; without walls there is a thermostat
 };
 
 class FiniteCount : public testing::TestWithParam<FiniteGas> {};
 
 TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
-  const auto [needles, gap] = GetParam();
+  const auto [needles, gap, has_bath] = GetParam();
   const double count = static_cast<double>(needles);
   const double side = 2.5;
   Scene scene = test::scene_of(needles, side, 2024);
@@ -78,13 +81,19 @@ TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
     factor = theory::pair_factor_between_walls({}, {1, 1}, {}, {1, 1}, gap);
     volume *= gap / side;
     conserved = 2;
+    if (has_bath) scene.walls[0].temperature = 1;
+  } else if (has_bath) {
+    scene.driving.andersen = {.rate = 1, .temperature = 1};
   }
+  if (has_bath) conserved = 0;
   const Averages run = averages(scene);
 
   const double energy = 2.5 * count, temperature = 2 * energy / (5 * count - conserved);
   const double share = 1 - conserved / (3 * count);
-  const Measured rate = run.rate / (factor * theory::equilibrium_rate(count, volume, energy,
-                                                                      scene.needles.k, conserved));
+  const double exact =
+      has_bath ? theory::collision_rate((count - 1) / volume, {1, 1}, scene.needles.k)
+               : theory::equilibrium_rate(count, volume, energy, scene.needles.k, conserved);
+  const Measured rate = run.rate / (factor * exact);
   const Measured t_rot = run.t_rot / temperature;
   const Measured t_tr = run.t_tr / (temperature * share);
   std::cout << "rate / exact: " << rate << ", T_tr: " << t_tr << ", T_rot: " << t_rot << '\n';
@@ -93,20 +102,26 @@ TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
   EXPECT_TRUE(test::agrees(t_tr, 1, 3));
   EXPECT_TRUE(test::agrees(t_rot, 1, 3));
 
-  // Energy is conserved, so the two temperatures are fully correlated.
-  EXPECT_NEAR(run.t_tr.value / run.t_rot.value, share, 3 * (run.t_tr.error + run.t_rot.error));
   const double infinite = factor * theory::collision_rate(count / volume, {1, 1}, scene.needles.k);
   EXPECT_FALSE(test::agrees(run.rate, infinite, 5));
+  if (has_bath) return;
+  // Energy is conserved, so the two temperatures are fully correlated.
+  EXPECT_NEAR(run.t_tr.value / run.t_rot.value, share, 3 * (run.t_tr.error + run.t_rot.error));
   EXPECT_FALSE(test::agrees(run.t_rot, 1, 5));
+}
+
+std::string name_of_gas(const testing::TestParamInfo<FiniteGas>& each) {
+  const FiniteGas& gas = each.param;
+  const std::string count = std::to_string(gas.count);
+  if (gas.has_bath) return count + (gas.gap > 0 ? "_between_thermal_walls" : "_in_a_thermostat");
+  return count + (gas.gap > 0 ? "_between_walls" : "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Needles, FiniteCount,
                          testing::Values(FiniteGas{6}, FiniteGas{24}, FiniteGas{6, 1.4},
-                                         FiniteGas{24, 2.5}),
-                         [](const auto& each) {
-                           const FiniteGas& gas = each.param;
-                           return std::to_string(gas.count) + (gas.gap > 0 ? "_between_walls" : "");
-                         });
+                                         FiniteGas{24, 2.5}, FiniteGas{6, 0, true},
+                                         FiniteGas{6, 1.4, true}),
+                         name_of_gas);
 
 }  // namespace
 }  // namespace needlework
