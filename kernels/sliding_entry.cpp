@@ -1,5 +1,6 @@
 #include "kernels/sliding_entry.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace needlework::kernels {
@@ -24,9 +25,10 @@ bool lasts(const SlidingBodies& bodies, SlidingState state, int side, double rem
 }  // namespace
 
 SlidingEntry sliding_entry(const SlidingBodies& bodies, const SlidingState& before, double epsilon,
-                           double below) {
+                           double below, bool crowded) {
   const SlidingContact contact = sliding_contact(bodies, before);
   SlidingEntry out;
+  out.epsilon = epsilon;
   out.side = contact.speed > 0 ? -1 : 1;
   const auto reject = [&](SlidingDecision why) {
     out.decision = why;
@@ -35,6 +37,15 @@ SlidingEntry sliding_entry(const SlidingBodies& bodies, const SlidingState& befo
   if (epsilon == 1) return reject(SlidingDecision::Elastic);
   const double stop = -contact.speed / contact.inverse;
   const SlidingState bounced = after_impulse(bodies, before, contact, (1 + epsilon) * stop);
+  if (crowded) {
+    // What presses the needles may come by the third one, and is not known here.
+    const auto size = [](const Vec3d& a) { return std::sqrt(dot(a, a)); };
+    const double speeds = size(before.v) + (size(before.w_first) + size(before.w_second)) *
+                                               (bodies.first.half + bodies.second.half);
+    const double needed = contact.rate * speeds * below / (2 * std::abs(contact.speed));
+    if (needed > epsilon) out.epsilon = std::min(1.0, needed);
+    return reject(SlidingDecision::Crowded);
+  }
   const double flight_pressed = pressing(bodies, bounced, out.side);
   out.after = in_contact(bodies, after_impulse(bodies, before, contact, stop));
   if (!(flight_pressed > 0) || !(pressing(bodies, out.after, out.side) > 0))

@@ -223,6 +223,30 @@ class End {
 
 }  // namespace
 
+// No polynomial of Legendre exceeds 1.
+SlidingStep::Most SlidingStep::most() const {
+  const auto of_slopes = [&](int first) {
+    double square = 0;
+    for (int c = first; c < first + 3; ++c) {
+      double sum = 0;
+      for (int k = 0; k < stages; ++k) sum += std::abs(slopes[c][k]);
+      square += sum * sum;
+    }
+    return std::sqrt(square) * (1 + 0x1p-30);
+  };
+  const auto reached = [&](const Vec3d& from, double rate) {
+    return (std::sqrt(dot(from, from)) + rate * span) * (1 + 0x1p-30);
+  };
+  Most out;
+  out.acceleration = of_slopes(9);
+  out.turned_faster_first = of_slopes(12);
+  out.turned_faster_second = of_slopes(15);
+  out.speed = reached(begin.v, out.acceleration);
+  out.turning_first = reached(begin.w_first, out.turned_faster_first);
+  out.turning_second = reached(begin.w_second, out.turned_faster_second);
+  return out;
+}
+
 SlidingState SlidingStep::at(double elapsed) const {
   if (elapsed == 0) return begin;
   const std::array<double, stages> integral = integrals(2 * (elapsed / span) - 1);

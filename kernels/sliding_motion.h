@@ -34,6 +34,13 @@ struct SlidingStep {
 
   /// The motion, for elapsed times in [0, duration]. [time]
   SlidingState at(double elapsed) const;
+  /// What is not exceeded on the span.
+  struct Most {
+    double speed = 0, acceleration = 0;                        ///< of r [L / time, L / time^2]
+    double turning_first = 0, turning_second = 0;              ///< |w| [1 / time]
+    double turned_faster_first = 0, turned_faster_second = 0;  ///< |w'| [1 / time^2]
+  };
+  Most most() const;
 };
 
 /// The step from a state in contact, f = 0 and V_n = 0 up to rounding, with `side` the sign of f

@@ -27,7 +27,7 @@ struct Happening {
   /// index of the wall); `shift` and `arm_second` are 0, and the second state after it is not set.
   Collision event;
 
-  bool is_collision() const { return kind == pair; }
+  bool is_collision() const { return kind == pair || kind == contact_entered; }
   /// Whether `event.second` and the second state after it are those of a needle.
   bool has_two_needles() const { return source == 0; }
 };

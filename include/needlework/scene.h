@@ -41,6 +41,8 @@ struct Scene {
     double beta = -1.0;                 ///< tangential restitution, [-1, 1]; -1 is smooth
     std::optional<double> tc;           ///< contact time of the t_c rule [time]
     std::optional<double> tc_relative;  ///< the same, in present mean free times
+    bool sliding = false;               ///< needles that bounce ever faster stay in contact
+    double sliding_below = 1e-3;  ///< in flights shorter than this, in present mean free times
   };
   /// What is different from Collisions where two species collide.
   struct Pair {

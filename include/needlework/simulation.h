@@ -108,6 +108,8 @@ class Simulation {
   /// Of each wall, in the order of Scene::wall_sides().
   std::vector<WallTotals> wall_totals() const;
   EnergyBudget energy_budget() const;
+  /// Where needles may slide on each other.
+  std::optional<SlidingContacts> sliding_contacts() const;
   /// How rods of finite width have found room in a state that was drawn, in words; else empty.
   const std::string& placement() const;
   /// Of rods of finite width, the sum of r12 . dp over the collisions so far, r12 from the second

@@ -49,6 +49,18 @@ struct WallTotals {
   double pressure(double time) const { return normal_impulse / (area * time); }
 };
 
+/// Contacts of needles that slide on each other, since the start of the run. Each that was entered
+/// has ended, or lasts.
+struct SlidingContacts {
+  std::uint64_t entered = 0;
+  std::uint64_t ended_by_force = 0;   ///< the force that holds the needles together would pull
+  std::uint64_t ended_by_tip = 0;     ///< a tip was reached; the needles pass each other
+  std::uint64_t ended_by_strike = 0;  ///< anything else changed the velocities of one of the two
+  /// Collisions whose epsilon was raised, as one of the needles had just touched a third one.
+  std::uint64_t crowded = 0;
+  double time = 0;  ///< that pairs have been in contact, without that of present steps [time]
+};
+
 /// What each effect has put into the energy of the needles since the start of a run, as energy per
 /// needle; negative where it has taken energy out. The sum is the change of Totals::energy, up to
 /// the rounding of needles' motion (Simulation::energy_drift).

@@ -41,6 +41,14 @@ struct Outcome {
   bool is_complete() const { return stop != Stop::interrupted && stop != Stop::wall_time; }
 };
 
+// The audit knows flights between collisions, and no motion in contact.
+void require_auditable(const Scene& scene) {
+  if (!scene.collisions.sliding) return;
+  throw InputError(place_of(scene, "collisions.sliding", "true") +
+                   ": expected false, as the audit does not know of needles that slide on each "
+                   "other");
+}
+
 audit::Setup setup_of(const Scene& scene, const AuditArguments& arguments, double epoch_length) {
   const Scene::Collisions& collisions = scene.collisions;
   return {.epoch_length = epoch_length,
@@ -210,6 +218,7 @@ int run(const AuditArguments& arguments) {
   }
   const runs::LoadedScene loaded = load_scene(arguments.scene);
   const Scene& scene = loaded.scene;
+  require_auditable(scene);
   for (const std::string& warning : runs::all_warnings(loaded)) print_warning(warning);
   if (arguments.state)
     runs::require_writable(*arguments.state, true, "--state " + *arguments.state);

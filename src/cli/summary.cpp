@@ -260,6 +260,11 @@ std::string summary_of(const Report& report) {
     text += fmt::format("; {} of them ({}) elastic by the t_c rule\n", last.tc_collisions,
                         per_cent(last.collisions ? share : 0));
   }
+  if (const auto contacts = report.simulation.sliding_contacts()) {
+    text += line("contacts", "{} entered; {} ended by force, {} at a tip, {} by a strike",
+                 contacts->entered, contacts->ended_by_force, contacts->ended_by_tip,
+                 contacts->ended_by_strike);
+  }
   text += rod_line(report);
   text += wall_lines(report);
   text += budget_line(report);

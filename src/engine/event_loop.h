@@ -182,6 +182,7 @@ bool EventLoop<S, M>::pass_window(Time next, const Limits& limits) {
   FurtherTouches& touches = *run_.gas.further_touches;
   // No record of an earlier window is ever put back.
   if (touches.records() > 0) touches.keep_only(run_.gas.records, run_.gas.ids);
+  if (run_.gas.slides) run_.gas.slides->keep_only(run_.gas.records, run_.gas.ids);
   keep_in_order();
   return true;
 }

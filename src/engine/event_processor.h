@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,9 @@ class EventProcessor {
   void horizon(Needle i);
   // A separate function, so that a test can inspect the machine code that an effect adds.
   [[gnu::noinline]] void collide(const Event& event);
+  [[gnu::noinline]] void touch(const Event& event);
+  void cut_contacts_of(Needle i, std::optional<Id> but = {});
+  [[noreturn, gnu::noinline]] void refuse_parallel(const Event& event) const;
   [[gnu::noinline]] void happen(const Event& event);
   void consider_sources(Needle i, Event& best) const;
   bool by_contact_time(Needle a, Needle b) const;
@@ -139,6 +143,7 @@ void EventProcessor<S, M>::process(const Event& event, bool stale) {
         ++tally_.counters.stale;
         return schedule(event.owner, place(event.owner));
       }
+      if constexpr (M::has_sliding) return touch(event);
       return collide(event);
     case EventKind::source:
       if constexpr (M::has_effects) happen(event);
@@ -248,6 +253,18 @@ void EventProcessor<S, M>::collide(const Event& event) {
 template <Search S, Model M>
 NeedleAt EventProcessor<S, M>::needle_at(Needle i) const {
   const Record& record = gas_.records[i];
+  if constexpr (M::has_sliding) {
+    const kernels::Stance present = gas_.present(i, now());
+    return {.needle = i,
+            .id = gas_.ids[i],
+            .record = record,
+            .species = gas_.species_of(record),
+            .now = now(),
+            .centre = present.r,
+            .director = present.u,
+            .velocity = present.v,
+            .angular_velocity = present.w};
+  }
   const auto motion = gas_.motion_from(record, now());
   return {.needle = i,
           .id = gas_.ids[i],
@@ -284,9 +301,15 @@ void EventProcessor<S, M>::happen(const Event& event) {
   report.energy_change = outcome.energy_change;
   report.contact_time_rule = outcome.contact_time_rule;
   if (outcome.changes_motion) {
+    if constexpr (M::has_sliding) cut_contacts_of(i);
     try {
       replace_record(i, [&] {
-        return model_.renew(i, now(), at.director, outcome.velocity, outcome.angular_velocity);
+        if constexpr (M::has_sliding) {
+          return model_.renew_from(
+              i, now(), {at.centre, outcome.velocity, at.director, outcome.angular_velocity});
+        } else {
+          return model_.renew(i, now(), at.director, outcome.velocity, outcome.angular_velocity);
+        }
       });
     } catch (const InvalidStateError&) {
       predictor_.put_back();
@@ -459,3 +482,5 @@ void EventProcessor<S, M>::report_collapse(const Event& event) const {
 }
 
 }  // namespace needlework
+
+#include "src/engine/touch_events.h"  // the events of pairs that may slide

@@ -17,21 +17,44 @@ Vec3d lowest(const Gas& gas) {
   return {edge(gas.gravity.x, 0), edge(gas.gravity.y, 1), edge(gas.gravity.z, 2)};
 }
 
+Needle needle_of(const Gas& gas, const Record& record) {
+  return Needle(static_cast<std::size_t>(&record - gas.records.data()));
+}
+
 // SumsOfSquares::height of a species.
 double height_of(const Gas& gas, Time now, std::size_t species, int threads) {
   if (!gas.falls) return 0;
   const auto [height] = exact_sums(gas.records, threads, [&](const Record& a) {
     if (a.species != species) return std::array{0.0};
-    return std::array{dot(gas.gravity, lowest(gas) - gas.motion_from(a, now).centre())};
+    const Vec3d centre =
+        gas.slides ? gas.present(needle_of(gas, a), now).r : gas.motion_from(a, now).centre();
+    return std::array{dot(gas.gravity, lowest(gas) - centre)};
   });
   return height;
 }
 
-// Calls sum(velocity_of) with a function that gives the present velocity of a record.
+struct Velocities {
+  Vec3d v, w;
+};
+struct VelocitiesOfRecord {
+  const Vec3d &v, &w;
+};
+
+// Calls sum(velocities_of) with a function that gives the present velocities of a record.
 template <class Sum>
 auto with_velocities(const Gas& gas, Time now, const Sum& sum) {
-  if (gas.falls) return sum([&](const Record& a) { return gas.motion_from(a, now).velocity(); });
-  return sum([](const Record& a) -> const Vec3d& { return a.flight.v; });
+  if (gas.slides) {
+    return sum([&](const Record& a) {
+      const kernels::Stance present = gas.present(needle_of(gas, a), now);
+      return Velocities{present.v, present.w};
+    });
+  }
+  if (gas.falls) {
+    return sum([&](const Record& a) {
+      return Velocities{gas.motion_from(a, now).velocity(), a.flight.w};
+    });
+  }
+  return sum([](const Record& a) { return VelocitiesOfRecord{a.flight.v, a.flight.w}; });
 }
 
 }  // namespace
@@ -40,11 +63,11 @@ std::vector<SumsOfSquares> sums_of_squares(const Gas& gas, Time now, int threads
   std::vector<SumsOfSquares> out(gas.composition.size());
   if (gas.size() == 0) return out;
   for (std::size_t species = 0; species < out.size(); ++species) {
-    const auto [v2, w2] = with_velocities(gas, now, [&](const auto& velocity_of) {
+    const auto [v2, w2] = with_velocities(gas, now, [&](const auto& velocities_of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
         if (a.species != species) return std::array{0.0, 0.0};
-        const Vec3d& v = velocity_of(a);
-        return std::array{dot(v, v), dot(a.flight.w, a.flight.w)};
+        const auto [v, w] = velocities_of(a);
+        return std::array{dot(v, v), dot(w, w)};
       });
     });
     out[species] = {v2, w2, height_of(gas, now, species, threads)};
@@ -109,11 +132,11 @@ Totals totals_of(const Gas& gas, Time now, int threads) {
   std::vector<SumsOfSquares> sums;
   for (std::size_t species = 0; species < gas.composition.size(); ++species) {
     // All at once: reading the records takes most of the time.
-    const auto [v2, w2, x, y, z] = with_velocities(gas, now, [&](const auto& velocity_of) {
+    const auto [v2, w2, x, y, z] = with_velocities(gas, now, [&](const auto& velocities_of) {
       return exact_sums(gas.records, threads, [&](const Record& a) {
         if (a.species != species) return std::array<double, 5>{};
-        const Vec3d& v = velocity_of(a);
-        return std::array{dot(v, v), dot(a.flight.w, a.flight.w), v.x, v.y, v.z};
+        const auto [v, w] = velocities_of(a);
+        return std::array{dot(v, v), dot(w, w), v.x, v.y, v.z};
       });
     });
     sums.push_back({v2, w2, height_of(gas, now, species, threads)});

@@ -8,6 +8,7 @@
 
 #include "kernels/free_flight.h"
 #include "needlework/error.h"
+#include "src/physics/director.h"
 #include "src/physics/vectors.h"
 
 namespace needlework {
@@ -35,8 +36,11 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
       const Needle i = needles[n];
       const kernels::Flight& flight = gas.records[i].flight;
       const double elapsed = columns[C::elapsed][n];
-      std::array<double, 3> r =
-          to_array(gas.falls ? gas.motion(gas.records[i]).centre(elapsed) : flights.centre(n));
+      const bool slides = gas.slides && gas.records[i].is_sliding();
+      const kernels::Stance sliding = slides ? gas.present(i, at) : kernels::Stance{};
+      std::array<double, 3> r = to_array(slides      ? sliding.r
+                                         : gas.falls ? gas.motion(gas.records[i]).centre(elapsed)
+                                                     : flights.centre(n));
       Shift image = gas.images[i];
       for (int axis = 0; axis < 3; ++axis) {
         const Wrapped wrapped = wrap(gas, r[axis], axis);
@@ -52,6 +56,10 @@ void copy_state(const Gas& gas, Time at, kernels::Isa isa, const std::vector<Nee
       out.velocity[row] = to_array(gas.motion(gas.records[i]).velocity(elapsed));
       out.orientation[row] = to_array(just_now ? flight.u : normalised(flights.director(n)));
       out.angular_velocity[row] = to_array(flight.w);
+      if (!slides) continue;
+      out.velocity[row] = to_array(sliding.v);
+      out.orientation[row] = to_array(normalised(sliding.u));
+      out.angular_velocity[row] = to_array(project_out(sliding.w, normalised(sliding.u)));
     }
   }
 }
@@ -63,13 +71,20 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
   }
   const Record& record = gas.records[static_cast<std::size_t>(found - gas.ids.begin())];
   const auto motion = gas.motion_from(record, at);
-  const Vec3d centre = motion.centre();
+  const bool slides = gas.slides && record.is_sliding();
+  kernels::Stance there{motion.centre(), motion.velocity(), motion.unit_director(),
+                        motion.angular_velocity()};
+  if (slides) {
+    there = gas.present(id, record, at);
+    there.u = normalised(there.u);
+  }
+  const Vec3d centre = there.r;
   FreeNeedle out;
   out.position = {wrap(gas, centre.x, 0).place, wrap(gas, centre.y, 1).place,
                   wrap(gas, centre.z, 2).place};
-  out.orientation = to_array(motion.unit_director());
-  out.velocity = to_array(motion.velocity());
-  out.angular_velocity = to_array(motion.angular_velocity());
+  out.orientation = to_array(there.u);
+  out.velocity = to_array(there.v);
+  out.angular_velocity = to_array(there.w);
   out.length = gas.species_of(record).length;
   out.diameter = gas.species_of(record).diameter;
   return out;
@@ -77,7 +92,8 @@ FreeNeedle needle_at(const Gas& gas, Time at, Id id) {
 
 void require_images(const Gas& gas, Time at) {
   for (Needle i{0}; i < gas.size(); ++i) {
-    const Vec3d centre = gas.motion_from(gas.records[i], at).centre();
+    const Vec3d centre =
+        gas.slides ? gas.present(i, at).r : gas.motion_from(gas.records[i], at).centre();
     const double place[3] = {centre.x, centre.y, centre.z};
     for (int axis = 0; axis < 3; ++axis) {
       add_boxes(gas.images[i][axis], wrap(gas, place[axis], axis).boxes, gas.ids[i]);

@@ -56,6 +56,7 @@ Effects effects_of(const Scene& scene) {
           .contact_time = scene.collisions.tc || scene.collisions.tc_relative,
           .table = composition.is_mixture() || !is_unit(composition[0]),
           .width = composition.has_width(),
+          .sliding = scene.collisions.sliding,
           .kicks = scene.driving.kicks.has_value()};
 }
 
@@ -70,6 +71,7 @@ Run::Run(const Scene& scene)
 
 void Run::add_effects(const Scene& scene) {
   if (effects.contact_time) contact_time_rule.emplace(gas);
+  if (effects.sliding) sliding.emplace(gas, scene.collisions.sliding_below);
   if (!scene.walls.empty()) {
     const ContactTimeOfWalls contact_time_of_walls{
         contact_time_rule ? &*contact_time_rule : nullptr, &contact_time};
@@ -232,6 +234,15 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
     auto& entry = replaced.add(i, record);
+    if (record.is_sliding() && gas.slides) {
+      const kernels::Stance present = gas.present(i, now);
+      // Counted once for the two.
+      tally.sliding.by_strike += gas.ids[i] < record.first_touch.partner;
+      entry.wraps = renew_record_from(
+          gas, i, now, present.r,
+          {present.u, velocity(i), angular_velocity(i), gas.species_of(record).extent()});
+      continue;
+    }
     const Vec3d director = gas.motion_from(record, now).director();
     entry.wraps = renew_record(
         gas, i, now, {director, velocity(i), angular_velocity(i), gas.species_of(record).extent()});
@@ -277,7 +288,7 @@ ReplacedRecords Run::kick() {
   kernels::in_parallel(gas.size(), team.threads(), [&](std::size_t begin, std::size_t end) {
     for (Needle i(begin); i < end; ++i) {
       const Record& record = gas.records[i];
-      changes[i] = kicks->change(gas.ids[i], number, gas.motion_from(record, now).director());
+      changes[i] = kicks->change(gas.ids[i], number, gas.present(i, now).u);
       if (!gas.species_of(record).turns()) changes[i].angular_velocity = {};
     }
   });
@@ -289,13 +300,8 @@ ReplacedRecords Run::kick() {
   const Vec3d of_all = Vec3d{x, y, z} * (1 / total_mass(gas.composition));
   find_next_kick();
   ReplacedRecords replaced = replace_velocities(
-      [&](Needle i) {
-        return gas.motion_from(gas.records[i], now).velocity() + (changes[i].velocity - of_all);
-      },
-      [&](Needle i) {
-        return gas.motion_from(gas.records[i], now).angular_velocity() +
-               changes[i].angular_velocity;
-      });
+      [&](Needle i) { return gas.present(i, now).v + (changes[i].velocity - of_all); },
+      [&](Needle i) { return gas.present(i, now).w + changes[i].angular_velocity; });
   energy_shares.kicked(before, energy.at_opening());
   if (const auto reason = out_of_range(numbers()); !reason.empty())
     throw InvalidStateError(fmt::format("kick {}: {}", number, reason));

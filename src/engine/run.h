@@ -10,6 +10,7 @@
 #include "needlework/simulation.h"
 #include "src/effects/driving/kicks.h"
 #include "src/effects/event_source.h"
+#include "src/effects/sliding/sliding.h"
 #include "src/engine/energy_account.h"
 #include "src/engine/energy_shares.h"
 #include "src/engine/gas_sums.h"
@@ -104,6 +105,7 @@ class Run {
   double initial_energy = 0;
   double contact_time = 0;  ///< contact time of the t_c rule in this window
   std::optional<ContactTimeRule> contact_time_rule;
+  std::optional<Sliding> sliding;
   std::vector<std::unique_ptr<EventSource>> sources;
   std::vector<std::size_t> first_object;  ///< of each source, among the objects of all
   std::size_t objects = 0;                ///< number of them

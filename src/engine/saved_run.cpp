@@ -78,6 +78,7 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
+  if (run.sliding) out.push_back(run.sliding->below());
   if (composition.has_width()) {
     for (const Species& each : composition.species()) out.push_back(each.diameter);
   }
@@ -109,6 +110,12 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   std::vector<RecordedTouch> touches;
   if (!archive.reads()) touches = touches_of(gas, i);
   archive(touches);
+  const bool slides = gas.slides && !touches.empty() && std::abs(touches.front().side) == 2;
+  Slide slide;
+  if (slides) {
+    if (!archive.reads()) slide = *gas.slides->of(gas.ids[i], record);
+    archive(slide);
+  }
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
   require_flight(f);
@@ -124,9 +131,15 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   }
   record.touch_count = 0;
   for (const RecordedTouch& touch : touches) {
-    require(std::abs(touch.side) <= 1 && std::isfinite(touch.gap));
+    const bool of_slide = slides && &touch == &touches.front();
+    require((of_slide || std::abs(touch.side) <= 1) && std::isfinite(touch.gap));
     gas.add_touch(i, touch);
   }
+  if (!slides) return;
+  const RecordedTouch& touch = record.first_touch;
+  const bool is_first = gas.ids[i] < touch.partner;
+  gas.slides->put(is_first ? gas.ids[i] : touch.partner,
+                  is_first ? record.serial : touch.partner_serial, slide);
 }
 
 }  // namespace
@@ -152,6 +165,15 @@ void Run::require_consistent() const {
   if (contact_time_rule) {
     require(std::ranges::all_of(contact_time_rule->last_collisions(), is_past));
   }
+  if (gas.slides)
+    require(std::ranges::all_of(gas.records, [&](const Record& record) {
+      if (!record.is_sliding()) return true;
+      const bool has_partner = std::ranges::binary_search(gas.ids, record.first_touch.partner);
+      const Slide* slide =
+          gas.slides->of(gas.ids[static_cast<std::size_t>(&record - &gas.records[0])], record);
+      return has_partner && slide &&
+             now <= gas.clock.add(record.time, slide->step.duration * (1 + 0x1p-40));
+    }));
   // Where nothing can happen, time passes without windows.
   if (!nothing_can_happen()) {
     require(now <= windows.end() && windows.end() <= gas.clock.add(now, windows.span()));
@@ -162,7 +184,7 @@ void Run::require_consistent() const {
   for (Needle i{0}; i < gas.size(); ++i) {
     StopRequest::check_in_turn(i);
     const Record& record = gas.records[i];
-    const Vec3d centre = gas.motion_from(record, now).centre();
+    const Vec3d centre = gas.slides ? gas.present(i, now).r : gas.motion_from(record, now).centre();
     const double places[3] = {centre.x, centre.y, centre.z};
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double most = std::numeric_limits<std::int32_t>::max();
@@ -214,6 +236,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
     archive(tally.virial);
     require(tally.virial.size() <= 1);
   }
+  if (sliding) archive(tally.sliding);
   if (kicks) {
     archive(kicks_done);
     require(kicks_done < std::uint64_t{1} << 53 && now <= next_kick());

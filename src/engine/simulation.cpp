@@ -89,6 +89,7 @@ std::string name_effects(const Run& run) {
   if (run.effects.contact_time) out += " tc";
   if (run.gas.composition.is_mixture()) out += " mixture";
   if (run.effects.width) out += " rods";
+  if (run.sliding) out += " sliding";
   for (const auto& source : run.sources) out += fmt::format(" {}s", source->name());
   if (run.gas.falls) out += " gravity";
   if (run.kicks) out += " kicks";
@@ -422,6 +423,18 @@ std::vector<WallTotals> Simulation::wall_totals() const {
     }
   }
   return out;
+}
+
+std::optional<SlidingContacts> Simulation::sliding_contacts() const {
+  const Run& run = implementation_->run;
+  if (!run.sliding) return std::nullopt;
+  const SlidingTally& tally = run.tally.sliding;
+  return SlidingContacts{.entered = tally.entered,
+                         .ended_by_force = tally.by_force,
+                         .ended_by_tip = tally.by_tip,
+                         .ended_by_strike = tally.by_strike,
+                         .crowded = tally.crowded,
+                         .time = tally.time.value()};
 }
 
 EnergyBudget Simulation::energy_budget() const {

@@ -468,7 +468,8 @@ auto SubdomainThread<S, M>::take(Needle i, const Event& event, TimeKey key) cons
 template <Search S, Model M>
 CellBox SubdomainThread<S, M>::cells_of(Needle i, const Vec3d& r) const {
   return cells_around(phase_.search.grid(), r,
-                      phase_.search.radius() * (1 + 0x1p-10) + phase_.run.gas.longest * 0x1p-20,
+                      phase_.search.radius() * (1 + 0x1p-10) + phase_.run.gas.longest * 0x1p-20 +
+                          phase_.run.gas.margin,
                       phase_.search.cell_of(i));
 }
 

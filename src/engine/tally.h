@@ -38,6 +38,30 @@ struct ObjectTally {
   }
 };
 
+/// What has happened to contacts of needles that slide on each other.
+struct SlidingTally {
+  std::uint64_t entered = 0;
+  std::uint64_t by_force = 0, by_tip = 0, by_strike = 0;  ///< ended
+  std::uint64_t crowded = 0;  ///< collisions whose epsilon was raised, as a third needle was near
+  std::uint64_t steps = 0;    ///< of the motion in contact
+  ExactTotal time;            ///< in contact, of all pairs [time]
+
+  template <class Archive>
+  friend void transfer(Archive& archive, SlidingTally& tally) {
+    archive(tally.entered, tally.by_force, tally.by_tip, tally.by_strike, tally.crowded,
+            tally.steps, tally.time);
+  }
+  void take(SlidingTally& other) {
+    entered += other.entered;
+    by_force += other.by_force;
+    by_tip += other.by_tip;
+    by_strike += other.by_strike;
+    crowded += other.crowded;
+    steps += other.steps;
+    time.take(other.time);
+  }
+};
+
 struct Tally {
   std::uint64_t collisions = 0, tc_collisions = 0;
   std::uint64_t energy = 0;  ///< change of the total energy, in quanta of the windows, modulo 2^64
@@ -54,6 +78,8 @@ struct Tally {
   /// Of rods, sum of r12 . dp over their collisions, r12 from the second centre to the first and dp
   /// the impulse on the first; one number, or none as long as no rods have collided. [energy]
   std::vector<ExactTotal> virial;
+
+  SlidingTally sliding;
 
   /// Counts one more of kind `index` out of so many.
   static void count(std::vector<std::uint64_t>& counts, std::size_t index, std::size_t kinds) {
@@ -94,6 +120,7 @@ struct Tally {
     add(by_source, other.by_source);
     add(by_object, other.by_object);
     add(virial, other.virial);
+    sliding.take(other.sliding);
     other = {};
   }
 

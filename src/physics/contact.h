@@ -14,7 +14,8 @@ namespace needlework {
 /// each other or the other, 1 or -1; bodies that exclude a volume are always on side 1.
 ///
 /// `Pair` is what it needs to know of two bodies, kernels::Pair or more; `excludes_volume` is
-/// whether bodies never pass through each other, so that a lost contact leaves an overlap.
+/// whether bodies never pass through each other, so that a lost contact leaves an overlap, and
+/// `slides` whether they may slide on each other (src/physics/sliding_contact.h).
 ///
 /// All are pure functions of the pair. They do not depend on when they are called, on the search or
 /// on the thread. Exchanging the bodies and negating the shift changes no bit. None throws.
@@ -34,6 +35,7 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
                               const DoubleDouble& elapsed, kernels::EvaluationCounters& spent) {
   requires std::derived_from<typename C::Pair, kernels::Pair>;
   { C::excludes_volume } -> std::convertible_to<bool>;
+  { C::slides } -> std::convertible_to<bool>;
   { contact.first_contact(pair, time, time, spent) } -> std::same_as<kernels::Contact>;
   { contact.gap(pair, elapsed) } -> std::convertible_to<double>;
   { contact.side_after(pair) } -> std::convertible_to<int>;
@@ -45,7 +47,7 @@ concept ContactLaw = requires(const C& contact, const typename C::Pair& pair, do
 class NeedleContact {
  public:
   using Pair = kernels::Pair;
-  static constexpr bool excludes_volume = false;
+  static constexpr bool excludes_volume = false, slides = false;
 
   explicit NeedleContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }
@@ -73,7 +75,7 @@ static_assert(ContactLaw<NeedleContact>);
 class RodContact {
  public:
   using Pair = kernels::RodPair;
-  static constexpr bool excludes_volume = true;
+  static constexpr bool excludes_volume = true, slides = false;
 
   explicit RodContact(const Accuracy& accuracy) : accuracy_(accuracy) {}
   const Accuracy& accuracy() const { return accuracy_; }

@@ -3,8 +3,9 @@
 
 namespace needlework {
 
-/// Three models are compiled: one without any of these, to which they cost nothing, one that asks
-/// for each of them when it runs, and that for rods (src/physics/needle_model.h). Effects that are
+/// Four models are compiled: one without any of these, to which they cost nothing, one that asks
+/// for each of them when it runs, that for rods, and that for needles that slide on each other
+/// (src/physics/needle_model.h). Effects that are
 /// events of their own are sources of events instead (src/engine/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
@@ -13,10 +14,13 @@ struct Effects {
                               ///< otherwise length and mass are 1
 
   bool width = false;    ///< rods of finite width
+  bool sliding = false;  ///< needles slide on each other
   bool sources = false;  ///< there are sources of events
   bool kicks = false;    ///< the velocities of all needles change at one instant, again and again
 
-  bool any() const { return rough || contact_time || table || width || sources || kicks; }
+  bool any() const {
+    return rough || contact_time || table || width || sliding || sources || kicks;
+  }
 };
 
 }  // namespace needlework

@@ -117,9 +117,28 @@ std::int32_t add_boxes(std::int32_t image, double boxes, Id id) {
                           {{id.value, id.value}});
 }
 
+void Gas::let_slide() {
+  slides = std::make_unique<Slides>();
+  margin = 0;
+  for (Body& body : bodies) {
+    body.radius = most_departure * 2 * body.half_length;
+    margin = std::max(margin, 2 * body.radius);
+  }
+  longest *= 1 + 2 * most_departure;
+}
+
+kernels::Stance Gas::present(Id id, const Record& record, Time now) const {
+  const Slide* slide = slides && record.is_sliding() ? slides->of(id, record) : nullptr;
+  return NeedleCourse(*this, id, record, slide, clock.difference(now, record.time)).at(0);
+}
+
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight) {
+  return renew_record_from(gas, i, now, gas.motion_from(gas.records[i], now).centre(), flight);
+}
+
+Shift renew_record_from(Gas& gas, Needle i, Time now, const Vec3d& centre,
+                        const NewFlight& flight) {
   Record& record = gas.records[i];
-  const Vec3d centre = gas.motion_from(record, now).centre();
   double r[3] = {centre.x, centre.y, centre.z};
   Shift wraps{}, image = gas.images[i];
   for (int axis = 0; axis < 3; ++axis) {

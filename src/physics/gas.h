@@ -13,6 +13,7 @@
 #include "src/physics/ids.h"
 #include "src/physics/motion.h"
 #include "src/physics/record.h"
+#include "src/physics/slides.h"
 #include "src/physics/species.h"
 
 namespace needlework {
@@ -33,6 +34,10 @@ struct Gas {
   Composition composition;       ///< indexed by Record::species
   std::vector<Body> bodies = {body_of(Species{})};  ///< of the same species
   double longest = 1;                               ///< largest extent of a species [L]
+  std::unique_ptr<Slides> slides;  ///< null where needles do not slide on each other
+  /// How far apart two axes in contact may be by the flights of their records, the largest diameter
+  /// of rods left out. [L]
+  double margin = 0;
 
   std::size_t size() const { return records.size(); }
   bool has_walls() const { return walled[0] || walled[1] || walled[2]; }
@@ -45,6 +50,8 @@ struct Gas {
   double density() const { return static_cast<double>(size()) / (box[0] * box[1] * box[2]); }
 
   void set_composition(Composition its_composition);
+  /// Lets needles slide on each other. To be called after set_composition().
+  void let_slide();
   const Species& species_of(const Record& record) const { return composition[record.species]; }
   /// How a needle moves from its record on.
   FreeFlight motion(const Record& record) const {
@@ -54,9 +61,13 @@ struct Gas {
   MotionFrom<FreeFlight> motion_from(const Record& record, Time now) const {
     return {motion(record), clock.difference(now, record.time)};
   }
+  /// Where needle i is, and how it moves, whether or not it slides.
+  kernels::Stance present(Needle i, Time now) const { return present(ids[i], records[i], now); }
+  kernels::Stance present(Id id, const Record& record, Time now) const;
   /// The centre moves no faster until the record is replaced. [L / time]
   double fastest_of(const Record& record) const {
-    return motion(record).fastest(0, clock.difference(record.renewal, record.time));
+    const double flight = motion(record).fastest(0, clock.difference(record.renewal, record.time));
+    return slides && record.is_sliding() ? flight + record.first_touch.gap : flight;
   }
   /// Makes room for so many needles, in columns too.
   void resize(std::size_t needles) {
@@ -120,5 +131,10 @@ struct NewFlight {
 /// forgotten. Returns the number of boxes by which the centre was wrapped. Throws
 /// InvalidStateError, and changes nothing, if that makes too many; see add_boxes().
 Shift renew_record(Gas& gas, Needle i, Time now, const NewFlight& flight);
+/// The same for a needle that is elsewhere than its flight has led, as it may have slid: `centre`
+/// is where, not wrapped. [L]
+Shift renew_record_from(Gas& gas, Needle i, Time now, const Vec3d& centre, const NewFlight& flight);
+/// Two needles as bodies that slide on each other.
+kernels::SlidingBodies sliding_bodies(const Gas& gas, const Record& first, const Record& second);
 
 }  // namespace needlework

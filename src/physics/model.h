@@ -19,7 +19,8 @@ namespace needlework {
 /// A model promises the following.
 ///   `motion` is how a needle moves from its record on.
 ///   `has_effects` is false for a model without any effect, and `effects()` tells which there are;
-///   `has_width` is true for rods of finite width.
+///   `has_width` is true for rods of finite width, `has_sliding` where needles may slide on each
+///   other.
 ///   `pair` is the relative motion of two needles, a pure function of the two records and the
 ///     shift, and `contact` is when and how such a pair touches (contact.h).
 ///   `collide` returns the velocities after a contact, now, of needles that approach from `side`;
@@ -36,6 +37,7 @@ concept Model = requires(const M& model, Needle i, const Record& record, const S
                          Time now, const kernels::ContactGeometry& geometry, const Vec3d& vector) {
   { M::has_effects } -> std::convertible_to<bool>;
   { M::has_width } -> std::convertible_to<bool>;
+  { M::has_sliding } -> std::convertible_to<bool>;
   { model.effects() } -> std::convertible_to<Effects>;
   { model.gas() } -> std::same_as<Gas&>;
   { model.restitution(record, record) } -> std::convertible_to<const Restitution&>;

@@ -3,6 +3,7 @@
 
 #include "needlework/accuracy.h"
 #include "src/physics/model.h"
+#include "src/physics/sliding_contact.h"
 
 namespace needlework {
 
@@ -14,7 +15,8 @@ class NeedleModel {
  public:
   static constexpr bool has_effects = with_effects;
   static constexpr bool has_width = Law::excludes_volume;
-  static_assert(has_effects || !has_width, "rods are looked up by species");
+  static constexpr bool has_sliding = Law::slides;
+  static_assert(has_effects || !(has_width || has_sliding), "these are looked up by species");
 
   /// `gas` must outlive the model. Without effects, `effects` must have none.
   NeedleModel(Gas& gas, const Effects& effects, const Accuracy& accuracy)
@@ -43,7 +45,7 @@ class NeedleModel {
   /// How far it reaches from its centre. Centres of two needles that are farther apart than both
   /// reach cannot be in contact. [L]
   double reach(Needle i) const {
-    if constexpr (has_width) return gas_.bodies[gas_.records[i].species].reach();
+    if constexpr (has_width || has_sliding) return gas_.bodies[gas_.records[i].species].reach();
     return half_length(i);
   }
   typename Law::Pair pair(Needle a, const Record& record_a, Needle b, const Record& record_b,
@@ -54,6 +56,7 @@ class NeedleModel {
       out.half_second = body(record_b).half_length;
     }
     if constexpr (has_width) out.distance = body(record_a).radius + body(record_b).radius;
+    if constexpr (has_sliding) out.look_up(gas_, {a, record_a}, {b, record_b}, shift);
     return out;
   }
   const Law& contact() const { return contact_; }
@@ -76,15 +79,21 @@ class NeedleModel {
 
   Shift renew(Needle i, Time now, const Vec3d& director, const Vec3d& velocity,
               const Vec3d& angular_velocity) const {
-    return renew_record(gas_, i, now, {director, velocity, angular_velocity, 2 * reach(i)});
+    return renew_record(gas_, i, now, {director, velocity, angular_velocity, extent(i)});
   }
   Shift renew_in_flight(Needle i, Time now) const {
     const Record& record = gas_.records[i];
     const auto present = gas_.motion_from(record, now);
     return renew(i, now, present.director(), present.velocity(), present.angular_velocity());
   }
+  /// The same as renew(), of a needle that may slide at present.
+  Shift renew_from(Needle i, Time now, const kernels::Stance& present) const {
+    return renew_record_from(gas_, i, now, present.r, {present.u, present.v, present.w, extent(i)});
+  }
 
  private:
+  /// From end to end. [L]
+  double extent(Needle i) const { return 2 * (has_sliding ? half_length(i) : reach(i)); }
   Vec3d velocity(const Record& record, Time now) const {
     return gas_.falls ? gas_.motion_from(record, now).velocity() : record.flight.v;
   }
@@ -99,7 +108,9 @@ class NeedleModel {
 };
 
 using RodModel = NeedleModel<true, RodContact>;
+using SlidingModel = NeedleModel<true, SlidingContact>;
 
-static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>> && Model<RodModel>);
+static_assert(Model<NeedleModel<false>> && Model<NeedleModel<true>> && Model<RodModel> &&
+              Model<SlidingModel>);
 
 }  // namespace needlework

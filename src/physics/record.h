@@ -20,9 +20,10 @@ struct RecordedTouch {
   Id partner;
   std::uint32_t partner_serial = 0;
   std::array<std::int16_t, 3> shift{};  ///< boxes added to the partner's recorded centre
-  std::int8_t side = 0;                 ///< sign of the contact function just after the touch
-  bool collided = false;                ///< the touch was a collision
-  double gap = 0;                       ///< value of the contact function [L]
+  std::int8_t side = 0;   ///< sign of the contact function just after the touch; twice the sign
+                          ///< before it, of a partner on which the needle slides (slides.h)
+  bool collided = false;  ///< the touch was a collision
+  double gap = 0;         ///< value of the contact function [L]
 
   static RecordedTouch of(Id partner, std::uint32_t serial, const Shift& shift,
                           const kernels::Touch& touch) {
@@ -57,6 +58,11 @@ struct alignas(64) Record {
   std::uint16_t touch_count = 0;  ///< the first touch is below, others are in Gas::further_touches
   SpeciesIndex species = 0;
   RecordedTouch first_touch;  ///< the touch with the partner of the last collision, if there is one
+
+  /// Whether it slides on the partner of its first touch, as it was when the record was made.
+  bool is_sliding() const {
+    return touch_count > 0 && (first_touch.side == 2 || first_touch.side == -2);
+  }
 };
 
 static_assert(sizeof(Record) == 192);

@@ -13,7 +13,7 @@ io::RunInfo run_info(const Simulation& simulation, const Scene& scene) {
           .epoch_length = simulation.epoch_length(),
           .accuracy = accuracy_name(scene.engine),
           .species = simulation.species(),
-          .has_kinds = !simulation.sources().empty()};
+          .has_kinds = !simulation.sources().empty() || simulation.sliding_contacts()};
 }
 
 void write_state(const Simulation& simulation, const Scene& scene, const UserDataByName& data,

@@ -81,7 +81,7 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
   const bool bounces =
       walls_bounce || any([](const Restitution& rule) { return rule.epsilon < 1; });
   for (const Rule& rule : rules) {
-    if (!(rule.restitution.epsilon < 1 && tc == 0)) continue;
+    if (!(rule.restitution.epsilon < 1 && tc == 0) || c.sliding) continue;
     list.push_back(fmt::format(
         "{}: inelastic needles can collide infinitely often in a finite time, which ends a run; "
         "set collisions.tc_relative, such as 1e-3, to prevent it",

@@ -106,6 +106,21 @@ void require_thermostat_without_gravity(const Scene& scene) {
             "none beside forces.gravity: the thermostat is for needles that fly freely");
 }
 
+// What sliding contact does not know of.
+void require_what_slides(const Scene& scene) {
+  if (!scene.collisions.sliding) return;
+  const auto refuse = [&](const std::string& reason) {
+    refuse_at(place_of(scene, "collisions.sliding", "true"), reason);
+  };
+  const Composition composition = scene.composition();
+  if (composition.is_rough())
+    refuse("false, or beta = -1: needles slide on each other without friction only");
+  if (composition.has_width()) refuse("false, as rods of finite width do not slide");
+  if (!scene.walls.empty()) refuse("false beside walls, which needles in contact would hit unseen");
+  if (scene.collisions.tc || scene.collisions.tc_relative)
+    refuse("either sliding or a contact time, tc or tc_relative: both replace the same bounces");
+}
+
 }  // namespace
 
 double Gap::beyond(double centre, double reach, double edge) const {
@@ -133,7 +148,8 @@ std::array<Gap, 3> gaps_of(const Scene& scene) {
 
 Room::Room(const Scene& scene) : gaps_(gaps_of(scene)) {
   const Composition composition = scene.composition();
-  const double length = composition.longest();
+  // Needles in contact are found within a little more than their lengths (src/physics/slides.h).
+  const double length = composition.longest() * (scene.collisions.sliding ? 1.0625 : 1);
   if (composition.has_width()) body_ = "rod";
   for (std::size_t axis = 0; axis < 3; ++axis) {
     least_[axis] = gaps_[axis].is_walled() ? length + gaps_[axis].approach : least_edge(length);
@@ -184,6 +200,7 @@ void require_compatible_effects(const Scene& scene) {
   require_thermal_walls_at_rest(scene);
   require_gravity_to_single_walls(scene);
   require_thermostat_without_gravity(scene);
+  require_what_slides(scene);
 }
 
 void require_walls_to_observe(const Scene& scene) {

@@ -56,6 +56,11 @@ std::optional<double> number(const Value& value, double least, double greatest =
   return std::nullopt;
 }
 
+std::optional<bool> truth(const Value& value) {
+  const auto* is = value.as<bool>();
+  return is ? std::optional(*is) : std::nullopt;
+}
+
 std::optional<double> temperature(const Value& value) {
   const auto x = number(value, 0, largest_temperature);
   return x && (*x == 0 || *x >= least_temperature) ? x : std::nullopt;
@@ -304,6 +309,10 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.collisions.tc, number(v, 0)); }},
     {"collisions", "tc_relative", "a number >= 0 of mean free times",
      [](Scene& s, V v) { return store(s.collisions.tc_relative, number(v, 0)); }},
+    {"collisions", "sliding", "true or false",
+     [](Scene& s, V v) { return store(s.collisions.sliding, truth(v)); }},
+    {"collisions", "sliding_below", "a number from 1e-6 to 0.1 of mean free times",
+     [](Scene& s, V v) { return store(s.collisions.sliding_below, number(v, 1e-6, 0.1)); }},
 
     {"pairs", "between", "an array of the names of two species",
      [](Scene& s, V v) { return store(s.pairs.back().between, two_names(v)); }},

@@ -71,7 +71,7 @@ ClassCells::ClassCells(const Gas& gas, const SizeClass& sizes, const CellGrid& i
       grid(its_grid),
       cells(grid.size(), sizes.count) {
   const auto sides = grid.sides();
-  const double diameter = gas.composition.widest();
+  const double diameter = gas.composition.widest() + gas.margin;
   if (kind == BoundingVolume::cell) {
     overlap = overlap_of_side * std::min({sides[0], sides[1], sides[2]});
     if (diameter > 0) longest_half += static_cast<float>(diameter * per_length);

@@ -33,6 +33,7 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       kernels_(kernels::near_kernels(setup.isa)),
       follows_(setup.float_filter),
       widest_(static_cast<float>(gas.composition.widest() * volumes_->per_length)),
+      margin_(static_cast<float>(gas.margin * volumes_->per_length)),
       are_spheres_(std::ranges::none_of(gas.composition.species(), &Species::turns)),
       looks_(volumes_->classes.size()) {}
 
@@ -43,6 +44,7 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       kernels_(other.kernels_),
       follows_(other.follows_),
       widest_(other.widest_),
+      margin_(other.margin_),
       are_spheres_(other.are_spheres_),
       looks_(volumes_->classes.size()) {}
 
@@ -110,7 +112,7 @@ inline void NearSearch::sweep(const ClassCells& own, double ahead, Look& look) c
   // the reach.
   look.distance =
       (capsule ? own.around_axis : half) + (to_capsules ? there.around_axis : longest_half);
-  if (looks_.size() > 1 && to_capsules && !capsule) look.distance += 0.5f * widest_;
+  if (looks_.size() > 1 && to_capsules && !capsule) look.distance += 0.5f * (widest_ + margin_);
   look.reach = look.distance + (static_cast<float>(volume_margin) + 2 * seeker.margin);
   if (to_capsules) look.reach += longest_half + static_cast<float>(there.format.step());
   if (volumes.falls && looks_.size() > 1 && !(capsule && to_capsules)) {
@@ -350,6 +352,18 @@ inline std::size_t NearSearch::bracket(const kernels::Seeker& seeker, const Pair
   return kernels_.bracket(seeker, pairs, count);
 }
 
+// The filter sees flights of records, from which needles in contact depart.
+void NearSearch::leave_out_sliding(const kernels::Found& found, std::size_t count, float never) {
+  const auto slides = [&](Needle i) { return volumes_->gas.records[i].is_sliding(); };
+  const bool all = slides(Needle(looks_.front().seeker.needle));
+  float* const from = pairs_.columns_for(count).column[PairColumns::from];
+  for (std::size_t k = 0; k < count; ++k) {
+    if (from[k] == never || !(all || slides(Needle(found.needle[k])))) continue;
+    from[k] = never;
+    propose(found, k, 0);
+  }
+}
+
 // Proposes those of the needles found that may meet the seeker, with the earliest time at which
 // they may.
 inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& found,
@@ -375,6 +389,7 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
     from[k] = hit ? apart : 0;
     if (hit && !parts) propose(found, k, 0);
   }
+  if (margin_ > 0) leave_out_sliding(found, count, never);
   counters_.bracket_steps += bracket(seeker, pairs, count);
   const float ahead = seeker.ahead;
   for (std::size_t k = 0; k < count; ++k) {

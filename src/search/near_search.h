@@ -115,6 +115,7 @@ class NearSearch {
   void follow(const JustHit& just_hit, const kernels::Found& found, std::size_t count);
   std::size_t bracket(const kernels::Seeker& seeker, const kernels::PairColumns& pairs,
                       std::size_t count) const;
+  void leave_out_sliding(const kernels::Found& found, std::size_t count, float never);
   void propose(const kernels::Found& found, std::size_t k, double from);
   Shift shift_of(Needle j, std::uint32_t view) const;
 
@@ -124,6 +125,7 @@ class NearSearch {
   const kernels::NearKernels& kernels_;
   bool follows_;             ///< whether pairs are followed by SIMD before they are proposed
   float widest_;             ///< largest distance of axes in contact [unit of length]
+  float margin_;             ///< Gas::margin [unit of length]
   bool are_spheres_;         ///< whether no body has an axis
   std::vector<Look> looks_;  ///< the own class first
   std::vector<CellGrid::AxisCell> near_[3];

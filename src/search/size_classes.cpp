@@ -33,8 +33,9 @@ SizeClasses grouped_by_length(const Gas& gas) {
   out.of_species.resize(species.size());
   for (const std::size_t s : by_length) {
     if (counts[s] == 0) continue;
-    if (out.all.empty() || species[s].extent() * most_unequal < out.all.back().longest) {
-      out.all.emplace_back().longest = species[s].extent();
+    const double extent = 2 * gas.bodies[s].reach();
+    if (out.all.empty() || extent * most_unequal < out.all.back().longest) {
+      out.all.emplace_back().longest = extent;
     }
     SizeClass& last = out.all.back();
     last.count += counts[s];

@@ -9,6 +9,7 @@ namespace needlework {
 template <class Make>
 auto with_model(const Effects& effects, Make&& make) {
   if (effects.width) return make.template operator()<RodModel>();
+  if (effects.sliding) return make.template operator()<SlidingModel>();
   return effects.any() ? make.template operator()<NeedleModel<true>>()
                        : make.template operator()<NeedleModel<false>>();
 }

@@ -1,0 +1,86 @@
+// Sliding contact: what becomes of two needles that touch, where trains of ever smaller bounces are
+// replaced by the motion that they tend to.
+//
+// A contact is two records that refer to one step of its motion (src/physics/slides.h). Its steps,
+// its end and what other needles do to it are events of pairs: when the record of one of the two is
+// replaced by anything else, the contact is cut, and an event of the pair is due at once, which
+// decides whether they collide, part or stay in contact. So strikes of third needles go on, pair by
+// pair, until no touching pair approaches, lower ids first.
+#pragma once
+
+#include <cstdint>
+
+#include "src/archive/archive.h"
+#include "src/physics/collision.h"
+#include "src/physics/gas.h"
+#include "src/physics/sliding_contact.h"
+#include "src/physics/transfer.h"
+
+namespace needlework {
+
+/// When a needle has touched others, in collisions and contacts.
+struct Meetings {
+  Id last;                     ///< the latest partner
+  Time with_last, others;      ///< the latest times with this one, and with any other
+  std::uint32_t in_crowd = 0;  ///< collisions without a break, each soon after one with a third
+
+  static constexpr Time long_ago{-(std::int64_t{1} << 62), 0};
+
+  void met(Id partner, Time now, bool crowded) {
+    in_crowd = crowded ? in_crowd + 1 : 0;
+    if (last != partner) others = with_last;
+    last = partner;
+    with_last = now;
+  }
+  /// The latest time with any needle but this one.
+  Time but(Id partner) const { return last == partner ? others : with_last; }
+
+  friend void transfer(Archive& archive, Meetings& meetings) {
+    archive(meetings.last.value, meetings.with_last, meetings.others, meetings.in_crowd);
+  }
+};
+
+class Sliding {
+ public:
+  /// Adds its column to the gas and lets needles slide. `below` is the threshold for the flight to
+  /// the next bounce, in mean free times.
+  Sliding(Gas& gas, double below);
+
+  /// What two needles do when an event of their pair is due.
+  enum class Course : std::uint8_t {
+    collides,  ///< an impulse; the needles part
+    enters,    ///< an impulse, after which they are in contact
+    goes_on,   ///< they stay in contact
+    parts      ///< a contact ends without an impulse
+  };
+  struct Touch {
+    Course course = Course::collides;
+    kernels::Stance first, second;  ///< after the event, in the frames of their records
+    int side = 0;                   ///< sign of f before the event, and in contact
+    int side_after = 0;             ///< of needles that are not in contact
+    double normal_velocity = 0, energy_change = 0;
+    Vec3d impulse;                                        ///< on the first needle [m L / time]
+    kernels::SlidingEnd end = kernels::SlidingEnd::None;  ///< of a contact that ends by itself
+    bool crowded = false;  ///< one of the two has just touched a third needle
+    bool raised = false;   ///< and epsilon has been raised for that
+  };
+  /// `mean_free_time` is that of the window, `rule` that of the pair.
+  Touch touch(const Gas& gas, const SlidingPair& pair, Time now,
+              const kernels::ContactGeometry& geometry, int side, const Restitution& rule,
+              double mean_free_time) const;
+  /// Notes that they have touched.
+  void met(const Gas& gas, Needle a, Needle b, Time now, bool crowded);
+  /// Makes their new records those of a contact.
+  static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
+
+  double below() const { return below_; }
+  const LargeArray<Meetings>& meetings() const { return meetings_->values(); }
+
+ private:
+  bool is_crowded(const Gas& gas, const SlidingPair& pair, Time now, double within) const;
+
+  double below_;
+  Column<Meetings>* meetings_;
+};
+
+}  // namespace needlework

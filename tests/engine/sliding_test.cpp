@@ -1,0 +1,354 @@
+// Sliding contact as an effect of the engine: against the kernels of its motion, whose truth is in
+// quad precision (tests/kernels/sliding_test.cpp), and against what must be conserved.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "kernels/isa.h"
+#include "kernels/sliding_entry.h"
+#include "needlework/error.h"
+#include "src/calendar/names.h"
+#include "src/physics/vectors.h"
+#include "tests/support/message_of.h"
+#include "tests/support/runs.h"
+
+namespace needlework {
+namespace {
+
+using kernels::SlidingBodies;
+using kernels::SlidingBody;
+using kernels::SlidingDecision;
+using kernels::SlidingEnd;
+using kernels::SlidingEntry;
+using kernels::SlidingState;
+using kernels::SlidingStep;
+
+Scene sliding_scene(std::uint64_t count, double side, double epsilon, std::uint64_t seed = 1) {
+  Scene scene = test::scene_of(count, side, seed);
+  scene.collisions.epsilon = epsilon;
+  scene.collisions.sliding = true;
+  return scene;
+}
+
+double energy_per_needle(const Simulation& simulation) { return simulation.totals().energy; }
+
+// Where nothing enters, the trajectory is the usual one, although searches and events are others.
+TEST(Sliding, ChangesNothingForElasticNeedles) {
+  Scene scene = sliding_scene(200, 6, 1);
+  Simulation with(scene);
+  scene.collisions.sliding = false;
+  Simulation without(scene);
+  with.advance(test::until_collisions(20));
+  without.advance(test::until_collisions(20));
+  EXPECT_EQ(with.trajectory_hash(), without.trajectory_hash());
+  EXPECT_EQ(with.sliding_contacts()->entered, 0u);
+  EXPECT_FALSE(without.sliding_contacts());
+}
+
+// Random pairs just before a collision that begins a contact, in free space.
+class Pairs {
+ public:
+  explicit Pairs(const SlidingBodies& bodies) : bodies_(bodies) {}
+
+  SlidingState draw() {
+    for (;;) {
+      SlidingState s;
+      s.u_first = direction(), s.u_second = direction();
+      s.v = normal(), s.w_first = spin(s.u_first), s.w_second = spin(s.u_second);
+      s.r = s.u_second * arm(bodies_.second) - s.u_first * arm(bodies_.first);
+      if (sliding_entry(bodies_, s, 0, 0).decision == SlidingDecision::Enters) return s;
+    }
+  }
+
+ private:
+  Vec3d normal() {
+    const double x = gauss_(source_), y = gauss_(source_), z = gauss_(source_);
+    return {x, y, z};
+  }
+  Vec3d direction() {
+    const Vec3d a = normal();
+    return a * (1 / std::sqrt(dot(a, a)));
+  }
+  Vec3d spin(const Vec3d& u) {
+    const Vec3d w = normal() * 3;
+    return w - dot(w, u) * u;
+  }
+  double arm(const SlidingBody& body) { return body.half * (2 * uniform_(source_) - 1); }
+
+  SlidingBodies bodies_;
+  std::mt19937_64 source_{7};
+  std::normal_distribution<double> gauss_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+// The state a time before.
+State flown_back(const SlidingState& s, const SlidingBodies& bodies, double time,
+                 const std::array<double, 3>& box) {
+  State out;
+  out.box = box;
+  out.resize(2);
+  const double share = bodies.second.mass / (bodies.first.mass + bodies.second.mass);
+  const Vec3d centre{0.01, 1.3, 2.5}, drift{-0.2, 0.1, 0.3};
+  const auto put = [&](std::size_t n, const Vec3d& r, const Vec3d& v, const Vec3d& u,
+                       const Vec3d& w) {
+    const double omega = std::sqrt(dot(w, w));
+    const Vec3d before =
+        u * std::cos(omega * time) - cross(w * (1 / omega), u) * std::sin(omega * time);
+    Vec3d at = r - v * time;
+    for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      if (at.*axis < 0) at.*axis += box[0];
+      if (at.*axis >= box[0]) at.*axis -= box[0];
+    }
+    out.position[n] = to_array(at);
+    out.velocity[n] = to_array(v);
+    out.orientation[n] = to_array(before);
+    out.angular_velocity[n] = to_array(w);
+    out.id[n] = static_cast<std::uint32_t>(n);
+  };
+  put(0, centre + s.r * share, drift + s.v * share, s.u_first, s.w_first);
+  put(1, centre - s.r * (1 - share), drift - s.v * (1 - share), s.u_second, s.w_second);
+  return out;
+}
+
+// Largest difference of directors and velocities.
+double difference(const State& state, const SlidingState& s) {
+  double out = 0;
+  const auto compare = [&](const std::array<double, 3>& a, const Vec3d& b) {
+    const Vec3d apart = vector_of(a) - b;
+    out = std::max({out, std::abs(apart.x), std::abs(apart.y), std::abs(apart.z)});
+  };
+  compare(state.orientation[0], s.u_first);
+  compare(state.orientation[1], s.u_second);
+  compare(state.angular_velocity[0], s.w_first);
+  compare(state.angular_velocity[1], s.w_second);
+  compare(to_array(vector_of(state.velocity[0]) - vector_of(state.velocity[1])), s.v);
+  return out;
+}
+
+TEST(Sliding, OfTwoNeedlesIsThatOfTheKernels) {
+  const SlidingBody body{.half = 0.5, .mass = 1, .inertia = 1. / 12};
+  const SlidingBodies bodies{body, body};
+  Pairs pairs(bodies);
+  Scene scene = sliding_scene(2, 8, 0);
+  int forces = 0, tips = 0;
+  for (int n = 0; n < 100; ++n) {
+    const SlidingState before = pairs.draw();
+    const SlidingEntry entry = kernels::sliding_entry(bodies, before, 0, 0);
+    SlidingState state = entry.after;
+    SlidingStep step = kernels::sliding_step(bodies, state, entry.side, INFINITY);
+    double lasts = step.duration;
+    while (step.end == SlidingEnd::None) {
+      state = state_after(bodies, step);
+      step = kernels::sliding_step(bodies, state, entry.side, INFINITY);
+      lasts += step.duration;
+    }
+    const double flown = 1e-3;
+    Simulation simulation(scene, flown_back(before, bodies, flown, scene.needles.box));
+    // In contact, in the middle of the first step.
+    const SlidingStep first = kernels::sliding_step(bodies, entry.after, entry.side, INFINITY);
+    simulation.advance(test::until_time(flown + 0.5 * first.duration));
+    EXPECT_LT(difference(simulation.copy(), first.at(0.5 * first.duration)), 1e-10) << n;
+    const double energy = energy_per_needle(simulation);
+    EXPECT_EQ(simulation.sliding_contacts()->entered, 1u) << n;
+    // Just before the end, and after it.
+    simulation.advance(test::until_time(flown + lasts * (1 - 1e-9)));
+    EXPECT_LT(difference(simulation.copy(), step.at(step.duration)), 1e-7) << n;
+    EXPECT_NEAR(energy_per_needle(simulation), energy, 1e-13 * energy) << n;
+    const SlidingContacts held = *simulation.sliding_contacts();
+    EXPECT_EQ(held.ended_by_force + held.ended_by_tip, 0u);
+    simulation.advance(test::until_time(flown + lasts * (1 + 1e-9)));
+    EXPECT_LT(difference(simulation.copy(), step.at(step.duration)), 1e-7) << n;
+    EXPECT_NEAR(energy_per_needle(simulation), energy, 1e-13 * energy) << n;
+    const SlidingContacts ended = *simulation.sliding_contacts();
+    EXPECT_EQ(ended.ended_by_force, step.end == SlidingEnd::Force ? 1u : 0u) << n;
+    EXPECT_EQ(ended.ended_by_tip, step.end == SlidingEnd::Tip ? 1u : 0u) << n;
+    EXPECT_NEAR(ended.time, lasts, 1e-9) << n;
+    forces += step.end == SlidingEnd::Force;
+    tips += step.end == SlidingEnd::Tip;
+  }
+  EXPECT_GT(forces, 10);
+  EXPECT_GT(tips, 10);
+}
+
+TEST(Sliding, HasOneTrajectoryOnEveryInstructionSet) {
+  Scene scene = sliding_scene(100, 5, 0, 4);
+  std::string hash;
+  for (const char* search : {"linked-cells", "capsules"}) {
+    for (const kernels::Isa isa : kernels::available()) {
+      scene.engine.search = search;
+      scene.engine.isa = kernels::name_of(isa);
+      Simulation simulation(scene);
+      simulation.advance(test::until_collisions(10));
+      if (hash.empty()) hash = simulation.trajectory_hash();
+      EXPECT_EQ(simulation.trajectory_hash(), hash) << search << ", " << scene.engine.isa;
+    }
+  }
+}
+
+TEST(Sliding, HasOneTrajectory) {
+  for (const double epsilon : {0.0, 0.5}) {
+    Scene scene = sliding_scene(100, 5, epsilon, 3);
+    std::string hash;
+    for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+      for (const std::string& calendar : calendar_names()) {
+        scene.engine.search = search;
+        scene.engine.queue = calendar;
+        Simulation simulation(scene);
+        simulation.advance(test::until_collisions(10));
+        if (hash.empty()) hash = simulation.trajectory_hash();
+        ASSERT_EQ(simulation.trajectory_hash(), hash) << search << ", " << calendar;
+        EXPECT_GT(simulation.sliding_contacts()->entered, 10u);
+        EXPECT_GT(simulation.sliding_contacts()->ended_by_strike, 1u);
+      }
+    }
+  }
+}
+
+// Energy goes where the collisions say, and momentum nowhere.
+TEST(Sliding, ConservesEnergyAndMomentumOfAGas) {
+  Scene scene = sliding_scene(200, 6, 0.5, 5);
+  Simulation simulation(scene);
+  const Totals before = simulation.totals();
+  double lost = 0;
+  simulation.on_happening([&](const Happening& what) {
+    lost -= what.event.energy_change;
+    EXPECT_LE(what.event.energy_change, 0);
+  });
+  simulation.advance(test::until_collisions(30));
+  const Totals after = simulation.totals();
+  EXPECT_NEAR(200 * (before.energy - after.energy), lost, 1e-11 * lost);
+  EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
+  for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(after.momentum[axis], 0, 1e-11);
+  EXPECT_GT(simulation.sliding_contacts()->entered, 30u);
+}
+
+Scene mixture(double epsilon) {
+  Scene scene;
+  scene.needles.box = {5, 5, 5};
+  scene.needles.seed = 8;
+  scene.collisions.epsilon = epsilon;
+  scene.collisions.sliding = true;
+  scene.species = {
+      {.name = "long", .count = 40, .length = 1.5, .mass = 2.5, .k = 3, .t_tr = 1, .t_rot = 1},
+      {.name = "short", .count = 80, .length = 0.4, .mass = 0.3, .k = 6, .t_tr = 1, .t_rot = 2}};
+  scene.pairs = {{.between = {"long", "short"}, .epsilon = 0.3}};
+  return scene;
+}
+
+std::string hash_of(const Scene& scene, double collisions) {
+  Simulation simulation(scene);
+  simulation.advance(test::until_collisions(collisions));
+  return simulation.trajectory_hash();
+}
+
+TEST(Sliding, HasOneTrajectoryInMixtures) {
+  Scene scene = mixture(0.2);
+  Simulation simulation(scene);
+  const Totals before = simulation.totals();
+  double lost = 0;
+  simulation.on_happening([&](const Happening& what) { lost -= what.event.energy_change; });
+  simulation.advance(test::until_collisions(20));
+  EXPECT_NEAR(120 * (before.energy - simulation.totals().energy), lost, 1e-11 * lost);
+  EXPECT_GT(simulation.sliding_contacts()->entered, 30u);
+  for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
+    scene.engine.search = search;
+    EXPECT_EQ(hash_of(scene, 20), simulation.trajectory_hash()) << search;
+  }
+}
+
+// Kicks and redraws change the velocities of needles in contact, and end it.
+TEST(Sliding, IsEndedByDriving) {
+  for (const bool kicks : {false, true}) {
+    Scene scene = sliding_scene(100, 5, 0.2, 4);
+    if (kicks) {
+      scene.driving.kicks = {.every = 0.02, .translational = 0.3, .rotational = 0.3};
+    } else {
+      scene.driving.andersen = {.rate = 3, .temperature = 1};
+    }
+    Simulation simulation(scene);
+    simulation.advance(test::until_collisions(20));
+    const SlidingContacts contacts = *simulation.sliding_contacts();
+    EXPECT_GT(contacts.entered, 50u);
+    EXPECT_GT(contacts.ended_by_strike, contacts.entered / 4);
+    EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
+    for (const char* search : {"all-pairs", "capsules"}) {
+      scene.engine.search = search;
+      EXPECT_EQ(hash_of(scene, 20), simulation.trajectory_hash()) << search << kicks;
+    }
+  }
+}
+
+// At many times, so that some are within strikes, and contacts last at most of them.
+TEST(Sliding, GoesOnFromCheckpoints) {
+  const Scene scene = sliding_scene(60, 4, 0, 6);
+  Scene other = scene;
+  other.collisions.sliding_below = 2e-3;
+  for (double saved = 0.05; saved < 1; saved += 0.05)
+    test::expect_to_continue(scene, saved, saved + 0.5, other);
+  // After any number of collisions, in the midst of what happens at one instant, too.
+  Simulation whole(scene);
+  whole.advance(test::until_collisions(12));
+  for (double collisions = 1; collisions < 12; collisions += 1. / 3) {
+    Simulation half(scene);
+    half.advance(test::until_collisions(collisions));
+    const SlidingContacts before = *half.sliding_contacts();
+    Simulation rest(scene, half.checkpoint());
+    EXPECT_EQ(rest.sliding_contacts()->entered, before.entered);
+    rest.advance(test::until_collisions(12));
+    EXPECT_EQ(rest.trajectory_hash(), whole.trajectory_hash()) << collisions;
+    EXPECT_EQ(rest.sliding_contacts()->time, whole.sliding_contacts()->time);
+  }
+}
+
+TEST(Sliding, HasOneTrajectoryOnThreads) {
+  for (const double epsilon : {0.0, 0.5}) {
+    Scene scene = sliding_scene(500, 8, epsilon, 9);
+    const std::string hash = hash_of(scene, 12);
+    scene.engine.team = "all";
+    for (const char* search : {"linked-cells", "capsules"}) {
+      for (const int threads : {2, 3}) {
+        scene.engine.search = search;
+        scene.engine.threads = threads;
+        EXPECT_EQ(hash_of(scene, 12), hash) << search << ", " << threads;
+      }
+    }
+  }
+}
+
+// Needles pressed together by third ones: no time is stopped by ever smaller bounces.
+TEST(Sliding, LetsDenseGasesCool) {
+  for (const double epsilon : {0.0, 0.3}) {
+    Scene scene = sliding_scene(60, 2.4, epsilon, 2);
+    Simulation simulation(scene);
+    Scene::Until until;
+    until.energy_ratio = 0.5;
+    until.collisions_per_needle = 1e4;
+    EXPECT_EQ(simulation.advance(until), Stop::energy);
+    EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
+    const SlidingContacts contacts = *simulation.sliding_contacts();
+    EXPECT_GT(contacts.crowded, 0u);
+    const std::uint64_t ended =
+        contacts.ended_by_force + contacts.ended_by_tip + contacts.ended_by_strike;
+    EXPECT_LE(ended, contacts.entered);
+    EXPECT_LE(contacts.entered, ended + 30);
+  }
+}
+
+TEST(Sliding, SaysWhatItIsNotOfferedFor) {
+  const auto expect = [](const char* reason, auto&& change) {
+    Scene scene = sliding_scene(10, 5, 0.5);
+    change(scene);
+    const std::string message = test::message_of<InputError>([&] { Simulation simulation(scene); });
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+    EXPECT_NE(message.find("collisions.sliding"), std::string::npos) << message;
+  };
+  expect("without friction", [](Scene& s) { s.collisions.beta = 0.5; });
+  expect("beside walls", [](Scene& s) { s.walls = {{.axis = "z", .side = "both"}}; });
+  expect("finite width", [](Scene& s) { s.needles.diameter = 0.1; });
+  expect("a contact time", [](Scene& s) { s.collisions.tc_relative = 1e-3; });
+}
+
+}  // namespace
+}  // namespace needlework
