@@ -15,7 +15,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 DOCUMENTS = [HERE.parent / f"{name}.md" for name in (
-    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation", "rods")]
+    "reproduction", "driven-gas", "vibrated-layer", "cooling-between-walls", "sedimentation", "rods",
+    "needle-liquid")]
 CLAIMS = HERE / "claims-all.json"
 TABLE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.S)
 

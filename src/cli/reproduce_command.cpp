@@ -24,13 +24,19 @@ std::vector<std::string> names_of_figures() {
           "cells",
           "tc-dilute",
           "tc-dense",
+          "boltzmann-relaxation",
+          "boltzmann-cooling",
+          "boltzmann-ratio",
+          "encounters",
           "kicked",
           "vibrated",
           "walls",
           "sedimentation",
           "settling",
           "rods",
-          "nematic"};
+          "nematic",
+          "liquid",
+          "liquid-correlations"};
 }
 
 int run(const ReproduceArguments& arguments) {

@@ -165,10 +165,12 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
 Zippelius. Runs that are finished are used again; the same command continues
 after an interruption. For each figure, its data (CSV) and picture (SVG) are
 written, and each claim is compared with the measurement: it agrees within three
-standard errors plus the paper's precision, differs, or is open. The last five
-figures go beyond the paper: gases that are kicked, shaken, confined or fall.
+standard errors plus the paper's precision, differs, or is open. The last
+figures go beyond the paper: why theory is off, gases that are kicked, shaken,
+confined or fall, rods of finite width, and the liquid of needles.
 
-The runs are sweeps of this program. Data, pictures and verdicts are made by the
+The runs are sweeps of this program, and simulations of the Boltzmann equation
+by theory. Data, pictures and verdicts are made by the
 Python package needlework.reproduce, which needs NumPy, h5py and Matplotlib; the
 environment variable NEEDLEWORK_PYTHON names a Python other than the one that
 the package was built for.

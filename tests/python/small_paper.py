@@ -14,6 +14,14 @@ DILUTE = {**FEW, "needles.box": 3, "output.grid": 2, "until.energy_ratio": 1e-7}
 TC = {"collisions.tc_relative": [1e-2, 1e-4]}
 
 
+LOW = {"needles.box": [4, 9.5]}
+LOW_TC = {"collisions.tc_relative": 1e-3, "output.series_per_decade": 20}
+LOW_RATIO = {**LOW, **LOW_TC, "needles.k": [2, 6], "collisions.epsilon": [0.8]}
+RELAXING = {**FEW, "needles.k": [2, 6], "until.time": 1000, "until.collisions_per_needle": 13,
+            "output.series_every": 0.5, "output.observables": [["velocity_moments"]]}
+LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
+
+
 def box(edge):
     return "dense", {"needles.count": 16, "needles.box": edge, "output.grid": 2,
                      "until.collisions_per_needle": 605}
@@ -55,8 +63,30 @@ GRIDS = {
                             "collisions.epsilon": [0.8], "until.energy_ratio": 0.03}),
     "nematic": ("nematic", {"needles.count": 144, "needles.box": [2.5478, 2.4421],
                             "until.collisions_per_needle": 30}),
+    "low-relaxation": ("relaxation", {**RELAXING, "needles.box": 4}),
+    "low-relaxation-thin": ("relaxation", {**RELAXING, "needles.box": 9.5}),
+    "low-dilute": ("dilute", {**FEW, **LOW, **LOW_TC, "until.energy_ratio": 1e-2}),
+    "low-ratio": ("ratio", {**FEW, **LOW_RATIO, "until.energy_ratio": 1e-2}),
+    "liquid-thin": ("liquid", {**LIQUID, "needles.box": [3.4199518934, 2.9240177382]}),
+    "liquid": ("liquid", {**LIQUID, "needles.count": 100, "needles.box": [2.3, 2.1]}),
+    "liquid-dense": ("liquid", {**LIQUID, "needles.count": 410, "needles.box": 2.04}),
+    "liquid-small": ("liquid", {**LIQUID, "needles.count": 90, "needles.box": 2.2}),
+    "liquid-large": ("liquid", {**LIQUID, "needles.count": 110, "needles.box": 2.4}),
 }
-"""Scene and parameters of each set; seeds are 1, 2 and 3."""
+"""Scene and parameters of each set of runs; seeds are 1, 2 and 3."""
+
+EQUATIONS = {
+    "boltzmann-relaxation": ("relaxation", "single encounters", 2000,
+                             "first = 0.25, last = 8.75, step = 0.25", {"needles.k": [2, 6]}),
+    "boltzmann-dilute": ("dilute", "single encounters", 300,
+                         "first = 0.1, last = 100, per_decade = 10", {**FEW, **LOW, **LOW_TC}),
+    "boltzmann-ratio": ("ratio", "single encounters", 200,
+                        "first = 10, last = 200, per_decade = 10", {**FEW, **LOW_RATIO}),
+    "boltzmann-encounters": ("elastic", "encounters", 4000, "first = 1, last = 1, step = 1",
+                             {"needles.k": [2, 6]}),
+}
+"""Scene, pairs, needles, times and parameters of each set of simulations of the Boltzmann equation;
+seeds are the same."""
 
 
 def write(folder):
@@ -67,6 +97,16 @@ def write(folder):
         (paper / file.name).write_text(file.read_text())
     for name, (scene, parameters) in GRIDS.items():
         lines = [f'scene = "../{scene}.toml"', "seeds = [1, 2, 3]", "[parameters]"]
-        lines += (f'"{key}" = {value}' for key, value in parameters.items())
-        (paper / "full" / f"{name}.toml").write_text("\n".join(lines) + "\n")
+        write_grid(paper, name, lines, parameters)
+    for name, (scene, pairs, needles, times, parameters) in EQUATIONS.items():
+        lines = [f'scene = "../{scene}.toml"', "seeds = [1, 2, 3]", "[boltzmann]",
+                 f"pairs = {pairs.split()}", f"needles = {needles}", f"tau = {{ {times} }}",
+                 "[parameters]"]
+        write_grid(paper, name, lines, parameters)
     return paper
+
+
+def write_grid(paper, name, lines, parameters):
+    """The lines and the parameters below them as the file of a set."""
+    lines = lines + [f'"{key}" = {value}' for key, value in parameters.items()]
+    (paper / "full" / f"{name}.toml").write_text("\n".join(lines) + "\n")

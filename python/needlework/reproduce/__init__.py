@@ -11,8 +11,9 @@ numbers of finished runs, and one that draws a picture of these numbers:
     FIGURES["5a"].draw(result.table).savefig("s.pdf")
 
 One module has one family of figures: dilute, fluctuations, ratio, relaxation, flow, dense,
-alignment, causes. runs.py gives the runs, course.py means over seeds, cells.py fields in cells,
-claims.py the verdicts. Lengths are in units of the length L of a needle, masses in that of its
+alignment, causes, boltzmann, driving, confined, rods, nematic, liquid. runs.py gives the runs,
+equation.py simulations of the Boltzmann equation, course.py means over seeds, cells.py fields in
+cells, claims.py the verdicts. Lengths are in units of the length L of a needle, masses in that of its
 mass m, and temperatures in T_tr(0).
 """
 

@@ -32,12 +32,12 @@ def measure_cooling(runs: PaperRuns) -> Result:
     result.add_rows(tau, energy, energy_error, curve.energy, ratio, ratio_error, ratio_theory)
 
     later = tau >= FIRST_TAU
-    result.add("energy-theory", _farthest_from_one(
+    result.add("energy-theory", farthest_from_one(
         (energy / curve.energy)[later], (energy_error / curve.energy)[later], point.seeds))
     c = float(theory.ratio(gas.epsilon, gas.k))
     result.add("ratio-theory", measure(
         point, lambda run: late_ratio(run, run.tau >= LATE_TAU) / c))
-    result.add("ratio-theory-start", _farthest_from_one(
+    result.add("ratio-theory-start", farthest_from_one(
         (ratio / ratio_theory)[later], (ratio_error / ratio_theory)[later], point.seeds))
     result.add("ratio-time", measure(point, lambda run: _log_time_to_share(run, c)))
     result.add("haff-dilute", measure(point, _haff_exponent))
@@ -73,7 +73,7 @@ def _means(point: Point) -> tuple[np.ndarray, ...]:
     return (point.first.tau[shared], *mean_and_error(energies), *mean_and_error(ratios))
 
 
-def _farthest_from_one(values: np.ndarray, errors: np.ndarray, seeds: int) -> Measured:
+def farthest_from_one(values: np.ndarray, errors: np.ndarray, seeds: int) -> Measured:
     """The last of the values that are farthest from 1."""
     if not len(values):
         return Measured(1.0)

@@ -1,6 +1,6 @@
 """All figures, those of the paper first."""
 
-from . import (alignment, causes, confined, dense, dilute, driving, flow, fluctuations, nematic,
+from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations, liquid, nematic,
                ratio, relaxation, rods)
 from .figure import Figure
 
@@ -43,6 +43,18 @@ FIGURES = {figure.name: figure for figure in (
            causes.measure_contact_time_dilute, causes.draw_contact_time_dilute),
     Figure("tc-dense", "Test of why: contact time of the dense gas", ("dense", "dense-tc"),
            causes.measure_contact_time_dense, causes.draw_contact_time_dense),
+    Figure("boltzmann-relaxation", "Why theory is off: elastic relaxation",
+           ("low-relaxation", "low-relaxation-thin", "boltzmann-relaxation"),
+           boltzmann.measure_relaxation, boltzmann.draw_relaxation),
+    Figure("boltzmann-cooling", "Why theory is off: cooling of the dilute gas",
+           ("low-dilute", "boltzmann-dilute"),
+           boltzmann.measure_cooling, boltzmann.draw_cooling),
+    Figure("boltzmann-ratio", "Why theory is off: long-time ratio of temperatures",
+           ("low-ratio", "boltzmann-ratio"),
+           boltzmann.measure_ratio, boltzmann.draw_ratio),
+    Figure("encounters", "Why theory is off: encounters of several collisions",
+           ("boltzmann-encounters",),
+           boltzmann.measure_encounters, boltzmann.draw_encounters),
     Figure("kicked", "Beyond the paper: a kicked gas in its steady state", ("kicked",),
            driving.measure_kicked, driving.draw_kicked),
     Figure("vibrated", "Beyond the paper: a vibrated layer in its steady state", ("vibrated", "vibrated-small"),
@@ -57,5 +69,9 @@ FIGURES = {figure.name: figure for figure in (
            rods.measure_rods, rods.draw_rods),
     Figure("nematic", "Beyond the paper: the isotropic-nematic transition of rods", ("nematic",),
            nematic.measure_nematic, nematic.draw_nematic),
+    Figure("liquid", "Beyond the paper: diffusion in the liquid of elastic needles",
+           (*liquid.SETS, *liquid.OTHER_SIZES), liquid.measure_liquid, liquid.draw_liquid),
+    Figure("liquid-correlations", "Beyond the paper: correlations in time in the liquid",
+           liquid.SETS, liquid.measure_correlations, liquid.draw_correlations),
 )}
 """By name, as the command takes it."""

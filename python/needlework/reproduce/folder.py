@@ -27,10 +27,18 @@ def claim_folder(folder: Path, size: str, force: bool) -> None:
         elif folder.is_dir() and any(folder.iterdir()) and not force:
             raise InputError(f"--out {folder}: expected a new folder, one of needlework reproduce, "
                              "or --force: it has other files in it")
+    except OSError as error:
+        raise IoError(f"--out {folder}: cannot be made: {error.strerror}") from None
+    make_folder(folder)
+    write_text(marker, record)
+
+
+def make_folder(folder: Path) -> None:
+    """Makes a folder and those above it, unless it is there. Raises IoError."""
+    try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise IoError(f"--out {folder}: cannot be made: {error.strerror}") from None
-    write_text(marker, record)
 
 
 def write_text(path: Path, text: str) -> None:

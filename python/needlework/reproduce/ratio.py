@@ -86,12 +86,12 @@ def _add_point(result: Result, point: Point, x: float, y: float) -> tuple[Measur
     """Adds a row; the ratio of temperatures, and c of theory."""
     gas = point.conditions
     c = float(theory.ratio(gas.epsilon, gas.k, gas.beta))
-    ratio = measure(point, _settled_ratio)
+    ratio = measure(point, settled_ratio)
     result.rows.append((x, y, c, ratio.value, ratio.error, point.seeds))
     return ratio, c
 
 
-def _settled_ratio(run: FinishedRun) -> float:
+def settled_ratio(run: FinishedRun) -> float:
     """T_tr / T_rot where the gas has lost most of its energy."""
     return late_ratio(run, run.series.energy <= SETTLED * run.series.energy[0])
 
@@ -104,7 +104,7 @@ def _shares_in_order(points: list[Point]) -> list[float]:
     """In how many of the points, but those at k*, each seed has the hotter of the two motions on
     the right side."""
     others = [point for point in points if not _is_equipartition(point.conditions.k)]
-    right = [[(_settled_ratio(run) > 1) == (point.conditions.k > theory.equipartition_k())
+    right = [[(settled_ratio(run) > 1) == (point.conditions.k > theory.equipartition_k())
               for run in point.runs] for point in others]
     return [float(np.mean(of_seed)) for of_seed in zip(*right)]
 

@@ -31,11 +31,11 @@ def measure_relaxation(runs: PaperRuns) -> Result:
         curve = cooling_theory(gas, tau)
         theory = gas.t_tr * np.abs(curve.t_tr - curve.t_rot)
         expected = _rate(tau, theory, point.first.series.energy[0])
-        mean, error = mean_and_error([_differences(run)[:len(tau)] for run in point.runs])
+        mean, error = mean_and_error([differences(run)[:len(tau)] for run in point.runs])
         shown = theory >= SHOWN_TO * theory[0]
         result.add_rows(gas.k, gas.density, tau[shown], mean[shown], error[shown], theory[shown])
 
-        rate = measure(point, lambda run: _rate(run.tau, _differences(run), run.series.energy[0]))
+        rate = measure(point, lambda run: _rate(run.tau, differences(run), run.series.energy[0]))
         result.add("relaxation-rate", rate, variant)
         result.add("relaxation-theory", rate.over(expected), variant)
         if theory[-1] <= RELAXED * theory[0]:
@@ -62,7 +62,7 @@ def draw_relaxation(table: Table) -> Figure:
     return figure
 
 
-def _differences(run: FinishedRun) -> np.ndarray:
+def differences(run: FinishedRun) -> np.ndarray:
     """|T_tr - T_rot| at the samples."""
     return np.abs(run.series.t_tr - run.series.t_rot)
 

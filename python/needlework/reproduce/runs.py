@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -175,12 +175,9 @@ class PaperRuns:
     def points(self, name: str) -> list[Point]:
         """The points of a set in the order of its grid, with those of their runs that are
         finished, in the order of their seeds."""
-        grid = read_toml(self.grid(name))
-        base = read_toml(self.grid(name).parent / grid["scene"])
         runs = sorted(_runs_in(self.folder_of(name)), key=lambda run: run["seed"])
         points = []
-        for values in _points_of(grid.get("parameters", {})):
-            conditions = Conditions.of(_overridden(base, values))
+        for values, conditions in at_points(self.grid(name)):
             found = [FinishedRun(run["path"], int(run["seed"]), conditions) for run in runs
                      if _is_of(run, values)]
             if not found:
@@ -189,6 +186,22 @@ class PaperRuns:
                                  f"of {self.grid(name)}: there are none with {at}")
             points.append(Point(conditions, found))
         return points
+
+
+def at_points(file: Path) -> Iterator[tuple[dict[str, Any], Conditions]]:
+    """What is varied, by key, and the conditions at the points of a grid."""
+    grid = read_toml(file)
+    base = read_toml(file.parent / grid["scene"])
+    for values in _points_of(grid.get("parameters", {})):
+        yield values, Conditions.of(_overridden(base, values))
+
+
+def seeds_of(grid: dict[str, Any]) -> list[int]:
+    """The seeds of a grid."""
+    seeds = grid["seeds"]
+    if isinstance(seeds, dict):
+        return list(range(seeds["first"], seeds["first"] + seeds["count"]))
+    return list(seeds)
 
 
 def _runs_in(folder: Path) -> list[dict[str, Any]]:
