@@ -196,6 +196,28 @@ TEST(SlidingEntry, NeedsAContactThatLastsTwiceTheTrain) {
   EXPECT_GT(refused, 20);
 }
 
+// A collision beside a third needle begins no contact. Slow ones are elastic, others have the
+// epsilon of the pair, raised by no more than the velocity of the threshold.
+TEST(SlidingEntry, LetsCrowdedNeedlesBounce) {
+  Collisions collisions(alike);
+  for (int n = 0; n < 100; ++n) {
+    const SlidingEntry contact = collisions.contact();
+    const double below = 1e-5 / sliding_contact(alike, contact.after).rate;
+    const auto crowded = [&](double speed, double epsilon) {
+      return sliding_entry(alike, with_speed(alike, contact.after, -contact.side * speed), epsilon,
+                           below, true);
+    };
+    for (const double epsilon : {0.0, 0.5}) {
+      EXPECT_EQ(crowded(1e-9, epsilon).decision, SlidingDecision::Crowded);
+      EXPECT_EQ(crowded(1e-9, epsilon).epsilon, 1);
+    }
+    EXPECT_EQ(crowded(1, 0.5).epsilon, 0.5);
+    EXPECT_GT(crowded(1, 0).epsilon, 0);
+    EXPECT_LT(crowded(1, 0).epsilon, 1e-2);
+    EXPECT_EQ(crowded(1, 0.5).side, contact.side);
+  }
+}
+
 TEST(SlidingStep, IsCutByTheLimitOnly) {
   Collisions collisions(alike);
   const SlidingEntry contact = collisions.contact();
