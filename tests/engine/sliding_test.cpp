@@ -10,6 +10,8 @@
 #include "kernels/sliding_entry.h"
 #include "needlework/error.h"
 #include "src/calendar/names.h"
+#include "src/engine/initial_gas.h"
+#include "src/physics/slides.h"
 #include "src/physics/vectors.h"
 #include "tests/support/message_of.h"
 #include "tests/support/runs.h"
@@ -334,6 +336,48 @@ TEST(Sliding, LetsDenseGasesCool) {
     EXPECT_LE(ended, contacts.entered);
     EXPECT_LE(contacts.entered, ended + 30);
   }
+}
+
+// Searches look for needles in contact where the flights of their records lead, and a margin
+// beside.
+TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
+  const SlidingBody body{.half = 0.5, .mass = 1, .inertia = 1. / 12};
+  const SlidingBodies bodies{body, body};
+  Pairs pairs(bodies);
+  const Scene scene = sliding_scene(2, 8, 0);
+  double most = 0;
+  for (int n = 0; n < 300; ++n) {
+    const SlidingEntry entry = kernels::sliding_entry(bodies, pairs.draw(), 0, 0);
+    Gas gas = make_gas(scene, flown_back(entry.after, bodies, 0, scene.needles.box));
+    gas.let_slide();
+    for (const std::size_t i : {0, 1}) {
+      const kernels::Flight flight = gas.records[i].flight;
+      renew_record(gas, Needle(i), {}, {flight.u, flight.v, flight.w, 1});
+    }
+    const Record &first = gas.records[0], &second = gas.records[1];
+    // The image in which they touch.
+    Shift shift{};
+    const Vec3d apart = (first.flight.r - second.flight.r) - entry.after.r;
+    shift[0] = static_cast<std::int32_t>(std::lround(apart.x / 8));
+    const Slide slide = make_slide(gas, first, second, shift, entry.side);
+    for (int part = 0; part <= 8; ++part) {
+      const double time = slide.step.duration * part / 8;
+      for (const int i : {0, 1}) {
+        const Record& record = i == 0 ? first : second;
+        const kernels::Stance there = slide.at(i, record.flight, {}, time);
+        const FreeFlight flight = gas.motion(record);
+        for (const double arm : {-0.5, 0.5}) {
+          const Vec3d off =
+              (there.r - flight.centre(time)) + (there.u - flight.director(time)) * arm;
+          most = std::max(most, std::sqrt(dot(off, off)));
+        }
+        EXPECT_LE(std::sqrt(dot(there.v, there.v)),
+                  std::sqrt(dot(record.flight.v, record.flight.v)) + slide.faster[i]);
+      }
+    }
+  }
+  EXPECT_LE(most, most_departure);
+  EXPECT_GT(most, most_departure / 4);
 }
 
 TEST(Sliding, SaysWhatItIsNotOfferedFor) {
