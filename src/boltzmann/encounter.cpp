@@ -68,7 +68,9 @@ void Encounter::collide(Touching& pair) const { collide(pair, true); }
 void Encounter::collide(Touching& pair, bool inelastic) const {
   kernels::Flight &a = pair.needle[0], &b = pair.needle[1];
   const Vec3d across = cross(a.u, b.u);
-  kernels::ContactGeometry contact{.u_first = a.u, .u_second = b.u};
+  kernels::ContactGeometry contact;
+  contact.u_first = a.u;
+  contact.u_second = b.u;
   contact.sin_angle = std::sqrt(dot(across, across));
   contact.normal = normalised(across);
   contact.arm_first = pair.arm[0];

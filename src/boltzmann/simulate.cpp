@@ -74,7 +74,8 @@ Result simulate(const Settings& settings, std::span<const double> taus, int thre
   for (const auto& pool : all) pool->add_to(out);
   for (std::size_t n = 0; n < taus.size(); ++n) {
     using M = Pool::Moments;
-    Sample sample{.tau = taus[n]};
+    Sample sample;
+    sample.tau = taus[n];
     sample.t_tr = measured(moments[n], &M::t_tr);
     sample.t_rot = measured(moments[n], &M::t_rot);
     sample.collisions = measured(moments[n], &M::collisions);

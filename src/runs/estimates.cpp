@@ -59,13 +59,15 @@ double estimated_seconds_per_collision(const Scene& scene, double density) {
 }
 
 double estimated_setup_seconds(const Scene& scene, double density) {
-  // Fits to the same scenes, and to 1e6 needles in a box of 2.01.
+  // Fits to the same scenes, and to 1e6 needles in a box of 2.01; without AVX-512 on a slower CPU.
   const std::string search = chosen_search(scene.engine.search, density, scene.composition());
   const double count = static_cast<double>(scene.needles.count);
   if (search == "all-pairs") return count * (20e-6 + 0.035e-6 * count);
   if (search == "linked-lists") return count * (1.5e-6 + 2.3e-6 * density);
-  const double slowness = resolved_isa(scene.engine) == "scalar" ? 2 : 1;
-  return count * (3e-6 + 0.015e-6 * density * slowness);
+  const std::string isa = resolved_isa(scene.engine);
+  if (isa == "scalar") return count * (10e-6 + 0.1e-6 * density);
+  if (isa == "avx512") return count * (3e-6 + 0.015e-6 * density);
+  return count * (5e-6 + 0.037e-6 * density);
 }
 
 void require_memory(const Scene& scene) {

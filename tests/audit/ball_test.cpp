@@ -21,7 +21,7 @@ struct InQuad {
 namespace {
 
 using Wide = boost::multiprecision::cpp_bin_float_100;
-constexpr int count = 20000;
+constexpr int draws = 20000;
 
 /// A ball, and a number in it.
 template <class Real>
@@ -50,7 +50,7 @@ TYPED_TEST_SUITE(BallTest, AllNumbers);
 
 TYPED_TEST(BallTest, HoldsTheExactResult) {
   test::Random random(5);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     const auto a = draw<typename TypeParam::Real>(random),
                b = draw<typename TypeParam::Real>(random);
     EXPECT_TRUE(holds(a.ball + b.ball, Wide(a.exact + b.exact)));
@@ -66,7 +66,7 @@ TYPED_TEST(BallTest, HoldsTheExactResult) {
 
 TYPED_TEST(BallTest, HoldsSineAndCosine) {
   test::Random random(6);
-  for (int n = 0; n < count / 20; ++n) {
+  for (int n = 0; n < draws / 20; ++n) {
     const auto a = draw<typename TypeParam::Real>(random);
     if (abs(a.exact) > 4096) continue;
     EXPECT_TRUE(holds(sin(a.ball), Wide(sin(a.exact)))) << a.exact;
@@ -76,7 +76,7 @@ TYPED_TEST(BallTest, HoldsSineAndCosine) {
 
 TYPED_TEST(BallTest, LosesLittle) {
   test::Random random(7);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     const Ball<typename TypeParam::Real> a(random.uniform(0.5, 2)), b(random.uniform(0.5, 2));
     EXPECT_LE((a * b + a / b).radius, 16 * unit_roundoff<typename TypeParam::Real>);
   }

@@ -5,7 +5,6 @@
 
 #include "needlework/error.h"
 #include "tests/support/audited.h"
-#include "tests/support/by_build.h"
 #include "tests/support/wall.h"
 
 namespace needlework::test {
@@ -13,8 +12,6 @@ namespace {
 
 using audit::Findings;
 using audit::Kind;
-
-constexpr int thinner = by_build(1, 5);
 
 Scene kicked(double every = 0.1) {
   Scene scene = scene_of(80, 4);
@@ -41,11 +38,11 @@ TEST(AuditOfKicks, FindsNothingWrongWithTheEngine) {
   with_thermostat.driving.andersen = {.rate = 0.5, .temperature = 2};
   for (const Scene& scene :
        {kicked(), kicked(0.013), kicked(2.5), from_rest, mixture, all, with_thermostat}) {
-    const double every = scene.driving.kicks->every, time = 6.0 / thinner;
+    const double every = scene.driving.kicks->every, time = 6.0 / audit_share;
     const Findings findings = audited(scene, time);
     expect_clean(findings, name_of(scene) + ", every " + std::to_string(every));
     EXPECT_EQ(findings.kicks, static_cast<std::uint64_t>(time / every));
-    EXPECT_GT(findings.contacts, 50u / thinner);
+    EXPECT_GT(findings.contacts, 50u / audit_share);
   }
 }
 

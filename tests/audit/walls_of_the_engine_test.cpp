@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tests/support/audited.h"
-#include "tests/support/by_build.h"
 #include "tests/support/wall.h"
 
 namespace needlework::test {
@@ -12,14 +11,12 @@ namespace {
 
 using audit::Findings;
 
-constexpr int thin = by_build(1, 5);
-
 // Whether the audit finds nothing, in a gas with hits and collisions enough.
 void expect_clean_gas(const Scene& scene) {
-  const Findings findings = audited(scene, 10.0 / thin);
+  const Findings findings = audited(scene, 10.0 / audit_share);
   expect_clean(findings, name_of(scene));
-  EXPECT_GT(findings.hits, 100u / thin);
-  EXPECT_GT(findings.contacts, 50u / thin);
+  EXPECT_GT(findings.hits, 100u / audit_share);
+  EXPECT_GT(findings.contacts, 50u / audit_share);
 }
 
 TEST(AuditOfWalls, FindsNothingWrongWithTheEngineBetweenWalls) {
@@ -51,9 +48,9 @@ TEST(AuditOfWalls, FindsNothingWrongWithThermalWallsAndMixtures) {
                    {.name = "long", .count = 12, .length = 1.5, .mass = 7, .k = 6, .t_tr = 0.3}};
   scene.walls = {wall("z", "low"), wall("z", "high")};
   scene.walls[0].temperature = 2;
-  const Findings findings = audited(scene, 10.0 / thin);
+  const Findings findings = audited(scene, 10.0 / audit_share);
   expect_clean(findings, "a mixture");
-  EXPECT_GT(findings.hits, 50u / thin);
+  EXPECT_GT(findings.hits, 50u / audit_share);
 }
 
 }  // namespace

@@ -17,13 +17,13 @@
 namespace needlework {
 namespace {
 
-struct NamedScene {
+struct SavedScene {
   std::string name;
   Scene scene;
 };
 
-std::vector<NamedScene> scenes() {
-  std::vector<NamedScene> out{{"elastic", test::scene_of(200, 6, 3)},
+std::vector<SavedScene> scenes() {
+  std::vector<SavedScene> out{{"elastic", test::scene_of(200, 6, 3)},
                               {"cooling", test::scene_of(200, 6, 7)},
                               {"rough", test::scene_of(150, 4, 5)},
                               {"dense", test::scene_of(300, 2.9, 11)},
@@ -69,7 +69,7 @@ void choose_parts(Scene& scene, std::size_t n) {
 }
 
 TEST(Checkpoint, ContinuesWithTheSameCollisions) {
-  for (const NamedScene& named : scenes()) {
+  for (const SavedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
     test::Followed whole(named.scene);
     whole.advance_to_collision(collisions);
@@ -89,7 +89,7 @@ TEST(Checkpoint, ContinuesWithTheSameCollisions) {
 
 // A chain of checkpoints, each continued by other parts of the engine.
 TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
-  for (const NamedScene& named : scenes()) {
+  for (const SavedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
     test::Followed whole(named.scene);
     whole.advance_to_collision(collisions);
@@ -114,7 +114,7 @@ TEST(Checkpoint, ContinuesOnAnySearchCalendarThreadsAndInstructionSet) {
 
 // At times between collisions, and at those of window ends.
 TEST(Checkpoint, ContinuesFromAnyTime) {
-  for (const NamedScene& named : scenes()) {
+  for (const SavedScene& named : scenes()) {
     SCOPED_TRACE(named.name);
     test::Followed whole(named.scene);
     const double window = whole.simulation.epoch_length(), end = 7.3 * window;

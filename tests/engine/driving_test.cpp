@@ -14,7 +14,7 @@
 namespace needlework {
 namespace {
 
-struct NamedScene {
+struct DrivenScene {
   std::string name;
   Scene scene;
 };
@@ -33,8 +33,8 @@ Scene mixture(double side) {
   return scene;
 }
 
-std::vector<NamedScene> driven_scenes() {
-  std::vector<NamedScene> out{
+std::vector<DrivenScene> driven_scenes() {
+  std::vector<DrivenScene> out{
       {"kicked", inelastic(160, 5)},       {"thermostat", inelastic(160, 5)},
       {"often kicked", inelastic(160, 5)}, {"both, mixture", mixture(6)},
       {"from rest", inelastic(160, 5)},    {"kicked and shaken, falling", inelastic(160, 5)}};
@@ -66,7 +66,7 @@ test::Recorded run(const Scene& scene, const std::vector<double>& stops = {}) {
 }
 
 TEST(Driving, HasOneTrajectory) {
-  for (const NamedScene& named : driven_scenes()) {
+  for (const DrivenScene& named : driven_scenes()) {
     Scene scene = named.scene;
     scene.engine.search = "all-pairs";
     scene.engine.queue = "lazy-heap";
@@ -103,7 +103,7 @@ TEST(Driving, HasOneTrajectory) {
 
 // Also where it is stopped at the instant of a kick, and between two.
 TEST(Driving, DoesNotDependOnStops) {
-  for (const NamedScene& named : driven_scenes()) {
+  for (const DrivenScene& named : driven_scenes()) {
     SCOPED_TRACE(named.name);
     const test::Recorded truth = run(named.scene);
     ASSERT_NO_FATAL_FAILURE(
@@ -114,7 +114,7 @@ TEST(Driving, DoesNotDependOnStops) {
 }
 
 TEST(Driving, GoesOnFromACheckpoint) {
-  for (const NamedScene& named : driven_scenes()) {
+  for (const DrivenScene& named : driven_scenes()) {
     SCOPED_TRACE(named.name);
     const test::Recorded truth = run(named.scene);
     for (const double stop : {0.0, 0.1, 0.11, 0.25}) {

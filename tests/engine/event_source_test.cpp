@@ -16,6 +16,7 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
+#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/real.h"
 #include "tests/support/runs.h"
@@ -77,7 +78,7 @@ Scene gas(std::uint64_t count = 150, double side = 6) {
   return scene;
 }
 
-struct Outcome {
+struct Turned {
   std::string hash;
   std::map<std::uint32_t, std::uint64_t> turns;  // by id
   std::uint64_t events = 0, redone = 0;
@@ -87,13 +88,13 @@ struct Outcome {
 
 // Makes the loop by `make(run)`.
 template <class Make>
-Outcome outcome_of(const Scene& scene, std::uint32_t most, const Make& make,
-                   const Scene::Until& until = test::until_collisions(6)) {
+Turned turned(const Scene& scene, std::uint32_t most, const Make& make,
+              const Scene::Until& until = test::until_collisions(6)) {
   needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
   auto owned = std::make_unique<HalfTurns>(run.gas, most);
   const HalfTurns& source = *owned;
   run.add_source(std::move(owned));
-  Outcome out;
+  Turned out;
   run.listeners.happening = [&](const Happening& h) { out.happenings.push_back(h); };
   const auto loop = make(run);
   EXPECT_EQ(loop->advance(Limits(run, until)), until.time ? Stop::time : Stop::collisions);
@@ -107,19 +108,13 @@ Outcome outcome_of(const Scene& scene, std::uint32_t most, const Make& make,
   return out;
 }
 
-const auto with = [](const char* search, const char* calendar) {
-  return [=](needlework::Run& run) {
-    return make_loop(run, {.search = search, .calendar = calendar});
-  };
-};
-
 // One that only looks on leaves every bit of the trajectory as it is.
 TEST(SourceOfEvents, ThatChangesNothingChangesNoBit) {
   const Scene scene = gas();
   Simulation plain(scene);
   plain.advance(test::until_collisions(6));
   for (const char* search : {"all-pairs", "linked-lists", "linked-cells", "capsules"}) {
-    const Outcome seen = outcome_of(scene, never, with(search, "tournament"));
+    const Turned seen = turned(scene, never, test::loop_of(search, "tournament"));
     EXPECT_EQ(seen.hash, plain.trajectory_hash()) << search;
     EXPECT_GT(seen.events, 100u);
   }
@@ -129,7 +124,8 @@ TEST(SourceOfEvents, ThatChangesNothingChangesNoBit) {
 TEST(SourceOfEvents, HasAllItsEvents) {
   const Scene scene = gas();
   const State start = draw_initial_state(scene);
-  const Outcome seen = outcome_of(scene, never, with("capsules", "bucket"), test::until_time(3));
+  const Turned seen =
+      turned(scene, never, test::loop_of("capsules", "bucket"), test::until_time(3));
   // By the reports of collisions: time and angular velocity from which each needle turns on.
   std::vector<double> since(start.size()), omega;
   std::vector<std::uint64_t> turns(start.size());
@@ -164,7 +160,7 @@ TEST(SourceOfEvents, HasAllItsEvents) {
 
 // Counts of each object, and sums of impulses to the last bit, are those of the reports.
 TEST(SourceOfEvents, CountsAtItsObjects) {
-  const Outcome seen = outcome_of(gas(), 4, with("capsules", "bucket"));
+  const Turned seen = turned(gas(), 4, test::loop_of("capsules", "bucket"));
   std::vector<std::uint64_t> events(3);
   std::vector<test::Wide> impulses(3);
   for (const Happening& h : seen.happenings) {
@@ -186,14 +182,14 @@ TEST(SourceOfEvents, CountsAtItsObjects) {
 
 TEST(SourceOfEvents, HasOneTrajectory) {
   const Scene scene = gas();
-  const Outcome first = outcome_of(scene, 2, with("all-pairs", "lazy-heap"));
+  const Turned first = turned(scene, 2, test::loop_of("all-pairs", "lazy-heap"));
   Simulation plain(scene);
   plain.advance(test::until_collisions(6));
   EXPECT_NE(first.hash, plain.trajectory_hash());
   for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
     for (const char* calendar :
          {"lazy-heap", "indexed-heap", "tournament", "bucket", "cell-calendar"}) {
-      const Outcome other = outcome_of(scene, 2, with(search, calendar));
+      const Turned other = turned(scene, 2, test::loop_of(search, calendar));
       EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
       EXPECT_EQ(other.turns, first.turns) << search << ", " << calendar;
     }
@@ -204,10 +200,10 @@ TEST(SourceOfEvents, HasOneTrajectory) {
 TEST(SourceOfEvents, HasOneTrajectoryOnThreads) {
   const Scene scene = gas(1200, 12);
   for (const std::uint32_t most : {never, 2u}) {
-    const Outcome first = outcome_of(scene, most, with("linked-cells", "tournament"));
+    const Turned first = turned(scene, most, test::loop_of("linked-cells", "tournament"));
     for (const char* search : {"linked-cells", "capsules"}) {
       for (const double sight : {1.6, 0.3}) {
-        const Outcome other = outcome_of(scene, most, [&](needlework::Run& run) {
+        const Turned other = turned(scene, most, [&](needlework::Run& run) {
           return test::parallel_loop(run, search, 3,
                                      {.sight = sight, .least = 1, .by_cost = false});
         });

@@ -13,7 +13,7 @@ namespace needlework {
 namespace {
 
 /// Short needles of length 1, and long ones.
-struct Case {
+struct TwoLengths {
   const char* name;
   std::uint64_t short_ones, long_ones;
   double length;   ///< of the long ones
@@ -21,9 +21,9 @@ struct Case {
   double collisions;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const TwoLengths& c, std::ostream* out) { *out << c.name; }
 
-Scene scene_of(const Case& c) {
+Scene scene_of(const TwoLengths& c) {
   const double count = static_cast<double>(c.short_ones + c.long_ones);
   const double mean =
       (static_cast<double>(c.short_ones) + static_cast<double>(c.long_ones) * c.length) / count;
@@ -37,10 +37,10 @@ Scene scene_of(const Case& c) {
   return scene;
 }
 
-class MixtureSearches : public testing::TestWithParam<Case> {};
+class MixtureSearches : public testing::TestWithParam<TwoLengths> {};
 
 TEST_P(MixtureSearches, GiveOneTrajectory) {
-  const Case& c = GetParam();
+  const TwoLengths& c = GetParam();
   Scene scene = scene_of(c);
   const auto until = test::until_collisions(c.collisions);
   // All pairs of many needles take too long.
@@ -74,17 +74,17 @@ TEST_P(MixtureSearches, GiveOneTrajectory) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MixtureSearches,
-                         testing::Values(Case{"equal_lengths", 300, 300, 1, 1, 4},
-                                         Case{"in_one_class", 300, 300, 1.4, 1, 4},
-                                         Case{"one_to_four_dilute", 400, 400, 4, 0.1, 2},
-                                         Case{"one_to_four", 400, 400, 4, 1, 4},
-                                         Case{"one_to_four_dense", 400, 400, 4, 10, 4},
-                                         Case{"one_to_twenty_dilute", 400, 400, 20, 0.1, 2},
-                                         Case{"one_to_twenty", 400, 400, 20, 1, 4},
-                                         Case{"one_to_twenty_dense", 400, 400, 20, 10, 4},
-                                         Case{"few_long_ones_dilute", 700, 30, 20, 0.05, 1},
-                                         Case{"few_long_ones", 3000, 150, 20, 0.225, 0.1},
-                                         Case{"few_short_ones", 10, 700, 20, 3, 4}),
+                         testing::Values(TwoLengths{"equal_lengths", 300, 300, 1, 1, 4},
+                                         TwoLengths{"in_one_class", 300, 300, 1.4, 1, 4},
+                                         TwoLengths{"one_to_four_dilute", 400, 400, 4, 0.1, 2},
+                                         TwoLengths{"one_to_four", 400, 400, 4, 1, 4},
+                                         TwoLengths{"one_to_four_dense", 400, 400, 4, 10, 4},
+                                         TwoLengths{"one_to_twenty_dilute", 400, 400, 20, 0.1, 2},
+                                         TwoLengths{"one_to_twenty", 400, 400, 20, 1, 4},
+                                         TwoLengths{"one_to_twenty_dense", 400, 400, 20, 10, 4},
+                                         TwoLengths{"few_long_ones_dilute", 700, 30, 20, 0.05, 1},
+                                         TwoLengths{"few_long_ones", 3000, 150, 20, 0.225, 0.1},
+                                         TwoLengths{"few_short_ones", 10, 700, 20, 3, 4}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace

@@ -16,12 +16,16 @@
 #include "src/engine/run.h"
 #include "src/machine/stop_request.h"
 #include "src/scene/rod_grid.h"
+#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
 namespace {
 
+using test::Course;
+using test::course_of;
+using test::loop_of;
 using test::rods_and_spheres;
 using test::rods_of;
 using test::until_time;
@@ -39,33 +43,14 @@ int overlaps(const Scene& scene, const State& state, double tolerance) {
   return out;
 }
 
-struct Course {
-  std::string hash;
-  std::uint64_t collisions = 0;
-};
-
-template <class Make>
-Course course_of(const Scene& scene, const Make& make, double time) {
-  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  const auto loop = make(run);
-  EXPECT_EQ(loop->advance(Limits(run, until_time(time))), Stop::time);
-  return {run.tally.hash.hex(), run.tally.collisions};
-}
-
-auto with(const char* search, const char* calendar) {
-  return [=](needlework::Run& run) {
-    return make_loop(run, {.search = search, .calendar = calendar});
-  };
-}
-
 TEST(Rods, HaveOneTrajectory) {
   for (const Scene& scene :
        {rods_of(120, 5, 0.15), rods_of(150, 0, 0.3), rods_and_spheres(60, 11)}) {
     const double time = 1.5;
-    const Course first = course_of(scene, with("all-pairs", "lazy-heap"), time);
+    const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), time);
     EXPECT_GT(first.collisions, 200u) << scene.species[0].name;
     for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
-      const Course other = course_of(scene, with(search, "cell-calendar"), time);
+      const Course other = course_of(scene, loop_of(search, "cell-calendar"), time);
       EXPECT_EQ(other.hash, first.hash) << search << " " << scene.species[0].name;
       EXPECT_EQ(other.collisions, first.collisions);
     }
@@ -74,7 +59,7 @@ TEST(Rods, HaveOneTrajectory) {
 
 TEST(Rods, HaveOneTrajectoryOnThreads) {
   for (const Scene& scene : {rods_of(1500, 5, 0.1), rods_and_spheres(500, 22)}) {
-    const Course first = course_of(scene, with("linked-cells", "tournament"), 0.6);
+    const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 0.6);
     EXPECT_GT(first.collisions, 500u);
     for (const char* search : {"linked-cells", "capsules"}) {
       const auto make = [&](needlework::Run& run) {
@@ -135,8 +120,8 @@ TEST(Rods, BounceOffWallsByTheirCaps) {
   scene.forces.gravity = {0, 0, -1};
   scene.collisions.epsilon = 0.95;
   scene.collisions.tc = 1e-4;
-  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(course_of(scene, with("capsules", "cell-calendar"), 3).hash, first.hash);
+  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(course_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   Simulation gas(scene);
   gas.advance(until_time(3));
   const State state = gas.copy();
@@ -187,8 +172,8 @@ TEST(Rods, SpheresDoNotTurnWhenDriven) {
   ceiling.temperature = 2;
   scene.walls = {floor, ceiling};
   scene.driving.andersen = {.rate = 0.5, .temperature = 1.5};
-  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 3);
-  EXPECT_EQ(course_of(scene, with("capsules", "cell-calendar"), 3).hash, first.hash);
+  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 3);
+  EXPECT_EQ(course_of(scene, loop_of("capsules", "cell-calendar"), 3).hash, first.hash);
   scene.driving.kicks = {.every = 0.5, .translational = 0.1, .rotational = 0.2};
   Simulation gas(scene);
   gas.advance(until_time(3));

@@ -18,17 +18,8 @@
 namespace needlework {
 namespace {
 
-Scene::Until until_time(double time) {
-  Scene::Until until;
-  until.time = time;
-  return until;
-}
-
-Scene::Until until_collisions(double per_needle) {
-  Scene::Until until;
-  until.collisions_per_needle = per_needle;
-  return until;
-}
+using test::until_collisions;
+using test::until_time;
 
 TEST(Simulation, IsNotChangedByStoppingToLook) {
   Scene scene = test::scene_of(200, 6);

@@ -23,7 +23,7 @@ tc_relative = 1e-3
 collisions_per_needle = 10
 )";
 
-std::string hash_of(const Scene& scene) {
+std::string hash_of_species(const Scene& scene) {
   Simulation simulation(scene);
   EXPECT_EQ(simulation.advance(scene.until), Stop::collisions);
   return simulation.trajectory_hash();
@@ -37,14 +37,15 @@ TEST(OneSpecies, OfLengthAndMassOneIsTheGasOfNeedlesCount) {
       "[needles]\nbox = 6\nseed = 5\n[[species]]\nname = 'dumbbells'\n"
       "count = 200\nk = 2\nt_tr = 1.5\nt_rot = 0.5\n" +
       rest;
-  const std::string hash = hash_of(parse_scene(plain, "plain.toml"));
+  const std::string hash = hash_of_species(parse_scene(plain, "plain.toml"));
   const Scene scene = parse_scene(species, "species.toml");
-  EXPECT_EQ(hash_of(scene), hash);
-  EXPECT_EQ(hash_of(parse_scene(species, "s.toml",
-                                std::vector<std::string>{"species.length=1", "species.mass=1"})),
+  EXPECT_EQ(hash_of_species(scene), hash);
+  EXPECT_EQ(hash_of_species(parse_scene(
+                species, "s.toml", std::vector<std::string>{"species.length=1", "species.mass=1"})),
             hash);
-  EXPECT_NE(hash_of(parse_scene(species, "s.toml", std::vector<std::string>{"species.k=2.1"})),
-            hash);
+  EXPECT_NE(
+      hash_of_species(parse_scene(species, "s.toml", std::vector<std::string>{"species.k=2.1"})),
+      hash);
   EXPECT_FALSE(effects_of(scene).table);
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double alone_cost = 6e-6;  // wall time of a collision [s]
 
 // How long a run takes, and what of it.
-struct Course {
+struct Choices {
   double seconds = 0;
   double together = 0;  // collisions
   int rolled_back = 0;
@@ -25,8 +25,8 @@ struct Machine {
   std::function<double(double)> alone, together;
   double longest = 0x1p15;  // stretch [collisions]
 
-  Course run(double collisions) const {
-    Course course;
+  Choices run(double collisions) const {
+    Choices course;
     TeamChoice choice;
     while (collisions > 0) {
       const TeamChoice::Turn turn = choice.next();
@@ -55,7 +55,7 @@ std::function<double(double)> always(double cost) {
 }
 
 TEST(TeamChoice, ThreadsWorkTogetherWhereThatIsFaster) {
-  const Course course = Machine{always(alone_cost), always(alone_cost / 1.6)}.run(1e6);
+  const Choices course = Machine{always(alone_cost), always(alone_cost / 1.6)}.run(1e6);
   EXPECT_GT(course.together, 0.97e6);
   EXPECT_LT(course.seconds, 1.03 * 1e6 * alone_cost / 1.6);
 }
@@ -63,14 +63,15 @@ TEST(TeamChoice, ThreadsWorkTogetherWhereThatIsFaster) {
 TEST(TeamChoice, OneThreadWorksAloneWhereThreadsWaitForEachOther) {
   for (const double times : {1.1, 2.0, 10.0, 70.0}) {
     for (const double collisions : {2e5, 2e7}) {
-      const Course course = Machine{always(alone_cost), always(times * alone_cost)}.run(collisions);
+      const Choices course =
+          Machine{always(alone_cost), always(times * alone_cost)}.run(collisions);
       EXPECT_LT(course.seconds, 1.12 * collisions * alone_cost) << times << ' ' << collisions;
     }
   }
 }
 
 TEST(TeamChoice, NeitherIsMuchWorseWhereBothAreAboutEqual) {
-  const Course course = Machine{always(alone_cost), always(0.99 * alone_cost)}.run(1e6);
+  const Choices course = Machine{always(alone_cost), always(0.99 * alone_cost)}.run(1e6);
   EXPECT_LT(course.seconds, 1.02 * 1e6 * alone_cost);
 }
 
@@ -80,7 +81,7 @@ TEST(TeamChoice, FollowsLoadThatComesAndGoes) {
   const Machine machine{
       [=](double now) { return loaded(now) ? 1.5 * alone_cost : alone_cost; },
       [=](double now) { return loaded(now) ? 70 * alone_cost : alone_cost / 1.6; }};
-  const Course course = machine.run(3e8);
+  const Choices course = machine.run(3e8);
   const double best = 3e8 * alone_cost * 2 / (1 / 1.5 + 1.6);
   EXPECT_LT(course.seconds, 1.25 * best);
   EXPECT_GT(course.together, 0.5 * 3e8);
@@ -92,7 +93,7 @@ TEST(TeamChoice, AStretchThatWasOnceSlowIsForgotten) {
   const Machine machine{always(alone_cost), [=](double now) {
                           return paused(now) ? 70 * alone_cost : alone_cost / 1.6;
                         }};
-  const Course course = machine.run(5e6);
+  const Choices course = machine.run(5e6);
   EXPECT_GT(course.rolled_back, 5);
   EXPECT_LT(course.seconds, 1.25 * 5e6 * alone_cost / 1.6);
 }

@@ -14,12 +14,16 @@
 #include "src/engine/initial_gas.h"
 #include "src/engine/make_loop.h"
 #include "src/engine/run.h"
+#include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
 
 namespace needlework {
 namespace {
 
+using test::Course;
+using test::course_of;
+using test::loop_of;
 using test::until_time;
 
 // A vibrated binary mixture under gravity, rough and inelastic, between walls on two axes.
@@ -53,19 +57,6 @@ struct Hit {
   double arm, velocity;
 };
 
-struct Course {
-  std::string hash;
-  std::uint64_t hits = 0, collisions = 0;
-};
-
-template <class Make>
-Course course_of(const Scene& scene, const Make& make, double time) {
-  needlework::Run run(scene, make_gas(scene, draw_initial_state(scene)));
-  const auto loop = make(run);
-  EXPECT_EQ(loop->advance(Limits(run, until_time(time))), Stop::time);
-  return {run.tally.hash.hex(), run.tally.by_source.at(0).events, run.tally.collisions};
-}
-
 // A pair that slides makes a thousand bounces within a mean free time. In a small gas they are most
 // of the collisions, and must not count for the mean free time: t_c would shrink with them until no
 // bounce is resolved.
@@ -88,19 +79,14 @@ TEST(WallsAndGravity, LetPairsSlideInASmallGas) {
 
 TEST(WallsAndGravity, HaveOneTrajectory) {
   const Scene scene = shaken();
-  const auto with = [](const char* search, const char* calendar) {
-    return [=](needlework::Run& run) {
-      return make_loop(run, {.search = search, .calendar = calendar});
-    };
-  };
-  const Course first = course_of(scene, with("all-pairs", "lazy-heap"), 5);
-  EXPECT_GT(first.hits, 300u);
+  const Course first = course_of(scene, loop_of("all-pairs", "lazy-heap"), 5);
+  EXPECT_GT(first.events, 300u);
   EXPECT_GT(first.collisions, 250u);
   for (const char* search : {"linked-lists", "linked-cells", "capsules"}) {
     for (const char* calendar : {"lazy-heap", "tournament", "cell-calendar"}) {
-      const Course other = course_of(scene, with(search, calendar), 5);
+      const Course other = course_of(scene, loop_of(search, calendar), 5);
       EXPECT_EQ(other.hash, first.hash) << search << ", " << calendar;
-      EXPECT_EQ(other.hits, first.hits);
+      EXPECT_EQ(other.events, first.events);
     }
   }
 }
@@ -108,10 +94,7 @@ TEST(WallsAndGravity, HaveOneTrajectory) {
 TEST(WallsAndGravity, HaveOneTrajectoryOnThreads) {
   Scene scene = shaken(1200);
   scene.needles.box = {14, 10, 6};
-  const auto alone = [](needlework::Run& run) {
-    return make_loop(run, {.search = "linked-cells", .calendar = "tournament"});
-  };
-  const Course first = course_of(scene, alone, 1.5);
+  const Course first = course_of(scene, loop_of("linked-cells", "tournament"), 1.5);
   for (const char* search : {"linked-cells", "capsules"}) {
     for (const double sight : {1.6, 0.3}) {
       const auto make = [&](needlework::Run& run) {

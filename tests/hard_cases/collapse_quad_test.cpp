@@ -17,7 +17,7 @@
 namespace needlework::test {
 namespace {
 
-constexpr int thin = test::by_build(1, 5);
+constexpr int thinner = test::by_build(1, 5);
 
 QuadRule rule_of(const Scene& scene, bool rounded = false) {
   const auto& c = scene.collisions;
@@ -163,7 +163,7 @@ TEST_P(CollapseInQuad, IsFollowedToItsEnd) {
   Comparison all;
   int collapsed = 0;
   double rest = 0;
-  for (int n = 0; n < 20 / thin; ++n) {
+  for (int n = 0; n < 20 / thinner; ++n) {
     SCOPED_TRACE(name() + ", pair " + std::to_string(n));
     const Scene scene = scene_with(GetParam().epsilon, GetParam().beta);
     const EngineRun run(scene, draw_collapsing_pair(random), until);
@@ -196,7 +196,7 @@ TEST_P(CollapseInQuad, WithContactTimeIsTheSame) {
   const double until = 2;
   Random random(12);
   Comparison all;
-  for (int n = 0; n < 8 / thin + 1; ++n) {
+  for (int n = 0; n < 8 / thinner + 1; ++n) {
     SCOPED_TRACE(name() + ", pair " + std::to_string(n));
     const Scene scene = scene_with(GetParam().epsilon, GetParam().beta, 5e-3);
     const EngineRun run(scene, draw_collapsing_pair(random), until);
@@ -265,7 +265,7 @@ TEST(CollapseOfThree, IsTheSameInQuad) {
       int struck = 0, collapsed = 0;
       double shortest = 1;  // shortest time between two bounces of a pair with a strike between
                             // them
-      for (int n = 0; n < 30 / thin; ++n) {
+      for (int n = 0; n < 30 / thinner; ++n) {
         SCOPED_TRACE("t_c " + std::to_string(tc) + ", epsilon " + std::to_string(epsilon) +
                      ", case " + std::to_string(n));
         const Scene scene = scene_with(epsilon, -1, tc, 3);
@@ -289,7 +289,7 @@ TEST(CollapseOfThree, IsTheSameInQuad) {
       std::printf("%d struck between two bounces, %.1e apart or more; %d reported\n", struck,
                   shortest, collapsed);
       all.expect_near(100);  // a few of these histories amplify their first rounding
-      EXPECT_GT(struck, 15 / thin);
+      EXPECT_GT(struck, 15 / thinner);
       EXPECT_LT(shortest, 1e-2);
       if (tc > 0) {
         EXPECT_EQ(collapsed, 0);
@@ -340,7 +340,7 @@ TEST(SlidingContact, TendsToThatOfAForceWithTheContactTime) {
   std::printf("collapse ends at %.9f, slide at %.9f\n", static_cast<double>(truth.begin),
               static_cast<double>(truth.slide.time));
   EXPECT_TRUE(truth.slide.over_a_tip);
-  for (const double tc : {1e-2, 1e-3, 1e-4, thin == 1 ? 1e-5 : 1e-4}) {
+  for (const double tc : {1e-2, 1e-3, 1e-4, thinner == 1 ? 1e-5 : 1e-4}) {
     const EngineRun run(scene_with(0.5, -1, tc), start, 2);
     ASSERT_EQ(run.failure, "");
     const double velocity = truth.velocities_off(run.end);
@@ -359,7 +359,7 @@ TEST(SlidingContact, OfAnyTwoNeedlesEndsAsThatOfAForce) {
   Random random(11);
   int over_tips = 0, parted = 0;
   double worst_end = 0, worst_velocity = 0;
-  for (int n = 0; n < 20 / thin; ++n) {
+  for (int n = 0; n < 20 / thinner; ++n) {
     SCOPED_TRACE("pair " + std::to_string(n));
     const State start = draw_collapsing_pair(random);
     const Slide truth(start, epsilon);
@@ -374,7 +374,7 @@ TEST(SlidingContact, OfAnyTwoNeedlesEndsAsThatOfAForce) {
               parted, worst_end, worst_velocity);
   EXPECT_LT(worst_end, 2 * tc);
   EXPECT_LT(worst_velocity, 20 * tc);
-  if (thin == 1) {
+  if (thinner == 1) {
     EXPECT_GT(over_tips, 0);
     EXPECT_GT(parted, 0);
   }

@@ -7,15 +7,10 @@
 #include "needlework/error.h"
 #include "needlework/initial_state.h"
 #include "tests/hard_cases/hard_scene.h"
-#include "tests/support/by_build.h"
 #include "tests/support/random.h"
 
 namespace needlework::test {
 namespace {
-
-constexpr int thin = test::by_build(1, 10);
-
-using Three = std::array<double, 3>;
 
 Scene gas(std::uint64_t count, double side) { return scene_of(count, side, 77); }
 

@@ -1,14 +1,21 @@
 // Runs a scene with every search and on two threads, checks each collision, and audits the run.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "src/audit/audit.h"
+#include "tests/support/by_build.h"
 #include "tests/support/runs.h"
 
 namespace needlework::test {
+
+using Three = std::array<double, 3>;
+
+/// Debug builds do a tenth of the work.
+inline constexpr int thin = by_build(1, 10);
 
 /// How a hard scene is checked.
 struct Watch {

@@ -8,16 +8,11 @@
 
 #include "needlework/error.h"
 #include "tests/hard_cases/hard_scene.h"
-#include "tests/support/by_build.h"
 #include "tests/support/random.h"
 #include "tests/support/sides.h"
 
 namespace needlework::test {
 namespace {
-
-constexpr int thin = test::by_build(1, 10);
-
-using Three = std::array<double, 3>;
 
 constexpr std::uint64_t seed = 4711;
 

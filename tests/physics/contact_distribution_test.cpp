@@ -158,20 +158,20 @@ class SpeedHistogram {
   BatchHistogram histogram_{probabilities(ends_, [](double u) { return u; })};
 };
 
-struct Gas {
+struct EquilibriumGas {
   double k;
   double density;
   std::uint64_t seed;
 };
 
-std::ostream& operator<<(std::ostream& out, const Gas& gas) {
+std::ostream& operator<<(std::ostream& out, const EquilibriumGas& gas) {
   return out << "k " << gas.k << ", density " << gas.density << ", seed " << gas.seed;
 }
 
-class ContactDistribution : public testing::TestWithParam<Gas> {};
+class ContactDistribution : public testing::TestWithParam<EquilibriumGas> {};
 
 TEST_P(ContactDistribution, IsExactInEquilibrium) {
-  const Gas gas = GetParam();
+  const EquilibriumGas gas = GetParam();
   SCOPED_TRACE(gas);
   const double count = 500;
   Scene scene = test::scene_of(500, std::cbrt(count / gas.density), gas.seed);
@@ -215,8 +215,8 @@ TEST_P(ContactDistribution, IsExactInEquilibrium) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Elastic, ContactDistribution, testing::Values(Gas{6, 0.72, 21}, Gas{20, 3, 22}),
-    [](const auto& info) {
+    Elastic, ContactDistribution,
+    testing::Values(EquilibriumGas{6, 0.72, 21}, EquilibriumGas{20, 3, 22}), [](const auto& info) {
       return test::parameter_name({{"k", info.param.k}, {"n", info.param.density}});
     });
 

@@ -52,7 +52,7 @@ Measured rate_over_exact(Scene scene, double length, double mass) {
   return ratio.measured();
 }
 
-struct Gas {
+struct ElasticGas {
   double k;
   double density;
   std::uint64_t count;
@@ -61,20 +61,20 @@ struct Gas {
   double length = 1, mass = 1;
 };
 
-std::ostream& operator<<(std::ostream& out, const Gas& gas) {
+std::ostream& operator<<(std::ostream& out, const ElasticGas& gas) {
   return out << "k " << gas.k << ", density " << gas.density << ", " << gas.count
              << " needles, beta " << gas.beta << ", length " << gas.length << ", mass " << gas.mass
              << ", seed " << gas.seed;
 }
 
-std::string name_of(const testing::TestParamInfo<Gas>& info) {
+std::string name_of(const testing::TestParamInfo<ElasticGas>& info) {
   return test::parameter_name({{"k", info.param.k}, {"n", info.param.density}});
 }
 
-class ElasticRate : public testing::TestWithParam<Gas> {};
+class ElasticRate : public testing::TestWithParam<ElasticGas> {};
 
 TEST_P(ElasticRate, IsExactInEquilibrium) {
-  const Gas gas = GetParam();
+  const ElasticGas gas = GetParam();
   SCOPED_TRACE(gas);
   Scene scene = test::scene_of(gas.count, std::cbrt(gas.count / gas.density), gas.seed);
   scene.needles.k = gas.k;
@@ -86,25 +86,27 @@ TEST_P(ElasticRate, IsExactInEquilibrium) {
   EXPECT_LT(ratio.error, largest_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(Smooth, ElasticRate,
-                         testing::Values(Gas{2, 0.1, 500, 100}, Gas{2, 0.72, 500, 200},
-                                         Gas{2, 3, 500, 300}, Gas{2, 20, 200, 400},
-                                         Gas{6, 0.1, 500, 500}, Gas{6, 0.72, 500, 600},
-                                         Gas{6, 3, 500, 700}, Gas{6, 20, 200, 800},
-                                         Gas{6, 50, 500, 1500}, Gas{6, 100, 1000, 1600},
-                                         Gas{20, 0.1, 500, 900}, Gas{20, 0.72, 500, 1000},
-                                         Gas{20, 3, 500, 1100}, Gas{20, 20, 200, 1200}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Smooth, ElasticRate,
+    testing::Values(ElasticGas{2, 0.1, 500, 100}, ElasticGas{2, 0.72, 500, 200},
+                    ElasticGas{2, 3, 500, 300}, ElasticGas{2, 20, 200, 400},
+                    ElasticGas{6, 0.1, 500, 500}, ElasticGas{6, 0.72, 500, 600},
+                    ElasticGas{6, 3, 500, 700}, ElasticGas{6, 20, 200, 800},
+                    ElasticGas{6, 50, 500, 1500}, ElasticGas{6, 100, 1000, 1600},
+                    ElasticGas{20, 0.1, 500, 900}, ElasticGas{20, 0.72, 500, 1000},
+                    ElasticGas{20, 3, 500, 1100}, ElasticGas{20, 20, 200, 1200}),
+    name_of);
 
 // Of other lengths and masses, whose species are looked up in a table.
 INSTANTIATE_TEST_SUITE_P(OfLengthAndMass, ElasticRate,
-                         testing::Values(Gas{6, 0.72, 500, 1700, -1, 0.37, 2.9},
-                                         Gas{2, 20, 200, 1800, 1, 13.7, 0.083}),
+                         testing::Values(ElasticGas{6, 0.72, 500, 1700, -1, 0.37, 2.9},
+                                         ElasticGas{2, 20, 200, 1800, 1, 13.7, 0.083}),
                          name_of);
 
 // Perfectly rough needles (beta = +1) conserve energy too, and their equilibrium is the same.
 INSTANTIATE_TEST_SUITE_P(Rough, ElasticRate,
-                         testing::Values(Gas{6, 0.72, 500, 1300, 1}, Gas{6, 3, 500, 1400, 1}),
+                         testing::Values(ElasticGas{6, 0.72, 500, 1300, 1},
+                                         ElasticGas{6, 3, 500, 1400, 1}),
                          name_of);
 
 }  // namespace

@@ -24,23 +24,23 @@ namespace {
 using test::Mean;
 using test::Measured;
 
-struct Averages {
+struct TimeAverages {
   Measured rate, t_tr, t_rot;
 };
 
-constexpr int batches = 100;
-constexpr double collisions = 2.5e5;
+constexpr int batch_count = 100;
+constexpr double run_collisions = 2.5e5;
 
 // Time averages of a run, the temperatures sampled twice per mean free time.
-Averages averages(const Scene& scene) {
+TimeAverages averages(const Scene& scene) {
   const double count = static_cast<double>(scene.needles.count);
   Simulation simulation(scene);
   const double step = simulation.mean_free_time() / 2;
-  const int samples = static_cast<int>(4 * collisions / count / batches);
+  const int samples = static_cast<int>(4 * run_collisions / count / batch_count);
   Mean rate, t_tr, t_rot;
   std::uint64_t before = 0;
   int steps = 0;
-  for (int batch = 0; batch < batches; ++batch) {
+  for (int batch = 0; batch < batch_count; ++batch) {
     double batch_tr = 0, batch_rot = 0;
     Totals totals;
     for (int sample = 0; sample < samples; ++sample) {
@@ -86,7 +86,7 @@ TEST_P(FiniteCount, RateAndTemperaturesAreExact) {
     scene.driving.andersen = {.rate = 1, .temperature = 1};
   }
   if (has_bath) conserved = 0;
-  const Averages run = averages(scene);
+  const TimeAverages run = averages(scene);
 
   const double energy = 2.5 * count, temperature = 2 * energy / (5 * count - conserved);
   const double share = 1 - conserved / (3 * count);

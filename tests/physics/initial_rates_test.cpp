@@ -32,7 +32,7 @@ using test::Mean;
 using test::Measured;
 using theory::Temperatures;
 
-struct Gas {
+struct FreshGas {
   double density;
   theory::Gas needles;
   double q;         ///< T_rot / T_tr
@@ -42,7 +42,7 @@ struct Gas {
   double length = 1, mass = 1;
 };
 
-std::ostream& operator<<(std::ostream& out, const Gas& gas) {
+std::ostream& operator<<(std::ostream& out, const FreshGas& gas) {
   return out << "density " << gas.density << ", k " << gas.needles.k << ", epsilon "
              << gas.needles.epsilon << ", beta " << gas.needles.beta << ", q " << gas.q << ", "
              << gas.runs << " runs from seed " << gas.seed;
@@ -61,7 +61,7 @@ struct Rates {
 // and no contact time helps it, ends its run with an error or bounces on and on. In the limit of no
 // time there is none; a run with one is left out, which is one chain of collisions out of thousands
 // of collisions.
-Rates measure(const Gas& gas, double time) {
+Rates measure(const FreshGas& gas, double time) {
   Scene scene = test::scene_of(count, std::cbrt(count / gas.density), gas.seed);
   scene.needles.k = gas.needles.k;
   scene.initial.t_rot = gas.q;
@@ -103,7 +103,7 @@ Rates measure(const Gas& gas, double time) {
   return out;
 }
 
-std::string name_of(const testing::TestParamInfo<Gas>& info) {
+std::string gas_name(const testing::TestParamInfo<FreshGas>& info) {
   const theory::Gas& needles = info.param.needles;
   return test::parameter_name({{"n", info.param.density},
                                {"k", needles.k},
@@ -112,10 +112,10 @@ std::string name_of(const testing::TestParamInfo<Gas>& info) {
                                {"q", info.param.q}});
 }
 
-class InitialRates : public testing::TestWithParam<Gas> {};
+class InitialRates : public testing::TestWithParam<FreshGas> {};
 
 TEST_P(InitialRates, AreExact) {
-  const Gas gas = GetParam();
+  const FreshGas gas = GetParam();
   SCOPED_TRACE(gas);
   const Temperatures start{1, gas.q};
   const double rate = theory::collision_rate(gas.density, start, gas.needles.k);
@@ -149,26 +149,26 @@ TEST_P(InitialRates, AreExact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Smooth, InitialRates,
-                         testing::Values(Gas{0.72, {6, 0.8, -1}, 1, 0.03, 3000, 10000},
-                                         Gas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000},
-                                         Gas{3, {6, 0.5, -1}, 3, 0.05, 1000, 30000},
-                                         Gas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}),
-                         name_of);
+                         testing::Values(FreshGas{0.72, {6, 0.8, -1}, 1, 0.03, 3000, 10000},
+                                         FreshGas{0.72, {6, 0.8, -1}, 0, 0.03, 3000, 20000},
+                                         FreshGas{3, {6, 0.5, -1}, 3, 0.05, 1000, 30000},
+                                         FreshGas{20, {2, 0.5, -1}, 0.3, 0.1, 200, 40000}),
+                         gas_name);
 
 INSTANTIATE_TEST_SUITE_P(Rough, InitialRates,
-                         testing::Values(Gas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
-                                         Gas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
-                                         Gas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
-                                         Gas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000},
-                                         Gas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
-                         name_of);
+                         testing::Values(FreshGas{0.72, {6, 0.8, 0.5}, 1, 0.03, 3000, 50000},
+                                         FreshGas{3, {6, 1, 0}, 1, 0.05, 1000, 60000},
+                                         FreshGas{0.72, {2, 1, -0.5}, 3, 0.03, 3000, 70000},
+                                         FreshGas{0.72, {20, 0.5, 0.5}, 0, 0.03, 3000, 80000},
+                                         FreshGas{20, {6, 0.8, -0.5}, 1, 0.1, 200, 90000}),
+                         gas_name);
 
 // Of other lengths and masses, whose species are looked up in a table.
 INSTANTIATE_TEST_SUITE_P(
     OfLengthAndMass, InitialRates,
-    testing::Values(Gas{3, {6, 0.5, -1}, 3, 0.05, 1000, 100000, 0.37, 2.9},
-                    Gas{0.72, {2, 0.8, 0.5}, 1, 0.03, 3000, 110000, 13.7, 0.083}),
-    name_of);
+    testing::Values(FreshGas{3, {6, 0.5, -1}, 3, 0.05, 1000, 100000, 0.37, 2.9},
+                    FreshGas{0.72, {2, 0.8, 0.5}, 1, 0.03, 3000, 110000, 13.7, 0.083}),
+    gas_name);
 
 }  // namespace
 }  // namespace needlework

@@ -71,16 +71,16 @@ Scene scene_of(double k, double t_tr, std::uint64_t count, double density, std::
   return scene;
 }
 
-struct Gas {
+struct RelaxingGas {
   double k;
   std::uint64_t seed;  ///< of the first run; the others follow
 };
 
-std::ostream& operator<<(std::ostream& out, const Gas& gas) {
+std::ostream& operator<<(std::ostream& out, const RelaxingGas& gas) {
   return out << "k " << gas.k << ", runs from seed " << gas.seed;
 }
 
-class Relaxation : public testing::TestWithParam<Gas> {};
+class Relaxation : public testing::TestWithParam<RelaxingGas> {};
 
 // In 0.08 / lambda, a tenth of a mean free time of a dense gas, hardly any pair has met again.
 TEST_P(Relaxation, StartsAtItsRate) {
@@ -120,7 +120,8 @@ TEST_P(Relaxation, EndsInEquipartition) {
   EXPECT_TRUE(test::agrees(found[3], 0, 3));
 }
 
-INSTANTIATE_TEST_SUITE_P(Elastic, Relaxation, testing::Values(Gas{6, 100000}, Gas{2, 200000}),
+INSTANTIATE_TEST_SUITE_P(Elastic, Relaxation,
+                         testing::Values(RelaxingGas{6, 100000}, RelaxingGas{2, 200000}),
                          [](const auto& info) {
                            return test::parameter_name({{"k", info.param.k}});
                          });

@@ -16,8 +16,8 @@ namespace {
 using test::Random;
 using test::Wide;
 
-constexpr std::uint64_t seed = 1010;
-constexpr int count = 5000;
+constexpr std::uint64_t clock_seed = 1010;
+constexpr int draws = 5000;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Wide exact(const Clock& clock, const Time& t) {
@@ -61,30 +61,30 @@ TEST(Clock, HasAPowerOfTwoNearWhatItIsGivenForItsEpoch) {
 }
 
 TEST(Clock, OrdersTimesAsTheirValues) {
-  Random random(seed);
+  Random random(clock_seed);
   const Clock clock(0.3);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     const Time a = draw_time(random, clock);
     Time b = draw_time(random, clock);
     if (random.coin()) b.epoch = a.epoch + random.below(3) - 1;
-    ASSERT_EQ(a < b, exact(clock, a) < exact(clock, b)) << "seed " << seed << ", " << n;
-    ASSERT_EQ(a == b, exact(clock, a) == exact(clock, b)) << "seed " << seed << ", " << n;
+    ASSERT_EQ(a < b, exact(clock, a) < exact(clock, b)) << "seed " << clock_seed << ", " << n;
+    ASSERT_EQ(a == b, exact(clock, a) == exact(clock, b)) << "seed " << clock_seed << ", " << n;
     ASSERT_LT(a, Time::never());
   }
 }
 
 TEST(Clock, AddsWithinHalfItsResolutionAtAnyAge) {
-  Random random(seed);
+  Random random(clock_seed);
   const Clock clock(5);
   const double half = 0.5 * clock.resolution();
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     const Time t = draw_time(random, clock);
     double dt = clock.epoch_length() * std::ldexp(random.uniform(), random.below(160) - 100);
     if (random.below(10) == 0) dt = 0;
     const Time sum = clock.add(t, dt);
     expect_normal(clock, sum);
     const Wide error = exact(clock, sum) - (exact(clock, t) + dt);
-    ASSERT_LE(abs(error), half) << "dt " << dt << ", seed " << seed << ", " << n;
+    ASSERT_LE(abs(error), half) << "dt " << dt << ", seed " << clock_seed << ", " << n;
     ASSERT_GE(sum, t);
     if (dt == 0) {
       ASSERT_EQ(sum, t);
@@ -127,15 +127,15 @@ TEST(Clock, NeverIsAfterEverything) {
 }
 
 TEST(Clock, DifferencesAreWithinTheResolution) {
-  Random random(seed);
+  Random random(clock_seed);
   const Clock clock(1.5);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     const Time a = draw_time(random, clock);
     Time b = draw_time(random, clock);
     if (random.coin()) b.epoch = a.epoch + random.below(5) - 2;
     const Wide truth = exact(clock, a) - exact(clock, b);
     const double allowed = clock.resolution() + 0x1p-51 * static_cast<double>(Wide(abs(truth)));
-    ASSERT_LE(abs(clock.difference(a, b) - truth), allowed) << "seed " << seed << ", " << n;
+    ASSERT_LE(abs(clock.difference(a, b) - truth), allowed) << "seed " << clock_seed << ", " << n;
     ASSERT_EQ(clock.difference(a, b), -clock.difference(b, a));
     ASSERT_EQ(clock.difference(a, a), 0);
     ASSERT_EQ(clock.since_start(a), clock.difference(a, {}));
@@ -146,9 +146,9 @@ TEST(Clock, DifferencesAreWithinTheResolution) {
 }
 
 TEST(Clock, ExactDifferencesAreExact) {
-  Random random(seed);
+  Random random(clock_seed);
   const Clock clock(0.01);
-  for (int n = 0; n < count; ++n) {
+  for (int n = 0; n < draws; ++n) {
     Time a = draw_time(random, clock), b = draw_time(random, clock);
     if (random.coin()) b.epoch = a.epoch + random.below(5) - 2;
     if (std::abs(static_cast<double>(a.epoch - b.epoch)) >= 0x1p53) continue;
@@ -158,23 +158,26 @@ TEST(Clock, ExactDifferencesAreExact) {
       return Wide(Wide(d.hi) + d.lo);
     };
     // Offsets finer than the resolution, next to 0, may need more than two doubles.
-    ASSERT_LE(abs(difference() - truth), 0x1p-104 * abs(truth)) << "seed " << seed << ", " << n;
+    ASSERT_LE(abs(difference() - truth), 0x1p-104 * abs(truth))
+        << "seed " << clock_seed << ", " << n;
     const double grid = clock.resolution();
     a.offset = std::floor(a.offset / grid) * grid;
     b.offset = std::floor(b.offset / grid) * grid;
-    ASSERT_TRUE(difference() == exact(clock, a) - exact(clock, b)) << "seed " << seed << ", " << n;
+    ASSERT_TRUE(difference() == exact(clock, a) - exact(clock, b))
+        << "seed " << clock_seed << ", " << n;
     b.epoch = a.epoch;
-    ASSERT_TRUE(difference() == exact(clock, a) - exact(clock, b)) << "seed " << seed << ", " << n;
+    ASSERT_TRUE(difference() == exact(clock, a) - exact(clock, b))
+        << "seed " << clock_seed << ", " << n;
   }
 }
 
 TEST(Clock, PowersOfTwoScaleEveryTimeExactly) {
-  Random random(seed);
+  Random random(clock_seed);
   const Clock clock(1.3);
   for (const int power : {-60, 60, -300, 500}) {
     const Clock scaled(std::ldexp(1.3, power));
     const auto later = [&](Time t) { return Time{t.epoch, std::ldexp(t.offset, power)}; };
-    for (int n = 0; n < count / 10; ++n) {
+    for (int n = 0; n < draws / 10; ++n) {
       const Time a = draw_time(random, clock), b = draw_time(random, clock);
       const double dt = std::ldexp(random.uniform(), random.below(100) - 60);
       ASSERT_EQ(scaled.add(later(a), std::ldexp(dt, power)), later(clock.add(a, dt)));

@@ -23,8 +23,8 @@ using test::vec3;
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
-constexpr std::uint64_t seed = 909;
-constexpr int count = test::by_build(3000, 300);
+constexpr std::uint64_t encounter_seed = 909;
+constexpr int encounters = test::by_build(3000, 300);
 
 struct Encounter {
   Flight first, second;
@@ -124,9 +124,9 @@ class Collide : public testing::Test {
  protected:
   template <class Check>
   void for_each_encounter(Check check) {
-    Random random(seed);
-    for (int n = 0; n < count && !HasFailure(); ++n) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", encounter " + std::to_string(n));
+    Random random(encounter_seed);
+    for (int n = 0; n < encounters && !HasFailure(); ++n) {
+      SCOPED_TRACE("seed " + std::to_string(encounter_seed) + ", encounter " + std::to_string(n));
       const Encounter e = draw(random, draw_angle(random));
       check(e, e.collide<false>());
     }

@@ -18,7 +18,7 @@
 namespace needlework::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 OracleAnswer ask(const NeedlePair& pair, const OracleOptions& options = {}) {
   return first_contact(pair.first, pair.second, pair.horizon, pair.just_collided, options);
@@ -183,8 +183,8 @@ TEST(Oracle, HorizonBelongsToTheInterval) {
   EXPECT_EQ(ask(crossing(0.25, 0.125, 0.5, 0.5, 1)).time, 1);
   EXPECT_FALSE(ask(crossing(0.25, 0.125, 0.5, 0.5, before)).contact);
   EXPECT_LT(ask(crossing(0.25, 0.125, 0.5, 0.5, before)).decision_margin, 8);
-  EXPECT_EQ(ask(crossing(0.25, 0.125, 0.5, 0.5, before)).time, infinity);
-  EXPECT_TRUE(ask(crossing(0.25, 0.125, 0.5, 0.5, infinity)).contact);
+  EXPECT_EQ(ask(crossing(0.25, 0.125, 0.5, 0.5, before)).time, never);
+  EXPECT_TRUE(ask(crossing(0.25, 0.125, 0.5, 0.5, never)).contact);
   EXPECT_FALSE(ask(crossing(0.25, 0.125, 0, 0.5, 1)).contact);  // touching at 0 only
   EXPECT_FALSE(ask(crossing(0.25, 0.125, 0.5, 0.5, 0)).contact);
 }
@@ -193,7 +193,7 @@ TEST(Oracle, RefusesWhatIsNoPair) {
   NeedlePair pair = crossing(0.25, 0.125, 0.5, 0.5, 1);
   pair.second.orientation = {0, 0, 0};
   EXPECT_THROW(ask(pair), std::invalid_argument);
-  pair = crossing(0.25, 0.125, 0.5, 0, infinity);
+  pair = crossing(0.25, 0.125, 0.5, 0, never);
   EXPECT_THROW(ask(pair), std::invalid_argument);
   pair = crossing(0.25, 0.125, std::nan(""), 0.5, 1);
   EXPECT_THROW(ask(pair), std::invalid_argument);
@@ -307,9 +307,9 @@ TEST(Oracle, BruteForceFindsNothingEarlier) {
     for (const NeedlePair& pair : draw_pairs(family, 300, 13)) {
       const OracleAnswer answer = ask(pair);
       const int steps = 3000;
-      double found = infinity;
+      double found = never;
       Sample last = sample(pair, 0);
-      for (int step = 1; step <= steps && found == infinity; ++step) {
+      for (int step = 1; step <= steps && found == never; ++step) {
         const Sample next = sample(pair, pair.horizon * step / steps);
         const bool inside = std::abs(next.arm_first) < 0.5 && std::abs(next.arm_second) < 0.5 &&
                             std::abs(last.arm_first) < 0.5 && std::abs(last.arm_second) < 0.5;
@@ -318,7 +318,7 @@ TEST(Oracle, BruteForceFindsNothingEarlier) {
       }
       contacts += answer.contact;
       // Two roots between samples, and tips that come by just then, are missed by samples.
-      if (found == infinity) {
+      if (found == never) {
         unseen += answer.contact;
       } else {
         EXPECT_TRUE(answer.contact) << csv_line(0, pair);
@@ -344,7 +344,7 @@ TEST(Oracle, UlpsFlipOnlyDecisionsNearTheLimit) {
         for (auto* vector : {&needle->position, &needle->orientation, &needle->velocity,
                              &needle->angular_velocity}) {
           for (double& value : *vector) {
-            value = std::nextafter(value, random.coin() ? infinity : -infinity);
+            value = std::nextafter(value, random.coin() ? never : -never);
           }
         }
       }

@@ -9,7 +9,7 @@
 namespace needlework::picture {
 namespace {
 
-const double nan = std::numeric_limits<double>::quiet_NaN();
+const double no_value = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t columns(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
@@ -33,8 +33,8 @@ Panel diagonal() {
   panel.curves[0].y = {0, 1};
   panel.curves[0].name = "theory";
   panel.curves[1].style = Curve::Style::points;
-  panel.curves[1].x = {10, nan, 3, 5};
-  panel.curves[1].y = {0, 0.5, 2, nan};
+  panel.curves[1].x = {10, no_value, 3, 5};
+  panel.curves[1].y = {0, 0.5, 2, no_value};
   panel.curves[1].name = "run";
   return panel;
 }
@@ -61,8 +61,13 @@ TEST(TerminalChart, NamesItsXAxisWhereThereIsRoom) {
 
 TEST(TerminalChart, FillsItsSizeWhateverTheCurves) {
   for (const bool logarithmic : {false, true}) {
-    for (const std::vector<double>& y :
-         {std::vector<double>{}, {1}, {nan}, {0, 0}, {1e-300, 1e300}, {-5, 3, nan, 8}, {1, 1, 1}}) {
+    for (const std::vector<double>& y : {std::vector<double>{},
+                                         {1},
+                                         {no_value},
+                                         {0, 0},
+                                         {1e-300, 1e300},
+                                         {-5, 3, no_value, 8},
+                                         {1, 1, 1}}) {
       Panel panel;
       panel.title = "a title that is longer than the narrowest chart";
       panel.x = {"time", logarithmic, {}};
@@ -86,7 +91,7 @@ TEST(TerminalChart, LeavesAGapWhereAValueHasNoPlace) {
   Panel panel = diagonal();
   panel.curves.resize(1);
   panel.curves[0].x = {0, 2, 5, 8, 10};
-  panel.curves[0].y = {0.5, 0.5, nan, 0.5, 0.5};
+  panel.curves[0].y = {0.5, 0.5, no_value, 0.5, 0.5};
   const std::string line = terminal_lines(panel, {30, 8}, false)[3];
   EXPECT_NE(line.find("⠤⠤⠤⠤⠤"), std::string::npos) << line;
   EXPECT_NE(line.find("              "), std::string::npos) << line;

@@ -27,7 +27,7 @@ namespace {
 constexpr std::uint64_t seed = 77;
 constexpr int steps = test::by_build(400, 100);
 
-struct Setting {
+struct Cloud {
   const char* name;
   std::size_t needles;
   std::array<double, 3> box;
@@ -35,7 +35,7 @@ struct Setting {
   SearchSetup setup;
 };
 
-void PrintTo(const Setting& setting, std::ostream* out) { *out << setting.name; }
+void PrintTo(const Cloud& setting, std::ostream* out) { *out << setting.name; }
 
 SearchSetup sized(std::optional<double> cell_side, std::optional<double> capsule_radius) {
   return {.density = {},
@@ -44,7 +44,7 @@ SearchSetup sized(std::optional<double> cell_side, std::optional<double> capsule
           .float_filter = false};
 }
 
-const Setting settings[] = {
+const Cloud settings[] = {
     {"dilute", 120, {6, 6, 6}, {}, sized({}, {})},
     {"dense", 400, {3, 3, 3}, {}, sized({}, {})},
     {"least_box", 30, {2.01, 2.01, 2.01}, {}, sized({}, 0.3)},
@@ -86,7 +86,7 @@ double least_distance(const Vec3d& r, const Vec3d& v, double span) {
 
 // A search in a gas whose needles are placed when their times come.
 struct Moving {
-  Moving(const Setting& setting, BoundingVolume volume, Random& draws)
+  Moving(const Cloud& setting, BoundingVolume volume, Random& draws)
       : random(draws),
         gas(random_gas(draws, setting.needles, setting.box, setting.speeds)),
         search(gas, counters, setting.setup, volume),
@@ -185,7 +185,7 @@ double share_of_cell(const Moving& moving, Needle i, Time t) {
   return share;
 }
 
-void expect_held(BoundingVolume volume, const Setting& setting, double fullest) {
+void expect_held(BoundingVolume volume, const Cloud& setting, double fullest) {
   Random random(seed);
   Moving moving(setting, volume, random);
   const auto share_of = volume == BoundingVolume::cell ? share_of_cell : share_of_capsule;
@@ -224,7 +224,7 @@ Nearness of_cells(const Moving& moving, Needle i, Needle j, const Vec3d& image, 
   return {least_distance(r, v, std::min(ahead, moving.left(j))), 1};
 }
 
-void expect_found(BoundingVolume volume, const Setting& setting) {
+void expect_found(BoundingVolume volume, const Cloud& setting) {
   Random random(seed + 1);
   Moving moving(setting, volume, random);
   const auto nearness = volume == BoundingVolume::cell ? of_cells : of_capsules;
@@ -255,7 +255,7 @@ void expect_found(BoundingVolume volume, const Setting& setting) {
   EXPECT_LT(spare, near);
 }
 
-class BoundingVolumesOf : public testing::TestWithParam<Setting> {};
+class BoundingVolumesOf : public testing::TestWithParam<Cloud> {};
 
 TEST_P(BoundingVolumesOf, CellsHoldTheirNeedles) {
   expect_held(BoundingVolume::cell, GetParam(), 0.999);

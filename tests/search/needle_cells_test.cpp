@@ -17,8 +17,6 @@ using kernels::block_size;
 using kernels::NeedleBlock;
 using test::Random;
 
-constexpr std::uint64_t seed = 33;
-
 struct Stored {
   std::uint32_t cell;
   NeedleCells::Slot slot;
@@ -61,7 +59,7 @@ void expect_consistent(const NeedleCells& cells, std::size_t count,
 }
 
 TEST(NeedleCells, HoldNeedlesByCell) {
-  Random random(seed);
+  Random random(33);
   constexpr std::uint32_t count = 4, needles = 400;
   NeedleCells cells(count, needles);
   std::map<std::uint32_t, Stored> stored;

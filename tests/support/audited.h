@@ -10,9 +10,13 @@
 
 #include "src/audit/audit.h"
 #include "tests/support/audit_setup.h"
+#include "tests/support/by_build.h"
 #include "tests/support/runs.h"
 
 namespace needlework::test {
+
+/// Runs of debug builds are shorter by this factor.
+inline constexpr int audit_share = by_build(1, 5);
 
 /// Runs until this time. `alter` changes what the audit is given of the state after each kick.
 inline audit::Findings audited(const Scene& scene, double time, const audit::Setup& setup,

@@ -18,7 +18,7 @@ namespace {
 
 using test::Random;
 
-constexpr std::uint64_t seed = 4711;
+constexpr std::uint64_t total_seed = 4711;
 
 ExactTotal total_of(const std::vector<double>& terms) {
   ExactTotal total;
@@ -35,18 +35,19 @@ std::vector<double> positive_terms(Random& random, int count, double least, doub
 
 // Terms of one size have a sum that wide numbers hold exactly.
 TEST(ExactTotal, IsTheSumRoundedOnce) {
-  Random random(seed);
+  Random random(total_seed);
   for (int n = 0; n < 200; ++n) {
     const double scale = random.log_uniform(1e-300, 1e290);
     const auto terms = positive_terms(random, 1000, scale, 1e5 * scale);
     test::Wide exact = 0;
     for (const double term : terms) exact += term;
-    ASSERT_EQ(total_of(terms).value(), static_cast<double>(exact)) << "seed " << seed << ", " << n;
+    ASSERT_EQ(total_of(terms).value(), static_cast<double>(exact))
+        << "seed " << total_seed << ", " << n;
   }
 }
 
 TEST(ExactTotal, DoesNotDependOnOrderAndGrouping) {
-  Random random(seed);
+  Random random(total_seed);
   auto terms = positive_terms(random, 3000, 1e-300, 1e300);
   const double whole = total_of(terms).value();
   std::reverse(terms.begin(), terms.end());
@@ -76,7 +77,7 @@ TEST(ExactTotal, TakesTheSmallestAndTheLargestNumbers) {
 }
 
 TEST(ExactTotal, IsSavedAndRestored) {
-  Random random(seed);
+  Random random(total_seed);
   ExactTotal total = total_of(positive_terms(random, 1000, 1e-300, 1e300)), again;
   std::string bytes;
   Archive writing = Archive::to(bytes);

@@ -16,7 +16,7 @@ namespace {
 
 using test::Random;
 
-constexpr std::uint64_t seed = 1414;
+constexpr std::uint64_t hash_seed = 1414;
 
 Collision draw(Random& random) {
   Collision c;
@@ -42,7 +42,7 @@ std::string hash(const std::vector<Collision>& collisions) {
 }
 
 TEST(TrajectoryHash, DoesNotDependOnTheOrderOfCollisions) {
-  Random random(seed);
+  Random random(hash_seed);
   for (int n = 0; n < 50; ++n) {
     std::vector<Collision> collisions = draw(random, 300);
     const std::string first = hash(collisions);
@@ -50,19 +50,19 @@ TEST(TrajectoryHash, DoesNotDependOnTheOrderOfCollisions) {
       std::swap(collisions[i - 1],
                 collisions[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
     }
-    ASSERT_EQ(hash(collisions), first) << "seed " << seed << ", trajectory " << n;
+    ASSERT_EQ(hash(collisions), first) << "seed " << hash_seed << ", trajectory " << n;
   }
 }
 
 TEST(TrajectoryHash, ChangesWithEveryBitOfEveryField) {
-  Random random(seed);
+  Random random(hash_seed);
   const std::vector<Collision> collisions = draw(random, 10);
   std::set<std::string> seen{hash(collisions)};
   std::size_t changes = 0;
   const auto expect_new = [&](const std::function<void(Collision&)>& change) {
     std::vector<Collision> other = collisions;
     change(other[3]);
-    EXPECT_TRUE(seen.insert(hash(other)).second) << "change " << changes << ", seed " << seed;
+    EXPECT_TRUE(seen.insert(hash(other)).second) << "change " << changes << ", seed " << hash_seed;
     ++changes;
   };
   const auto flipped = [](double a, int bit) {
@@ -91,7 +91,7 @@ TEST(TrajectoryHash, ChangesWithEveryBitOfEveryField) {
 }
 
 TEST(TrajectoryHash, DetectsMissingAndRepeatedCollisions) {
-  Random random(seed);
+  Random random(hash_seed);
   std::vector<Collision> collisions = draw(random, 20);
   std::set<std::string> seen{hash(collisions), hash({})};
   collisions.push_back(collisions[7]);
@@ -104,7 +104,7 @@ TEST(TrajectoryHash, DetectsMissingAndRepeatedCollisions) {
 
 TEST(TrajectoryHash, ReadsAs32HexadecimalDigits) {
   EXPECT_EQ(hash({}), std::string(32, '0'));
-  Random random(seed);
+  Random random(hash_seed);
   const std::string digits = hash(draw(random, 3));
   EXPECT_EQ(digits.size(), 32u);
   EXPECT_EQ(digits.find_first_not_of("0123456789abcdef"), std::string::npos);
@@ -112,7 +112,7 @@ TEST(TrajectoryHash, ReadsAs32HexadecimalDigits) {
 
 // Carries from the low half: the sum is one number of 128 bits, the same for any grouping.
 TEST(TrajectoryHash, AddsUpAsOneNumber) {
-  Random random(seed);
+  Random random(hash_seed);
   const std::vector<Collision> one = draw(random, 1);
   const auto value = [](const std::string& digits) {
     __extension__ unsigned __int128 out = 0;
@@ -125,7 +125,7 @@ TEST(TrajectoryHash, AddsUpAsOneNumber) {
   for (int i = 0; i < 100; ++i) {
     sum.add(one[0]);
     expected += single;
-    ASSERT_TRUE(value(sum.hex()) == expected) << "seed " << seed << ", " << i;
+    ASSERT_TRUE(value(sum.hex()) == expected) << "seed " << hash_seed << ", " << i;
   }
 }
 
