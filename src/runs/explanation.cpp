@@ -106,6 +106,11 @@ std::vector<double> rates_of(const LoadedScene& loaded) {
   return initial_rates_by_pair(loaded);
 }
 
+// Of a mixture of no needles the rate is not a number.
+double mean_free_time_of(double rate) {
+  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 Explanation::Explanation(const LoadedScene& loaded)
@@ -113,7 +118,7 @@ Explanation::Explanation(const LoadedScene& loaded)
       density(density_of(scene)),
       initial(initial_temperatures(loaded)),
       by_species(temperatures_by_species(loaded)),
-      mean_free_time(1 / initial_collision_rate(loaded)),
+      mean_free_time(mean_free_time_of(initial_collision_rate(loaded))),
       rate_exact(equilibrium_rate(scene, initial.energy())),
       rates(rates_of(loaded)),
       walls(walls_of(loaded)),

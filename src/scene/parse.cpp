@@ -406,7 +406,8 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
                                  printable(name), max_scene_bytes));
   const Document document(text, name, overrides);
   Scene scene;
-  std::set<std::string> given;
+  std::set<std::string> given;       // own names, so that each entry of a list has its keys
+  std::set<std::string> given_keys;  // those of all entries of a list alike
   Entry box, last_count;
   std::vector<Entry> names;
   for (const Entry& entry : with_overrides_applied(with_items_found(document))) {
@@ -428,10 +429,10 @@ Scene parse_overridden_scene(std::string_view text, std::string_view name,
     if (full_name(entry) == "species.name" || entry.section == "pairs") names.push_back(entry);
     if (!read_value(scene, *key, entry))
       throw document.error(entry, key->expected_instead_of(entry.value));
-    if (const std::string_view reason = conflict(full_name(entry), given, provided);
+    if (const std::string_view reason = conflict(full_name(entry), given_keys, provided);
         !reason.empty())
       throw document.error(entry, reason);
-    given.insert(full_name(entry));
+    given_keys.insert(full_name(entry));
     given.insert(own_name(entry));
     scene.places[own_name(entry)] = document.place(entry);
   }

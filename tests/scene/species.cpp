@@ -110,6 +110,12 @@ TEST(BadSpecies, IsNamedWithItsLine) {
        "s.toml: line 8: species.name = 'rods': expected a name that no other species has"},
       {least_species + "[[species]]\nname = 'long'",
        "s.toml: species.count of the entry 2 is missing: " + count},
+      {head + "name = 'long'\n[[species]]\nname = 'rods'\ncount = 5",
+       "s.toml: species.count is missing: " + count},
+      {head + "count = 5\n[[species]]\nname = 'rods'\ncount = 5",
+       "s.toml: species.name is missing: " + name},
+      {least_species + "[[pairs]]\nepsilon = 1\n[[pairs]]\nbetween = ['rods', 'rods']",
+       "s.toml: pairs.between is missing: expected an array of the names of two species"},
       {least_species + "[[species]]\nname = 'long'\ncount = 5\nlength = 7",
        "s.toml: line 1: needles.box = 12: expected edges of at least 14.07 (2.01 needle "
        "lengths), of the longest species"},

@@ -123,6 +123,8 @@ TEST(BadWalls, AreRefused) {
       {"[[walls]]\naxis = 'z'", R"(walls.side is missing: expected "low", "high" or "both")"},
       {both + "[[walls]]\naxis = 'x'",
        R"(walls.side of the entry 2 is missing: expected "low", "high" or "both")"},
+      {"[[walls]]\naxis = 'x'\n" + both,
+       R"(walls.side is missing: expected "low", "high" or "both")"},
       {"[[walls]]\naxis = 'w'", R"(line 5: walls.axis = 'w': expected "x", "y" or "z")"},
       {"[[walls]]\nside = 'top'",
        R"(line 5: walls.side = 'top': expected "low", "high" or "both")"},
