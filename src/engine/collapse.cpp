@@ -9,10 +9,12 @@ const char* advice_for(const PairCollapse& c) {
   if (c.root_tolerance > 0x1p-30)
     return "engine.root_tolerance is so coarse that needles may stand beyond their contact";
   if (c.epsilon == 0)
-    return "with collisions.epsilon = 0 there is no rebound, and no contact time can help";
+    return "with collisions.epsilon = 0 there is no rebound, and no contact time can help; "
+           "collisions.sliding lets them slide along each other";
   if (c.contact_time)
     return "a longer contact time helps, unless they meet by rounding alone, as in one plane";
-  return "set collisions.tc_relative, to 1e-3 say, so that they slide along each other";
+  return "set collisions.tc_relative, to 1e-3 say, or collisions.sliding, so that they slide along "
+         "each other";
 }
 
 }  // namespace
@@ -33,7 +35,7 @@ std::string message_of(const GroupCollapse& c) {
   }
   return fmt::format(
       "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; set "
-      "collisions.tc_relative, to 1e-3 say",
+      "collisions.tc_relative, to 1e-3 say, or collisions.sliding",
       c.first.value, c.second.value, c.time, c.collisions);
 }
 
