@@ -27,9 +27,9 @@ Pool::Pool(const Settings& settings, std::uint64_t number, std::size_t needles)
   const double inverse_inertia = 2 * settings.gas.k;
   Vec3d momentum{};
   for (Needle& needle : needles_) {
-    const Vec3d u = vector(random_.direction());
+    needle.u = vector(random_.direction());
     needle.v = vector(random_.normal());
-    needle.w = project_out(vector(random_.normal()), u);
+    needle.w = project_out(vector(random_.normal()), needle.u);
     momentum = momentum + needle.v;
   }
   double v_squared = 0, w_squared = 0;
@@ -68,11 +68,11 @@ void Pool::find_fastest() {
 }
 
 // At a random phase of its rotation.
-Vec3d Pool::director(const Vec3d& w) {
+Vec3d Pool::director(const Needle& needle) {
+  if (needle.w == Vec3d{}) return needle.u;
   for (;;) {
     const Vec3d any = vector(random_.direction());
-    if (w == Vec3d{}) return any;
-    const Vec3d out = project_out(any, normalised(w));
+    const Vec3d out = project_out(any, normalised(needle.w));
     // Not of rounding errors.
     if (dot(out, out) > 0x1p-20) return normalised(out);
   }
@@ -93,6 +93,7 @@ void Pool::meet(Needle& a, Needle& b, const Touching& touching) {
   }
   a.v = pair.needle[0].v, a.w = pair.needle[0].w;
   b.v = pair.needle[1].v, b.w = pair.needle[1].w;
+  a.u = pair.needle[0].u, b.u = pair.needle[1].u;
   set_fastest(a);
   set_fastest(b);
   collisions_ += course.collisions;
@@ -119,7 +120,7 @@ void Pool::advance(double tau) {
     Needle &a = needles_[i], &b = needles_[j];
     const double drawn = most * random_.uniform();
     if (drawn >= a.fastest + b.fastest) continue;
-    const std::array u{director(a.w), director(b.w)};
+    const std::array u{director(a), director(b)};
     const std::array arm{random_.uniform() - 0.5, random_.uniform() - 0.5};
     const Vec3d v = a.v - b.v + cross(a.w, u[0]) * arm[0] - cross(b.w, u[1]) * arm[1];
     if (drawn >= std::abs(dot(cross(u[0], u[1]), v))) continue;

@@ -1,5 +1,7 @@
 // Needles that collide with each other as the Boltzmann equation says. They have velocities, but no
-// places, and of their directors only that they are normal to the angular velocities.
+// places, and of the directors of those that rotate only that they are normal to the angular
+// velocities; those that do not rotate keep theirs, and collide the less the more they fly along
+// them.
 #pragma once
 
 #include <cstdint>
@@ -31,11 +33,12 @@ class Pool {
  private:
   struct Needle {
     Vec3d v, w;
+    Vec3d u;             ///< while w = 0
     double fastest = 0;  ///< of its points, not below [L / time]
   };
   void set_fastest(Needle& needle);
   void find_fastest();
-  Vec3d director(const Vec3d& w);
+  Vec3d director(const Needle& needle);
   void meet(Needle& a, Needle& b, const Touching& pair);
 
   Settings settings_;
