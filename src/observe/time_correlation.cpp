@@ -92,6 +92,7 @@ class TimeCorrelation : public Observable {
   std::vector<SeriesField> fields() const override {
     const std::vector<SeriesField::Extent> shape{{"lags", lags_in_samples.size()}};
     std::vector<double> samples;
+    samples.reserve(lags_in_samples.size());
     for (const LagInSamples& lag : lags_in_samples) {
       samples.push_back(static_cast<double>(lag.samples));
     }
