@@ -36,9 +36,10 @@ def to_gsd(source: Union[Recording, str, os.PathLike, Any], path: str, frames: A
     turns (0, 0, 1) into the director, and its ``type_shapes`` are thin ellipsoids along that axis, so
     that OVITO draws needles; of rods of finite width they are meshes of cylinders with spherical
     caps, or spheres, and ``diameter`` is theirs. Lengths and diameters of the types are in
-    ``log["length"]`` and ``log["diameter"]``. The species of a mixture are its types. GSD has no angular velocity: it
-    is in ``log["particles/angular_velocity"]``, in double precision, and the time is in
-    ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes with walls.
+    ``log["length"]`` and ``log["diameter"]``. The species of a mixture are its types. GSD has no
+    angular velocity: it is in ``log["particles/angular_velocity"]``, in double precision, and the
+    time is in ``log["time"]``. HOOMD-blue's boxes are periodic; ``log["periodic"]`` has 0 for axes
+    with walls.
     The step of a frame is the number of collisions before it. Needs python3-gsd.
     """
     import gsd.hoomd

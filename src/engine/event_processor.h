@@ -301,6 +301,7 @@ void EventProcessor<S, M>::happen(const Event& event) {
   report.energy_change = outcome.energy_change;
   report.contact_time_rule = outcome.contact_time_rule;
   if (outcome.changes_motion) {
+    const SlidingTally before = M::has_sliding ? tally_.sliding : SlidingTally{};
     if constexpr (M::has_sliding) cut_contacts_of(i);
     try {
       replace_record(i, [&] {
@@ -314,6 +315,7 @@ void EventProcessor<S, M>::happen(const Event& event) {
     } catch (const InvalidStateError&) {
       predictor_.put_back();
       gas_.columns.put_back(i, columns_before_.data());
+      if constexpr (M::has_sliding) tally_.sliding = before;
       --tally_.at_instant;
       throw;
     }

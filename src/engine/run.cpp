@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <unordered_set>
 #include <utility>
 
 #include "kernels/in_parallel.h"
@@ -18,6 +19,7 @@
 #include "src/engine/space_order.h"
 #include "src/machine/stop_request.h"
 #include "src/scene/accuracy.h"
+#include "src/scene/box_edges.h"
 #include "src/scene/check.h"
 #include "src/scene/confinement.h"
 
@@ -228,16 +230,29 @@ void Run::require_followable(const std::vector<SumsOfSquares>& sums, bool moves)
   }
 }
 
+static_assert(length_with_sliding == 1 + 2 * most_departure);
+
+// All contacts end now. One that has been cut before, of which an event is due at this time, has
+// been counted: only one of its needles still refers to it.
+void Run::count_strikes() {
+  std::unordered_set<const Slide*> seen;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    if (!record.is_sliding() || seen.insert(gas.slides->of(gas.ids[i], record)).second) continue;
+    ++tally.sliding.by_strike;
+    tally.sliding.time.add(std::max(0.0, gas.clock.difference(now, record.time)));
+  }
+}
+
 ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                         const std::function<Vec3d(Needle)>& angular_velocity) {
+  if (sliding) count_strikes();
   ReplacedRecords replaced;
   for (Needle i{0}; i < gas.size(); ++i) {
     const Record& record = gas.records[i];
     auto& entry = replaced.add(i, record);
-    if (record.is_sliding() && gas.slides) {
+    if (record.is_sliding()) {
       const kernels::Stance present = gas.present(i, now);
-      // Counted once for the two.
-      tally.sliding.by_strike += gas.ids[i] < record.first_touch.partner;
       entry.wraps = renew_record_from(
           gas, i, now, present.r,
           {present.u, velocity(i), angular_velocity(i), gas.species_of(record).extent()});

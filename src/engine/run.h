@@ -119,6 +119,7 @@ class Run {
   /// Whoever does it; see set_velocities().
   ReplacedRecords replace_velocities(const std::function<Vec3d(Needle)>& velocity,
                                      const std::function<Vec3d(Needle)>& angular_velocity);
+  void count_strikes();
   /// Takes the parameters of the scene; without needles.
   explicit Run(const Scene& scene);
   /// Makes what the effects of the scene need besides.

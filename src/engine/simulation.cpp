@@ -187,6 +187,9 @@ struct Simulation::Implementation {
     replaced = {};
     loop = std::move(kept);
     loop->prepare(nullptr);
+    // Windows, at whose ends they go otherwise, may never end while records are replaced.
+    run.gas.further_touches->keep_only(run.gas.records, run.gas.ids);
+    if (run.gas.slides) run.gas.slides->keep_only(run.gas.records, run.gas.ids);
   }
 
   std::optional<Stop> prepare(const Scene::Until& until) {
@@ -219,11 +222,7 @@ struct Simulation::Implementation {
 
   void kick() {
     loop->keep_in_order();
-    replace([&] {
-      ReplacedRecords out = run.kick();
-      run.gas.further_touches->keep_only(run.gas.records, run.gas.ids);
-      return out;
-    });
+    replace([&] { return run.kick(); });
   }
 
   Stop advance(Limits limits) {

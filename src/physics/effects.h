@@ -5,8 +5,8 @@ namespace needlework {
 
 /// Four models are compiled: one without any of these, to which they cost nothing, one that asks
 /// for each of them when it runs, that for rods, and that for needles that slide on each other
-/// (src/physics/needle_model.h). Effects that are
-/// events of their own are sources of events instead (src/engine/event_source.h).
+/// (src/physics/needle_model.h). Effects that are events of their own are sources of events instead
+/// (src/effects/event_source.h).
 struct Effects {
   bool rough = false;         ///< tangential restitution, beta != -1
   bool contact_time = false;  ///< the t_c rule

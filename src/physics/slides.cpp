@@ -60,7 +60,7 @@ Slide make_slide(const Gas& gas, const Record& first, const Record& second, cons
   double limit = std::min(lasts(first), lasts(second));
   for (;;) {
     out.step = kernels::sliding_step(bodies, begin, side, limit);
-    const kernels::SlidingStep::Most most = out.step.most();
+    const kernels::SlidingStep::Most& most = out.most = out.step.most();
     const double time = out.step.duration, half = 0.5 * time * time;
     const auto departs = [&](double share, double turned_faster, double half_length) {
       return (share * most.acceleration + half_length * turned_faster) * half >
@@ -107,7 +107,7 @@ NeedleCourse::NeedleCourse(const Gas& gas, Id id, const Record& record, const Sl
     turning = record.flight.omega;
     return;
   }
-  const kernels::SlidingStep::Most most = slide_->step.most();
+  const kernels::SlidingStep::Most& most = slide_->most;
   lasts = std::max(0.0, slide_->step.duration - delay);
   speed = length_of(slide_->drift) + slide_->share[index_] * most.speed +
           acceleration * slide_->step.span;
@@ -145,6 +145,7 @@ void transfer(Archive& archive, Slide& slide) {
   }
   archive.require(is_sound);
   step.end = static_cast<kernels::SlidingEnd>(end);
+  slide.most = step.most();
   slide.side = side;
 }
 

@@ -25,8 +25,9 @@ class Archive;
 /// A step of two needles in contact, the first of which has the lower id.
 struct Slide {
   kernels::SlidingStep step;
-  Vec3d apart;         ///< r1 - r2 of the records, less the shift [L]
-  Vec3d drift;         ///< velocity of the centre of mass at the beginning [L / time]
+  kernels::SlidingStep::Most most;  ///< of the step
+  Vec3d apart;                      ///< r1 - r2 of the records, less the shift [L]
+  Vec3d drift;                      ///< velocity of the centre of mass at the beginning [L / time]
   double share[2]{};   ///< of the mass, that of the other needle: what its needle takes of r
   int side = 0;        ///< sign of f before the contact
   double faster[2]{};  ///< |v| of each needle grows by no more than this [L / time]

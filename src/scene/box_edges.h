@@ -9,6 +9,10 @@ namespace needlework {
 /// needle length is the nearest image the one in contact.
 constexpr double least_edge(double length) { return 2.01 * length; }
 
+/// What lengths count as where needles slide on each other: those in contact are found within a
+/// little more than their lengths (most_departure in src/physics/slides.h).
+inline constexpr double length_with_sliding = 1.0625;
+
 /// Largest edge of a box [L] for needles of this length: in larger ones positions could not resolve
 /// a needle.
 constexpr double largest_edge(double length) { return length < 1 ? 1e9 * length : 1e9; }

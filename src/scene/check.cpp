@@ -98,6 +98,10 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
         tc));
   if (c.tc_relative && tc >= long_contact && (composition.is_inelastic() || walls_bounce))
     list.push_back(fmt::format("collisions.tc_relative = {}: {}", tc, effect_of_long_contact));
+  if (!c.sliding && c.sliding_below != Scene::Collisions().sliding_below)
+    list.push_back(
+        fmt::format("collisions.sliding_below = {}: has no effect without collisions.sliding",
+                    c.sliding_below));
   if (!bounces && !composition.is_rough() && tc > 0)
     list.push_back(
         fmt::format("collisions.{} = {}: has no effect on elastic smooth needles", tc_key, tc));

@@ -148,8 +148,8 @@ std::array<Gap, 3> gaps_of(const Scene& scene) {
 
 Room::Room(const Scene& scene) : gaps_(gaps_of(scene)) {
   const Composition composition = scene.composition();
-  // Needles in contact are found within a little more than their lengths (src/physics/slides.h).
-  const double length = composition.longest() * (scene.collisions.sliding ? 1.0625 : 1);
+  if (scene.collisions.sliding) counts_as_ = length_with_sliding;
+  const double length = composition.longest() * counts_as_;
   if (composition.has_width()) body_ = "rod";
   for (std::size_t axis = 0; axis < 3; ++axis) {
     least_[axis] = gaps_[axis].is_walled() ? length + gaps_[axis].approach : least_edge(length);
@@ -167,8 +167,8 @@ std::string Room::expected_instead_of(const std::array<double, 3>& box) const {
     if (box[axis] >= least_[axis]) continue;
     if (!gap.is_walled()) {
       const bool all = std::ranges::none_of(gaps_, &Gap::is_walled);
-      return fmt::format("edges of at least {:.10g}{} (2.01 {} lengths)", least_[axis],
-                         all ? "" : " along periodic axes", body_);
+      return fmt::format("edges of at least {:.10g}{} ({:.10g} {} lengths)", least_[axis],
+                         all ? "" : " along periodic axes", least_edge(counts_as_), body_);
     }
     return fmt::format("an edge of at least {:.10g} along {}, which has walls (one {} length{})",
                        least_[axis], axis_names[axis], body_,

@@ -41,6 +41,7 @@ class Room {
   std::array<Gap, 3> gaps_;
   std::array<double, 3> least_{};
   double most_;
+  double counts_as_ = 1;         ///< a length of 1
   const char* body_ = "needle";  ///< whose length, from end to end, it is
 };
 

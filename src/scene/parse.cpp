@@ -358,7 +358,7 @@ void require_room(const Scene& scene, const Document& document, const Entry& box
   if (room.holds(scene.needles.box)) return;
   const std::string_view of = composition.is_mixture() ? ", of the longest species" : "";
   throw document.error(
-      box, composition.longest() == 1 && scene.walls.empty()
+      box, composition.longest() == 1 && scene.walls.empty() && !scene.collisions.sliding
                ? fmt::format("expected {}", find_scene_key("needles", "box")->expected)
                : fmt::format("expected {}{}", room.expected_instead_of(scene.needles.box), of));
 }

@@ -131,8 +131,11 @@ TEST(Mixture, CollidesByTheRuleOfEachPair) {
     const double normal =
         -0.5 * (1 - epsilon * epsilon) * c.normal_velocity * c.normal_velocity / mass;
     const bool smooth = c.contact_time_rule || rule.beta == -1;
-    if (smooth) EXPECT_NEAR(c.energy_change, normal, 1e-12 * (1 + std::abs(normal)));
-    if (!smooth) EXPECT_LT(c.energy_change, normal + 1e-12);
+    if (smooth) {
+      EXPECT_NEAR(c.energy_change, normal, 1e-12 * (1 + std::abs(normal)));
+    } else {
+      EXPECT_LT(c.energy_change, normal + 1e-12);
+    }
   }
   for (const std::uint64_t count : seen) EXPECT_GT(count, 0u);
 }

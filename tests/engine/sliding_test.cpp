@@ -1,6 +1,7 @@
 // Sliding contact as an effect of the engine: against the kernels of its motion, whose truth is in
 // quad precision (tests/kernels/sliding_test.cpp), and against what must be conserved.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <random>
@@ -282,6 +283,49 @@ TEST(Sliding, IsEndedByDriving) {
   }
 }
 
+// In the middle of the first step of a contact.
+TEST(Sliding, IsCountedUntilVelocitiesAreSet) {
+  const SlidingBody body{.half = 0.5, .mass = 1, .inertia = 1. / 12};
+  const SlidingBodies bodies{body, body};
+  Pairs pairs(bodies);
+  Scene scene = sliding_scene(2, 8, 0);
+  for (int n = 0; n < 20; ++n) {
+    const SlidingState before = pairs.draw();
+    const SlidingEntry entry = kernels::sliding_entry(bodies, before, 0, 0);
+    const double half =
+        0.5 * kernels::sliding_step(bodies, entry.after, entry.side, INFINITY).duration;
+    const double flown = 1e-3;
+    Simulation simulation(scene, flown_back(before, bodies, flown, scene.needles.box));
+    simulation.advance(test::until_time(flown + half));
+    EXPECT_EQ(simulation.sliding_contacts()->time, 0) << n;
+    for (int calls = 0; calls < 2; ++calls) {
+      const State now = simulation.copy();
+      simulation.set_velocities(now.velocity, now.angular_velocity);
+      EXPECT_EQ(simulation.sliding_contacts()->ended_by_strike, 1u) << n;
+      EXPECT_NEAR(simulation.sliding_contacts()->time, half, 1e-10) << n;
+    }
+  }
+}
+
+// A caller that sets velocities so often that no window ends.
+TEST(Sliding, NeedsNoMoreMemoryWhileVelocitiesAreSet) {
+  Simulation simulation(sliding_scene(200, 4.8, 0));
+  const auto allocated = [&](int calls) {
+    for (int n = 0; n < calls; ++n) {
+      simulation.advance(test::until_time(simulation.time() + 0.01));
+      State now = simulation.copy();
+      const double scale = std::sqrt(2.5 / energy_per_needle(simulation));
+      for (auto* all : {&now.velocity, &now.angular_velocity}) {
+        for (auto& each : *all) each = {each[0] * scale, each[1] * scale, each[2] * scale};
+      }
+      simulation.set_velocities(now.velocity, now.angular_velocity);
+    }
+    return static_cast<double>(mallinfo2().uordblks);
+  };
+  const double early = allocated(50);
+  EXPECT_LT(allocated(200), early + 1e6);
+}
+
 // At many times, so that some are within strikes, and contacts last at most of them.
 TEST(Sliding, GoesOnFromCheckpoints) {
   const Scene scene = sliding_scene(60, 4, 0, 6);
@@ -392,6 +436,10 @@ TEST(Sliding, SaysWhatItIsNotOfferedFor) {
   expect("beside walls", [](Scene& s) { s.walls = {{.axis = "z", .side = "both"}}; });
   expect("finite width", [](Scene& s) { s.needles.diameter = 0.1; });
   expect("a contact time", [](Scene& s) { s.collisions.tc_relative = 1e-3; });
+  Scene scene = sliding_scene(2, 2.1, 0.5);
+  const std::string message = test::message_of<InputError>([&] { Simulation simulation(scene); });
+  EXPECT_NE(message.find("edges of at least 2.135625 (2.135625 needle lengths)"), std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -52,6 +52,14 @@ TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc = 0.1"), Keys{"collisions.tc"});
 }
 
+TEST(Warning, IsGivenForAThresholdWithoutSliding) {
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions.sliding_below = 1e-2"),
+            Keys{"collisions.sliding_below"});
+  EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0.5, sliding = true, "
+                      "sliding_below = 1e-2}"),
+            Keys{});
+}
+
 // What [[pairs]] change counts, and every species.
 TEST(Warning, LooksAtAllSpeciesAndPairs) {
   const auto of = [](const std::string& begin, const std::string& end) {

@@ -74,7 +74,6 @@ class Sliding {
   static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
 
   double below() const { return below_; }
-  const LargeArray<Meetings>& meetings() const { return meetings_->values(); }
 
  private:
   bool is_crowded(const Gas& gas, const SlidingPair& pair, Time now, double within) const;
