@@ -1,5 +1,7 @@
 // Sliding contact as an effect of the engine: against the kernels of its motion, whose truth is in
 // quad precision (tests/kernels/sliding_test.cpp), and against what must be conserved.
+#include "src/effects/sliding/sliding.h"
+
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -403,7 +405,8 @@ TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
     Shift shift{};
     const Vec3d apart = (first.flight.r - second.flight.r) - entry.after.r;
     shift[0] = static_cast<std::int32_t>(std::lround(apart.x / 8));
-    const Slide slide = make_slide(gas, first, second, shift, entry.side);
+    Sliding::join(gas, Needle{0}, Needle{1}, shift, entry.side);
+    const Slide& slide = *gas.slides->of(gas.ids[0], first);
     for (int part = 0; part <= 8; ++part) {
       const double time = slide.step.duration * part / 8;
       for (const int i : {0, 1}) {
@@ -415,8 +418,7 @@ TEST(Slides, DepartFromTheFlightsOfRecordsByTheMarginAtMost) {
               (there.r - flight.centre(time)) + (there.u - flight.director(time)) * arm;
           most = std::max(most, std::sqrt(dot(off, off)));
         }
-        EXPECT_LE(std::sqrt(dot(there.v, there.v)),
-                  std::sqrt(dot(record.flight.v, record.flight.v)) + slide.faster[i]);
+        EXPECT_LE(std::sqrt(dot(there.v, there.v)), gas.fastest_of(record));
       }
     }
   }
