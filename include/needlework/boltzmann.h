@@ -34,7 +34,7 @@ struct Settings {
   std::uint64_t seed = 1;
 };
 
-/// The mean over independent pools, with its standard error.
+/// Of all needles together, with the standard error that independent pools of them show.
 struct Measured {
   double value = 0, error = 0;
 };

@@ -129,21 +129,14 @@ void Pool::advance(double tau) {
   time_ = end;
 }
 
-Pool::Moments Pool::moments() const {
-  double v2 = 0, w2 = 0, v4 = 0, w4 = 0, v2w2 = 0;
+Sums Pool::sums() const {
+  Sums out;
   for (const Needle& needle : needles_) {
     const double v = dot(needle.v, needle.v), w = dot(needle.w, needle.w);
-    v2 += v, w2 += w, v4 += v * v, w4 += w * w, v2w2 += v * w;
+    out.v2 += v, out.w2 += w, out.v4 += v * v, out.w4 += w * w, out.v2w2 += v * w;
   }
-  const auto count = static_cast<double>(needles_.size());
-  Moments out;
-  out.t_tr = v2 / (3 * count);
-  out.t_rot = w2 / (4 * settings_.gas.k * count);
-  out.energy = 1.5 * out.t_tr + out.t_rot;
-  out.collisions = 2 * static_cast<double>(collisions_) / count;
-  out.excess_tr = count * v4 / (v2 * v2) * 3 / 5 - 1;
-  out.excess_rot = count * w4 / (w2 * w2) / 2 - 1;
-  out.excess_mixed = count * v2w2 / (v2 * w2) - 1;
+  out.needles = static_cast<double>(needles_.size());
+  out.collisions = static_cast<double>(collisions_);
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "needlework/boltzmann.h"
 #include "src/boltzmann/encounter.h"
+#include "src/boltzmann/sums.h"
 #include "src/random/needle_random.h"
 
 namespace needlework::boltzmann {
@@ -21,12 +22,8 @@ class Pool {
   /// Collisions until tau, which must not be before that of the last call.
   void advance(double tau);
 
-  /// Means over all needles.
-  struct Moments {
-    double t_tr = 0, t_rot = 0, energy = 0, collisions = 0;
-    double excess_tr = 0, excess_rot = 0, excess_mixed = 0;  ///< see Sample
-  };
-  Moments moments() const;
+  /// Sums over all needles, so that those of several pools can be added.
+  Sums sums() const;
   /// Adds its counts.
   void add_to(Result& result) const;
 

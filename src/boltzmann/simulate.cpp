@@ -46,20 +46,12 @@ void require_in_range(const Settings& settings, std::span<const double> taus) {
   }
 }
 
-Measured measured(const std::array<Pool::Moments, pools>& all, double Pool::Moments::*member) {
-  double sum = 0, squares = 0;
-  for (const Pool::Moments& each : all) sum += each.*member;
-  const double mean = sum / pools;
-  for (const Pool::Moments& each : all) squares += (each.*member - mean) * (each.*member - mean);
-  return {mean, std::sqrt(squares / (pools * (pools - 1)))};
-}
-
 }  // namespace
 
 Result simulate(const Settings& settings, std::span<const double> taus, int threads) {
   require_in_range(settings, taus);
   std::vector<std::unique_ptr<Pool>> all(pools);
-  std::vector<std::array<Pool::Moments, pools>> moments(taus.size());
+  std::vector<std::array<Sums, pools>> sums(taus.size());
 #pragma omp parallel for num_threads(threads) schedule(dynamic)
   for (std::size_t p = 0; p < pools; ++p) {
     const kernels::DefaultArithmetic arithmetic;
@@ -67,22 +59,14 @@ Result simulate(const Settings& settings, std::span<const double> taus, int thre
     all[p] = std::make_unique<Pool>(settings, p, needles);
     for (std::size_t n = 0; n < taus.size(); ++n) {
       all[p]->advance(taus[n]);
-      moments[n][p] = all[p]->moments();
+      sums[n][p] = all[p]->sums();
     }
   }
   Result out;
   for (const auto& pool : all) pool->add_to(out);
   for (std::size_t n = 0; n < taus.size(); ++n) {
-    using M = Pool::Moments;
-    Sample sample;
+    Sample sample = measured(sums[n], settings.gas.k);
     sample.tau = taus[n];
-    sample.t_tr = measured(moments[n], &M::t_tr);
-    sample.t_rot = measured(moments[n], &M::t_rot);
-    sample.collisions = measured(moments[n], &M::collisions);
-    sample.excess_tr = measured(moments[n], &M::excess_tr);
-    sample.excess_rot = measured(moments[n], &M::excess_rot);
-    sample.excess_mixed = measured(moments[n], &M::excess_mixed);
-    sample.energy = measured(moments[n], &M::energy);
     out.samples.push_back(sample);
   }
   return out;

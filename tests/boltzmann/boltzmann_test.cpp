@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "src/boltzmann/sums.h"
 #include "tests/support/message_of.h"
 
 namespace needlework::boltzmann {
@@ -147,6 +148,46 @@ TEST(Boltzmann, NeedlesWithoutRotationKeepTheirDirectors) {
   const Sample& sample = result.samples[0];
   EXPECT_NEAR(sample.t_tr.value / sample.t_rot.value, 1.7645, 0.015);
   EXPECT_NEAR(sample.excess_mixed.value, -0.016, 0.006);
+}
+
+// While few needles rotate, a mean of the excesses of small pools would be far off.
+TEST(Boltzmann, ExcessesOfFewNeedlesAreThoseOfMany) {
+  const auto excess = [](std::uint64_t needles, std::uint64_t seed) {
+    return result_of({.gas = {6, 0.8, -1}, .initial = {1, 0}, .needles = needles, .seed = seed},
+                     {0.1})
+        .samples[0]
+        .excess_mixed;
+  };
+  const Measured many = excess(800'000, 1);
+  double sum = 0, squares = 0;
+  constexpr int seeds = 100;
+  for (int seed = 2; seed < 2 + seeds; ++seed) {
+    const double value = excess(1600, seed).value;
+    sum += value, squares += value * value;
+  }
+  const double mean = sum / seeds, error = std::sqrt((squares / seeds - mean * mean) / (seeds - 1));
+  EXPECT_NEAR(mean, many.value, 3 * std::hypot(error, many.error));
+  EXPECT_LT(std::hypot(error, many.error), 0.02);
+}
+
+// Of a ratio of sums, that of the sums over all pools; of a mean over equal pools, the usual error.
+TEST(Boltzmann, NumbersOfPoolsAreThoseOfTheirSums) {
+  std::vector<Sums> pools(3);
+  for (std::size_t p = 0; p < pools.size(); ++p) {
+    const auto of = static_cast<double>(p);
+    pools[p] = {.needles = 2, .collisions = of, .v2 = 6 + 6 * of, .w2 = 1 + of, .v2w2 = 4 * of};
+  }
+  const Sample sample = measured(pools, 1);
+  EXPECT_DOUBLE_EQ(sample.t_tr.value, 2);  // of 1, 2 and 3
+  EXPECT_DOUBLE_EQ(sample.t_tr.error, std::sqrt(1.0 / 3));
+  EXPECT_DOUBLE_EQ(sample.collisions.value, 1);  // of 0, 1 and 2
+  EXPECT_DOUBLE_EQ(sample.excess_mixed.value, 6 * 12.0 / (36 * 6) - 1);
+  // Without the first pool, the second and the third.
+  const double without[] = {4 * 12.0 / (30 * 5), 4 * 8.0 / (24 * 4), 4 * 4.0 / (18 * 3)};
+  const double mean = (without[0] + without[1] + without[2]) / 3;
+  double squares = 0;
+  for (const double value : without) squares += (value - mean) * (value - mean);
+  EXPECT_NEAR(sample.excess_mixed.error, std::sqrt(squares * 2 / 3), 1e-14);
 }
 
 TEST(Boltzmann, DependsOnItsSeedAndNotOnThreads) {
