@@ -125,6 +125,9 @@ struct Drawing {
     out.pair.touch = {.touching = true, .collided = true, .side = 1, .gap = 0};
   }
   bool is_apart() const {
+    const RodMotion<long double> motion(out);
+    const long double above = motion.distance(0) - out.pair.distance * (1 + 1e-9L);
+    if (std::abs(above) > 1e-15L * (motion.reach + scale)) return above > 0;
     return rod_distance(out, 0) > Quad(out.pair.distance) * (1 + Quad(1e-9));
   }
   double time() { return scale * power_of_ten(random, -3, 0); }
@@ -215,20 +218,20 @@ RodCase grazing_rods(Random& random) {
     d.back(d.time());
     // A minimum of the distance, by sampling and golden sections.
     const int steps = 64;
+    const RodMotion<double> motion(d.out);
     double best = -1, least = 1e300;
     for (int n = 1; n < steps; ++n) {
-      const double s = d.out.horizon * n / steps;
-      const auto at = static_cast<double>(rod_distance(d.out, s));
+      const double s = d.out.horizon * n / steps, at = motion.distance(s);
       if (at < least) least = at, best = s;
     }
-    Quad low = best - d.out.horizon / steps, high = best + d.out.horizon / steps;
+    double low = best - d.out.horizon / steps, high = best + d.out.horizon / steps;
     for (int i = 0; i < 40; ++i) {
-      const Quad p = high - (high - low) * Quad(0.6180339887498949),
-                 q = low + (high - low) * Quad(0.6180339887498949);
-      (rod_distance(d.out, p) < rod_distance(d.out, q) ? high : low) =
-          rod_distance(d.out, p) < rod_distance(d.out, q) ? q : p;
+      const double p = high - (high - low) * 0.6180339887498949,
+                   q = low + (high - low) * 0.6180339887498949;
+      const bool is_before = motion.distance(p) < motion.distance(q);
+      (is_before ? high : low) = is_before ? q : p;
     }
-    const auto minimum = static_cast<double>(rod_distance(d.out, (low + high) / 2));
+    const double minimum = motion.distance((low + high) / 2);
     if (!(minimum > 0.01 * d.scale)) continue;
     d.out.pair.distance = minimum * (1 + sign(random) * power_of_ten(random, -5.5, -2));
     if (d.is_apart()) return d.out;

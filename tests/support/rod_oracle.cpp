@@ -1,101 +1,11 @@
 #include "tests/support/rod_oracle.h"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
+#include <type_traits>
 #include <utility>
-
-#include "tests/support/vector.h"
 
 namespace needlework::test {
 namespace {
-
-template <class Real>
-Vec<Real> rod_vector(const Vec3d& a) {
-  return {Real(a.x), Real(a.y), Real(a.z)};
-}
-template <class Real>
-Real rod_number(const DoubleDouble& a) {
-  return Real(a.hi) + Real(a.lo);
-}
-template <class Real>
-Vec<Real> rod_vector(const Vec3dd& a) {
-  return {rod_number<Real>(a.x), rod_number<Real>(a.y), rod_number<Real>(a.z)};
-}
-
-// The relative motion of two rods in numbers of type Real.
-template <class Real>
-struct RodMotion {
-  Vec<Real> r, v;
-  Vec<Real> u[2], p[2];
-  Real omega[2], delay[2], half[2];
-  Real speed;  // of a point of one axis relative to one of the other, not below
-
-  explicit RodMotion(const RodCase& rods) {
-    const kernels::Flight* flights[2] = {&rods.first, &rods.second};
-    delay[0] = rod_number<Real>(rods.pair.elapsed_first);
-    delay[1] = rod_number<Real>(rods.pair.elapsed_second);
-    half[0] = rods.pair.half_first;
-    half[1] = rods.pair.half_second;
-    Vec<Real> centre[2];
-    for (int i = 0; i < 2; ++i) {
-      const kernels::Flight& flight = *flights[i];
-      centre[i] = rod_vector<Real>(flight.r) + delay[i] * rod_vector<Real>(flight.v);
-      const Vec<Real> w = rod_vector<Real>(flight.w);
-      omega[i] = norm(w);
-      u[i] = rod_vector<Real>(flight.u);
-      p[i] = {Real(0), Real(0), Real(0)};
-      if (omega[i] > 0) p[i] = Real(1 / omega[i]) * cross(w, u[i]);
-    }
-    r = (centre[0] - centre[1]) - rod_vector<Real>(rods.pair.shift);
-    v = rod_vector<Real>(rods.first.v) - rod_vector<Real>(rods.second.v);
-    if (rods.pair.fall) {
-      r = r + rod_vector<Real>(rods.pair.fall->place);
-      v = v + rod_vector<Real>(rods.pair.fall->velocity);
-    }
-    speed = (norm(v) + half[0] * omega[0] + half[1] * omega[1]) * (1 + Real(1e-9));
-  }
-
-  Real distance(const Real& s) const {
-    using std::abs;
-    using std::cos;
-    using std::max;
-    using std::min;
-    using std::sin;
-    using std::sqrt;
-    Vec<Real> d[2];
-    for (int i = 0; i < 2; ++i) {
-      const Real phase = omega[i] * (s + delay[i]);
-      d[i] = Real(cos(phase)) * u[i] + Real(sin(phase)) * p[i];
-    }
-    const Vec<Real> between = r + s * v;
-    // Each tip with the other axis; `from` leads from the centre of that one to the tip.
-    std::optional<Real> least;
-    const auto consider = [&](const Real& square) {
-      if (!least || square < *least) least = square;
-    };
-    for (int i = 0; i < 2; ++i) {
-      const Real sign = i == 0 ? 1 : -1;
-      for (const int end : {-1, 1}) {
-        const Vec<Real> from = sign * between + Real(end * half[i]) * d[i];
-        const Real along = max(Real(-half[1 - i]), min(half[1 - i], dot(from, d[1 - i])));
-        const Vec<Real> off = from - along * d[1 - i];
-        consider(dot(off, off));
-      }
-    }
-    // Both inside.
-    const Vec<Real> x = cross(d[0] - d[1], Real(0.5) * (d[0] + d[1]));
-    const Real xx = dot(x, x);
-    if (xx > 0) {
-      const Real s12 = dot(cross(d[1], between), x) / xx, s21 = dot(cross(d[0], between), x) / xx;
-      if (abs(s12) < half[0] && abs(s21) < half[1]) {
-        const Real f = dot(between, x);
-        consider(f * f / xx);
-      }
-    }
-    return sqrt(*least);
-  }
-};
 
 using Extended = long double;
 
