@@ -110,12 +110,6 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   std::vector<RecordedTouch> touches;
   if (!archive.reads()) touches = touches_of(gas, i);
   archive(touches);
-  const bool slides = gas.slides && !touches.empty() && std::abs(touches.front().side) == 2;
-  Slide slide;
-  if (slides) {
-    if (!archive.reads()) slide = *gas.slides->of(gas.ids[i], record);
-    archive(slide);
-  }
   if (!archive.reads()) return;
   const kernels::Flight& f = record.flight;
   require_flight(f);
@@ -131,15 +125,44 @@ void transfer_needle(Archive& archive, Gas& gas, Needle i) {
   }
   record.touch_count = 0;
   for (const RecordedTouch& touch : touches) {
-    const bool of_slide = slides && &touch == &touches.front();
-    require((of_slide || std::abs(touch.side) <= 1) && std::isfinite(touch.gap));
+    const bool may_slide = gas.slides && &touch == &touches.front();
+    require(std::abs(touch.side) <= (may_slide ? 2 : 1) && std::isfinite(touch.gap));
     gas.add_touch(i, touch);
   }
-  if (!slides) return;
-  const RecordedTouch& touch = record.first_touch;
-  const bool is_first = gas.ids[i] < touch.partner;
-  gas.slides->put(is_first ? gas.ids[i] : touch.partner,
-                  is_first ? record.serial : touch.partner_serial, slide);
+}
+
+// A step of a contact follows from both records, which say how much faster each needle may become.
+// Only where another event has replaced one of them at this instant is it saved.
+void transfer_slides(Archive& archive, Gas& gas, const std::vector<Needle>& by_id) {
+  const auto id_of = [&](Needle i) { return gas.ids[i]; };
+  for (const Needle i : by_id) {
+    const Record& mine = gas.records[i];
+    if (!mine.is_sliding()) continue;
+    const RecordedTouch& touch = mine.first_touch;
+    const auto place = std::ranges::lower_bound(by_id, touch.partner, {}, id_of);
+    require(place != by_id.end() && id_of(*place) == touch.partner);
+    const Record& other = gas.records[*place];
+    const RecordedTouch& back = other.first_touch;
+    const Shift shift{touch.shift[0], touch.shift[1], touch.shift[2]};
+    const bool is_first = id_of(i) < touch.partner;
+    const bool is_whole = other.is_sliding() && touch.partner_serial == other.serial &&
+                          back.is_with(id_of(i), mine.serial, -shift);
+    if (!is_whole) {
+      Slide slide;
+      if (!archive.reads()) slide = *gas.slides->of(id_of(i), mine);
+      archive(slide);
+      if (!archive.reads()) continue;
+      require(slide.faster[is_first ? 0 : 1] == touch.gap &&
+              slide.step.span <= gas.motion(mine).lasts(gas.species_of(mine).extent()));
+      gas.slides->put(is_first ? id_of(i) : touch.partner,
+                      is_first ? mine.serial : touch.partner_serial, slide);
+    } else if (archive.reads() && is_first) {
+      require(mine.time == other.time && touch.side == back.side);
+      const Slide slide = make_slide(gas, mine, other, shift, touch.side / 2);
+      require(slide.faster[0] == touch.gap && slide.faster[1] == back.gap);
+      gas.slides->put(id_of(i), mine.serial, slide);
+    }
+  }
 }
 
 }  // namespace
@@ -168,11 +191,9 @@ void Run::require_consistent() const {
   if (gas.slides)
     require(std::ranges::all_of(gas.records, [&](const Record& record) {
       if (!record.is_sliding()) return true;
-      const bool has_partner = std::ranges::binary_search(gas.ids, record.first_touch.partner);
       const Slide* slide =
           gas.slides->of(gas.ids[static_cast<std::size_t>(&record - &gas.records[0])], record);
-      return has_partner && slide &&
-             now <= gas.clock.add(record.time, slide->step.duration * (1 + 0x1p-40));
+      return now <= gas.clock.add(record.time, slide->step.duration * (1 + 0x1p-40));
     }));
   // Where nothing can happen, time passes without windows.
   if (!nothing_can_happen()) {
@@ -218,6 +239,7 @@ void Run::transfer(Archive& archive, const std::vector<Needle>& by_id) {
   require(!archive.reads() || std::ranges::is_sorted(gas.ids, increases));
   require(!archive.reads() ||
           std::ranges::adjacent_find(gas.ids, std::ranges::equal_to{}) == gas.ids.end());
+  if (gas.slides) transfer_slides(archive, gas, by_id);
   archive(now);
   windows.transfer(archive);
   if (!sources.empty() || kicks) windows.transfer_measured(archive);

@@ -143,6 +143,10 @@ void transfer(Archive& archive, Slide& slide) {
                             step.begin.w_first, step.begin.w_second, slide.apart, slide.drift}) {
     is_sound = is_sound && is_finite(each);
   }
+  for (int n = 0; n < 2; ++n) {
+    is_sound = is_sound && slide.share[n] >= 0 && slide.share[n] <= 1 && slide.faster[n] >= 0 &&
+               std::isfinite(slide.faster[n]);
+  }
   archive.require(is_sound);
   step.end = static_cast<kernels::SlidingEnd>(end);
   slide.most = step.most();

@@ -47,10 +47,13 @@ def content_of(file):
 
 
 class Fields:
-    """The places and types of all numbers and lengths in the content of a checkpoint."""
+    """The places and types of all numbers and lengths in the content of a checkpoint.
 
-    def __init__(self, content):
-        self.content, self.at, self.found = content, 0, []
+    Of a scene with the t_c rule or, if `sliding`, with needles that slide on each other.
+    """
+
+    def __init__(self, content, sliding):
+        self.content, self.at, self.found, self.sliding = content, 0, [], sliding
         self.scene()
         self.one("drawn", "u8")
         self.totals("initial")
@@ -124,6 +127,8 @@ class Fields:
         self.several("collisions", "f64", 2)
         for name in ("tc", "tc_relative"):
             self.optional(f"collisions.{name}", self.f64)
+        self.one("collisions.sliding", "u8")
+        self.f64("collisions.sliding_below")
 
         def three(name):
             self.several(name, "f64", 3)
@@ -192,7 +197,13 @@ class Fields:
             self.one("record.serial", "u32")
             self.one("record.species", "u8")
             self.sequence("touch", self.touch)
-            self.time("last_collision")  # a scene with the t_c rule
+            if self.sliding:
+                self.one("meetings.last", "u32")
+                self.time("meetings.with_last")
+                self.time("meetings.others")
+                self.one("meetings.in_crowd", "u32")
+            else:
+                self.time("last_collision")
         self.time("now")
         self.time("window_end")
         for name in ("mean_free_time", "initial_energy", "energy_at_window"):
@@ -204,6 +215,10 @@ class Fields:
         self.several("counters", "u64", 24)
         self.time("instant")
         self.one("at_instant", "u64")
+        if self.sliding:
+            for name in ("entered", "by_force", "by_tip", "by_strike", "crowded", "steps"):
+                self.one(f"sliding.{name}", "u64")
+            self.several("sliding.time", "u64", 68)  # digits of an exact sum
         self.several("share_of_pairs", "f64", 2)
         self.one("share_of_pairs.quanta", "u64")
         self.several("shares_of_kicks_and_callers", "f64", 4)
