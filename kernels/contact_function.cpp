@@ -106,6 +106,14 @@ PairScale scale_of(const Pair& pair, double per_length, double turning) {
   return out;
 }
 
+// Once more, of needles that fall; so that others ask once.
+[[gnu::noinline]] static void let_fall(Frame<double>& frame, const Pair& pair,
+                                       const PairScale& scale) {
+  frame.v = to_double(falling_velocity(pair)) * scale.per_velocity();
+  set_norms(frame);
+  add_fall_to_norms(frame, pair, scale);
+}
+
 template <>
 Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
   Frame<double> out;
@@ -113,7 +121,6 @@ Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
   const Flight* flight[2] = {pair.first, pair.second};
   const DoubleDouble elapsed[2] = {pair.elapsed_first, pair.elapsed_second};
   out.v = (flight[0]->v - flight[1]->v) * scale.per_velocity();
-  if (pair.fall) out.v = to_double(falling_velocity(pair)) * scale.per_velocity();
   for (int i = 0; i < 2; ++i) {
     out.u[i] = flight[i]->u;
     out.p[i] = flight[i]->p;
@@ -122,7 +129,7 @@ Frame<double> make_frame<double>(const Pair& pair, const PairScale& scale) {
   }
   set_half_lengths(out, pair, scale);
   set_norms(out);
-  if (pair.fall) add_fall_to_norms(out, pair, scale);
+  if (pair.fall) let_fall(out, pair, scale);
   return out;
 }
 

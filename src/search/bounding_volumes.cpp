@@ -286,6 +286,7 @@ void BoundingVolumes::write_entry(ClassCells& own, Needle i, const Vec3d& centre
 bool BoundingVolumes::enter(ClassCells& own, Needle i, const Cell& cell) {
   Place& place = places[i];
   const bool entered = place.is_entered();
+  if (entered && same(place.cell, cell)) return false;
   const auto index = static_cast<std::uint32_t>(own.grid.index_of(cell));
   if (entered) {
     const auto old = static_cast<std::uint32_t>(own.grid.index_of(place.cell));

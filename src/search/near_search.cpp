@@ -311,14 +311,20 @@ inline void NearSearch::look_around(Look& look) {
   look.views = static_cast<std::size_t>(view - views_.data()) - look.first_view;
 }
 
+inline bool NearSearch::motions_are_in_cache() const {
+  return volumes_->motions.size() <= motions_in_cache;
+}
+
 inline kernels::Scan NearSearch::scan(const ClassCells& own, const Look& look,
                                       const kernels::Found& found) const {
   const BoundingVolumes& volumes = *volumes_;
   const ClassCells& there = *look.cells;
-  const bool in_cache = volumes.motions.size() <= motions_in_cache;
-  const kernels::Surroundings around{
-      there.cells.blocks(), there.cells.next(), views_.data() + look.first_view,
-      look.views,           there.format,       in_cache ? nullptr : volumes.motions.data()};
+  const kernels::Surroundings around{there.cells.blocks(),
+                                     there.cells.next(),
+                                     views_.data() + look.first_view,
+                                     look.views,
+                                     there.format,
+                                     motions_are_in_cache() ? nullptr : volumes.motions.data()};
   const bool paths = there.kind == BoundingVolume::cell;
   if (&own == &there && !paths) {
     return kernels_.overlapping(around, look.seeker, own.around_axis, found);
@@ -383,11 +389,13 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
   const auto apart =
       parts ? static_cast<float>(std::min<double>(just_hit.apart * volumes.per_time, never))
             : never;
+  std::fill_n(from, count, 0.0f);
   for (std::size_t k = 0; k < count; ++k) {
-    const bool hit = found.needle[k] == just_hit.needle.index &&
-                     same(shift_of(just_hit.needle, found.cell[k]), just_hit.shift);
-    from[k] = hit ? apart : 0;
-    if (hit && !parts) propose(found, k, 0);
+    if (found.needle[k] != just_hit.needle.index ||
+        !same(shift_of(just_hit.needle, found.cell[k]), just_hit.shift))
+      continue;
+    from[k] = apart;
+    if (!parts) propose(found, k, 0);
   }
   if (margin_ > 0) leave_out_sliding(found, count, never);
   counters_.bracket_steps += bracket(seeker, pairs, count);
@@ -427,8 +435,10 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
   }
   counters_.candidates += entries;
 
-  for (std::size_t k = 0; k < count; ++k) {
-    needlework::prefetch(&volumes.motions[found.needle[k]]);
+  if (!motions_are_in_cache()) {
+    for (std::size_t k = 0; k < count; ++k) {
+      needlework::prefetch(&volumes.motions[found.needle[k]]);
+    }
   }
   candidates_.clear();
   if (follows_) {
