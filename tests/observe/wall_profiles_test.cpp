@@ -144,9 +144,12 @@ TEST(CentreOfMass, IsAlongAxesWithWalls) {
   SpeciesSums sums = no_sums(scene);
   sums.totals = {{2, 0, 0}, {1, 0, 0}};
   sums.collisions = {0, 0, 0};
-  const auto row = observation.sample(state, {}, sums).last(4);
-  EXPECT_EQ(std::vector(row.begin(), row.end()),
+  const auto row = observation.sample(state, {}, sums).last(12);
+  EXPECT_EQ(std::vector(row.begin(), row.begin() + 4),
             (std::vector{(1 + 6 + 11) / 4.0, (1 + 10 + 7) / 4.0, -1 / 4.0, 8 / 4.0}));
+  // Of the two light needles, and of the heavy one.
+  EXPECT_EQ(std::vector(row.begin() + 4, row.end()),
+            (std::vector<double>{6, 4, 3, 5, 0.5, 4, -1, 0}));
 }
 
 // Impulse along the normal over area and time since the sample before, also of a run that goes on.
