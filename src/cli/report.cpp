@@ -106,9 +106,10 @@ std::optional<std::vector<theory::Temperatures>> Report::species_theory_at(
 }
 
 double Report::initial_collision_rate() const {
-  if (scene.composition().is_needle_gas()) {
+  const Composition composition = scene.composition();
+  if (composition.is_needle_gas()) {
     return theory::collision_rate(runs::theory_density_of(scene),
-                                  {course.initial.t_tr, course.initial.t_rot}, scene.needles.k);
+                                  {course.initial.t_tr, course.initial.t_rot}, composition[0].k);
   }
   return runs::initial_collision_rate({.scene = scene, .initial = {}});
 }

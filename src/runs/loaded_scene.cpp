@@ -9,6 +9,7 @@
 
 #include "needlework/error.h"
 #include "needlework/h5md.h"
+#include "needlework/theory.h"
 #include "src/runs/engine_choice.h"
 #include "src/runs/estimates.h"
 #include "src/scene/check.h"
@@ -95,7 +96,11 @@ Totals totals_of(const State& state, const Scene& scene) {
 }
 
 theory::Temperatures initial_temperatures(const LoadedScene& loaded) {
-  if (!loaded.initial) return {loaded.scene.initial.t_tr, loaded.scene.initial.t_rot};
+  if (!loaded.initial) {
+    const Composition composition = loaded.scene.composition();
+    if (!composition.is_mixture()) return {composition[0].t_tr, composition[0].t_rot};
+    return theory::mean_of_species(composition, temperatures_by_species(loaded));
+  }
   const Totals totals = totals_of(*loaded.initial, loaded.scene);
   return {totals.t_tr, totals.t_rot};
 }

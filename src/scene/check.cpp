@@ -185,7 +185,7 @@ std::vector<std::string> warnings(const Scene& scene) {
     if (species.k >= 2 || species.diameter > 0) continue;
     list.push_back(
         fmt::format("{} = {}{}: below 2, where all mass sits at the tips, mass lies beyond them",
-                    composition.is_mixture() ? "species.k" : "needles.k", species.k,
+                    scene.species.empty() ? "needles.k" : "species.k", species.k,
                     composition.is_mixture() ? " of " + printable(species.name) : ""));
   }
   const bool at_rest = std::ranges::all_of(composition.species(), [](const Species& species) {

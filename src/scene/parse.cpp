@@ -178,13 +178,13 @@ void adopt_shapes(Scene& scene, const std::set<std::string>& given) {
   }
 }
 
-// Sets the keys of [needles] and [initial] that the species replace: the temperatures to those of
-// all needles.
+// Writes what the species say in the form that all readers of scenes know: k instead of the moment
+// of inertia, and how many needles there are in all.
 void adopt_species(Scene& scene) {
   if (scene.species.empty()) return;
   const Composition composition = scene.composition();
   for (std::size_t n = 0; n < composition.size(); ++n) {
-    scene.species[n].k = composition[n].k;  // which the moment of inertia may have given
+    scene.species[n].k = composition[n].k;
     scene.species[n].given_inertia.reset();
   }
   // A file may tell counts that are left out.
@@ -192,25 +192,8 @@ void adopt_species(Scene& scene) {
       scene.initial.file.empty() || !composition.is_mixture() ||
       std::ranges::all_of(scene.species, [](const Species& s) { return s.count > 0; });
   scene.needles.count = all_given ? composition.count() : 0;
-  scene.needles.k = composition[0].k;
-  if (composition.is_mixture()) {
-    const double count = static_cast<double>(std::max<std::uint64_t>(1, composition.count()));
-    scene.initial.t_tr = scene.initial.t_rot = 0;
-    for (const Species& each : composition.species()) {
-      const double share = static_cast<double>(each.count) / count;
-      scene.initial.t_tr += share * each.t_tr;
-      scene.initial.t_rot += share * each.t_rot;
-    }
-  } else {
-    scene.initial.t_tr = composition[0].t_tr;
-    scene.initial.t_rot = composition[0].t_rot;
-  }
-  scene.needles.diameter = composition[0].diameter;
-  for (const auto& [from, to] :
-       {std::pair("species.count", "needles.count"), std::pair("species.k", "needles.k")}) {
-    const auto place = scene.places.find(from);
-    if (place != scene.places.end()) scene.places.emplace(to, place->second);
-  }
+  const auto place = scene.places.find("species.count");
+  if (place != scene.places.end()) scene.places.emplace("needles.count", place->second);
 }
 
 // Whether a key describes the initial state, apart from count and box.

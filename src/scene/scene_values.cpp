@@ -206,10 +206,8 @@ void require_valid(const Scene& scene) {
   require_walls_to_observe(scene);
   require_room(scene);
   require_names(scene);
-  const Composition composition = scene.composition();
-  if (composition.count() != scene.needles.count || composition[0].k != scene.needles.k) {
-    refuse("species", "the count and k of [needles]");
-  }
+  if (scene.composition().count() != scene.needles.count)
+    refuse("species", "the count of [needles]");
   if (scene.text.size() > max_scene_bytes) refuse("text", "at most 1 MiB");
 }
 

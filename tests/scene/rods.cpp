@@ -33,7 +33,6 @@ TEST(SceneOfRods, HasHomogeneousRods) {
        {std::pair("1", 1.652893), std::pair("5", 4.544240), std::pair("10", 5.231750)}) {
     const Scene scene = rods(entry("a", "diameter = 1\nlength = " + std::string(length)));
     EXPECT_NEAR(scene.composition()[0].k, k, 1e-6);
-    EXPECT_EQ(scene.needles.k, scene.composition()[0].k);
   }
   const Scene brief =
       parse_scene("needles = { count = 2, box = 9, diameter = 0.2 }\nuntil.time = 1", "s.toml");

@@ -41,8 +41,8 @@ TEST(Species, HasDefaults) {
   EXPECT_EQ(species.t_rot, 1);
 }
 
-// Code that ignores species finds count, k and temperatures in the same members as before.
-TEST(Species, StandsForNeedlesAndInitial) {
+// Of the keys of [needles] they replace, only the count is that of all needles in any scene.
+TEST(Species, ReplaceNeedlesAndInitial) {
   const Scene scene = parse_scene(
       least_species + "length = 2.5\nmass = 0.5\nk = 2\nt_tr = 3\nt_rot = 0\n[initial]\n",
       "s.toml");
@@ -50,13 +50,15 @@ TEST(Species, StandsForNeedlesAndInitial) {
   EXPECT_EQ(species.length, 2.5);
   EXPECT_EQ(species.mass, 0.5);
   EXPECT_EQ(scene.needles.count, 10u);
-  EXPECT_EQ(scene.needles.k, 2);
-  EXPECT_EQ(scene.initial.t_tr, 3);
-  EXPECT_EQ(scene.initial.t_rot, 0);
+  EXPECT_EQ(scene.needles.k, Scene().needles.k);
+  const Composition composition = scene.composition();
+  EXPECT_EQ(composition.count(), 10u);
+  EXPECT_EQ(composition[0].k, 2);
+  EXPECT_EQ(composition[0].t_tr, 3);
+  EXPECT_EQ(composition[0].t_rot, 0);
   EXPECT_EQ(scene.needles.box, (std::array{12.0, 12.0, 12.0}));
   EXPECT_EQ(scene.places.at("species.count"), "s.toml: line 5: species.count = 10");
   EXPECT_EQ(scene.places.at("needles.count"), "s.toml: line 5: species.count = 10");
-  EXPECT_EQ(scene.places.at("needles.k"), "s.toml: line 9: species.k = 2");
 }
 
 TEST(Species, MayBeWrittenInline) {
@@ -64,7 +66,7 @@ TEST(Species, MayBeWrittenInline) {
       "species = [{name = 'rods', count = 3, k = 2}]\nneedles.box = 4\nuntil.time = 1\n", "s.toml");
   ASSERT_EQ(scene.species.size(), 1u);
   EXPECT_EQ(scene.species[0].count, 3u);
-  EXPECT_EQ(scene.needles.k, 2);
+  EXPECT_EQ(scene.composition()[0].k, 2);
 }
 
 TEST(Species, MayStartFromAFile) {
@@ -217,8 +219,8 @@ TEST(Mixture, IsReadInTheOrderOfTheScene) {
   EXPECT_EQ(composition.restitution(1, 0), (Restitution{0.9, 0.5}));
   EXPECT_EQ(composition.restitution(0, 1), (Restitution{0.9, 0.5}));
   EXPECT_EQ(composition.restitution(1, 1), (Restitution{0.9, -1}));
-  // Of all needles.
-  EXPECT_DOUBLE_EQ(scene.initial.t_tr, (10 * 1 + 4 * 0.5) / 14);
+  EXPECT_EQ(composition[0].t_tr, 1);
+  EXPECT_EQ(composition[1].t_tr, 0.5);
 }
 
 TEST(Mixture, IsOverriddenByName) {
