@@ -83,6 +83,8 @@ EFFECTS = [
            ["collisions.beta=0"]),
     Effect("t_c rule", ["collisions.tc=1e-300"],
            ["collisions.epsilon=0.9", "collisions.tc_relative=1e-3"]),
+    Effect("sliding contact", ["collisions.epsilon=0.9999999999999999", "collisions.sliding=true"],
+           ["collisions.epsilon=0.9", "collisions.sliding=true"]),
     *(Effect(f"kicks every {name}", ["driving.kicks={every=1e6, translational=1e-300}"],
              [f"driving.kicks={{every={MEAN_FREE_TIME * times!r}, translational=0.01, "
               "rotational=0.01}"], long=max(LONG, SHORT + 2 * times))
