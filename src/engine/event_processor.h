@@ -288,6 +288,9 @@ void EventProcessor<S, M>::happen(const Event& event) {
   gas_.columns.count_change(i);
   EventSource& source = *run_.sources[event.source];
   const SourceOutcome outcome = source.happen(gas_, at, event.side);
+  if constexpr (M::has_sliding) {
+    if (source.kind() == Happening::wall) run_.sliding->hit_wall(i, now());
+  }
   Happening happening;
   happening.kind = source.kind();
   happening.source = static_cast<std::uint8_t>(event.source + 1);

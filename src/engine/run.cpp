@@ -50,6 +50,16 @@ std::vector<Wall> walls_of(const Scene& scene, const std::array<double, 3>& box)
   return out;
 }
 
+// Needles clatter on walls as they bounce on each other. Where those slide, hits of walls have the
+// t_c rule, with the threshold of contacts as t_c.
+bool slides_beside_walls(const Scene& scene) {
+  return scene.collisions.sliding && !scene.walls.empty();
+}
+
+bool has_contact_time(const Scene& scene) {
+  return scene.collisions.tc || scene.collisions.tc_relative || slides_beside_walls(scene);
+}
+
 }  // namespace
 
 Effects effects_of(const Scene& scene) {
@@ -67,16 +77,20 @@ Run::Run(const Scene& scene)
       effects(effects_of(scene)),
       sorted(scene.engine.storage != "by-id"),
       tc_(scene.collisions.tc),
-      tc_relative_(scene.collisions.tc_relative) {
+      tc_relative_(slides_beside_walls(scene) ? scene.collisions.sliding_below
+                                              : scene.collisions.tc_relative) {
   gas.set_composition(scene.composition());
 }
 
 void Run::add_effects(const Scene& scene) {
-  if (effects.contact_time) contact_time_rule.emplace(gas);
+  if (has_contact_time(scene)) contact_time_rule.emplace(gas);
   if (effects.sliding) sliding.emplace(gas, scene.collisions.sliding_below);
   if (!scene.walls.empty()) {
-    const ContactTimeOfWalls contact_time_of_walls{
-        contact_time_rule ? &*contact_time_rule : nullptr, &contact_time};
+    ContactTimeOfWalls contact_time_of_walls{contact_time_rule ? &*contact_time_rule : nullptr,
+                                             &contact_time};
+    if (effects.sliding)
+      contact_time_of_walls.advice =
+          "a longer collisions.sliding_below helps, unless it rests on the wall";
     add_source(std::make_unique<Walls>(gas, walls_of(scene, gas.box), scene.needles.seed,
                                        contact_time_of_walls));
   }
@@ -156,9 +170,10 @@ void Run::pass_window() {
   const double by_account = present_energy();
   // Walls and gravity make densities that kinetic theory does not know. The many small bounces of a
   // pair that slides are not counted: they would shorten the mean free time and with it t_c, which
-  // would make them smaller still, without end.
+  // would make them smaller still, without end. Nor are crowded ones, where needles slide.
   if (gas.has_walls() && gas.size() > 1) {
-    windows.measure(tally.collisions - tally.tc_collisions, gas.size(), gas.clock.since_start(now));
+    windows.measure(tally.collisions - tally.tc_collisions - tally.sliding.crowded, gas.size(),
+                    gas.clock.since_start(now));
   }
   open_window();
   energy.note_drift_from(by_account);

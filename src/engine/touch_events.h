@@ -67,6 +67,10 @@ void EventProcessor<S, M>::touch(const Event& event) {
     gas_.add_touch(b, RecordedTouch::of(gas_.ids[a], gas_.records[a].serial, -shift, parted));
   }
   run_.sliding->met(gas_, a, b, now(), touch.crowded);
+  if (run_.contact_time_rule && is_collision) {
+    run_.contact_time_rule->collided(a, now());
+    run_.contact_time_rule->collided(b, now());
+  }
 
   if (was_whole) {
     counts.time.add(std::max(0.0, in_contact));

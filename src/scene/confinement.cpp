@@ -116,7 +116,6 @@ void require_what_slides(const Scene& scene) {
   if (composition.is_rough())
     refuse("false, or beta = -1: needles slide on each other without friction only");
   if (composition.has_width()) refuse("false, as rods of finite width do not slide");
-  if (!scene.walls.empty()) refuse("false beside walls, which needles in contact would hit unseen");
   if (scene.collisions.tc || scene.collisions.tc_relative)
     refuse("either sliding or a contact time, tc or tc_relative: both replace the same bounces");
 }

@@ -435,7 +435,6 @@ TEST(Sliding, SaysWhatItIsNotOfferedFor) {
     EXPECT_NE(message.find("collisions.sliding"), std::string::npos) << message;
   };
   expect("without friction", [](Scene& s) { s.collisions.beta = 0.5; });
-  expect("beside walls", [](Scene& s) { s.walls = {{.axis = "z", .side = "both"}}; });
   expect("finite width", [](Scene& s) { s.needles.diameter = 0.1; });
   expect("a contact time", [](Scene& s) { s.collisions.tc_relative = 1e-3; });
   Scene scene = sliding_scene(2, 2.1, 0.5);

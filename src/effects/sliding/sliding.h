@@ -18,9 +18,11 @@
 
 namespace needlework {
 
-/// When a needle has touched others, in collisions and contacts.
+/// When a needle has touched others, in collisions and contacts, or walls.
 struct Meetings {
-  Id last;                     ///< the latest partner
+  static constexpr Id wall{0xffffffff};
+
+  Id last;                     ///< the latest partner, or `wall`
   Time with_last, others;      ///< the latest times with this one, and with any other
   std::uint32_t in_crowd = 0;  ///< collisions without a break, each soon after one with a third
 
@@ -28,11 +30,15 @@ struct Meetings {
 
   void met(Id partner, Time now, bool crowded) {
     in_crowd = crowded ? in_crowd + 1 : 0;
+    note(partner, now);
+  }
+  /// The same of a partner, or a wall, that is no crowd.
+  void note(Id partner, Time now) {
     if (last != partner) others = with_last;
     last = partner;
     with_last = now;
   }
-  /// The latest time with any needle but this one.
+  /// The latest time with any needle but this one, or a wall.
   Time but(Id partner) const { return last == partner ? others : with_last; }
 
   friend void transfer(Archive& archive, Meetings& meetings) {
@@ -70,6 +76,8 @@ class Sliding {
               double mean_free_time) const;
   /// Notes that they have touched.
   void met(const Gas& gas, Needle a, Needle b, Time now, bool crowded);
+  /// Notes that a needle has hit a wall.
+  void hit_wall(Needle i, Time now) { (*meetings_)[i].note(Meetings::wall, now); }
   /// Makes their new records those of a contact.
   static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
 

@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "kernels/course_wall.h"
 #include "src/physics/director.h"
 #include "src/physics/vectors.h"
 #include "src/random/needle_random.h"
@@ -95,6 +97,11 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
   const Record& record = gas.records[i];
   SourceEvent out;
   Time latest = until;
+  std::optional<NeedleCourse> course;
+  if (gas.slides && record.is_sliding()) {
+    const Id id = gas.ids[i];
+    course.emplace(gas, id, record, gas.slides->of(id, record), 0);
+  }
   for (std::size_t n = 0; n < walls_.size(); ++n) {
     const Wall& wall = walls_[n];
     const Species& species = gas.species_of(record);
@@ -110,9 +117,10 @@ SourceEvent Walls::next(const Gas& gas, Needle i, Time now, Time until) const {
                                          .touching = touching(record, i, n),
                                          .tolerance = gas.touch_tolerance(),
                                          .resolution = gas.clock.resolution()};
-    const kernels::WallContact contact =
-        first_wall_contact(approach, gas.clock.difference(now, record.time),
-                           gas.clock.difference(latest, record.time));
+    const double from = gas.clock.difference(now, record.time),
+                 to = gas.clock.difference(latest, record.time);
+    const kernels::WallContact contact = course ? course_wall_contact(*course, approach, from, to)
+                                                : first_wall_contact(approach, from, to);
     if (!contact.found) continue;
     const Time time = std::max(now, gas.clock.add(record.time, contact.elapsed));
     if (time > latest || (out.time != Time::never() && time == out.time)) continue;
@@ -210,7 +218,7 @@ std::string Walls::message(const Gas& gas, const NeedleAt& at, std::int8_t detai
       "bounce is below what double resolves; {}",
       at.id.value, side, axis, time, gas.clock.difference(at.now, at.record.time),
       wall.epsilon == 0    ? "with epsilon = 0 there is no rebound, and no contact time can help"
-      : contact_time_.rule ? "a longer contact time helps, unless it rests on the wall"
+      : contact_time_.rule ? contact_time_.advice
                            : "set collisions.tc_relative, to 1e-3 say");
 }
 

@@ -24,6 +24,8 @@ struct Wall {
 struct ContactTimeOfWalls {
   const ContactTimeRule* rule = nullptr;  ///< null: there is none
   const double* contact_time = nullptr;   ///< as it is in this window [time]
+  /// For a tip that comes back too soon.
+  const char* advice = "a longer contact time helps, unless it rests on the wall";
 };
 
 /// Tips of needles hit the walls. A hit on a wall at rest or in motion is smooth, with the wall's
