@@ -379,6 +379,23 @@ NEEDLEWORK_API size_t needlework_wall_count(needlework_simulation* simulation);
 NEEDLEWORK_API int needlework_get_wall(needlework_simulation* simulation, size_t index,
                                        needlework_wall* wall);
 
+/* ---- Sliding contact ------------------------------------------------------------------------- */
+
+/* Contacts of needles that slide on each other, since the start. */
+typedef struct needlework_contacts {
+  uint64_t entered;         /* begun */
+  uint64_t ended_by_force;  /* where the force that holds the needles together would pull */
+  uint64_t ended_by_tip;    /* as a tip was reached */
+  uint64_t ended_by_strike; /* as anything else changed the velocities of one of the needles */
+  uint64_t crowded;         /* collisions whose epsilon was raised, as one of the needles had just
+                               touched another one or a wall */
+  double time;              /* that pairs have been in contact, without that of present steps */
+} needlework_contacts;
+
+/* Copies what is known of contacts; all 0 in a scene without collisions.sliding. [handle] */
+NEEDLEWORK_API int needlework_get_contacts(needlework_simulation* simulation,
+                                           needlework_contacts* contacts);
+
 /* ---- Data of your own ------------------------------------------------------------------------ */
 
 enum needlework_data_kind { NEEDLEWORK_DATA_BYTES = 0, NEEDLEWORK_DATA_JSON = 1 };

@@ -106,6 +106,11 @@ module needlework
     real(c_double) :: impulse, normal_impulse, area, phase, energy
   end type
 
+  type, bind(c) :: needlework_contacts
+    integer(c_int64_t) :: entered, ended_by_force, ended_by_tip, ended_by_strike, crowded
+    real(c_double) :: time
+  end type
+
   type, bind(c) :: needlework_energy_budget
     real(c_double) :: pairs, walls, thermostat, kicks, velocities_set
   end type
@@ -261,6 +266,12 @@ module needlework
       type(c_ptr), value :: simulation
       integer(c_size_t), value :: index
       type(needlework_wall), intent(out) :: wall
+    end function
+
+    integer(c_int) function needlework_get_contacts(simulation, contacts) bind(c)
+      import :: c_ptr, c_int, needlework_contacts
+      type(c_ptr), value :: simulation
+      type(needlework_contacts), intent(out) :: contacts
     end function
 
     integer(c_int) function needlework_get_energy_budget(simulation, budget) bind(c)

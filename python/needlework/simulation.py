@@ -89,6 +89,24 @@ class RodTotals(Values):
     """(N T_tr + virial / (3 t)) / V at the present time t, T_tr and volume V; NaN at the start."""
 
 
+class SlidingContacts(Values):
+    """Contacts of needles that slide on each other, since the start."""
+
+    entered: int
+    """Number of contacts that have begun."""
+    ended_by_force: int
+    """Those that have ended where the force that holds the needles together would pull."""
+    ended_by_tip: int
+    """Those that have ended as a tip was reached."""
+    ended_by_strike: int
+    """Those that have ended as anything else changed the velocities of one of the needles."""
+    crowded: int
+    """Collisions whose epsilon was raised, as one of the needles had just touched another one or a
+    wall."""
+    time: float
+    """That pairs have been in contact, of all together, without that of their present steps."""
+
+
 class EnergyBudget(Values):
     """Energy per needle that each effect has put in since the start; negative: taken out. The sum
     is the change of Totals.energy, up to rounding. Effects that the scene has not are missing."""
@@ -441,6 +459,12 @@ class Simulation(NotPickled):
     def rod_totals(self) -> RodTotals:
         """Packing fraction and pressure of rods; for needles, packing fraction and virial are 0."""
         return RodTotals(self._run.rod_totals())
+
+    @property
+    def sliding_contacts(self) -> Optional[SlidingContacts]:
+        """Contacts and how they have ended; None in a scene without collisions.sliding."""
+        contacts = self._run.sliding_contacts()
+        return None if contacts is None else SlidingContacts(contacts)
 
     @property
     def energy_budget(self) -> EnergyBudget:

@@ -1,4 +1,5 @@
-// What C callers learn of the walls of a simulation, and of where its energy has come from.
+// What C callers learn of the walls of a simulation, of contacts, and of where its energy has come
+// from.
 #include <numeric>
 #include <string>
 
@@ -31,6 +32,20 @@ int needlework_get_wall(needlework_simulation* simulation, size_t index, needlew
              .area = found.area,
              .phase = found.phase,
              .energy = self.run.simulation().energy_budget().walls.at(index)};
+  });
+}
+
+int needlework_get_contacts(needlework_simulation* simulation, needlework_contacts* contacts) {
+  return c::guarded(simulation, [&](needlework_simulation& self) {
+    c::require(contacts, "contacts");
+    const SlidingContacts found =
+        self.run.simulation().sliding_contacts().value_or(SlidingContacts{});
+    *contacts = {.entered = found.entered,
+                 .ended_by_force = found.ended_by_force,
+                 .ended_by_tip = found.ended_by_tip,
+                 .ended_by_strike = found.ended_by_strike,
+                 .crowded = found.crowded,
+                 .time = found.time};
   });
 }
 

@@ -77,8 +77,9 @@ void EventProcessor<S, M>::touch(const Event& event) {
     ++counts.steps;
     counts.by_force += touch.end == kernels::SlidingEnd::Force;
     counts.by_tip += touch.end == kernels::SlidingEnd::Tip;
+  } else if (touch.course == Course::goes_on) {
+    --counts.by_strike;  // what has cut the contact was no end of it
   } else {
-    // Also where a contact goes on that has just been cut, which was counted as its end.
     counts.entered += joins;
   }
   counts.crowded += touch.raised;
@@ -104,8 +105,17 @@ void EventProcessor<S, M>::touch(const Event& event) {
       model_.contact().time_apart(model_.pair(a, gas_.records[a], b, gas_.records[b], shift));
   schedule(a, placed_a, {b, shift, apart});
   schedule(b, placed_b, {a, -shift, apart});
+  if (!run_.listeners.any()) return;
+  // Needles that collide as their contact has been cut have ended it before.
+  if (is_collision && pair.bond == SlidingPair::Bond::cut) {
+    Happening ended = happening;
+    ended.kind = Happening::contact_ended;
+    ended.event.impulse = {};
+    ended.event.energy_change = 0;
+    run_.listeners.report(gas_, ended, a, b, reports);
+  }
   const bool is_told = is_collision || touch.course == Course::parts;
-  if (is_told && run_.listeners.any()) run_.listeners.report(gas_, happening, a, b, reports);
+  if (is_told) run_.listeners.report(gas_, happening, a, b, reports);
 }
 
 // An event is about to replace the record of needle i, which may slide on another needle than that

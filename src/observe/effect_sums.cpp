@@ -134,7 +134,46 @@ class BudgetOfEnergy : public Observable {
   bool has_thermostat_, has_kicks_;
 };
 
+class ContactSums : public Observable {
+ public:
+  std::vector<SeriesField> fields() const override {
+    using enum SeriesField::Kind;
+    const auto number = [](const char* name, const char* meaning) {
+      return SeriesField{name, meaning, unit::none, {}, count};
+    };
+    return {
+        number("entered", "Number of contacts that have begun since the start of the run"),
+        number("ended_by_force", "Number of them that have ended where the force would pull"),
+        number("ended_by_tip", "Number of them that have ended as a tip was reached"),
+        number("ended_by_strike",
+               "Number of them that have ended as anything else changed the velocities of one of "
+               "the needles"),
+        number("crowded",
+               "Number of collisions whose epsilon was raised, as one of the needles had just "
+               "touched another one or a wall"),
+        {"time",
+         "Time that pairs have been in contact, of all together, without that of present steps",
+         unit::time,
+         {}},
+    };
+  }
+
+  void sample(const Snapshot& now, Row& row) override {
+    const SlidingContacts& contacts = now.species.contacts;
+    for (const std::uint64_t number :
+         {contacts.entered, contacts.ended_by_force, contacts.ended_by_tip,
+          contacts.ended_by_strike, contacts.crowded}) {
+      row.put(static_cast<double>(number));
+    }
+    row.put(contacts.time);
+  }
+
+  bool reads_state() const override { return false; }
+};
+
 }  // namespace
+
+ObservablePointer make_contact_sums() { return std::make_unique<ContactSums>(); }
 
 ObservablePointer make_wall_sums(const Scene& scene) { return std::make_unique<WallSums>(scene); }
 

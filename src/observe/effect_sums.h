@@ -1,4 +1,4 @@
-// What the series of a gas with walls or driving always has.
+// What the series of a gas with walls, driving or sliding contact always has.
 #pragma once
 
 #include "src/observe/observable.h"
@@ -10,5 +10,8 @@ ObservablePointer make_wall_sums(const Scene& scene);
 
 /// What each effect of the scene has put into the energy of the needles.
 ObservablePointer make_energy_budget(const Scene& scene);
+
+/// Contacts of needles that slide on each other, and how they have ended.
+ObservablePointer make_contact_sums();
 
 }  // namespace needlework::observe

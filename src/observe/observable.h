@@ -87,13 +87,14 @@ std::vector<SeriesField::Extent> by_pair(const Composition& composition,
                                          std::vector<SeriesField::Extent> shape);
 
 /// Sums by species at one instant, collisions of each two by Composition::pair_index, hits on
-/// walls, what has changed the energy, and the virial of rods.
+/// walls, what has changed the energy, the virial of rods, and contacts.
 struct SpeciesSums {
   std::vector<SpeciesTotals> totals = {};
   std::vector<std::uint64_t> collisions = {};
   std::vector<WallTotals> walls = {};
   EnergyBudget energy = {};
-  double virial = 0;  ///< of rods, Simulation::virial()
+  double virial = 0;              ///< of rods, Simulation::virial()
+  SlidingContacts contacts = {};  ///< of needles that slide on each other
 };
 
 /// The gas at one instant. Holds references.

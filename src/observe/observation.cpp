@@ -68,6 +68,10 @@ Observation::Observation(const Scene& scene, ObservablePointer cooling, SpeciesB
     members_.push_back(
         {"rods", "Packing fraction, virial and pressure of rods", make_rod_sums(gas_)});
   }
+  if (scene.collisions.sliding) {
+    members_.push_back(
+        {"contacts", "Contacts of needles that slide on each other", make_contact_sums()});
+  }
   if (cooling) {
     members_.push_back({"theory",
                         "Kinetic theory of a gas that stays homogeneous, from the same "
@@ -114,7 +118,8 @@ std::span<const double> Observation::sample(const State& state, const Totals& to
                            {totals.collisions},
                            species.walls,
                            species.energy,
-                           species.virial};
+                           species.virial,
+                           species.contacts};
   const Snapshot now(gas_, state, totals, is_mixture ? species : of_all);
   if (is_mixture) parts_.take(now);
   for (const Member& member : members_) member.observable->sample(now, row_);

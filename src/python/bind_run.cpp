@@ -88,6 +88,7 @@ void add_run(py::module_& module) {
       .def("wall_totals", &Run::wall_totals)
       .def("energy_budget", &Run::energy_budget)
       .def("rod_totals", &Run::rod_totals)
+      .def("sliding_contacts", &Run::sliding_contacts)
       .def("counters", &Run::counters)
       .def("facts", &Run::facts)
       .def("time", &Run::time)

@@ -336,6 +336,20 @@ py::dict Run::rod_totals() {
   return out;
 }
 
+py::object Run::sliding_contacts() {
+  require_idle();
+  const auto contacts = run_->simulation().sliding_contacts();
+  if (!contacts) return py::none();
+  py::dict out;
+  out["entered"] = contacts->entered;
+  out["ended_by_force"] = contacts->ended_by_force;
+  out["ended_by_tip"] = contacts->ended_by_tip;
+  out["ended_by_strike"] = contacts->ended_by_strike;
+  out["crowded"] = contacts->crowded;
+  out["time"] = contacts->time;
+  return std::move(out);
+}
+
 py::dict Run::energy_budget() {
   require_idle();
   py::dict out;

@@ -283,6 +283,7 @@ void RunDriver::sample(bool series, bool frame) {
       species.walls = simulation_.wall_totals();
       species.energy = simulation_.energy_budget();
       species.virial = simulation_.virial();
+      species.contacts = simulation_.sliding_contacts().value_or(SlidingContacts{});
       const auto values = observation->sample(state, totals, species);
       if (writer) writer->write_series(totals, values);
     }

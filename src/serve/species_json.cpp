@@ -52,6 +52,13 @@ void add_energy_budget(Json& json, const Simulation& simulation) {
       [&](const char* name, const auto& energy) { budget[name] = energy; });
 }
 
+void add_contacts(Json& json, const SlidingContacts& contacts) {
+  json["contacts"] = {
+      {"entered", contacts.entered},           {"ended_by_force", contacts.ended_by_force},
+      {"ended_by_tip", contacts.ended_by_tip}, {"ended_by_strike", contacts.ended_by_strike},
+      {"crowded", contacts.crowded},           {"time", number_or_null(contacts.time)}};
+}
+
 void add_rods(Json& json, const Scene& scene, const Simulation& simulation) {
   const runs::RodTotals rods = runs::rod_totals(scene, simulation);
   json["rods"] = {{"packing_fraction", rods.packing_fraction},

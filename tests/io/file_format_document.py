@@ -74,6 +74,13 @@ until.time = 0.1
 """
 
 
+SLIDING = """
+needles = { count = 60, box = 4 }
+collisions = { epsilon = 0.3, sliding = true }
+until.time = 0.5
+"""
+
+
 class Row:
     def __init__(self, line):
         cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")]
@@ -240,12 +247,16 @@ def main(program, source):
         with open(os.path.join(folder, "rods.toml"), "w", encoding="utf-8") as file:
             file.write(RODS)
         run(["./needlework", "run", "rods.toml", "--out", "rods.h5", "--quiet"], folder)
+        with open(os.path.join(folder, "sliding.toml"), "w", encoding="utf-8") as file:
+            file.write(SLIDING)
+        run(["./needlework", "run", "sliding.toml", "--out", "sliding.h5", "--quiet"], folder)
         runs = rows_of(document, "Files of runs")
         for name, rows, others in [
                 ("run.h5", runs, ()),
                 ("observed.h5", rows_of(observables, "Datasets"), runs),
                 ("mixture.h5", rows_of(document, "Files of mixtures"), runs),
                 ("rods.h5", rows_of(document, "Files of rods"), runs),
+                ("sliding.h5", rows_of(document, "Files with sliding contact"), runs),
                 ("walled.h5", rows_of(document, "Files with walls") +
                  rows_of(observables, "Datasets of axes with walls"), runs),
                 ("sweep/summary.h5", rows_of(document, "Summaries of sweeps"), ()),

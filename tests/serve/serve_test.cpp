@@ -107,6 +107,20 @@ TEST(Serve, GoesOnFromAStateThatItHasGiven) {
   EXPECT_NE(second[4]["position"], state["position"]);
 }
 
+TEST(Serve, CountsContacts) {
+  const std::string scene =
+      "needles = { count = 60, box = 4 }\ncollisions = { epsilon = 0, sliding = true }\n";
+  auto answers = answers_to({{{"do", "create"}, {"scene", scene}},
+                             {{"do", "advance"}, {"simulation", 1}, {"collisions", 300}},
+                             create(),
+                             {{"do", "totals"}, {"simulation", 2}}});
+  const Json& contacts = answers[1]["contacts"];
+  EXPECT_GT(contacts["entered"], 20) << answers[1];
+  EXPECT_GT(contacts["ended_by_tip"], 0);
+  EXPECT_GT(contacts["time"], 0);
+  EXPECT_FALSE(answers[3].contains("contacts"));
+}
+
 TEST(Serve, KnowsSpecies) {
   const std::string species =
       "[[species]]\nname = 'short'\nlength = 0.5\n[[species]]\nname = 'rod'\nmass = 4\n";

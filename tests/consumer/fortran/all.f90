@@ -8,6 +8,7 @@ program all
   type(needlework_pairs) :: pairs
   type(needlework_pair_sizes) :: sizes
   type(needlework_rods) :: rods
+  type(needlework_contacts) :: contacts
   type(needlework_gas) :: theory
   type(needlework_error) :: error
   character(kind=c_char), target :: notes(4) = ['{', '"', 'a', '"'], more(2) = [':', '}']
@@ -50,6 +51,9 @@ program all
   call require(needlework_get_rods(gas, rods))
   call require(needlework_get_species_shape(gas, 0_c_size_t, diameter, inertia))
   print '(a, 2f4.1, f7.4)', 'needles have no width', rods%packing_fraction, diameter, inertia
+
+  call require(needlework_get_contacts(gas, contacts))
+  print '(a, i0, f4.1)', 'contacts ', contacts%entered, contacts%time
 
   call require(needlework_sample(gas, 1_c_int))
   call require(needlework_set_data(gas, 'bytes' // c_null_char, needlework_data_bytes, c_loc(bytes), &

@@ -1,0 +1,53 @@
+// What files, totals and reports say of contacts of needles that slide on each other.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "src/io/contents.h"
+#include "src/runs/prepared_run.h"
+#include "tests/runs/silent.h"
+#include "tests/support/runs.h"
+#include "tests/support/temporary_folder.h"
+
+namespace needlework::runs {
+namespace {
+
+TEST(ContactsOutput, RowsAndSeriesAreThoseOfTheCounts) {
+  const test::TemporaryFolder folder;
+  Silent monitor;
+  Scene scene = test::scene_of(150, 5, 4);
+  scene.collisions.epsilon = 0.3;
+  scene.collisions.sliding = true;
+  scene.output.file = folder.path() / "run.h5";
+  scene.output.events = true;
+  scene.output.series_every = 0.5;
+  scene.until.time = 3;
+  PreparedRun run(complete_scene(scene), false);
+  run.advance(run.scene().until, monitor);
+  run.close();
+
+  const SlidingContacts counted = *run.simulation().sliding_contacts();
+  const io::Contents contents(scene.output.file);
+  std::map<double, std::uint64_t> rows;
+  for (const double kind : contents.numbers("/events/kind")) ++rows[kind];
+  EXPECT_EQ(rows[Happening::contact_entered], counted.entered);
+  EXPECT_EQ(rows[Happening::contact_ended],
+            counted.ended_by_force + counted.ended_by_tip + counted.ended_by_strike);
+  EXPECT_EQ(rows[Happening::pair] + rows[Happening::contact_entered],
+            run.simulation().collisions());
+  EXPECT_GT(counted.ended_by_strike, 5u);
+  // The last row of the series is of the end.
+  const auto last = [&](const std::string& name) {
+    return contents.numbers("/series/contacts/" + name + "/value").back();
+  };
+  EXPECT_EQ(last("entered"), counted.entered);
+  EXPECT_EQ(last("ended_by_force"), counted.ended_by_force);
+  EXPECT_EQ(last("ended_by_tip"), counted.ended_by_tip);
+  EXPECT_EQ(last("ended_by_strike"), counted.ended_by_strike);
+  EXPECT_EQ(last("crowded"), counted.crowded);
+  EXPECT_EQ(last("time"), counted.time);
+}
+
+}  // namespace
+}  // namespace needlework::runs
