@@ -4,16 +4,18 @@
     peer_stand_in.py dynarun CONFIG -c EVENTS [-E] [-o FILE] [--out-data-file FILE]
     peer_stand_in.py md
 
-dynarun takes the collisions of lines and their time from Needlework (STAND_IN_PROGRAM), which
-imports CONFIG; with -E it does not simulate. md computes the collisions of the spheres in init.sph
-from kinetic theory. After that, both take STAND_IN_US microseconds of CPU time per collision.
-STAND_IN_SLOW multiplies all rates, STAND_IN_FAILS names a program that fails, and
-STAND_IN_THERMOSTAT switches that of md on. Calls are appended to STAND_IN_LOG.
+dynarun takes collisions and their times from Needlework (STAND_IN_PROGRAM), which imports CONFIG; with
+-E it does not simulate, and with -L Trajectory it writes trajectory.out. md computes the collisions of
+the spheres in init.sph from kinetic theory. After that, both take STAND_IN_US microseconds of CPU time
+per collision. STAND_IN_SLOW multiplies all rates, STAND_IN_FAILS names a program that fails,
+STAND_IN_SWAPS a collision that has another pair in trajectory.out, and STAND_IN_THERMOSTAT switches that
+of md on. Calls are appended to STAND_IN_LOG.
 """
 
 import argparse
 import math
 import os
+import re
 import sys
 import time
 from pathlib import Path
@@ -27,19 +29,47 @@ def take_time(collisions):
         pass
 
 
-def simulate_lines(config, needles, events):
-    """The time at which Needlework has done as many collisions."""
+def simulate(config, particles, events, state):
+    """Time and pressure at which Needlework has done as many collisions. Leaves the state that it
+    reaches as a configuration, and collisions in run/run.h5."""
     import json
     import subprocess
 
     program = os.environ["STAND_IN_PROGRAM"]
-    subprocess.run([program, "import", config, "--out", "lines"], check=True, capture_output=True)
-    done = subprocess.run([program, "run", "lines/scene.toml", "--json", "--quiet", "--set",
-                           f"until.collisions_per_needle={2 * events / needles!r}"],
+    subprocess.run([program, "import", config, "--out", "run", "--force"], check=True,
+                   capture_output=True)
+    done = subprocess.run([program, "run", "run/scene.toml", "--json", "--quiet", "--force", "--set",
+                           f"until.collisions_per_needle={2 * events / particles!r}", "--set",
+                           "output.file=run/run.h5", "--set", "output.events=true"],
                           check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    subprocess.run([program, "export", "run/run.h5", state, "--force"], check=True,
+                   capture_output=True)
     result = json.loads(done.stdout)
     assert result["collisions"] == events, result
-    return result["time"]
+    # Needles have the pressure of an ideal gas.
+    volume = math.prod(float(x) for x in re.search(
+        r'SimulationSize x="(.*?)" y="(.*?)" z="(.*?)"', Path(config).read_text()).groups())
+    return result["time"], (result.get("rods") or {"pressure": particles / volume})["pressure"]
+
+
+def write_trajectory():
+    """As DynamO does, of collisions and of hits of walls."""
+    sys.path.append(os.environ["STAND_IN_H5PY"])  # the start of Python without it is quicker
+    import h5py
+
+    with h5py.File("run/run.h5") as file:
+        times, pairs = file["events/time"][:], file["events/pair"][:]
+        hits = file["events/kind"][:] if "kind" in file["events"] else [0] * len(times)
+    text = ""
+    for number, (time_of_it, (i, j), hit) in enumerate(zip(times, pairs, hits), 1):
+        if os.environ.get("STAND_IN_SWAPS") == str(number):
+            j += 1
+        begin, end = f"{number:08}, Source=", f"t={time_of_it:.4f}, dt=0.0001\n"
+        text += (f"{begin}Local, SourceID=0, Event Type=WALL, {end}   1PEvent: p1={i}, Type=WALL, "
+                 "delP1=<0,0,1>\n\n" if hit else
+                 f"{begin}Interaction, SourceID=0, Event Type=CORE, {end}\n   2PEvent: p1={i:05}, "
+                 f"p2={j:05}, delP1=<0,0,1>, |r12|=    1\n")
+    Path("trajectory.out").write_text(text)
 
 
 def dynarun(arguments):
@@ -49,18 +79,23 @@ def dynarun(arguments):
     parser.add_argument("-E", "--equilibrate", action="store_true")
     parser.add_argument("-o", "--out-config-file", default="config.out.xml.bz2")
     parser.add_argument("--out-data-file", default="output.xml.bz2")
+    parser.add_argument("-L", "--load-plugin", default="")
     options = parser.parse_args(arguments)
     print("dynarun  Copyright (C) 2011  Marcus N Campbell Bannerman")
     misc = ""
     if not options.equilibrate:
-        text = Path(options.config).read_text()
-        assert 'Interaction Type="Lines"' in text
-        end = simulate_lines(options.config, text.count("<Pt "), options.events) / SLOW
-        misc = (f'<Misc><Duration Events="{options.events}" OneParticleEvents="0" TwoParticleEvents='
+        particles = Path(options.config).read_text().count("<Pt ")
+        end, pressure = simulate(options.config, particles, options.events, options.out_config_file)
+        end /= SLOW
+        misc = (f'<Misc><Pressure Avg="{pressure!r}"><Tensor>1 0 0</Tensor></Pressure><Duration '
+                f'Events="{options.events}" OneParticleEvents="0" TwoParticleEvents='
                 f'"{options.events}" VirtualEvents="12345" Time="{end!r}"/></Misc>')
         print(f"Total events executed {options.events}\nSimulation end time  {end:g}")
+        if options.load_plugin == "Trajectory":
+            write_trajectory()
+    else:
+        Path(options.out_config_file).write_text("<DynamOconfig/>")
     Path(options.out_data_file).write_text(f"<?xml version=\"1.0\"?><OutputData>{misc}</OutputData>")
-    Path(options.out_config_file).write_text("<DynamOconfig/>")
     take_time(options.events)
 
 
@@ -76,11 +111,12 @@ def md(arguments):
     eta = math.pi / 6 * len(spheres) / math.prod(lengths)
     compressibility = (1 + eta + eta**2 - eta**3) / (1 - eta)**3
     rate = SLOW * 6 / math.sqrt(math.pi) * (compressibility - 1)
+    pressure = len(spheres) / math.prod(lengths) * compressibility
     for t in range(11):
-        # Spheres on a lattice begin to collide later.
-        collisions = int(rate * len(spheres) / 2 * max(0, t - 0.5))
-        print(f"Simtime: {t:f}, Collisions: {collisions}, Press: 1.000000, T: 1.000000, Listsizes: "
-              "(1.000000, 0), Neigh: 0 - 3")
+        # Times between collisions scatter.
+        collisions = int(rate * len(spheres) / 2 * t * (1 + 0.004 * math.sin(t)))
+        print(f"Simtime: {t:f}, Collisions: {collisions}, Press: {pressure + 0.01 * math.sin(t):f}, T: "
+              "1.000000, Listsizes: (1.000000, 0), Neigh: 0 - 3")
     take_time(collisions)
     print(f"Total time simulated  : {t:f}")
 
