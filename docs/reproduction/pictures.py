@@ -31,5 +31,6 @@ def draw(figure):
 
 
 if __name__ == "__main__":
-    for name in sys.argv[1:] or FIGURES:
+    committed = (name for name, figure in FIGURES.items() if (HERE / figure.data_file).exists())
+    for name in sys.argv[1:] or committed:
         draw(FIGURES[name])

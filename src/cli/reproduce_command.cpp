@@ -20,6 +20,8 @@ std::vector<std::string> names_of_figures() {
           "relaxation",
           "rough",
           "sizes",
+          "dense-large",
+          "dense-film",
           "clusters",
           "cells",
           "tc-dilute",

@@ -133,8 +133,8 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
   add_choice(
       command->add_option("FIGURE", arguments->figure, "a figure of the paper, or all")->required(),
       names_of_figures());
-  CLI::Option* const quick = command->add_flag("--quick", arguments->quick,
-                                               "smaller systems, fewer seeds: at most 15 minutes");
+  CLI::Option* const quick = command->add_flag(
+      "--quick", arguments->quick, "smaller systems, fewer seeds: at most 10 minutes on two cores");
   command
       ->add_option("--out", arguments->out,
                    "folder for runs, data and pictures; by default reproduction, or "

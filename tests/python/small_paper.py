@@ -41,6 +41,7 @@ GRIDS = {
     "box-small": box(2.1),
     "box-middle": box(2.4),
     "box-large": box(2.3),
+    "dense-large": box(2.5),
     "kicked": ("kicked", {**FEW, "needles.box": 4, "needles.k": [2, 6],
                           "collisions.epsilon": [0.9], "until.time": 10}),
     "vibrated": ("vibrated", {"needles.count": 20, "needles.box": [[3, 3, 6]],

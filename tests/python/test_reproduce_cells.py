@@ -1,13 +1,16 @@
 """Flow and density of fields that are known, and order in cells of needles that are."""
 
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 from support import require
 
 require("matplotlib", "h5py")
 from needlework.reproduce.cells import (CellFields, density_flow_correlation,  # noqa: E402
-                                        flow_order, places_in_cells, strongest_shear_wave)
+                                        flow_in_cells, flow_order, places_in_cells,
+                                        strongest_shear_wave)
+from needlework.reproduce.large import SLAB, in_slab  # noqa: E402
 
 SIDE = 10
 
@@ -51,6 +54,25 @@ class ShearWave(unittest.TestCase):
         fields.flow[..., 0] = wave(0, 1)
         fields.flow[..., 2] = 0.1 * wave(0, 3)
         self.assertEqual(self.found(fields), (0, 2, 3))
+
+
+class Film(unittest.TestCase):
+    def test_has_needles_in_the_middle_with_the_flow_of_their_cells(self):
+        # Two needles in one cell, one alone, and one out of the slab.
+        frame = SimpleNamespace(
+            position=np.array([[0.5, 0.5, 2 - 0.4 * SLAB], [0.2, 0.7, 2 - 0.3 * SLAB],
+                               [3.0, 3.0, 2 + 0.4 * SLAB], [1.0, 1.0, 2 + 0.6 * SLAB]]),
+            velocity=np.array([[0, 2.0, 0], [0, 4.0, 0], [0, -1.0, 0], [0, 0, 3.0]]),
+            box=np.full(3, 4.0))
+        chosen, flow = in_slab(frame, (2, 2, 2), 0, 1)
+        self.assertEqual(chosen.tolist(), [True, True, True, False])
+        thermal = np.sqrt((4 + 16 + 1 + 9) / 4 / 3)
+        np.testing.assert_allclose(flow, np.array([3, 3, -1, 0]) / thermal)
+
+    def test_has_no_flow_in_empty_cells(self):
+        flow, count = flow_in_cells(np.array([2, 2]), np.array([[1.0, 0, 0], [2.0, 0, 1]]), 3)
+        self.assertEqual(count.tolist(), [0, 0, 2])
+        np.testing.assert_array_equal(flow, [[0, 0, 1.5], [0, 0, 0], [0, 0, 0.5]])
 
 
 class Density(unittest.TestCase):

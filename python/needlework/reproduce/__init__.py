@@ -10,7 +10,7 @@ numbers of finished runs, and one that draws a picture of these numbers:
     result = FIGURES["5a"].measure(runs)          # result.table, result.measurements
     FIGURES["5a"].draw(result.table).savefig("s.pdf")
 
-One module has one family of figures: dilute, fluctuations, ratio, relaxation, flow, dense,
+One module has one family of figures: dilute, fluctuations, ratio, relaxation, flow, dense, large,
 alignment, causes, boltzmann, driving, confined, rods, nematic, liquid. runs.py gives the runs,
 equation.py simulations of the Boltzmann equation, course.py means over seeds, cells.py fields in
 cells, claims.py the verdicts. Lengths are in units of the length L of a needle, masses in that of its

@@ -92,13 +92,20 @@ def places_in_cells(position: np.ndarray, box: np.ndarray,
     return np.ravel_multi_index(tuple(place.T), cells)
 
 
+def flow_in_cells(place: np.ndarray, velocity: np.ndarray,
+                  size: int) -> tuple[np.ndarray, np.ndarray]:
+    """The mean velocities of the needles of each of so many cells, [3, C], 0 in empty ones, and
+    the numbers of these needles, [C]."""
+    count = np.bincount(place, minlength=size)
+    sums = np.stack([np.bincount(place, velocity[:, axis], size) for axis in range(3)])
+    return np.divide(sums, count, out=np.zeros_like(sums), where=count > 0), count
+
+
 def flow_order(position: np.ndarray, velocity: np.ndarray, box: np.ndarray,
                cells: tuple[int, int, int]) -> float:
     """The order of the flow S: the energy of the mean velocities of cells over that of the
     velocities relative to them."""
-    place, size = places_in_cells(position, box, cells), int(np.prod(cells))
-    count = np.bincount(place, minlength=size)
-    sums = np.stack([np.bincount(place, velocity[:, axis], size) for axis in range(3)])
-    flow = np.divide(sums, count, out=np.zeros_like(sums), where=count > 0)
+    place = places_in_cells(position, box, cells)
+    flow, count = flow_in_cells(place, velocity, int(np.prod(cells)))
     thermal = velocity - flow[:, place].T
     return float(np.sum(count * flow**2) / np.sum(thermal**2))

@@ -164,11 +164,11 @@ def measure_box_sizes(runs: PaperRuns) -> Result:
     for name in ("box-small", "box-middle", "box-large", "dense"):
         point = runs.points(name)[0]
         box = point.conditions.box[0]
-        places = _places(point)
+        places = curve_places(point)
         result.add_rows(box, point.conditions.count, places, *curve(point, flow_order, places),
                         *curve(point, second_moment, places))
         for collisions in SIZES_AT:
-            if collisions > _last_collisions(point):
+            if collisions > last_collisions(point):
                 continue
             at = f"box {box:g}, at {collisions:g}"
             result.add("sizes-flow-order", measure(
@@ -201,14 +201,14 @@ def draw_growth(table: Table, by: str, label: Callable[[float], str], title: str
     return figure
 
 
-def _last_collisions(point: Point) -> float:
+def last_collisions(point: Point) -> float:
     """Collisions per needle until which all runs go."""
     return float(min(run.collisions[-1] for run in point.runs))
 
 
-def _places(point: Point) -> np.ndarray:
+def curve_places(point: Point) -> np.ndarray:
     """Collisions per needle of the points of a curve."""
-    last = _last_collisions(point)
+    last = last_collisions(point)
     return np.linspace(0, last, int(last / STEP) + 1)
 
 
@@ -219,7 +219,7 @@ def curve(point: Point, quantity: Quantity,
 
 
 def _add_curve(result: Result, point: Point, quantity: Quantity) -> None:
-    gas, places = point.conditions, _places(point)
+    gas, places = point.conditions, curve_places(point)
     result.add_rows(gas.k, gas.t_rot, places, *curve(point, quantity, places))
 
 

@@ -1,7 +1,7 @@
 """All figures, those of the paper first."""
 
-from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations, liquid, nematic,
-               ratio, relaxation, rods)
+from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations,
+               large, liquid, nematic, ratio, relaxation, rods)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -35,6 +35,10 @@ FIGURES = {figure.name: figure for figure in (
     Figure("sizes", "Beyond the paper: the dense gas in boxes of several sizes",
            ("box-small", "box-middle", "box-large", "dense"),
            dense.measure_box_sizes, dense.draw_box_sizes),
+    Figure("dense-large", "Beyond the paper: the dense gas of 100000 needles", large.SETS,
+           large.measure_sizes, large.draw_sizes),
+    Figure("dense-film", "Beyond the paper: needles of the dense gas, coloured by the flow",
+           ("dense-large",), large.measure_film, large.draw_film),
     Figure("clusters", "Beyond the paper: alignment inside clusters", ("dense",),
            alignment.measure_clusters, alignment.draw_clusters),
     Figure("cells", "Test of why: size of the cells", ("dense",),
