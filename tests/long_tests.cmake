@@ -12,6 +12,8 @@ set_tests_properties(
   Seeds/Borders.AreDecidedToTheLastBit/1
   Seeds/Borders.AreDecidedToTheLastBit/6
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/1
+  # SlidingAgainstQuad.EndsAndMovesAsAContactHeldByAForce
+  SlidingAgainstQuadAtLength.EndsAndMovesAsAContactHeldByAForce
   # other scenes of ParallelRun
   Scenes/ParallelRun.IsThatOfOneThread/rare
   # Walls.KeepAnAccountOfTheEnergyThatCloses

@@ -134,6 +134,28 @@ TEST_P(SlidingAgainstQuad, EndsAndMovesAsAContactHeldByAForce) {
 
 INSTANTIATE_TEST_SUITE_P(Bodies, SlidingAgainstQuad, testing::Values(alike, unlike));
 
+TEST(SlidingAgainstQuadAtLength, EndsAndMovesAsAContactHeldByAForce) {
+  Collisions collisions(alike);
+  Held held;
+  for (int n = 0; n < 500; ++n) ASSERT_NO_FATAL_FAILURE(follow(alike, collisions, held));
+  // Of all but one in a hundred, and of all.
+  const auto most_of = [](std::vector<double> values, std::size_t leave) {
+    std::ranges::sort(values);
+    return values[values.size() - 1 - leave];
+  };
+  EXPECT_LT(median(held.end), 2e-15);
+  EXPECT_LT(most_of(held.end, 5), 1e-13);
+  EXPECT_LT(median(held.velocity), 2e-15);
+  EXPECT_LT(most_of(held.velocity, 5), 2e-13);
+  EXPECT_LT(median(held.energy), 1e-15);
+  EXPECT_LT(most_of(held.energy, 0), 1e-13);
+  EXPECT_LT(most_of(held.gap, 0), 4e-15);
+  EXPECT_LT(most_of(held.position, 0), 8e-15);
+  EXPECT_LT(held.steps, 8 * held.contacts);
+  EXPECT_GT(held.forces, held.contacts / 5);
+  EXPECT_LT(held.forces, held.contacts / 2);
+}
+
 // Needles in contact whose contact points approach or part with a speed.
 SlidingState with_speed(const SlidingBodies& bodies, const SlidingState& touching, double speed) {
   const SlidingContact contact = sliding_contact(bodies, touching);
