@@ -57,7 +57,7 @@ Scene elastic(const Scene& scene, const State& state) {
   return out;
 }
 
-DrawnState melted(const Scene& scene, State state, double collisions_per_rod) {
+DrawnState melted(const Scene& scene, State state, RodOrder order, double collisions_per_rod) {
   const Scene still = elastic(scene, state);
   draw_velocities(still, state);
   Simulation simulation(still, state);
@@ -71,9 +71,9 @@ DrawnState melted(const Scene& scene, State state, double collisions_per_rod) {
   out.state.image.clear();
   out.state.id.clear();
   draw_velocities(scene, out.state);
-  out.placement =
-      fmt::format("{} rods placed on a lattice, then moved in {} elastic collisions per rod",
-                  out.state.size(), collisions_per_rod);
+  out.placement = fmt::format(
+      "{} rods placed {}, then moved in {} elastic collisions per rod", out.state.size(),
+      order == RodOrder::parallel ? "on a lattice" : "in crossed blocks", collisions_per_rod);
   return out;
 }
 
@@ -109,15 +109,18 @@ DrawnState draw_state(const Scene& scene) {
   }
   const auto& box = scene.needles.box;
   const double packing_fraction = composition.packing_fraction(box[0] * box[1] * box[2]);
-  auto lattice = place_rods_on_lattice(scene);
-  if (lattice) return melted(scene, std::move(*lattice), collisions_to_forget(packing_fraction));
+  const RodOrder order = packing == "crossed" ? RodOrder::crossed : RodOrder::parallel;
+  auto lattice = place_rods_on_lattice(scene, order);
+  if (lattice)
+    return melted(scene, std::move(*lattice), order, collisions_to_forget(packing_fraction));
   if (packing == "auto") {
     if (auto state = inserted(scene, tries_without_choice)) return std::move(*state);
   }
   throw InputError(
-      fmt::format("{}: no lattice of parallel rods has room for {} rods at a packing fraction of "
-                  "{:.4g}: expected a larger box, or edges that fit the rods better",
-                  place, composition.count(), packing_fraction));
+      fmt::format("{}: no lattice of {} has room for {} rods at a packing fraction of {:.4g}: "
+                  "expected a larger box, or edges that fit the rods better",
+                  place, order == RodOrder::crossed ? "crossed blocks" : "parallel rods",
+                  composition.count(), packing_fraction));
 }
 
 State draw_initial_state(const Scene& scene) { return draw_state(scene).state; }

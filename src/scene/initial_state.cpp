@@ -216,7 +216,7 @@ Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_
   return out;
 }
 
-std::optional<State> place_rods_on_lattice(const Scene& scene) {
+std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order) {
   const Composition composition = scene.composition();
   const std::array<Gap, 3> gaps = gaps_of(scene);
   LatticeBox room;
@@ -229,16 +229,20 @@ std::optional<State> place_rods_on_lattice(const Scene& scene) {
   double length = 0;
   for (const Species& each : composition.species()) length = std::max(length, each.length);
   State state = without_velocities(scene, composition.count());
-  const auto lattice = rod_lattice(room, length, composition.widest(), state.size());
+  const double diameter = composition.widest();
+  const auto lattice = order == RodOrder::parallel
+                           ? rod_lattice(room, length, diameter, state.size())
+                           : crossed_rods(room, length, diameter, state.size());
   if (!lattice) return std::nullopt;
   state.position = lattice->position;
-  std::fill(state.orientation.begin(), state.orientation.end(), lattice->director);
+  state.orientation = lattice->director;
   std::vector<SpeciesIndex> species = composition.in_order_of_id();
   // Which rod is where is drawn, so that a mixture begins mixed.
   for (std::size_t n = state.size(); n > 1; --n) {
     NeedleRandom random(scene.needles.seed, n - 1);
     const auto other = static_cast<std::size_t>(random.uniform() * static_cast<double>(n));
     std::swap(state.position[n - 1], state.position[other]);
+    std::swap(state.orientation[n - 1], state.orientation[other]);
   }
   if (composition.is_mixture()) state.species = std::move(species);
   return state;

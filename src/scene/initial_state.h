@@ -24,9 +24,12 @@ struct Insertion {
 /// of all rods would become larger than `most_on_average`.
 Insertion insert_rods(const Scene& scene, std::uint64_t most_tries, double most_on_average);
 
-/// Parallel rods without velocities, those of each species at drawn sites of a lattice; nothing if
-/// no lattice has room for them.
-std::optional<State> place_rods_on_lattice(const Scene& scene);
+/// All rods of a lattice along one axis, or in blocks along x, y and z in turn.
+enum class RodOrder { parallel, crossed };
+
+/// Rods without velocities, those of each species at drawn sites of a lattice; nothing if no
+/// lattice has room for them.
+std::optional<State> place_rods_on_lattice(const Scene& scene, RodOrder order);
 
 /// Draws the velocities of a state of rods.
 void draw_velocities(const Scene& scene, State& state);

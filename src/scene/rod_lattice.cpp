@@ -22,6 +22,9 @@ constexpr std::array<std::span<const Vector>, 3> families = {hexagonal, hexagona
 // Two walls may leave rounding errors between rods and themselves.
 constexpr double beside_walls = 1 + 0x1p-30;
 
+// Of crossed blocks, at least.
+constexpr double rods_in_block = 16;
+
 struct Choice {
   std::size_t family = 0;
   std::array<std::size_t, 3> axes{};  // of the box, along the edges of the cell
@@ -73,7 +76,7 @@ double least_distance(std::size_t family, const Vector& cell, double length) {
 }  // namespace
 
 std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, double diameter,
-                                      std::size_t count) {
+                                      std::size_t count, std::optional<std::size_t> along) {
   Choice best;
   Edges best_edges{};
   for (const auto& axes : {std::array<std::size_t, 3>{0, 1, 2},
@@ -82,6 +85,7 @@ std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, doub
                            {2, 0, 1},
                            {1, 2, 0},
                            {2, 1, 0}}) {
+    if (along && axes[2] != *along) continue;
     Edges edges{};
     for (std::size_t n = 0; n < 3; ++n) {
       const std::size_t axis = axes[n];
@@ -116,7 +120,9 @@ std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, doub
   if (count > 0 && !(best.clearance > 1)) return std::nullopt;
   RodLattice out;
   out.clearance = best.clearance;
-  out.director[best.axes[2]] = 1;
+  Vector director{};
+  director[best.axes[2]] = 1;
+  out.director.assign(count, director);
   const auto sites = families[best.family];
   const std::size_t all =
       sites.size() * static_cast<std::size_t>(best.cells[0] * best.cells[1] * best.cells[2]);
@@ -133,15 +139,50 @@ std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, doub
           Vector& position = out.position.emplace_back();
           for (std::size_t n = 0; n < 3; ++n) {
             const double edge = edge_of_cell(best_edges, best.family, n, best.cells[n]);
-            const double along = share[n] == 0 ? 0 : share[n] * edge;
+            const double place = share[n] == 0 ? 0 : share[n] * edge;
             // In the middle, where all are in one layer between walls.
-            position[best.axes[n]] = std::isfinite(along) && std::isfinite(edge)
-                                         ? best_edges.low[n] + along
+            position[best.axes[n]] = std::isfinite(place) && std::isfinite(edge)
+                                         ? best_edges.low[n] + place
                                          : best_edges.low[n] + 0.5 * best_edges.length[n];
           }
         }
       }
     }
+  }
+  return out;
+}
+
+std::optional<RodLattice> crossed_rods(const LatticeBox& box, double length, double diameter,
+                                       std::size_t count) {
+  // Smaller blocks than of some rods would leave room between them.
+  const double most = std::max(2.0, std::cbrt(static_cast<double>(count) / rods_in_block));
+  std::array<std::size_t, 3> counts{};
+  Vector edge{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double room = box.high[axis] - box.low[axis];
+    const double fitting = room / ((length + diameter) * beside_walls);
+    counts[axis] = static_cast<std::size_t>(std::min(fitting, most));
+    if (counts[axis] < 2) return std::nullopt;
+    edge[axis] = room / static_cast<double>(counts[axis]);
+  }
+  const std::size_t blocks = counts[0] * counts[1] * counts[2];
+  RodLattice out;
+  out.clearance = std::numeric_limits<double>::infinity();
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::array<std::size_t, 3> at = {block % counts[0], block / counts[0] % counts[1],
+                                           block / (counts[0] * counts[1])};
+    // No rod reaches beyond its block.
+    LatticeBox room{.low = {}, .high = {}, .periodic = {false, false, false}};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      room.low[axis] = box.low[axis] + static_cast<double>(at[axis]) * edge[axis];
+      room.high[axis] = room.low[axis] + edge[axis];
+    }
+    const std::size_t share = count * (block + 1) / blocks - count * block / blocks;
+    const auto lattice = rod_lattice(room, length, diameter, share, (at[0] + at[1] + at[2]) % 3);
+    if (!lattice) return std::nullopt;
+    out.position.insert(out.position.end(), lattice->position.begin(), lattice->position.end());
+    out.director.insert(out.director.end(), lattice->director.begin(), lattice->director.end());
+    out.clearance = std::min(out.clearance, lattice->clearance);
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Lattices of parallel rods.
+// Lattices of parallel rods, alone and in blocks that are crossed.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct LatticeBox {
 
 struct RodLattice {
   std::vector<std::array<double, 3>> position;  ///< centres [L]
-  std::array<double, 3> director{};             ///< along an axis of the box
+  std::vector<std::array<double, 3>> director;  ///< along an axis of the box, of each rod
   double clearance = 0;                         ///< least distance of two axes over the diameter
 };
 
@@ -24,8 +24,16 @@ struct RodLattice {
 /// nothing if there is none in which they do not overlap. Columns of rods are hexagonal, side by
 /// side or in gaps of the layer below, or square with every second layer in the gaps of the first,
 /// which is the face-centred cubic lattice of spheres. Sites that are too many are left empty,
-/// evenly.
+/// evenly. The rods lie along `along`, an axis of the box, or along the best of them.
 std::optional<RodLattice> rod_lattice(const LatticeBox& box, double length, double diameter,
-                                      std::size_t count);
+                                      std::size_t count,
+                                      std::optional<std::size_t> along = std::nullopt);
+
+/// The box cut into eight blocks or more of about 16 rods or more, into which rods of any direction
+/// fit, each with a lattice of parallel rods, which lie along x, y and z in turn. Blocks have the
+/// same number of rods or one more. The order of all rods is small: 1/16 of eight blocks. Nothing
+/// if the box is too small for that, or where rods overlap.
+std::optional<RodLattice> crossed_rods(const LatticeBox& box, double length, double diameter,
+                                       std::size_t count);
 
 }  // namespace needlework

@@ -296,9 +296,9 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.initial.t_rot, temperature(v)); }},
     {"initial", "file", "the path of an H5MD file",
      [](Scene& s, V v) { return store(s.initial.file, path_to_read(v)); }},
-    {"initial", "packing", R"("auto", "insertion" or "lattice")",
+    {"initial", "packing", R"("auto", "insertion", "lattice" or "crossed")",
      [](Scene& s, V v) {
-       return store(s.initial.packing, one_of(v, {"auto", "insertion", "lattice"}));
+       return store(s.initial.packing, one_of(v, {"auto", "insertion", "lattice", "crossed"}));
      }},
 
     {"collisions", "epsilon", "a number from 0 to 1",

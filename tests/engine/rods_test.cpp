@@ -194,6 +194,48 @@ TEST(RodPacking, FindsRoomUpToHighDensity) {
   }
 }
 
+// The largest eigenvalue of Q = <3 u u - 1> / 2, by powers of Q + 1, whose least one is 1/2.
+double nematic_order(const State& state) {
+  std::array<double, 3> axis = {0.5, 0.6, 0.7};
+  double largest = 0;
+  for (int n = 0; n < 200; ++n) {
+    std::array<double, 3> next = {0, 0, 0};
+    for (const std::array<double, 3>& u : state.orientation) {
+      const double along = u[0] * axis[0] + u[1] * axis[1] + u[2] * axis[2];
+      for (std::size_t k = 0; k < 3; ++k) next[k] += 1.5 * u[k] * along;
+    }
+    const auto count = static_cast<double>(state.size());
+    for (std::size_t k = 0; k < 3; ++k) next[k] = next[k] / count + 0.5 * axis[k];
+    const double size = std::hypot(next[0], next[1], next[2]);
+    for (std::size_t k = 0; k < 3; ++k) axis[k] = next[k] / size;
+    largest = size - 1;
+  }
+  return largest;
+}
+
+TEST(RodPacking, CrossedBlocksHaveNoOrder) {
+  Scene scene = rods_of(250, 5, 0.44);
+  scene.initial.packing = "crossed";
+  const State state = draw_initial_state(scene);
+  EXPECT_EQ(overlaps(scene, state, 1e-12), 0);
+  EXPECT_LT(nematic_order(state), 0.3);
+  scene.initial.packing = "lattice";
+  EXPECT_GT(nematic_order(draw_initial_state(scene)), 0.7);
+}
+
+TEST(RodPacking, CrossedBlocksMayHaveAnyEdgesAndMixtures) {
+  Scene scene = rods_of(200, 3, 0.3);
+  scene.needles.box = {9, 13, 0};
+  scene.needles.box[2] = 200 * scene.species[0].volume() / 0.3 / (9 * 13);
+  Species& short_ones = scene.species.emplace_back(scene.species[0]);
+  short_ones.name = "short";
+  short_ones.length = 1;
+  short_ones.k = homogeneous_k(1, 1);
+  scene.species[0].count = short_ones.count = 100;
+  scene.initial.packing = "crossed";
+  EXPECT_EQ(overlaps(scene, draw_initial_state(scene), 1e-12), 0);
+}
+
 std::string refusal(const Scene& scene) {
   try {
     draw_initial_state(scene);
@@ -213,6 +255,12 @@ TEST(RodPacking, SaysWhatItCannotPlace) {
   EXPECT_EQ(refusal(scene),
             "initial.packing = \"insertion\": a rod found no place in 1000000 tries: expected "
             "\"lattice\", or a larger box");
+  scene = rods_of(400, 5, 0.7);
+  scene.initial.packing = "crossed";
+  EXPECT_EQ(
+      refusal(scene),
+      "initial.packing = \"crossed\": no lattice of crossed blocks has room for 400 rods at a "
+      "packing fraction of 0.7: expected a larger box, or edges that fit the rods better");
 }
 
 TEST(RodPacking, SaysHowRodsWerePlaced) {
@@ -222,6 +270,9 @@ TEST(RodPacking, SaysHowRodsWerePlaced) {
   EXPECT_EQ(Simulation(scene).placement(),
             "64 rods placed on a lattice, then moved in 60 elastic collisions per rod");
   EXPECT_EQ(Simulation(scene, draw_initial_state(scene)).placement(), "");
+  scene.initial.packing = "crossed";
+  EXPECT_EQ(Simulation(scene).placement(),
+            "64 rods placed in crossed blocks, then moved in 60 elastic collisions per rod");
   EXPECT_EQ(Simulation(test::scene_of(10, 5)).placement(), "");
 }
 
