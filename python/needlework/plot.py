@@ -43,8 +43,12 @@ def cooling(source: Source, gas: Values | None = None,
 
 def temperature_ratio(source: Source, gas: Values | None = None,
                       axes: Axes | None = None) -> Axes:
-    """The ratio of translational and rotational temperature against time, beside theory."""
+    """The ratio of translational and rotational temperature against time, beside theory. Spheres
+    have no such ratio; of a mixture with them, the rotational energy is that per body."""
     series, gas, by_species = _series_and_gas(source, gas)
+    if not np.any(gas.length):
+        raise InputError("source: spheres do not rotate: expected a gas of needles or rods, which "
+                         "has a rotational temperature")
     axes = axes or _new_axes()
     later = (series.time > 0) & (series.t_rot > 0)
     times, curve = _theory(series, gas, by_species)

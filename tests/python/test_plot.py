@@ -49,6 +49,19 @@ class Pictures(unittest.TestCase):
         self.assertAlmostEqual(measured.get_ydata()[0], 1, places=1)
         np.testing.assert_allclose(theory.get_ydata(), measured.get_ydata(), rtol=0.5)
 
+    def test_spheres_have_no_ratio_of_temperatures(self):
+        sim = Simulation({"needles": {"box": 6.0},
+                          "species": [{"name": "balls", "count": 20, "length": 0,
+                                       "diameter": 1.0}]})
+        self.addCleanup(sim.close)
+        samples = [sim.totals]
+        sim.run(time=0.1)
+        series = needlework.Series.of([*samples, sim.totals])
+        with self.assertRaisesRegex(needlework.InputError, "spheres do not rotate"):
+            plot.temperature_ratio(series, gas=sim.gas)
+        theory, measured = plot.cooling(series, gas=sim.gas).lines
+        self.assertEqual(len(theory.get_xdata()), len(measured.get_xdata()))
+
     def test_nothing_is_cut_off_and_labels_within_a_decade_are_plain(self):
         for picture in (plot.cooling, plot.temperature_ratio):
             axes = picture(self.recording)

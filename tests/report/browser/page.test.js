@@ -231,6 +231,41 @@ test("rods and spheres are as wide as they are", async () => {
   assert.ok(areas.wide.count > 2.5 * areas.ball.count, `${areas.wide.count} ${areas.ball.count}`);
 });
 
+test("a ball hides the edges of the box inside and behind it", async () => {
+  const { page, close } = await open(browser, "wide.html");
+  await drawn(page);
+  // Around the corner that is farthest from the viewer, from which three edges come nearer. They leave
+  // the ball in front, where they are 0.8 radii from its middle.
+  const { inside, changed } = await view(page).evaluate((figure) => {
+    const { scene } = figure.view;
+    scene.setAttribute("centre", new Uint16Array([0, 65535, 0]), 3, true);
+    const gl = scene.renderer.getContext();
+    const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    const drawn = (visible) => {
+      scene.box.visible = visible;
+      scene.draw();
+      const pixels = new Uint32Array(width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(pixels.buffer));
+      return pixels;
+    };
+    const [without, edges] = [drawn(false), drawn(true)];
+    const size = scene.box.scale;
+    const middle = scene.camera.position.clone().set(-size.x / 2, size.y / 2, -size.z / 2).project(scene.camera);
+    const [x, y] = [(0.5 + 0.5 * middle.x) * width, (0.5 + 0.5 * middle.y) * height];
+    const radius = Math.sqrt(without.filter((pixel) => pixel !== without[0]).length / Math.PI);
+    const out = { inside: 0, changed: 0 };
+    without.forEach((pixel, n) => {
+      if (pixel === edges[n]) return;
+      out.changed += 1;
+      if (Math.hypot((n % width) - x, Math.floor(n / width) - y) < 0.7 * radius) out.inside += 1;
+    });
+    return out;
+  });
+  assert.ok(changed > 100, `${changed}`);
+  assert.equal(inside, 0);
+  await close();
+});
+
 test("the place of a needle in the table is that in the box, whatever is drawn", async () => {
   const { page, close } = await open(browser, "shaken.html");
   await drawn(page);

@@ -22,6 +22,8 @@ const vertexShader = `
   attribute float shareOfDiameter;  // of the widest rods
   varying vec2 onRibbon;              // on the ribbon, in radii; the ends of the axis are at ends
   varying float ends;
+  varying vec3 onPlane;               // where the ribbon is, seen from the viewer
+  varying vec3 towards;               // from the ribbon to the surface, where that is nearest
   #endif
   uniform vec2 range;
   uniform float pixel;         // size at distance 1
@@ -38,7 +40,8 @@ const vertexShader = `
     vec3 along = mat3(viewMatrix) * orientation * (needleLength * shareOfLength);
     #ifdef RODS
     // The outline of a rod seen from a direction is that of its axis, projected, with round ends. The
-    // ribbon goes through the axis, so that rods which cross hide each other where they do.
+    // ribbon goes through the axis; each of its points has the depth of the surface above it, so that
+    // rods which cross hide each other where they do, and an edge of the box only where it is in front.
     float radius = max(0.5 * width * shareOfDiameter, 0.55 * pixel * -middle.z);
     vec3 view = normalize(middle.xyz);
     vec3 sideways = along - view * dot(along, view);
@@ -48,6 +51,8 @@ const vertexShader = `
     vec3 place = middle.xyz + corner.x * (along + 2.0 * radius * e1) + 2.0 * corner.y * radius * e2;
     ends = 0.5 * projected / radius;
     onRibbon = vec2(2.0 * corner.x * (ends + 1.0), 2.0 * corner.y);
+    onPlane = place;
+    towards = -radius * view;
     #else
     vec3 place = middle.xyz + corner.x * along;
     vec3 side = cross(along, place);
@@ -72,13 +77,19 @@ const fragmentShader = `
   #ifdef RODS
   varying vec2 onRibbon;
   varying float ends;
+  varying vec3 onPlane;
+  varying vec3 towards;
+  uniform vec2 lens;           // what the projection makes of distances
   #endif
   void main() {
     #ifdef RODS
     vec2 off = vec2(max(abs(onRibbon.x) - ends, 0.0), onRibbon.y);
     float square = dot(off, off);
     if (square > 1.0) discard;
-    gl_FragColor = vec4(lit * (0.35 + 0.65 * sqrt(1.0 - square)) + ground, 1.0);
+    float height = sqrt(1.0 - square);
+    float z = onPlane.z + towards.z * height;
+    gl_FragDepth = clamp(0.5 - 0.5 * (lens.x + lens.y / z), 0.0, 1.0);
+    gl_FragColor = vec4(lit * (0.35 + 0.65 * height) + ground, 1.0);
     return;
     #endif
     gl_FragColor = vec4(lit * (1.0 - 1.1 * across * across) + ground, 1.0);
@@ -113,6 +124,7 @@ export class NeedleScene {
       needleLength: { value: length },
       range: { value: new three.Vector2(0, 1) },
       pixel: { value: 0 },
+      lens: { value: new three.Vector2() },
       width: { value: diameter ?? 0.035 * length },
       depth: { value: new three.Vector2(0, 1) },
       palette: { value: null },
@@ -246,6 +258,8 @@ export class NeedleScene {
   draw() {
     const height = this.renderer.domElement.height;
     this.uniforms.pixel.value = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / height;
+    const { elements } = this.camera.projectionMatrix;
+    this.uniforms.lens.value.set(elements[10], elements[14]);
     const distance = this.camera.position.length();
     const half = 0.5 * this.box.scale.length();
     this.uniforms.depth.value.set(distance - half, distance + half);
