@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,7 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
   Scene& walled = scenes.emplace_back(rods_of(60, 2, 0.05));
   walled.walls = {{.axis = "z", .side = "both", .epsilon = 0.9}};
   walled.forces.gravity = {0, 0, -1};
+  std::uint64_t escalated = 0;
   for (const Scene& scene : scenes) {
     const RodRun run(scene, 5);
     const Findings findings = run.audited();
@@ -68,7 +70,9 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
     EXPECT_EQ(findings.undecided, 0u) << name_of(scene);
     EXPECT_EQ(findings.contacts, findings.collisions);
     EXPECT_GT(findings.contacts, 50u / fewer);
+    escalated += findings.escalated;
   }
+  EXPECT_GT(escalated, 0u);
 }
 
 class FalseReportOfRods : public testing::TestWithParam<double> {
