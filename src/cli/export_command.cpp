@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -32,17 +33,24 @@ std::string endings(bool many) {
 
 io::Material read_material(const std::string& path, const io::ExportFormat& format) {
   io::Material material = io::read_material(path);
-  if (!format.whole_material) return material;
-  if (material.species() > 1) {
-    throw InputError(fmt::format("{}: {} species: expected one, as in {}", path, material.species(),
-                                 format.what));
-  }
-  io::require_complete(material, path);
+  if (format.whole_material) io::require_complete(material, path);
+  return material;
+}
+
+// What DynamO does otherwise than the file that is exported to it.
+void warn_of_other_motion(const io::Material& material, const std::string& path) {
   // Spheres are those of DynamO, and so are their walls.
-  if (io::has_width(material)) return material;
-  if (!material.beta.empty() && material.beta[0] != -1) {
-    print_warning(fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path,
-                              material.beta[0]));
+  if (io::has_width(material)) return;
+  const auto rough = std::ranges::find_if(material.beta, [](double beta) { return beta != -1; });
+  if (rough != material.beta.end()) {
+    print_warning(
+        fmt::format("{}: beta = {} is left out: lines of DynamO are smooth", path, *rough));
+  }
+  if (io::differ_in_inertia(material)) {
+    print_warning(
+        fmt::format("{}: species differ in mass or moment of inertia: DynamO takes both numbers of "
+                    "the first of two lines for the other one, too",
+                    path));
   }
   if (!material.walls.empty()) {
     print_warning(
@@ -50,7 +58,6 @@ io::Material read_material(const std::string& path, const io::ExportFormat& form
                     "centres, not tips",
                     path));
   }
-  return material;
 }
 
 // Where a file says nothing of its species, all needles are alike.
@@ -72,6 +79,7 @@ void export_frames(const ExportArguments& arguments, const io::ExportFormat& for
       chosen_frames(arguments.frame.empty() ? otherwise : arguments.frame, file->count());
   const io::Material material = read_material(arguments.from, format);
   const auto writer = format.open(arguments.to, arguments.force, material);
+  if (format.whole_material) warn_of_other_motion(material, arguments.from);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     State state = file->read(i);
     require_known_species(state, material, arguments.from);

@@ -250,8 +250,8 @@ int run(const ImportArguments& arguments) {
   }
   warn_of_what_is_assumed(read.material, arguments.from);
   warn_of_walls(read, arguments.from);
-  if (!read.note.empty()) {
-    print_warning(fmt::format("{}: {}", printable(arguments.from), read.note));
+  for (const std::string& note : read.notes) {
+    print_warning(fmt::format("{}: {}", printable(arguments.from), note));
   }
   warn_of_roundings(read, arguments.from);
   write_state(state_file, arguments.force, scene, read.state);

@@ -147,7 +147,9 @@ TEST_F(ExportCommand, MixturesComeBackWithTheirSpeciesAndRules) {
   }
   const Outcome refused = run("export a.h5 a.xml");
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_TRUE(refused.complains("a.h5: 2 species: expected one, as in a configuration of DynamO"));
+  EXPECT_EQ(refused.err,
+            "needlework: a.xml: needles of length 0.5 and 2: expected one length, as lines "
+            "of DynamO that meet have one length\n");
   EXPECT_FALSE(exists("a.xml"));
   for (const char* name : {"a.pvd", "a.vtkhdf"}) {
     EXPECT_EQ(run(fmt::format("export a.h5 {}", name)).exit_code, 0) << name;
@@ -220,6 +222,53 @@ TEST_F(ExportCommand, WarnsOfWhatDynamoDoesNotHave) {
   ASSERT_EQ(run("run small.toml --quiet --out a.h5 --set collisions.beta=0.5").exit_code, 0);
   EXPECT_TRUE(
       run("export a.h5 a.xml").complains("beta = 0.5 is left out: lines of DynamO are smooth"));
+  write("mixture.toml",
+        "needles.box = 7\nuntil.time = 0.1\n[[species]]\nname = \"a\"\ncount = 5\nlength = 1\n"
+        "[[species]]\nname = \"b\"\ncount = 5\nlength = 1\n[[pairs]]\nbetween = [\"a\", \"b\"]\n"
+        "beta = 0.25\n");
+  ASSERT_EQ(run("run mixture.toml --quiet --out b.h5").exit_code, 0);
+  EXPECT_TRUE(
+      run("export b.h5 b.xml").complains("beta = 0.25 is left out: lines of DynamO are smooth"));
+}
+
+// The run from an exported mixture is that from the file itself.
+TEST_F(ExportCommand, MixturesGoToDynamoAndBack) {
+  const std::string of_lines =
+      "[[species]]\nname = \"a & b\"\ncount = 20\nlength = 1.5\nmass = 3\nk = 2.5\n"
+      "[[species]]\nname = \"heavy\"\ncount = 10\nlength = 1.5\n"
+      "[[pairs]]\nbetween = [\"heavy\", \"a & b\"]\nepsilon = 0.7\n";
+  const std::string of_spheres =
+      "[[species]]\nname = \"small\"\ncount = 50\nlength = 0\ndiameter = 0.3\n"
+      "[[species]]\nname = \"large\"\ncount = 20\nlength = 0\ndiameter = 1.1\nmass = 20\n"
+      "[[pairs]]\nbetween = [\"large\", \"small\"]\nepsilon = 0.7\n";
+  for (const std::string& species : {of_lines, of_spheres}) {
+    const bool lines = species == of_lines;
+    const std::string scene =
+        "needles.box = 7\nuntil.collisions_per_needle = 5\n"
+        "collisions = { epsilon = 0.9, tc = 1e-3 }\n";
+    write("mixture.toml", scene + species);
+    ASSERT_EQ(run("run mixture.toml --quiet --force --out a.h5").exit_code, 0);
+    write("on.toml", scene + "initial.file = \"a.h5\"\n" + species);
+    const Outcome exported = run("export a.h5 a.xml --force");
+    ASSERT_EQ(exported.exit_code, 0) << exported.err;
+    EXPECT_EQ(exported.err,
+              lines ? "needlework: warning: a.h5: species differ in mass or moment of inertia: "
+                      "DynamO takes both numbers of the first of two lines for the other one, too\n"
+                    : "");
+    const Outcome imported = run("import a.xml --out folder --force");
+    ASSERT_EQ(imported.exit_code, 0) << imported.err;
+    EXPECT_EQ(imported.err,
+              lines ? "needlework: warning: a.xml: species differ in mass or moment of inertia: "
+                      "DynamO takes both numbers of the first of two lines for the other one, too; "
+                      "here each has its own\n"
+                    : "");
+    const Composition found = read_scene(path("folder/scene.toml")).composition();
+    EXPECT_EQ(found[0].name, lines ? "a & b" : "small");
+    EXPECT_EQ(found.restitution(0, 1).epsilon, 0.7);
+    EXPECT_EQ(hash_of("run folder/scene.toml --set collisions.tc=1e-3 --set "
+                      "until.collisions_per_needle=5"),
+              hash_of("run on.toml"));
+  }
 }
 
 }  // namespace

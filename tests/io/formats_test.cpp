@@ -334,7 +334,8 @@ TEST_F(Formats, SayWhichAxesArePeriodicAndWhatEndsTheOthers) {
   ASSERT_EQ(back.material.walls.size(), 2u);
   EXPECT_EQ(back.material.walls[0].axis + back.material.walls[0].side, "yhigh");
   EXPECT_EQ(back.material.walls[1].axis + back.material.walls[1].side, "zlow");
-  EXPECT_NE(back.note.find("epsilon = 1"), std::string::npos);
+  ASSERT_EQ(back.notes.size(), 1u);
+  EXPECT_NE(back.notes[0].find("epsilon = 1"), std::string::npos);
   put("c.xyz", {make_state(3)});
   EXPECT_NE(text_of_file("c.xyz").find(" pbc=\"T T T\" length=1.7"), std::string::npos);
   EXPECT_EQ(text_of_file("c.xyz").find("walls"), std::string::npos);

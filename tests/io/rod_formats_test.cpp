@@ -175,7 +175,7 @@ TEST_F(RodFormats, OfDynamoHaveSpheres) {
   EXPECT_EQ(text_of(read.material), text_of(material).substr(0, text_of(read.material).size()));
   EXPECT_EQ(read.material.diameter, material.diameter);
   EXPECT_EQ(read.material.walls.size(), 2u);
-  EXPECT_EQ(read.note, "");
+  EXPECT_TRUE(read.notes.empty());
   EXPECT_EQ(read.state.velocity, state.velocity);
   EXPECT_EQ(read.state.orientation, state.orientation);
   EXPECT_EQ(read.state.angular_velocity, state.angular_velocity);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "needlework/state.h"
 #include "src/io/formats/material.h"
@@ -34,7 +35,7 @@ struct Configuration {
   State state;
   Roundings roundings;
   std::optional<double> contact_time = {};  ///< of the t_c rule, if the file says it [time]
-  std::string note = {};                    ///< what a user should know of it; empty: nothing
+  std::vector<std::string> notes = {};      ///< what a user should know of it
 };
 
 }  // namespace needlework::io

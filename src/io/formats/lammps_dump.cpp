@@ -44,7 +44,8 @@ void add_walls(std::span<const std::string_view> boundary, Configuration& config
     wall.axis = std::string(1, "xyz"[axis]);
     wall.side = boundary[axis] == "ff" ? "both" : boundary[axis] == "fs" ? "low" : "high";
   }
-  configuration.note = "it says where walls are, not which: at rest with epsilon = 1 are assumed";
+  configuration.notes.push_back(
+      "it says where walls are, not which: at rest with epsilon = 1 are assumed");
 }
 
 // Forces that give all needles the same acceleration are those of gravity.

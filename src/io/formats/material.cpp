@@ -189,6 +189,13 @@ bool are_spheres(const Material& material) {
          std::ranges::none_of(species_of(material), [](const Species& s) { return s.turns(); });
 }
 
+bool differ_in_inertia(const Material& material) {
+  const std::vector<Species> all = species_of(material);
+  return std::ranges::any_of(all, [&](const Species& each) {
+    return each.mass != all[0].mass || each.inertia() != all[0].inertia();
+  });
+}
+
 Composition composition_of(const Material& material, const std::string& path) {
   const std::size_t count = material.species();
   if (count > most_species) {
