@@ -14,7 +14,8 @@ namespace needlework::test {
 struct RodAnswer {
   bool contact = false;
   Quad time = 0;
-  bool undecided = false;  ///< the distance stays within quad's rounding of that at contact
+  bool undecided = false;  ///< the distance stays within quad's rounding of that at contact, or too
+                           ///< near to it for too long
   std::uint64_t evaluations = 0;
 };
 
