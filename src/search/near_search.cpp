@@ -311,20 +311,14 @@ inline void NearSearch::look_around(Look& look) {
   look.views = static_cast<std::size_t>(view - views_.data()) - look.first_view;
 }
 
-inline bool NearSearch::motions_are_in_cache() const {
-  return volumes_->motions.size() <= motions_in_cache;
-}
-
 inline kernels::Scan NearSearch::scan(const ClassCells& own, const Look& look,
                                       const kernels::Found& found) const {
   const BoundingVolumes& volumes = *volumes_;
   const ClassCells& there = *look.cells;
-  const kernels::Surroundings around{there.cells.blocks(),
-                                     there.cells.next(),
-                                     views_.data() + look.first_view,
-                                     look.views,
-                                     there.format,
-                                     motions_are_in_cache() ? nullptr : volumes.motions.data()};
+  const bool in_cache = volumes.motions.size() <= motions_in_cache;
+  const kernels::Surroundings around{
+      there.cells.blocks(), there.cells.next(), views_.data() + look.first_view,
+      look.views,           there.format,       in_cache ? nullptr : volumes.motions.data()};
   const bool paths = there.kind == BoundingVolume::cell;
   if (&own == &there && !paths) {
     return kernels_.overlapping(around, look.seeker, own.around_axis, found);
@@ -435,10 +429,8 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
   }
   counters_.candidates += entries;
 
-  if (!motions_are_in_cache()) {
-    for (std::size_t k = 0; k < count; ++k) {
-      needlework::prefetch(&volumes.motions[found.needle[k]]);
-    }
+  for (std::size_t k = 0; k < count; ++k) {
+    needlework::prefetch(&volumes.motions[found.needle[k]]);
   }
   candidates_.clear();
   if (follows_) {

@@ -111,7 +111,6 @@ class NearSearch {
   void seen_from(const ClassCells& own, Look& look) const;
   void sweep(const ClassCells& own, double ahead, Look& look) const;
   void look_around(Look& look);
-  bool motions_are_in_cache() const;
   kernels::Scan scan(const ClassCells& own, const Look& look, const kernels::Found& found) const;
   void follow(const JustHit& just_hit, const kernels::Found& found, std::size_t count);
   std::size_t bracket(const kernels::Seeker& seeker, const kernels::PairColumns& pairs,
