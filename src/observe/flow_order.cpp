@@ -8,6 +8,8 @@
 // Independent random velocities give S = C / (N - C) for N needles in C cells that all hold some,
 // 1/19 at 20 per cell, and independent positions a second moment of (C - 1) / N on average. S is
 // infinite where all needles of a cell move alike, and NaN where none moves.
+#include <numeric>
+
 #include "src/observe/registry.h"
 
 namespace needlework::observe {
@@ -32,8 +34,8 @@ class FlowOrder : public Observable {
 
   void sample(const Snapshot& now, Row& row) override {
     const CellMeans& cells = now.cells();
-    const double mean =
-        static_cast<double>(now.state.size()) / static_cast<double>(cells.count.size());
+    const double mean = std::accumulate(cells.count.begin(), cells.count.end(), 0.0) /
+                        static_cast<double>(cells.count.size());
     double flow = 0, thermal = 0, spin = 0, thermal_rot = 0, variance = 0;
     for (std::size_t cell = 0; cell < cells.count.size(); ++cell) {
       // The cells' volume and the factors m/2 and I/2 cancel.

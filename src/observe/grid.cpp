@@ -5,11 +5,18 @@
 
 namespace needlework::observe {
 
+bool Grid::holds(const Vector& position) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(position[axis] >= 0 && position[axis] <= box_[axis])) return false;
+  }
+  return true;
+}
+
 std::size_t Grid::cell_of(const Vector& position) const {
   std::size_t cell = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = position[axis] / box_[axis] * cells_[axis];
-    const int n = std::clamp(static_cast<int>(along), 0, cells_[axis] - 1);
+    const int n = static_cast<int>(std::clamp<double>(along, 0, cells_[axis] - 1));
     cell = cell * static_cast<std::size_t>(cells_[axis]) + static_cast<std::size_t>(n);
   }
   return cell;
@@ -37,7 +44,9 @@ CellMeans means_in_cells(const Grid& grid, const State& state) {
                 .spin_w2 = std::vector<double>(cells)};
   std::vector<std::size_t> cell_of(state.size());
   for (std::size_t i = 0; i < state.size(); ++i) {
-    const std::size_t cell = cell_of[i] = grid.cell_of(state.position[i]);
+    const bool is_inside = grid.holds(state.position[i]);
+    const std::size_t cell = cell_of[i] = is_inside ? grid.cell_of(state.position[i]) : cells;
+    if (!is_inside) continue;
     ++out.count[cell];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       out.flow[cell][axis] += state.velocity[i][axis];
@@ -53,6 +62,7 @@ CellMeans means_in_cells(const Grid& grid, const State& state) {
   }
   for (std::size_t i = 0; i < state.size(); ++i) {
     const std::size_t cell = cell_of[i];
+    if (cell == cells) continue;
     const Vector v = minus(state.velocity[i], out.flow[cell]);
     const Vector w = minus(state.angular_velocity[i], out.spin[cell]);
     out.flow_v2[cell] += dot(v, v);

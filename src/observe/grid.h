@@ -19,7 +19,10 @@ class Grid {
     return static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
            static_cast<std::size_t>(cells_[2]);
   }
-  /// The cell of a position inside the box.
+  /// Whether a position is inside the box. Needles leave it by an open side, and where a wall has
+  /// moved outwards.
+  bool holds(const Vector& position) const;
+  /// The cell of a position, that next to it if it is outside the box.
   std::size_t cell_of(const Vector& position) const;
   double cell_volume() const { return box_[0] * box_[1] * box_[2] / static_cast<double>(size()); }
 
@@ -32,7 +35,7 @@ class Grid {
 /// needles, which is what the definition of the order of the flow is meant for; at most 100.
 std::array<int, 3> default_cells(const Vector& box, std::size_t count);
 
-/// What is in each cell. A cell without needles has zeros.
+/// What is in each cell. A cell without needles has zeros; needles outside the box are in none.
 struct CellMeans {
   std::vector<double> count;    ///< number of needles
   std::vector<Vector> flow;     ///< U, mean velocity

@@ -1,4 +1,5 @@
-// Correlations of pairs at the distance r of their centres, taken between nearest images:
+// Correlations of pairs at the distance r of their centres, taken between nearest images,
+// of which there are none along axes with walls:
 //
 //   g   pairs with r in a bin, divided by N (N - 1) / 2 times the bin's share of the box volume;
 //       1 for independent positions
@@ -11,6 +12,7 @@
 // less. Pairs come from a list of cells at least that wide, in an order that follows from the state
 // alone.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -34,7 +36,9 @@ using Cell = std::vector<Needle>;
 
 class PairCorrelation : public Observable {
  public:
-  explicit PairCorrelation(const GasSetting& gas) : gas_(gas), reach_(largest_distance(gas)) {}
+  explicit PairCorrelation(const GasSetting& gas) : gas_(gas), reach_(largest_distance(gas)) {
+    for (const Slabs& slabs : gas.wall_slabs) is_periodic_[slabs.axis] = false;
+  }
 
   std::vector<SeriesField> fields() const override {
     std::vector<double> borders;
@@ -81,9 +85,9 @@ class PairCorrelation : public Observable {
   void add(const Needle& one, const Needle& other) {
     double square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Both are inside the box, so the nearest image is at most one edge away.
+      // Both are inside the box along periodic axes, so the nearest image is at most one edge away.
       const double d = std::abs(other.position[axis] - one.position[axis]);
-      const double nearest = std::min(d, gas_.box[axis] - d);
+      const double nearest = is_periodic_[axis] ? std::min(d, gas_.box[axis] - d) : d;
       square += nearest * nearest;
     }
     if (!(square < reach_ * reach_)) return;
@@ -141,6 +145,7 @@ class PairCorrelation : public Observable {
 
   GasSetting gas_;
   double reach_;
+  std::array<bool, 3> is_periodic_{true, true, true};
   std::vector<double> pairs_, p2_;  ///< by pair of species, then bin
 };
 

@@ -36,6 +36,18 @@ TEST(Fields, OfEmptyCellsAreZero) {
   EXPECT_EQ(values["thermal_tr"], (std::vector<double>{0, 0}));
 }
 
+TEST(Fields, HoldNoNeedlesOutsideTheBox) {
+  Scene scene = scene_with("fields", 3, fields_box, {1, 1, 2});
+  scene.walls = {{.axis = "z", .side = "low"}};
+  scene.forces.gravity[2] = -1;
+  State state = resting(3, fields_box);
+  state.position = {{1, 1, -0.1}, {1, 1, 2}, {1, 1, 40}};
+  state.velocity = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  Values values = Observed(scene).sample(state);
+  EXPECT_EQ(values["density"], (std::vector{0.0, 1 / 18.0}));
+  EXPECT_EQ(values["flow"], (std::vector<double>{0, 0, 0, 2, 0, 0}));
+}
+
 TEST(Fields, FollowMassAndLengthOfTheSpecies) {
   Scene scene = scene_with("fields", 3, fields_box, {2, 1, 1});
   scene.species = {{.name = "a", .count = 3, .length = 0.5, .mass = 3, .k = 2}};

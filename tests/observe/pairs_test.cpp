@@ -36,6 +36,20 @@ TEST(PairCorrelation, EndsAtHalfTheShortestEdge) {
   EXPECT_DOUBLE_EQ(values["borders"].back(), 2);
 }
 
+// Between walls there are no images, and above an open side needles are far from those below.
+TEST(PairCorrelation, EndsAtWalls) {
+  Scene scene = scene_with("pair_correlation", 3, pairs_box);
+  scene.walls = {{.axis = "z", .side = "low"}, {.axis = "x", .side = "both"}};
+  scene.forces.gravity[2] = -1;
+  State state = resting(3, pairs_box);
+  state.position = {{0.5, 1, 1}, {7.5, 1, 1}, {0.5, 1, 12.5}};  // 2 apart, were x periodic
+  Values values = Observed(scene).sample(state);
+  for (const double g : values["g"]) EXPECT_EQ(g, 0);
+  state.position[1] = {1.5, 1, 12.5};
+  values = Observed(scene).sample(state);
+  for (std::size_t n = 0; n < bins; ++n) EXPECT_EQ(values["g"][n] > 0, n == 20) << n;
+}
+
 // Independent of how pairs are found: those of each box that has cells, counted one by one.
 TEST(PairCorrelation, CountsEveryPairOnce) {
   for (const double edge : {8.9, 9.1, 13.0}) {  // two cells along each axis or less, three, four
