@@ -148,7 +148,8 @@ double safe_step(double low, double slope, double bend) {
 double safe_step_from_contact(double slope, double curvature, double twist) {
   // slope t + curvature t^2 / 2 - twist t^3 / 6 > 0
   if (twist == 0) {
-    if (curvature >= 0) return slope > 0 || curvature > 0 ? infinity : 0;
+    if (curvature >= 0)
+      return infinity;  // of a needle that lies on the wall and moves along it, too
     return 2 * slope / -curvature;
   }
   const double root = std::sqrt(0.25 * curvature * curvature + (2.0 / 3) * twist * slope);
@@ -265,7 +266,14 @@ class TipSearch {
   Start leave(double slope, double curvature) {
     const double leaves = safe_step_from_contact(slope, curvature, approach_.twist());
     begin_ = 0.75 * leaves;
-    return leaves > 0 ? Start::leaves : Start::hits;
+    if (leaves > 0) return Start::leaves;
+    // An impulse on the other tip may leave this one without speed and acceleration. It is then so
+    // near to the wall for so long that nothing can happen to it.
+    if (slope == 0 && curvature == 0 && approach_.is_touching(tip_)) {
+      begin_ = 0x1p-20 * approach_.stretch();
+      return Start::leaves;
+    }
+    return Start::hits;
   }
   // From s, where the height is above 0 or 0, to the end of the stretch, or to the last time asked
   // for.

@@ -29,14 +29,18 @@ std::string message_of(const PairCollapse& c) {
 std::string message_of(const GroupCollapse& c) {
   if (c.first == c.second) {
     return fmt::format(
-        "needle {} collapses at time {:.17g}: {} events at one instant, with walls or others; set "
-        "collisions.tc_relative, to 1e-3 say, unless it rests on a wall",
-        c.first.value, c.time, c.collisions);
+        "needle {} collapses at time {:.17g}: {} events at one instant, with walls or others; {}",
+        c.first.value, c.time, c.collisions,
+        c.contact_time ? "a contact time cannot help where a wall moves or draws velocities, nor a "
+                         "needle that "
+                         "lies on a wall"
+                       : "set collisions.tc_relative, to 1e-3 say, unless it rests on a wall");
   }
   return fmt::format(
-      "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; set "
-      "collisions.tc_relative, to 1e-3 say, or collisions.sliding",
-      c.first.value, c.second.value, c.time, c.collisions);
+      "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; {}",
+      c.first.value, c.second.value, c.time, c.collisions,
+      c.contact_time ? "a longer contact time may help"
+                     : "set collisions.tc_relative, to 1e-3 say, or collisions.sliding");
 }
 
 }  // namespace needlework

@@ -26,6 +26,7 @@ struct GroupCollapse {
   Id first, second;  ///< the same for an event of one needle
   double time = 0;
   std::uint64_t collisions = 0;  ///< number of collisions at that one instant
+  bool contact_time = false;     ///< whether the t_c rule is in force
 };
 std::string message_of(const GroupCollapse& collapse);
 

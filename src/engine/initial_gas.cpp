@@ -122,8 +122,9 @@ void require_inside(const Scene& scene, const Gas& gas) {
       const double beyond = wall.beyond(centre[side.axis], reach, gas.box[side.axis]);
       if (beyond <= gas.touch_tolerance()) continue;
       throw InputError(fmt::format(
-          "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside",
-          gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low"));
+          "state: needle {}: a tip is {:.3g} beyond the wall {}-{}: expected both inside{}",
+          gas.ids[i].value, beyond, "xyz"[side.axis], side.is_high ? "high" : "low",
+          scene.walls[side.entry].motion ? ", where walls.motion.phase puts it at the start" : ""));
     }
   }
 }
