@@ -43,11 +43,16 @@ bool Audit::is_inside(const Needle& needle) const {
   });
 }
 
-// With the potential energy, which a flight keeps.
+// With the potential energy, which a flight keeps. Heights count from the edges to which gravity
+// points.
 double Audit::energy() const {
+  Vector<double> lowest{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (space_.gravity[axis] > 0) lowest[axis] = space_.box[static_cast<std::size_t>(axis)];
+  }
   long double sum = energy_of(needles_);
   for (const Needle& needle : needles_) {
-    sum -= needle.body.mass * dot(space_.gravity, needle.record.r);
+    sum += needle.body.mass * dot(space_.gravity, lowest - needle.record.r);
   }
   return static_cast<double>(sum);
 }
@@ -131,7 +136,8 @@ void Audit::check_end(const Scene::Until& until, Stop reason, double time) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double latest = until.time.value_or(infinity);
   const double most = until.collisions_per_needle.value_or(infinity) * count / 2;
-  const double least_energy = until.energy_ratio.value_or(-1) * initial_energy_;
+  const double least_energy =
+      until.energy_ratio ? *until.energy_ratio * initial_energy_ : -infinity;
   const double energy = this->energy();
   const double before = energy - last_energy_change_;
   const double last = last_ ? since_start(last_->first) * setup_.epoch_length : 0;

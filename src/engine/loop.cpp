@@ -15,7 +15,8 @@ Limits::Limits(const Run& run, const Scene::Until& until)
       collisions(until.collisions_per_needle
                      ? *until.collisions_per_needle * static_cast<double>(run.gas.size()) / 2
                      : std::numeric_limits<double>::infinity()),
-      energy(until.energy_ratio ? *until.energy_ratio * run.initial_energy : -1),
+      energy(until.energy_ratio ? *until.energy_ratio * run.initial_energy
+                                : -std::numeric_limits<double>::infinity()),
       wall(std::chrono::steady_clock::time_point::max()) {
   if (!until.time && !until.collisions_per_needle && !until.energy_ratio && !until.wall_s) {
     throw InputError("until: expected at least one end condition");

@@ -271,6 +271,29 @@ TEST(OneNeedle, ThatLiesOnTheFloorAtRest) {
   }
 }
 
+// Without gravity it may also move along the wall, for ever; and where it turns over a tip that
+// lies there, the impulse on this one may leave the other without speed.
+TEST(OneNeedle, ThatLiesOnTheFloorAndMoves) {
+  for (const double k : {2.0, 3.1, 6.0, 10.0}) {
+    Scene scene = one_needle(4);
+    scene.needles.k = k;
+    for (const double height : {0.0, 4.0}) {
+      const auto hits = [&](const std::array<double, 3>& v, const std::array<double, 3>& w) {
+        Simulation run(scene, state_of(scene, {2, 2, height}, {1, 0, 0}, v, w));
+        const std::size_t out = hits_of(run, 5).size();
+        EXPECT_NEAR(run.totals().energy, run.initial_energy(), 1e-15);
+        return out;
+      };
+      EXPECT_EQ(hits({0.1, 0, 0}, {0, 0, 0}), 0u);
+      EXPECT_EQ(hits({0, 0, 0}, {0, 0, 1}), 0u);
+      EXPECT_EQ(hits({-0.3, 0.2, 0}, {0, 0, 2}), 0u);
+      const std::size_t turned_over = hits({0, 0, 0}, {0, 1, 0});
+      EXPECT_GE(turned_over, 1u);
+      EXPECT_LE(turned_over, 20u);
+    }
+  }
+}
+
 // A tip that turns past the wall: a little above it there is no hit, a little into it there is one.
 TEST(OneNeedle, ThatGrazesAWall) {
   const Scene scene = one_needle(4);
@@ -394,6 +417,23 @@ TEST(Walls, KeepAnAccountThatClosesOverAMillionHits) {
   const EnergyOnAVibratedFloor account(1000000);
   EXPECT_LT(std::abs(account.by_events), 1e-10);
   EXPECT_LT(std::abs(account.drift), 1e-10);
+}
+
+// A floor that goes down takes needles below the edge from which heights count.
+TEST(Walls, DoNotEndARunThatNoEnergyEnds) {
+  Scene scene = test::scene_of(0, 5);
+  scene.needles = {.count = 40, .box = {5, 5, 3}, .seed = 2};
+  scene.initial.t_tr = scene.initial.t_rot = 0.01;
+  scene.walls = {{.axis = "z",
+                  .side = "low",
+                  .epsilon = 0.5,
+                  .motion = Scene::WallMotion{.amplitude = 0.5, .frequency = 0.05, .phase = 0}}};
+  scene.forces.gravity = {0, 0, -1};
+  scene.collisions.epsilon = 0.5;
+  scene.collisions.tc = 1e-2;
+  Simulation run(scene);
+  EXPECT_EQ(run.advance(until_time(14)), Stop::time);
+  EXPECT_LT(40 * run.totals().energy, -1);
 }
 
 TEST(Walls, WorkUntilTheirMotionIsOld) {
