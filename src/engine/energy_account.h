@@ -8,20 +8,22 @@
 
 #include "kernels/double_double.h"
 #include "kernels/power_of_two.h"
+#include "src/engine/quanta.h"
 
 namespace needlework {
 
 /// Changes of energy are counted in quanta, which are far smaller than the resolution of a double
-/// at the total energy. Sums of whole numbers do not depend on their order. They are modulo 2^64,
-/// in which those of all windows would overflow.
+/// at the total energy. Sums of whole numbers do not depend on their order.
 class EnergyAccount {
  public:
   /// Sources drive the gas towards this energy of all needles, from whatever it has. Follows from
   /// the scene, so that it is not saved.
   void expect(double usual) { usual_ = usual; }
-  /// Begins with this energy of all needles, when changes have come to so many quanta.
-  void open(double energy, std::uint64_t changes) {
+  /// Begins with this energy of all needles, of which so much is in their motion, when changes have
+  /// come to so many quanta.
+  void open(double energy, double of_motion, const Quanta& changes) {
     energy_ = energy;
+    of_motion_ = of_motion;
     changes_ = changes;
     set_quantum();
   }
@@ -29,50 +31,48 @@ class EnergyAccount {
   void note_drift_from(double by_account) { drift_ += relative(energy_, by_account); }
 
   /// The energy when changes have come to so many quanta.
-  double now(std::uint64_t changes) const {
-    return energy_ + quantum_ * static_cast<double>(static_cast<std::int64_t>(changes - changes_));
+  double now(const Quanta& changes) const {
+    return energy_ + quantum_ * (changes - changes_).value();
   }
   /// An energy as a whole number of quanta. Rounded to the nearest, so that the account does not
   /// drift.
-  std::uint64_t in_quanta(double energy) const {
-    return static_cast<std::uint64_t>(
-        static_cast<std::int64_t>(energy * per_quantum_ + (energy < 0 ? -0.5 : 0.5)));
-  }
+  Quanta in_quanta(double energy) const { return Quanta::nearest(energy * per_quantum_); }
   /// So many quanta as an energy, exactly.
-  DoubleDouble of_quanta(std::uint64_t quanta) const {
-    const auto whole = static_cast<std::int64_t>(quanta);
-    const double low = static_cast<double>(static_cast<std::uint32_t>(whole));
-    const DoubleDouble sum = two_sum(static_cast<double>(whole >> 32) * 0x1p32, low);
+  DoubleDouble of_quanta(const Quanta& quanta) const {
+    const DoubleDouble sum = quanta.exact();
     return {quantum_ * sum.hi, quantum_ * sum.lo};
   }
   /// The energy at which it was opened last.
   double at_opening() const { return energy_; }
   /// Sum of what has been noted, and what would be if this were the energy, relative to it.
-  double drift(double energy, std::uint64_t changes) const {
+  double drift(double energy, const Quanta& changes) const {
     return drift_ + relative(energy, now(changes));
   }
 
   /// Saves or restores what does not follow from the rest.
   template <class A>
   void transfer(A& archive) {
-    archive(energy_, changes_, drift_);
+    archive(energy_, of_motion_, changes_, drift_);
     if (archive.reads() && is_sound()) set_quantum();
   }
-  bool is_sound() const { return std::isfinite(energy_) && std::isfinite(drift_); }
+  bool is_sound() const {
+    return std::isfinite(energy_) && std::isfinite(of_motion_) && std::isfinite(drift_);
+  }
 
  private:
   static double relative(double energy, double by_account) {
     return energy > 0 ? (energy - by_account) / energy : 0;
   }
-  // The energy of the gas is about 2^58 quanta, so that sums of many changes fit 64 bits.
+  // The energy of the gas is about 2^58 quanta. In gravity what counts is that of the motion, as
+  // heights may count from anywhere.
   void set_quantum() {
-    const double most = std::max(energy_, usual_);
+    const double most = std::max({std::abs(energy_), of_motion_, usual_});
     quantum_ = times_power_of_two(1, most > 0 ? exponent_of(most) - 58 : 0);
     per_quantum_ = 1 / quantum_;
   }
 
-  double energy_ = 0, quantum_ = 1, per_quantum_ = 1;
-  std::uint64_t changes_ = 0;
+  double energy_ = 0, of_motion_ = 0, quantum_ = 1, per_quantum_ = 1;
+  Quanta changes_;
   double drift_ = 0, usual_ = 0;
 };
 

@@ -22,7 +22,7 @@ class EnergyShares {
  public:
   /// To be called before the account is opened again for a new window.
   void settle(const EnergyAccount& account, const Tally& tally) {
-    const auto add_window = [&](Share& share, std::uint64_t quanta) {
+    const auto add_window = [&](Share& share, const Quanta& quanta) {
       share.before = at(share, account, quanta);
       share.at_opening = quanta;
     };
@@ -69,21 +69,21 @@ class EnergyShares {
 
  private:
   struct Share {
-    DoubleDouble before;           ///< this window
-    std::uint64_t at_opening = 0;  ///< quanta at its start
+    DoubleDouble before;  ///< this window
+    Quanta at_opening;    ///< at its start
   };
 
-  static std::uint64_t of_pairs(const Tally& tally) {
-    std::uint64_t quanta = tally.energy;
+  static Quanta of_pairs(const Tally& tally) {
+    Quanta quanta = tally.energy;
     for (const SourceTally& source : tally.by_source) quanta -= source.energy;
     return quanta;
   }
-  static DoubleDouble at(const Share& share, const EnergyAccount& account, std::uint64_t quanta) {
+  static DoubleDouble at(const Share& share, const EnergyAccount& account, const Quanta& quanta) {
     return share.before + account.of_quanta(quanta - share.at_opening);
   }
   // Shares are as many as the tally had entries at the last settlement.
   static double now(const std::vector<Share>& shares, std::size_t n, const EnergyAccount& account,
-                    std::uint64_t quanta) {
+                    const Quanta& quanta) {
     return to_double(at(n < shares.size() ? shares[n] : Share{}, account, quanta));
   }
   template <class A>

@@ -324,8 +324,8 @@ void EventProcessor<S, M>::happen(const Event& event) {
     }
     tally_.hash.add(happening);
   }
-  const std::uint64_t quanta =
-      outcome.changes_motion ? run_.energy.in_quanta(outcome.energy_change) : 0;
+  const Quanta quanta =
+      outcome.changes_motion ? run_.energy.in_quanta(outcome.energy_change) : Quanta();
   tally_.energy += quanta;
   tally_.count_source(event.source, quanta, run_.sources.size());
   if (source.objects() > 0) {
@@ -439,7 +439,7 @@ void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
   if (++tally_.at_instant <= 10000 + 2 * gas_.size()) return;
   throw InvalidStateError(
       message_of(GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()),
-                               tally_.at_instant}),
+                               tally_.at_instant, run_.contact_time_rule.has_value()}),
       {{gas_.ids[a].value, gas_.ids[b].value}});
 }
 

@@ -115,10 +115,14 @@ double potential_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
 
 }  // namespace
 
-double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+double energy_of_motion(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
   Totals totals;
   set_temperatures(gas, sums, totals);
-  const double motion = totals.energy * static_cast<double>(gas.size());
+  return totals.energy * static_cast<double>(gas.size());
+}
+
+double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums) {
+  const double motion = energy_of_motion(gas, sums);
   return gas.falls ? motion + potential_of(gas, sums) : motion;
 }
 

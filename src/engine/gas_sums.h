@@ -22,6 +22,8 @@ std::vector<SpeciesTotals> species_totals(const Gas& gas, const std::vector<Sums
 /// The energy of all needles; where there is gravity, counted from the walls to which it points, so
 /// that it is positive. [energy]
 double energy_of(const Gas& gas, const std::vector<SumsOfSquares>& sums);
+/// Without that in gravity. [energy]
+double energy_of_motion(const Gas& gas, const std::vector<SumsOfSquares>& sums);
 /// What that is more than where heights count from the low edges of the box. [energy]
 double energy_of_low_edges(const Gas& gas);
 /// Temperatures, energy and momentum; times and counts are left as they are.

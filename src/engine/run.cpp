@@ -141,7 +141,7 @@ void Run::open_window() {
   const std::vector<SumsOfSquares> sums = sums_of_squares(gas, now, team.threads());
   expect_energy();
   energy_shares.settle(energy, tally);
-  energy.open(energy_of(gas, sums), tally.energy);
+  energy.open(energy_of(gas, sums), energy_of_motion(gas, sums), tally.energy);
   windows.open(mean_free_time_of(gas, sums), usual_time_of_events(sums), gas.clock, now);
   set_contact_time();
 }

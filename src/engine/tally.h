@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "needlework/counters.h"
+#include "src/engine/quanta.h"
 #include "src/physics/clock.h"
 #include "src/trajectory/exact_total.h"
 #include "src/trajectory/trajectory_hash.h"
@@ -17,7 +18,7 @@ namespace needlework {
 /// What a source of events has done.
 struct SourceTally {
   std::uint64_t events = 0;
-  std::uint64_t energy = 0;  ///< change of the energy of all needles, as Tally::energy
+  Quanta energy;  ///< change of the energy of all needles, as Tally::energy
 
   template <class Archive>
   friend void transfer(Archive& archive, SourceTally& tally) {
@@ -28,7 +29,7 @@ struct SourceTally {
 /// What has happened at one object of a source of events, such as a wall.
 struct ObjectTally {
   std::uint64_t events = 0;
-  std::uint64_t energy = 0;         ///< the same
+  Quanta energy;                    ///< the same
   ExactTotal impulse;               ///< sum of |J| [m L / time]
   SignedExactTotal normal_impulse;  ///< of components along its normal
 
@@ -64,7 +65,7 @@ struct SlidingTally {
 
 struct Tally {
   std::uint64_t collisions = 0, tc_collisions = 0;
-  std::uint64_t energy = 0;  ///< change of the total energy, in quanta of the windows, modulo 2^64
+  Quanta energy;  ///< change of the total energy, in quanta of the windows
   TrajectoryHash hash;
   Counters counters;
   Time instant;                        ///< time of the last collision
@@ -88,14 +89,14 @@ struct Tally {
   }
   /// Counts an event of source `index` out of so many, which has changed the energy by so many
   /// quanta.
-  void count_source(std::size_t index, std::uint64_t quanta, std::size_t sources) {
+  void count_source(std::size_t index, const Quanta& quanta, std::size_t sources) {
     if (by_source.empty()) by_source.resize(sources);
     ++by_source[index].events;
     by_source[index].energy += quanta;
   }
   /// An event at an object.
   struct AtObject {
-    std::uint64_t quanta;
+    Quanta quanta;
     double impulse, normal_impulse;
   };
   /// Counts one at object `index` out of so many.

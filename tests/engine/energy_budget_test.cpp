@@ -1,6 +1,7 @@
 // The budget of energy: what each effect has put in, whatever finds the next event.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -121,6 +122,28 @@ TEST(EnergyBudget, IsTheChangeOfTheEnergy) {
     EXPECT_LT(end.pairs, -0.05 * std::abs(start));
     for (const double energy : numbers_of(end)) EXPECT_TRUE(std::isfinite(energy));
   }
+}
+
+// Walls that come together put in hundreds of times the energy of the start within one window.
+TEST(EnergyBudget, HoldsWhatWallsPutInAtOnce) {
+  Scene scene = test::scene_of(0, 8);
+  scene.needles.box = {8, 8, 1.1};
+  scene.species = {{.name = "spheres", .count = 10, .length = 0, .t_tr = 0.01, .diameter = 1}};
+  scene.needles.count = 10;
+  scene.walls = {{.axis = "z",
+                  .side = "low",
+                  .motion = Scene::WallMotion{.amplitude = 0.0999999, .frequency = 1, .phase = 0}},
+                 {.axis = "z", .side = "high"}};
+  Simulation simulation(scene);
+  const double start = simulation.totals().energy;
+  double most = 0;
+  for (const double time : {0.1, 0.15, 0.18, 0.2, 0.21}) {
+    simulation.advance(test::until_time(time));
+    const double energy = simulation.totals().energy;
+    most = std::max(most, energy);
+    EXPECT_NEAR(sum_of(simulation.energy_budget()), energy - start, 1e-12 * most) << time;
+  }
+  EXPECT_GT(most, 100 * start);
 }
 
 TEST(EnergyBudget, HasTheSameBitsWhateverFindsTheNextEvent) {

@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 6 of "), mark
+    assert mark.startswith(b"needlework checkpoint 7 of "), mark
     return mark
 
 
@@ -206,11 +206,11 @@ class Fields:
                 self.time("last_collision")
         self.time("now")
         self.time("window_end")
-        for name in ("mean_free_time", "initial_energy", "energy_at_window"):
+        for name in ("mean_free_time", "initial_energy", "energy_at_window", "motion_at_window"):
             self.f64(name)
-        self.one("quanta_at_window", "u64")
+        self.several("quanta_at_window", "u64", 2)
         self.f64("drift_of_windows")
-        for name in ("collisions", "tc_collisions", "quanta", "hash", "hash"):
+        for name in ("collisions", "tc_collisions", "quanta", "quanta", "hash", "hash"):
             self.one(f"tally.{name}", "u64")
         self.several("counters", "u64", 24)
         self.time("instant")
@@ -220,7 +220,7 @@ class Fields:
                 self.one(f"sliding.{name}", "u64")
             self.several("sliding.time", "u64", 68)  # digits of an exact sum
         self.several("share_of_pairs", "f64", 2)
-        self.one("share_of_pairs.quanta", "u64")
+        self.several("share_of_pairs.quanta", "u64", 2)
         self.several("shares_of_kicks_and_callers", "f64", 4)
         assert self.at == end
 

@@ -66,8 +66,8 @@ struct SavedGas {
       archive(n.id, n.image, n.time, n.flight, n.serial, n.species, n.touches);
       if (has_contact_time) archive(n.last_collision);
     }
-    archive(now, window_end, mean_free_time, initial_energy, energy_at_window, quanta_at_window,
-            drift_of_windows);
+    archive(now, window_end, mean_free_time, initial_energy, energy_at_window, motion_at_window,
+            quanta_at_window, drift_of_windows);
     archive(tally.collisions, tally.tc_collisions, tally.energy, tally.hash, tally.counters,
             tally.instant, tally.at_instant);
     energy_shares.transfer(archive, 0, 0);  // without walls and driving
@@ -78,8 +78,8 @@ struct SavedGas {
   double epoch_length = 1;
   std::vector<SavedNeedle> needles;
   Time now, window_end;
-  double mean_free_time = 0, initial_energy = 0, energy_at_window = 0;
-  std::uint64_t quanta_at_window = 0;
+  double mean_free_time = 0, initial_energy = 0, energy_at_window = 0, motion_at_window = 0;
+  Quanta quanta_at_window;
   double drift_of_windows = 0;
   Tally tally;
   EnergyShares energy_shares;
