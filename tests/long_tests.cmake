@@ -22,6 +22,10 @@ set_tests_properties(
   SearchEquivalence.HoldsForManyNeedlesOverManyCollisions
   # RodPressure.IsThatOfTheVirialSeries
   RodPressure.IsThatOfTheVirialSeriesToSomeThousandths
+  # the same to 0.7 %, 1 % and 2 %
+  PairsBetweenWalls.CollideAtTheseRatesToThousandths
+  NeedlesOnAFloor.HaveTheBarometricDensityToThousandths
+  ThermalWalls.CarryHeatToThousandths
   # the same of 6 needles
   Needles/FiniteCount.RateAndTemperaturesAreExact/24
   Needles/FiniteCount.RateAndTemperaturesAreExact/24_between_walls

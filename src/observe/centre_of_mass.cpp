@@ -43,7 +43,7 @@ class CentreOfMass : public Observable {
       for (const std::size_t of : {species, kinds}) {
         mass[of] += m;
         for (std::size_t n = 0; n < axes; ++n) {
-          const int axis = gas_.wall_slabs[n].axis;
+          const std::size_t axis = gas_.wall_slabs[n].axis;
           position[of * axes + n] += m * state.position[i][axis];
           velocity[of * axes + n] += m * state.velocity[i][axis];
         }

@@ -91,9 +91,10 @@ TEST(WallPressure, IsThatOfTheIdealGasOfNeedles) {
   }
 }
 
-// Of each two species, between walls that are nearer than two of their lengths.
-TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies) {
-  constexpr double side = 12, height = 1.3, time = 40;
+// Of each two species, between walls that are nearer than two of their lengths; to this relative
+// standard error.
+void expect_rates_of_each_two_species(double time, double error) {
+  constexpr double side = 12, height = 1.3;
   Scene scene = between_walls(0, side, height, 1);
   scene.species = {{.name = "short", .count = 300, .length = 0.6, .mass = 0.5, .k = 4},
                    {.name = "long", .count = 200, .length = 1.1, .mass = 2, .k = 6}};
@@ -121,18 +122,27 @@ TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies) {
       exact[n] *= theory::pair_factor_between_walls(composition[a], warm[a], composition[b],
                                                     warm[b], height);
       EXPECT_TRUE(agrees(found[n].measured(), exact[n], 3)) << n;
-      EXPECT_LT(found[n].measured().error, 0.007 * exact[n]) << n;
+      EXPECT_LT(found[n].measured().error, error * exact[n]) << n;
     }
   }
 }
 
-// p(z) is exp(-m g z / T) min(1, 2 z / L), the force on the floor N m g.
-TEST(NeedlesOnAFloor, HaveTheBarometricDensity) {
-  constexpr std::uint64_t count = 500;
+TEST(PairsBetweenWalls, CollideAtTheRatesOfEachTwoSpecies) {
+  expect_rates_of_each_two_species(40, 0.007);
+}
+
+TEST(PairsBetweenWalls, CollideAtTheseRatesToThousandths) {
+  expect_rates_of_each_two_species(320, 0.003);
+}
+
+// p(z) is exp(-m g z / T) min(1, 2 z / L), the force on the floor N m g. `error` is the relative
+// standard error of the number of needles that the floor keeps from turning freely.
+void expect_barometric_density(std::uint64_t count, double side, double error) {
   constexpr double pull = 1;
+  const auto all = static_cast<double>(count);
   Mean below, height, force;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    Scene scene = test::scene_of(count, 14, seed);
+    Scene scene = test::scene_of(count, side, seed);
     scene.needles.box[2] = 3;
     scene.walls = {{.axis = "z", .side = "low"}};
     scene.forces.gravity = {0, 0, -pull};
@@ -155,8 +165,8 @@ TEST(NeedlesOnAFloor, HaveTheBarometricDensity) {
         under += r[2] < 0.5;
         sum += r[2];
       }
-      lower.add(under / count);
-      mean_height.add(sum / count);
+      lower.add(under / all);
+      mean_height.add(sum / all);
       const Totals totals = gas.totals();
       temperature.add((1.5 * totals.t_tr + totals.t_rot) / 2.5);
     }
@@ -171,13 +181,20 @@ TEST(NeedlesOnAFloor, HaveTheBarometricDensity) {
     const double high_z = e * (s2 + scale * half);
     below.add(lower.measured().value / (low / (low + high)));
     height.add(mean_height.measured().value / ((low_z + high_z) / (low + high)));
-    force.add(impulse / (samples * every * count * pull));
+    force.add(impulse / (samples * every * all * pull));
   }
   EXPECT_TRUE(agrees(below.measured(), 1, 3));
   EXPECT_TRUE(agrees(height.measured(), 1, 3));
   EXPECT_TRUE(agrees(force.measured(), 1, 3));
+  EXPECT_LT(below.measured().error, error);
   EXPECT_LT(height.measured().error, 0.003);
   EXPECT_LT(force.measured().error, 0.003);
+}
+
+TEST(NeedlesOnAFloor, HaveTheBarometricDensity) { expect_barometric_density(500, 14, 0.01); }
+
+TEST(NeedlesOnAFloor, HaveTheBarometricDensityToThousandths) {
+  expect_barometric_density(3000, 14 * std::sqrt(6.0), 0.003);
 }
 
 // Walls of two temperatures alike bring an inelastic-free gas to theirs.
@@ -203,10 +220,11 @@ TEST(ThermalWalls, BringTheGasToTheirTemperature) {
   EXPECT_TRUE(agrees(t_tr.measured(), 1, 3));
   EXPECT_TRUE(agrees(t_rot.measured(), 1, 3));
   EXPECT_LT(t_tr.measured().error, 0.003);
+  EXPECT_LT(t_rot.measured().error, 0.003);
 }
 
 // What the hot wall gives, the cold one takes; of walls of one temperature neither gives any.
-TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) {
+void expect_balance_of_heat(double time, double error) {
   for (const double hot : {3.0, 1.0}) {
     Mean from_low, from_high, balance;  // power per needle
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -222,7 +240,6 @@ TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) {
       gas.advance(until_time(10));
       given = {};
       const double before = gas.totals().energy;
-      constexpr double time = 60;
       gas.advance(until_time(10 + time));
       from_low.add(given[0] / (300 * time));
       from_high.add(given[1] / (300 * time));
@@ -234,7 +251,7 @@ TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) {
     if (hot > 1) {
       EXPECT_GT(from_low.measured().value, 50 * from_low.measured().error);
       EXPECT_LT(from_high.measured().value, -50 * from_high.measured().error);
-      EXPECT_LT(balance.measured().error, 0.02 * from_low.measured().value);
+      EXPECT_LT(balance.measured().error, error * from_low.measured().value);
     } else {
       EXPECT_TRUE(agrees(from_low.measured(), 0, 3));
       EXPECT_TRUE(agrees(from_high.measured(), 0, 3));
@@ -242,6 +259,10 @@ TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) {
     }
   }
 }
+
+TEST(ThermalWalls, CarryHeatFromTheHotOneToTheCold) { expect_balance_of_heat(60, 0.02); }
+
+TEST(ThermalWalls, CarryHeatToThousandths) { expect_balance_of_heat(500, 0.003); }
 
 }  // namespace
 }  // namespace needlework
