@@ -1,18 +1,18 @@
 #!/usr/bin/python3
 """Makes all tables and pictures of performance, accuracy, scaling and effects, on this machine.
 
-    bench/all.py                      about two hours on two quiet cores
+    bench/all.py                      about two hours on two quiet cores, by estimates
     bench/all.py --list               what it does, and how long each step takes
     bench/all.py --time-budget 60     no step is begun after an hour; the same command continues
     bench/all.py --only rods effects  some steps
     bench/all.py --dynamo FOLDER --edmd FOLDER   beside other engines, too (bench/peers/README.md)
 
 Build first, with tests and NEEDLEWORK_BENCH=ON, from a commit without changes. Says first how long it
-will take: by what the steps took before, or else by what they took on the machine of
-docs/performance.md. Each step is a script of bench/ that can be run by itself; it writes compact data
-into bench/results/MACHINE-ISA/ and its tables into the documents. Steps that are complete at this commit
-and of this build are not repeated. `--quick` tries each in a few minutes, on a few needles; then results
-stay in the folder of the build and documents as they are.
+will take: by what the steps took before, or else by estimates. Each step is a script of bench/ that can
+be run by itself; it writes compact data into bench/results/MACHINE-ISA/ and its tables into the
+documents. Steps that are complete at this commit and of this build are not repeated. `--quick` tries
+each in a few minutes, on a few needles; then results stay in the folder of the build and documents as
+they are.
 """
 
 import argparse
@@ -32,7 +32,7 @@ PEERS = "peers", "cross-check"
 
 @dataclass(frozen=True)
 class Step:
-    """A script with its options; its results, and how long it took on two quiet cores."""
+    """A script with its options; its results, and how long it should take on two quiet cores."""
 
     name: str
     script: str

@@ -1,8 +1,11 @@
 #include "kernels/course_contact.h"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "kernels/closest_approach.h"
+#include "kernels/root_between.h"
 
 namespace needlework::kernels {
 namespace {
@@ -109,20 +112,14 @@ class CourseSearch {
            search({middle, stretch.end, sign, stretch.after}, depth + 1, out);
   }
 
-  // Of f that grows towards the sign `after`: Newton's iteration between the ends.
+  // Of f that grows towards the sign `after`.
   double root(const Stretch& stretch, int after) {
-    double low = stretch.begin, high = stretch.end, s = low + 0.5 * (high - low);
-    for (int n = 0; n < 100; ++n) {
+    const auto value = [&](double s) {
       const Relation here = at(s);
-      if (here.f == 0) return s;
-      (sign_of_number(here.f) == after ? high : low) = s;
-      double next = s - here.f / here.df;
-      if (!(low < next && next < high)) next = low + 0.5 * (high - low);
-      if (!(low < next && next < high)) return high;
-      if (std::abs(next - s) <= 0x1p-52 * s) return next;
-      s = next;
-    }
-    return s;
+      return std::pair(here.f, here.df);
+    };
+    return root_between(stretch.begin, stretch.end, RootSide::past, value,
+                        [&](double f) { return sign_of_number(f) == after; });
   }
 
   bool accept(double s, int side, Contact& out) {

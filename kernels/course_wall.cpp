@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/root_between.h"
+
 namespace needlework::kernels {
 namespace {
 
@@ -95,20 +97,11 @@ class CourseTip {
     return search(begin, middle, halvings + 1, out) || search(middle, end, halvings + 1, out);
   }
 
-  // Of a height that falls: Newton's iteration between the ends.
+  // Of a height that falls.
   double root(double low, double high) const {
-    double s = low + 0.5 * (high - low);
-    for (int n = 0; n < 100; ++n) {
-      const TipHeight here = at(s);
-      if (here.h == 0) return s;
-      (here.h < 0 ? high : low) = s;
-      double next = s - here.h / here.dh;
-      if (!(low < next && next < high)) next = low + 0.5 * (high - low);
-      if (!(low < next && next < high)) return low;
-      if (std::abs(next - s) <= 0x1p-52 * s) return next;
-      s = next;
-    }
-    return s;
+    return root_between(
+        low, high, RootSide::before, [&](double s) { return at(s); },
+        [](double h) { return h < 0; });
   }
 
   const Course& course_;

@@ -148,8 +148,8 @@ double safe_step(double low, double slope, double bend) {
 double safe_step_from_contact(double slope, double curvature, double twist) {
   // slope t + curvature t^2 / 2 - twist t^3 / 6 > 0
   if (twist == 0) {
-    if (curvature >= 0)
-      return infinity;  // of a needle that lies on the wall and moves along it, too
+    // Also of a needle that lies on the wall and moves along it.
+    if (curvature >= 0) return infinity;
     return 2 * slope / -curvature;
   }
   const double root = std::sqrt(0.25 * curvature * curvature + (2.0 / 3) * twist * slope);

@@ -17,6 +17,17 @@ const char* advice_for(const PairCollapse& c) {
          "each other";
 }
 
+const char* advice_for(const GroupCollapse& c) {
+  const bool alone = c.first == c.second;  // with walls
+  if (c.sliding) return "a longer collisions.sliding_below may help";
+  if (c.contact_time && alone)
+    return "a contact time cannot help where a wall moves or draws velocities, nor a needle that "
+           "lies on a wall";
+  if (c.contact_time) return "a longer contact time may help";
+  return alone ? "set collisions.tc_relative, to 1e-3 say, unless it rests on a wall"
+               : "set collisions.tc_relative, to 1e-3 say, or collisions.sliding";
+}
+
 }  // namespace
 
 std::string message_of(const PairCollapse& c) {
@@ -30,17 +41,11 @@ std::string message_of(const GroupCollapse& c) {
   if (c.first == c.second) {
     return fmt::format(
         "needle {} collapses at time {:.17g}: {} events at one instant, with walls or others; {}",
-        c.first.value, c.time, c.collisions,
-        c.contact_time ? "a contact time cannot help where a wall moves or draws velocities, nor a "
-                         "needle that "
-                         "lies on a wall"
-                       : "set collisions.tc_relative, to 1e-3 say, unless it rests on a wall");
+        c.first.value, c.time, c.collisions, advice_for(c));
   }
   return fmt::format(
       "needles {} and {} and others collapse at time {:.17g}: {} collisions at one instant; {}",
-      c.first.value, c.second.value, c.time, c.collisions,
-      c.contact_time ? "a longer contact time may help"
-                     : "set collisions.tc_relative, to 1e-3 say, or collisions.sliding");
+      c.first.value, c.second.value, c.time, c.collisions, advice_for(c));
 }
 
 }  // namespace needlework

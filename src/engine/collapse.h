@@ -26,7 +26,8 @@ struct GroupCollapse {
   Id first, second;  ///< the same for an event of one needle
   double time = 0;
   std::uint64_t collisions = 0;  ///< number of collisions at that one instant
-  bool contact_time = false;     ///< whether the t_c rule is in force
+  bool contact_time = false;     ///< whether a t_c of the scene is in force
+  bool sliding = false;          ///< whether needles may slide on each other
 };
 std::string message_of(const GroupCollapse& collapse);
 

@@ -439,7 +439,7 @@ void EventProcessor<S, M>::count_at_instant(Needle a, Needle b) {
   if (++tally_.at_instant <= 10000 + 2 * gas_.size()) return;
   throw InvalidStateError(
       message_of(GroupCollapse{gas_.ids[a], gas_.ids[b], gas_.clock.since_start(now()),
-                               tally_.at_instant, run_.contact_time_rule.has_value()}),
+                               tally_.at_instant, run_.effects.contact_time, run_.effects.sliding}),
       {{gas_.ids[a].value, gas_.ids[b].value}});
 }
 

@@ -82,6 +82,13 @@ TEST(Warning, LooksAtAllSpeciesAndPairs) {
   EXPECT_EQ(of("until.time = 1", "k = 1\nt_tr = 0\nt_rot = 0\n"), Keys{"species.k = 1 of b"});
 }
 
+TEST(Warning, NamesTheKeyOfASingleSpecies) {
+  const auto found = warnings(parse_scene(
+      "until.time = 1\nneedles.box = 4\n[[species]]\nname = 'a'\ncount = 5\nk = 1", "s.toml"));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].substr(0, found[0].find(':')), "species.k = 1");
+}
+
 TEST(Warning, IsGivenForWallsAndDriving) {
   const std::string wall = "\n[[walls]]\naxis = 'z'\nside = 'low'\nepsilon = ";
   const std::string falls = "until.time = 1\nforces.gravity = [0, 0, -1]\n";
