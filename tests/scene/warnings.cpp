@@ -95,6 +95,7 @@ TEST(Warning, IsGivenForWallsAndDriving) {
   EXPECT_EQ(warned_of(falls + wall + "1"), Keys{});
   EXPECT_EQ(warned_of(falls + wall + "0.5"), Keys{"walls.epsilon"});
   EXPECT_EQ(warned_of(falls + "collisions.tc_relative = 1e-3" + wall + "0.5"), Keys{});
+  EXPECT_EQ(warned_of(falls + "collisions.sliding = true" + wall + "0.5"), Keys{});
   EXPECT_EQ(warned_of(falls + "collisions.tc_relative = 1e-3" + wall + "0"), Keys{"walls.epsilon"});
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.tc_relative = 1e-3" + wall +
                       "0\n[[walls]]\naxis = 'z'\nside = 'high'"),
