@@ -1,5 +1,5 @@
-// The oracle of rods in double or extended precision, for pairs that are far from every other
-// decision.
+// The oracle of rods in double, extended precision or quad, whichever is enough, for pairs that are
+// far from every other decision.
 //
 // All is a difference from s = 0, where more digits have told which points of the axes are nearest:
 // the square of the distance that points with other arms have at another time is the one there,
@@ -13,21 +13,22 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "tests/support/rod_oracle.h"
 
 namespace needlework::test {
 namespace {
 
-template <class Real>
-constexpr Real unit = std::numeric_limits<Real>::epsilon() / 2;
 // Bound on the roundings of an evaluation, in units of its largest term.
 constexpr double roundings = 16;
 // Times are known to this share, or left to more digits.
 constexpr double enough_of_time = 1e-6;
 // Shorter intervals, relative to their end, are left to more digits; so are ends so early, as a
 // share of the time in which rods move by their size.
-constexpr double shortest = 1e-11, soonest = 1e-24;
+template <class Real>
+constexpr double shortest = std::is_same_v<Real, Quad> ? 1e-20 : 1e-11;
+constexpr double soonest = 1e-24;
 
 // u (cos - 1) + p sin, and its size or more.
 template <class Real>
@@ -82,10 +83,11 @@ class RodDifferences {
   }
 
   Excess at(Real s) const {
+    using std::abs, std::min, std::sin, std::sqrt;
     Turned<Real> turned[2];
     for (int i = 0; i < 2; ++i) {
-      const Real angle = omega_[i] * s, sine = std::sin(angle / 2);
-      turned[i] = {(-2 * sine * sine) * u_[i] + std::sin(angle) * p_[i], angle};
+      const Real angle = omega_[i] * s, sine = sin(Real(angle / 2));
+      turned[i] = {(-2 * sine * sine) * u_[i] + Real(sin(angle)) * p_[i], angle};
     }
     const Vec<Real>&e1 = turned[0].change, &e2 = turned[1].change;
     const Vec<Real> dg = (s * v_ + arm_[0] * e1) - arm_[1] * e2, g = g0_ + dg;
@@ -98,13 +100,12 @@ class RodDifferences {
     const Real w1 = turned[0].angle, w2 = turned[1].angle, w = w1 + w2;
     const Real m_size = norm(m0_) + w;
     const auto size_of_b = [&](int i, Real angle) {
-      return std::abs(b0_[i]) + way + g_now * angle + g_size * std::min(angle, Real(2));
+      return abs(b0_[i]) + way + g_now * angle + g_size * min(angle, Real(2));
     };
     const Real size1 = size_of_b(0, w1), size2 = size_of_b(1, w2);
-    const Real size_m =
-        std::abs(bm0_) + way * norm(m0_) + g_now * w + g_size * std::min(w, Real(4));
+    const Real size_m = abs(bm0_) + way * norm(m0_) + g_now * w + g_size * min(w, Real(4));
     const Real moved = dot(dg, g0_ + g) + excess0_;
-    const Real moved_size = way * (2 * g_size) + std::abs(excess0_);
+    const Real moved_size = way * (2 * g_size) + abs(excess0_);
 
     const Real mm = dot(m, m), c12 = side_ * (1 - 0.5 * mm);
     const Vec<Real> x = cross(u1, m);
@@ -115,31 +116,31 @@ class RodDifferences {
       const Vec<Real> y = along * u1 + across * m;
       const Real value = 2 * (along * b1 + across * bm) + dot(y, y) + moved;
       // `along` is rounded as the arms are, which y feels along u1.
-      const Real y_along = std::abs(along) + std::abs(d2) * mm,
-                 y_size = std::abs(along) + std::abs(d2) * m_size;
-      const Real rounding = 2 * ((std::abs(along) + length_) * size1 + std::abs(d2) * size_m) +
+      const Real y_along = abs(along) + abs(d2) * mm, y_size = abs(along) + abs(d2) * m_size;
+      const Real rounding = 2 * ((abs(along) + length_) * size1 + abs(d2) * size_m) +
                             2 * length_ * y_along + y_size * y_size + moved_size;
-      const Real noise = roundings * unit<Real> * rounding;
-      low = std::min(low, value - noise);
-      high = std::min(high, value + noise);
+      const Real noise = roundings * unit_roundoff<Real>() * rounding;
+      low = min(low, value - noise);
+      high = min(high, value + noise);
     };
     const auto clamped = [&](int i, Real d) { return std::clamp(d, low_[i], high_[i]); };
-    for (const Real d1 : {low_[0], high_[0]}) consider(d1, clamped(1, b2 + c12 * d1));
-    for (const Real d2 : {low_[1], high_[1]}) consider(clamped(0, c12 * d2 - b1), d2);
+    for (const Real& d1 : {low_[0], high_[0]}) consider(d1, clamped(1, b2 + c12 * d1));
+    for (const Real& d2 : {low_[1], high_[1]}) consider(clamped(0, c12 * d2 - b1), d2);
     Real soft = 0;
     if (xx > 0) {
       const Real d1 = (-bm - 0.5 * side_ * mm * b2) / xx, d2 = side_ * (0.5 * mm * b1 - bm) / xx;
       if (d1 > low_[0] && d1 < high_[0] && d2 > low_[1] && d2 < high_[1]) {
         consider(d1, d2);
-        soft = (size_m + mm * (size1 + size2)) / std::sqrt(xx);
+        soft = (size_m + mm * (size1 + size2)) / sqrt(xx);
       }
     }
     // What arms are off matters to second order.
-    const Real off = roundings * unit<Real> * (size1 + size2 + length_ + soft);
+    const Real off = roundings * unit_roundoff<Real>() * (size1 + size2 + length_ + soft);
     return {Real(0.5) * (low + high), Real(0.5) * (high - low) + off * off + noise0_};
   }
   Real distance(const Excess& at) const {
-    return std::sqrt(std::max(Real(0), at.value) + contact_ * contact_);
+    using std::sqrt;
+    return sqrt(Real(std::max(Real(0), at.value) + contact_ * contact_));
   }
   /// Bound on the second derivative of squares of distances of the points that are nearest at any
   /// time in an interval of this length.
@@ -197,7 +198,7 @@ class QuickRodOracle {
       if (falls(at_a, next, h, c)) return root(later, next, b, at_b);
     }
     const Real middle = a + 0.5 * h;
-    if (h < shortest * b || rods_.speed() * b < soonest * rods_.size()) return give_up();
+    if (h < shortest<Real> * b || rods_.speed() * b < soonest * rods_.size()) return give_up();
     const Excess at_middle = at(middle);
     return search(a, at_a, middle, at_middle) || search(middle, at_middle, b, at_b);
   }
@@ -274,7 +275,8 @@ std::optional<RodAnswer> quick_rod_contact(const RodCase& rods) {
   if (!is_apart) {
     if (auto answer = answer_in<double>(precise, least, rods.horizon)) return answer;
   }
-  return answer_in<long double>(precise, least, rods.horizon);
+  if (auto answer = answer_in<long double>(precise, least, rods.horizon)) return answer;
+  return answer_in<Quad>(precise, least, rods.horizon);
 }
 
 }  // namespace needlework::test
