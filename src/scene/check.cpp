@@ -39,9 +39,17 @@ std::vector<Rule> rules_of(const Scene& scene, const Composition& composition) {
   return out;
 }
 
+// What messages call the bodies of a scene.
+const char* name_of_bodies(const Composition& composition) {
+  if (!composition.has_width()) return "needles";
+  const bool turns = std::ranges::any_of(composition.species(), &Species::turns);
+  return turns ? "rods" : "spheres";
+}
+
 // Inelastic walls, of which the messages are those of inelastic pairs.
 std::vector<std::string> wall_warnings(const Scene& scene) {
   std::vector<std::string> list;
+  const char* const bodies = name_of_bodies(scene.composition());
   const double tc = scene.collisions.tc.value_or(scene.collisions.tc_relative.value_or(0));
   const std::array<double, 3>& gravity = scene.forces.gravity;
   for (const Scene::Wall& wall : scene.walls) {
@@ -49,13 +57,13 @@ std::vector<std::string> wall_warnings(const Scene& scene) {
     // Where needles slide, hits have a t_c rule of their own.
     if (wall.epsilon < 1 && tc == 0 && !scene.collisions.sliding) {
       list.push_back(fmt::format(
-          "{}: needles can hit an inelastic wall infinitely often in a finite time, which ends a "
-          "run; set collisions.tc_relative, such as 1e-3, to prevent it",
-          key));
+          "{}: {} can hit an inelastic wall infinitely often in a finite time, which ends a run; "
+          "set collisions.tc_relative, such as 1e-3, to prevent it",
+          key, bodies));
     } else if (wall.epsilon == 0 && gravity != std::array<double, 3>{}) {
       list.push_back(fmt::format(
-          "{}: t_c cannot prevent collapse at epsilon = 0, where needles that fall do not rebound",
-          key));
+          "{}: t_c cannot prevent collapse at epsilon = 0, where {} that fall do not rebound", key,
+          bodies));
     }
   }
   return list;
@@ -71,6 +79,7 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
   std::vector<std::string> list;
   const Scene::Collisions& c = scene.collisions;
   const Composition composition = scene.composition();
+  const char* const bodies = name_of_bodies(composition);
   const double tc = c.tc.value_or(c.tc_relative.value_or(0));
   const char* tc_key = c.tc ? "tc" : "tc_relative";
   const std::vector<Rule> rules = rules_of(scene, composition);
@@ -84,14 +93,14 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
   for (const Rule& rule : rules) {
     if (!(rule.restitution.epsilon < 1 && tc == 0) || c.sliding) continue;
     list.push_back(fmt::format(
-        "{}: inelastic needles can collide infinitely often in a finite time, which ends a run; "
-        "set collisions.tc_relative, such as 1e-3, to prevent it",
-        rule.epsilon));
+        "{}: inelastic {} can collide infinitely often in a finite time, which ends a run; set "
+        "collisions.tc_relative, such as 1e-3, to prevent it",
+        rule.epsilon, bodies));
   }
   if (any([](const Restitution& rule) { return rule.epsilon == 0; }) && tc > 0)
     list.push_back(fmt::format(
-        "collisions.{} = {}: cannot prevent collapse at epsilon = 0, where needles do not rebound",
-        tc_key, tc));
+        "collisions.{} = {}: cannot prevent collapse at epsilon = 0, where {} do not rebound",
+        tc_key, tc, bodies));
   if (bounces && c.tc_relative && tc > 0 && tc < 1e-7)
     list.push_back(fmt::format(
         "collisions.tc_relative = {}: below about 1e-7 rebounds are too small to be resolved, and "
@@ -105,7 +114,7 @@ std::vector<std::string> collision_warnings(const Scene& scene) {
                     c.sliding_below));
   if (!bounces && !composition.is_rough() && tc > 0)
     list.push_back(
-        fmt::format("collisions.{} = {}: has no effect on elastic smooth needles", tc_key, tc));
+        fmt::format("collisions.{} = {}: has no effect on elastic smooth {}", tc_key, tc, bodies));
   return list;
 }
 

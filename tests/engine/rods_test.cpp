@@ -247,10 +247,10 @@ std::string refusal(const Scene& scene) {
 
 TEST(RodPacking, SaysWhatItCannotPlace) {
   // More than the densest packing of spheres, and than insertion reaches.
-  EXPECT_EQ(refusal(rods_of(500, 0, 0.76)),
-            "initial.packing = \"auto\": no lattice of parallel rods has room for 500 rods at a "
-            "packing fraction of 0.76: expected a larger box, or edges that fit the rods better");
-  Scene scene = rods_of(60, 0, 0.5);
+  EXPECT_EQ(refusal(rods_of(12, 0, 0.755)),
+            "initial.packing = \"auto\": no lattice of parallel rods has room for 12 rods at a "
+            "packing fraction of 0.755: expected a larger box, or edges that fit the rods better");
+  Scene scene = rods_of(11, 0, 0.7);
   scene.initial.packing = "insertion";
   EXPECT_EQ(refusal(scene),
             "initial.packing = \"insertion\": a rod found no place in 1000000 tries: expected "

@@ -41,6 +41,25 @@ TEST(Warning, NamesTcRelativeForInelasticNeedlesWithoutIt) {
   EXPECT_EQ(warned_of("until.time = 1\ncollisions.beta = 0"), Keys{});
 }
 
+TEST(Warning, CallsBodiesByTheirName) {
+  const auto warning_of = [](const std::string& species) {
+    const auto list =
+        warnings(parse_scene("until.time = 1\nneedles.box = 9\n"
+                             "collisions.epsilon = 0.8\n" +
+                                 species,
+                             "s.toml"));
+    return list.empty() ? "none" : list[0];
+  };
+  const std::string entry = "[[species]]\ncount = 5\nname = ",
+                    sphere = "length = 0\ndiameter = 1\n";
+  EXPECT_NE(warning_of(entry + "'a'\n").find(": inelastic needles can"), std::string::npos);
+  EXPECT_NE(warning_of(entry + "'a'\n" + sphere).find(": inelastic spheres can"),
+            std::string::npos);
+  EXPECT_NE(warning_of(entry + "'a'\n" + sphere + entry + "'b'\ndiameter = 1\n")
+                .find(": inelastic rods can"),
+            std::string::npos);
+}
+
 TEST(Warning, IsGivenForAContactTimeThatCannotHelp) {
   EXPECT_EQ(warned_of("until.time = 1\ncollisions = {epsilon = 0, tc = 0.1}"),
             Keys{"collisions.tc"});
