@@ -53,6 +53,8 @@ STEPS = [
                                                       "--out", "{folder}/effects.md"), 20,
          "instructions and bytes of each effect, off and on, on one and two threads"),
     Step("shares", "instructions.py", ("shares",), (), 2, "where instructions go"),
+    Step("build", "build_cost.py", (), ("--dry",), 4,
+         "how many event loops are compiled, sizes, and how long the compiler takes"),
     Step("peers", "peers/peers.py", ("--document",),
          ("--repetitions", "6", "--scene", "spheres-0.1", "--out", "{folder}/peers.md"), 40,
          "what a collision costs in other engines"),

@@ -271,9 +271,10 @@ bool RodSearch::solve(std::optional<DoubleDouble>& root) {
   const Vec3<T>&r = spheres.r, &v = spheres.v, n = cross(r, v);
   const T contact = rods_.threshold<T>(), vv = dot(v, v);
   const T excess = dot(r, r) - contact, d = contact * vv - dot(n, n);
-  const double size = to_double(dot(r, r)) + to_double(contact);
-  const double error = 16 * unit_roundoff<T> * size + (is_double ? rods_.threshold_error() : 0);
-  const double error_d = error * to_double(vv);
+  const double rr = to_double(dot(r, r)), size = rr + to_double(contact);
+  const double of_contact = is_double ? rods_.threshold_error() : unit_roundoff<T> * size;
+  const double error = 6 * unit_roundoff<T> * rr + of_contact;
+  const double error_d = (16 * unit_roundoff<T> * size + of_contact) * to_double(vv);
   // What double-double does not tell from a touch is one.
   if (!(to_double(d) > (is_double ? -error_d : error_d))) return true;
   const T s = excess / (sqrt(d) - dot(r, v));

@@ -19,7 +19,7 @@ PairScale rod_scale_of(const RodPair& pair);
 
 /// Times in double are refined in double-double where the bound of their error is above this share
 /// of the time since s = 0. The bounds are at least three times the error, and fifty times what it
-/// is mostly.
+/// is mostly; that of spheres is just above the largest error.
 inline constexpr double rod_polish_above = 0x1p-42;
 
 /// How far rounding of the records may have moved the rods. [L]

@@ -31,7 +31,9 @@ std::optional<Contact> sphere_contact(const RodPair& pair, double until,
   if (!spheres.are_moderate()) return std::nullopt;
   const auto& [r, v, contact, vv] = spheres;
   const double rr = dot(r, r), size = rr + contact, excess = rr - contact;
-  const double error = 16 * unit_roundoff<double> * size + unit_roundoff<double> * contact;
+  // The places are rounded once, as are their squares, sums and that of the distance.
+  const double of_contact = unit_roundoff<double> * contact;
+  const double error = 6 * unit_roundoff<double> * rr + of_contact;
   const double rv = dot(r, v);
   // Mostly a pair that has just collided.
   if (rv > 0 && excess > -pair.distance * pair.touch_within) return Contact{};
@@ -39,7 +41,8 @@ std::optional<Contact> sphere_contact(const RodPair& pair, double until,
   if (!(rv < 0)) return Contact{};
   ++counters.evaluated;
   const Vec3d n = cross(r, v);
-  const double d = contact * vv - dot(n, n), error_d = error * vv;
+  const double d = contact * vv - dot(n, n);
+  const double error_d = (16 * unit_roundoff<double> * size + of_contact) * vv;
   if (!(d > -error_d)) return Contact{};
   const bool is_known = error <= rod_polish_above * excess && error_d <= rod_polish_above * d;
   if (!is_known) return std::nullopt;

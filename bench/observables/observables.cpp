@@ -38,7 +38,9 @@ void sample(benchmark::State& state, const std::string& name) {
   Scene scene = dense_scene(state.range(0));
   scene.output.observables = {name};
   if (std::ranges::find(wall_observable_names, name) != wall_observable_names.end()) {
-    scene.walls = {{.axis = "z", .side = "both"}};
+    Scene::Wall& walls = scene.walls.emplace_back();
+    walls.axis = "z";
+    walls.side = "both";
   }
   const Simulation simulation(scene);
   const State needles = simulation.copy();

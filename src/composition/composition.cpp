@@ -47,6 +47,8 @@ double Composition::widest() const {
   return out;
 }
 
+bool Composition::are_spheres() const { return std::ranges::none_of(species_, &Species::turns); }
+
 double Composition::packing_fraction(double volume) const {
   double out = 0;
   for (const Species& each : species_) {

@@ -28,6 +28,7 @@ void require_one_thread(const LoopChoice& choice) {
 std::unique_ptr<Loop> make_loop(Run& run, LoopChoice choice) {
   Counters& counters = run.tally.counters;
   if (const auto kind = NearSearch::kind_of(choice.search)) {
+    choice.setup.keep_lists = choice.threads == 1;
     NearSearch search(run.gas, counters, choice.setup, *kind);
     if (choice.threads > 1 && choice.calendar == CellCalendar::name) {
       return make_parallel_loop(

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "kernels/in_parallel.h"
@@ -23,6 +24,8 @@ constexpr double overlap_of_side = 0.2;
 // So far the falling frame of motions moves, by sides of cells or lengths of needles, before it is
 // brought to rest again.
 constexpr double fallen_of_side = 0.125;
+// A sphere in less room than this share of the square of its ball's radius gets another ball.
+constexpr double least_room = 0x1p-10;
 // Cells that a search may choose to have, by needles: those around a cloud are empty, and take a
 // third of a kilobyte each.
 constexpr double cells_per_needle = 2;
@@ -108,6 +111,10 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     radius = std::max(radius, made.radius);
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
+  if (sizes.all.front().in_balls) {
+    balls.resize(gas.size());
+    leave_balls();
+  }
 }
 
 bool BoundingVolumes::place(Needle i, Time now, double half_length) {
@@ -161,6 +168,52 @@ inline bool BoundingVolumes::place_one(Needle i, Time now, double half_length) {
   return crosses;
 }
 
+bool BoundingVolumes::place_in_ball(Needle i, Time now, bool& is_new) {
+  if (per_time == 0 || since_base(now) > longest_time) rebase(now, 1);
+  const Record& record = gas.records[i];
+  const double elapsed = gas.clock.difference(now, record.time);
+  const Vec3d centre = kernels::centre_after(record.flight, elapsed), v = record.flight.v;
+  ClassCells& own = class_of(i);
+  Ball& ball = balls[i];
+  if (const Shift& image = gas.images[i]; !same(ball.image, image)) follow_wraps(i, image);
+  const double square = own.radius * own.radius;
+  Vec3d from = centre - ball.centre;
+  double room = square - dot(from, from);
+  is_new = !(room > least_room * square);
+  bool crosses = false;
+  if (is_new) {
+    ball.centre = centre;
+    from = {};
+    room = square;
+    crosses = enter(own, i, own.grid.cell_of(centre));
+    motions[i].half = 0;
+    write_entry(own, i, centre, record.flight.u, now);
+  }
+  const double outwards = dot(from, v), vv = dot(v, v),
+               root = std::sqrt(outwards * outwards + vv * room);
+  const double stay = outwards > 0 ? room / (root + outwards) : (root - outwards) / vv;
+  places[i].next_event =
+      gas.clock.add(now, vv > 0 ? stay : std::numeric_limits<double>::infinity());
+  set_motion(i, elapsed, {centre, v}, now);
+  return crosses;
+}
+
+void BoundingVolumes::leave_balls() {
+  const double nowhere = std::numeric_limits<double>::quiet_NaN();
+  for (Ball& ball : balls) ball.centre = {nowhere, nowhere, nowhere};
+}
+
+// The record of a sphere has been wrapped: its ball and its cell are seen in its frame.
+void BoundingVolumes::follow_wraps(Needle i, const Shift& image) {
+  Ball& ball = balls[i];
+  const Shift wraps = image - ball.image;
+  ball.centre =
+      ball.centre - Vec3d{wraps[0] * gas.box[0], wraps[1] * gas.box[1], wraps[2] * gas.box[2]};
+  ball.image = image;
+  const auto counts = class_of(i).grid.counts();
+  for (int axis = 0; axis < 3; ++axis) places[i].cell[axis] -= wraps[axis] * counts[axis];
+}
+
 void BoundingVolumes::prepare(Time now, int threads) {
   // Early, so that there is always some time ahead.
   if (per_time == 0 || since_base(now) > 0.75 * longest_time) rebase(now, threads);
@@ -174,6 +227,7 @@ void BoundingVolumes::renumber(const std::vector<Needle>& ranks) {
   const std::vector<Needle> order = ranks_of(ranks);
   permute(places, order);
   permute(motions, order);
+  if (!balls.empty()) permute(balls, order);
   for (const auto& each : classes) each->cells.renumber(ranks);
 }
 

@@ -3,7 +3,7 @@
 // A needle that is placed gets a bounding volume, a region fixed in space that it does not leave
 // before a known time, and an entry in the cell that its centre is in. Only needles whose bounding
 // volumes are near each other can meet before one of them is placed again, and a needle that is
-// placed again searches again. So nothing else is kept: there are no neighbour lists.
+// placed again searches again. So nothing else is kept, but for spheres (neighbour_lists.h).
 //
 //   cell     the bounding volume is the cell and a fifth of its side around it
 //   capsule  the bounding volume is a capsule of radius delta around the needle
@@ -67,11 +67,23 @@ struct BoundingVolumes {
     bool is_entered() const { return slot.block != kernels::NeedleBlock::none; }
   };
 
+  /// Where a sphere that stays in its bounding volume through collisions has got it.
+  struct Ball {
+    Vec3d centre;  ///< in the frame of a record that has been wrapped by `image` [L]
+    Shift image;
+  };
+
   BoundingVolumes(const Gas& gas, const SearchSetup& setup, BoundingVolume kind);
 
   /// Enters needle i, of this half length [L], where it is now. Returns whether it has come from
   /// another cell.
   bool place(Needle i, Time now, double half_length);
+  /// The same for a sphere that falls freely nowhere and has no other size class beside it: it
+  /// stays in its bounding volume for as long as it can. `is_new` tells whether it has got another
+  /// one.
+  bool place_in_ball(Needle i, Time now, bool& is_new);
+  /// All spheres get other balls when they are placed next.
+  void leave_balls();
   /// Needle i, which has been placed, will search again at this time. [time]
   void set_next_event(Needle i, Time time) {
     places[i].next_event = time;
@@ -118,6 +130,7 @@ struct BoundingVolumes {
   Time base;
   LargeArray<Place> places;
   LargeArray<kernels::Motion> motions;
+  LargeArray<Ball> balls;  ///< empty where none is kept
 
  private:
   Cell cell_around(Needle i) const;
@@ -125,6 +138,7 @@ struct BoundingVolumes {
   void rebase(Time now, int threads);
   template <bool falls>
   bool place_one(Needle i, Time now, double half_length);
+  void follow_wraps(Needle i, const Shift& image);
   struct Path {
     Vec3d centre, velocity;
   };

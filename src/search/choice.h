@@ -57,12 +57,18 @@ inline double crowding(double density, const Composition& composition) {
   return density_by_mean(density, composition) * crowding_by_width(density, composition);
 }
 
+/// From this crowding on, cells are dearer than capsules.
+inline constexpr double least_crowd_for_capsules = 2.5;
+/// Spheres stay long enough in balls from here on; where they are less crowded, cells are cheapest.
+inline constexpr double least_crowd_for_balls = 10;
+
 /// The search asked for by name; by `auto`, the cheaper one. Density: needles per cube of the
 /// longest one.
 inline std::string chosen_search(const std::string& asked, double density,
                                  const Composition& composition) {
   if (asked != "auto") return asked;
-  return crowding(density, composition) < 2.5 ? "linked-cells" : "capsules";
+  const double least = composition.are_spheres() ? least_crowd_for_balls : least_crowd_for_capsules;
+  return crowding(density, composition) < least ? "linked-cells" : "capsules";
 }
 
 /// Whether the search asked for has sizes to choose.
@@ -74,6 +80,11 @@ inline bool has_sizes(const std::string& asked) {
 /// sooner.
 inline double auto_capsule_radius(double crowd) {
   return std::clamp(0.6 / std::cbrt(crowd * crowd), 0.02, 1.0);
+}
+
+/// Radius of balls [L], in which spheres stay through collisions.
+inline double auto_ball_radius(double crowd) {
+  return std::clamp(1.3 / std::sqrt(crowd), 0.02, 1.0);
 }
 
 /// Side of the cells of capsules [L], of about 12 needles, which fill the vectors; a few fewer

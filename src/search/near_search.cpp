@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/inline.h"
+
 namespace needlework {
 namespace {
 
@@ -34,8 +36,10 @@ NearSearch::NearSearch(const Gas& gas, Counters& counters, const SearchSetup& se
       follows_(setup.float_filter),
       widest_(static_cast<float>(gas.composition.widest() * volumes_->per_length)),
       margin_(static_cast<float>(gas.margin * volumes_->per_length)),
-      are_spheres_(std::ranges::none_of(gas.composition.species(), &Species::turns)),
-      looks_(volumes_->classes.size()) {}
+      are_spheres_(gas.composition.are_spheres()),
+      looks_(volumes_->classes.size()) {
+  if (!volumes_->balls.empty()) lists_.emplace(gas.size());
+}
 
 NearSearch::NearSearch(const NearSearch& other, Counters& counters)
     : volumes_(other.volumes_),
@@ -49,12 +53,31 @@ NearSearch::NearSearch(const NearSearch& other, Counters& counters)
       looks_(volumes_->classes.size()) {}
 
 Time NearSearch::place(Needle i, Time now, double half_length) {
+  if (lists_) return place_in_ball(i, now);
   counters_.crossings += volumes_->place(i, now, half_length);
   return volumes_->places[i].next_event;
 }
 
-inline void NearSearch::make_seeker(Needle i, const ClassCells& own, double ahead,
-                                    kernels::Seeker& seeker) const {
+[[gnu::noinline]] Time NearSearch::place_in_ball(Needle i, Time now) {
+  bool is_new;
+  counters_.crossings += volumes_->place_in_ball(i, now, is_new);
+  if (is_new) list_neighbours(i);
+  for (const auto& each : lists_->of(i)) needlework::prefetch(&volumes_->motions[each.needle]);
+  return volumes_->places[i].next_event;
+}
+
+void NearSearch::begin_again(Time now) {
+  volumes_->begin_again(now);
+  volumes_->leave_balls();
+}
+
+void NearSearch::renumber(const std::vector<Needle>& ranks) {
+  volumes_->renumber(ranks);
+  if (lists_) lists_->renumber(ranks);
+}
+
+inline void NearSearch::look_from(Needle i, const ClassCells& own, double ahead,
+                                  kernels::Seeker& seeker) const {
   const BoundingVolumes& volumes = *volumes_;
   seeker.motion = volumes.motions[i];
   seeker.now = seeker.motion.time;
@@ -62,6 +85,12 @@ inline void NearSearch::make_seeker(Needle i, const ClassCells& own, double ahea
   seeker.margin = own.margin;
   seeker.longest_half = own.longest_half;
   seeker.needle = i.index;
+}
+
+inline void NearSearch::make_seeker(Needle i, const ClassCells& own, double ahead,
+                                    kernels::Seeker& seeker) const {
+  const BoundingVolumes& volumes = *volumes_;
+  look_from(i, own, ahead, seeker);
   if (own.kind == BoundingVolume::capsule) {
     const NeedleCells::Slot& slot = volumes.places[i].slot;
     const NeedleBlock& block = own.cells[slot.block];
@@ -243,6 +272,12 @@ class NearSearch::SegmentInCells {
   float overlap_, wide_, side_[3], per_side_[3], from_[3], way_[3], per_way_[3];
 };
 
+inline void NearSearch::make_room_for_views(std::size_t count) {
+  if (count <= views_.size()) return;
+  views_.resize(count);
+  view_cells_.resize(count);
+}
+
 // Makes views of the cells in which needles may be found: those in which a needle within reach of
 // this one's bounding volume, or of its path in the time ahead, can have been placed.
 inline void NearSearch::look_around(Look& look) {
@@ -260,10 +295,7 @@ inline void NearSearch::look_around(Look& look) {
 
   const float reach_squared = look.reach * look.reach;
   const std::size_t most = near[0].size() * near[1].size() * near[2].size();
-  if (look.first_view + most > views_.size()) {
-    views_.resize(look.first_view + most);
-    view_cells_.resize(look.first_view + most);
-  }
+  make_room_for_views(look.first_view + most);
   // Copied, because for all the compiler knows the stores below might change this pointer.
   const NeedleBlock* const blocks = there.cells.blocks();
   kernels::CellView* view = views_.data() + look.first_view;
@@ -332,7 +364,15 @@ inline kernels::Scan NearSearch::scan(const ClassCells& own, const Look& look,
 
 // The boxes to be added to the centre of a needle found in this view.
 inline Shift NearSearch::shift_of(Needle j, std::uint32_t view) const {
+  if (lists_) return shift_in_list(j, view);
   return volumes_->class_of(j).grid.boxes_between(view_cells_[view], volumes_->places[j].cell);
+}
+
+[[gnu::noinline]] Shift NearSearch::shift_in_list(Needle j, std::uint32_t neighbour) const {
+  const Needle i(looks_.front().seeker.needle);
+  Cell seen = volumes_->places[i].cell;
+  for (int axis = 0; axis < 3; ++axis) seen[axis] += lists_->of(i)[neighbour].cells[axis];
+  return volumes_->class_of(j).grid.boxes_between(seen, volumes_->places[j].cell);
 }
 
 inline void NearSearch::propose(const kernels::Found& found, std::size_t k, double from) {
@@ -399,9 +439,12 @@ inline void NearSearch::follow(const JustHit& just_hit, const kernels::Found& fo
   }
 }
 
-std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit,
-                                                              double ahead) {
-  const BoundingVolumes& volumes = *volumes_;
+NEEDLEWORK_INLINE kernels::Found NearSearch::found() {
+  return {found_.data(), found_.data() + found_.size() / 2};
+}
+
+// Finds those whose bounding volumes are near that of needle i, or near its path in the time ahead.
+NEEDLEWORK_INLINE kernels::Scan NearSearch::look_into_cells(Needle i, double ahead) {
   begin_looks(i, ahead);
   const ClassCells& own = *looks_.front().cells;
   std::size_t views = 0, room = kernels::block_size;
@@ -413,7 +456,7 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
     room += look.views * look.cells->cells.longest_chain() * kernels::block_size;
   }
   if (2 * room > found_.size()) found_.resize(4 * room);
-  const kernels::Found found{found_.data(), found_.data() + found_.size() / 2};
+  const kernels::Found found = this->found();
   std::size_t entries = 0, count = 0;
   for (Look& look : looks_) {
     look.first_found = count;
@@ -427,6 +470,59 @@ std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const Ju
       found.cell[k] += static_cast<std::uint32_t>(look.first_view);
     }
   }
+  return {entries, count};
+}
+
+// The same from the body's list. Each neighbour has a view of its own.
+[[gnu::noinline]] kernels::Scan NearSearch::look_into_list(Needle i, double ahead) {
+  Look& look = looks_.front();
+  look.cells = &volumes_->class_of(i);
+  look_from(i, *look.cells, ahead, look.seeker);
+  const std::span<const NeighbourLists::Neighbour> list = lists_->of(i);
+  const std::size_t count = list.size();
+  make_room_for_views(count);
+  if (2 * (count + kernels::block_size) > found_.size()) {
+    found_.resize(4 * (count + kernels::block_size));
+  }
+  const kernels::Found found = this->found();
+  const std::array<double, 3> grid_sides = look.cells->grid.sides();
+  float sides[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    sides[axis] = static_cast<float>(grid_sides[axis] * volumes_->per_length);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    found.needle[k] = list[k].needle.index;
+    found.cell[k] = static_cast<std::uint32_t>(k);
+    for (int axis = 0; axis < 3; ++axis) {
+      views_[k].offset[axis] = static_cast<float>(list[k].cells[axis]) * sides[axis];
+    }
+  }
+  look.found = count;
+  return {count, count};
+}
+
+// Body i has got another bounding volume.
+[[gnu::noinline]] void NearSearch::list_neighbours(Needle i) {
+  const std::size_t count = look_into_cells(i, 0).found;
+  const kernels::Found found = this->found();
+  neighbours_.clear();
+  const Cell& own = volumes_->places[i].cell;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Cell& seen = view_cells_[found.cell[k]];
+    NeighbourLists::Neighbour each{Needle(found.needle[k]), {}};
+    for (int axis = 0; axis < 3; ++axis) {
+      each.cells[axis] = static_cast<std::int8_t>(seen[axis] - own[axis]);
+    }
+    neighbours_.push_back(each);
+  }
+  lists_->replace(i, neighbours_);
+}
+
+std::span<const NearSearch::Candidate> NearSearch::candidates(Needle i, const JustHit& just_hit,
+                                                              double ahead) {
+  const BoundingVolumes& volumes = *volumes_;
+  const auto [entries, count] = lists_ ? look_into_list(i, ahead) : look_into_cells(i, ahead);
+  const kernels::Found found = this->found();
   counters_.candidates += entries;
 
   for (std::size_t k = 0; k < count; ++k) {

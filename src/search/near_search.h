@@ -8,6 +8,9 @@
 //                 stay long in their cells and neighbours are few
 //   capsules      needles whose capsules overlap; for dense gases, where the few needles next to a
 //                 needle are nearly all that it can meet
+//
+// Spheres stay in their capsules, which are balls, through collisions, and keep lists of those
+// whose balls overlap. Needles would leave theirs too soon (docs/experiments.md).
 #pragma once
 
 #include <memory>
@@ -18,6 +21,7 @@
 
 #include "src/memory/prefetch.h"
 #include "src/search/bounding_volumes.h"
+#include "src/search/neighbour_lists.h"
 #include "src/search/pair_table.h"
 #include "src/search/search.h"
 
@@ -45,8 +49,8 @@ class NearSearch {
   Time place(Needle i, Time now, double half_length);
   void set_next_event(Needle i, Time time) { volumes_->set_next_event(i, time); }
   Time next_event(Needle i) const { return volumes_->places[i].next_event; }
-  void begin_again(Time now) { volumes_->begin_again(now); }
-  void renumber(const std::vector<Needle>& ranks) { volumes_->renumber(ranks); }
+  void begin_again(Time now);
+  void renumber(const std::vector<Needle>& ranks);
   /// Candidates come in the order of the times from which on they may meet.
   template <class Visit>
   void find(const SearchQuery& query, const Lengths auto&, Visit&& visit) {
@@ -64,6 +68,9 @@ class NearSearch {
   void prefetch(Needle i) const {
     needlework::prefetch(&volumes_->places[i]);
     needlework::prefetch(&volumes_->motions[i]);
+    if (!lists_) return;
+    needlework::prefetch(&volumes_->balls[i]);
+    lists_->prefetch(i);
   }
 
   const BoundingVolumes& volumes() const { return *volumes_; }
@@ -106,10 +113,17 @@ class NearSearch {
   class SegmentInCells;
 
   std::span<const Candidate> candidates(Needle i, const JustHit& just_hit, double ahead);
+  Time place_in_ball(Needle i, Time now);
+  void list_neighbours(Needle i);
+  kernels::Scan look_into_cells(Needle i, double ahead);
+  kernels::Scan look_into_list(Needle i, double ahead);
+  kernels::Found found();
   void begin_looks(Needle i, double ahead);
+  void look_from(Needle i, const ClassCells& own, double ahead, kernels::Seeker& seeker) const;
   void make_seeker(Needle i, const ClassCells& own, double ahead, kernels::Seeker& seeker) const;
   void seen_from(const ClassCells& own, Look& look) const;
   void sweep(const ClassCells& own, double ahead, Look& look) const;
+  void make_room_for_views(std::size_t count);
   void look_around(Look& look);
   kernels::Scan scan(const ClassCells& own, const Look& look, const kernels::Found& found) const;
   void follow(const JustHit& just_hit, const kernels::Found& found, std::size_t count);
@@ -118,6 +132,7 @@ class NearSearch {
   void leave_out_sliding(const kernels::Found& found, std::size_t count, float never);
   void propose(const kernels::Found& found, std::size_t k, double from);
   Shift shift_of(Needle j, std::uint32_t view) const;
+  Shift shift_in_list(Needle j, std::uint32_t neighbour) const;
 
   std::shared_ptr<BoundingVolumes> volumes_;
   BoundingVolume kind_;  ///< that the search is named by
@@ -132,6 +147,9 @@ class NearSearch {
   std::vector<kernels::CellView> views_;
   std::vector<Cell> view_cells_;      ///< of the views, not wrapped into the box
   std::vector<std::uint32_t> found_;  ///< needles, then their cells, each in one half
+  /// Absent where all neighbours are looked for at each search.
+  std::optional<NeighbourLists> lists_;
+  std::vector<NeighbourLists::Neighbour> neighbours_;  ///< of one body
   PairTable pairs_;
   std::vector<Candidate> candidates_;
 };

@@ -24,6 +24,8 @@ struct SearchSetup {
   /// same.
   bool by_class = false;
   bool float_filter = true;  ///< see needlework/accuracy.h
+  /// Whether a search that suits it may keep lists of neighbours. They are those of one thread.
+  bool keep_lists = false;
   /// Where the search chooses its cells, their counts along the axes are multiples of these if
   /// near.
   std::array<std::int32_t, 3> count_multiples = {1, 1, 1};

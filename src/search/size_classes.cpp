@@ -76,8 +76,12 @@ SizeClasses size_classes(const Gas& gas, const SearchSetup& setup, BoundingVolum
     }
     one.cell_side = setup.cell_side.value_or(
         length * (cells ? auto_cell_side(by_mean, crowd) : auto_side_for_capsules(by_mean)));
-    if (!cells)
-      one.capsule_radius = setup.capsule_radius.value_or(length * auto_capsule_radius(crowd));
+    if (!cells) {
+      one.in_balls = setup.keep_lists && gas.composition.are_spheres() && !gas.falls &&
+                     (crowd >= least_crowd_for_balls || setup.capsule_radius);
+      one.capsule_radius = setup.capsule_radius.value_or(
+          length * (one.in_balls ? auto_ball_radius(crowd) : auto_capsule_radius(crowd)));
+    }
     return out;
   }
   // Cells of few needles may be emptier than others: no grid is coarser than this, as the cells

@@ -37,7 +37,7 @@ class All(unittest.TestCase):
         about = "\n\ndef about(build):\n    import json, os\n    return json.loads(os.environ['ABOUT'])\n"
         (bench / "measured.py").write_text((BENCH / "measured.py").read_text() + about)
         for script in ("performance.py", "accuracy/accuracy.py", "rods_price.py", "instructions.py",
-                       "peers/peers.py", "peers/cross_check.py"):
+                       "build_cost.py", "peers/peers.py", "peers/cross_check.py"):
             (bench / script).parent.mkdir(exist_ok=True)
             (bench / script).write_text(
                 "import pathlib, sys\n"
@@ -60,22 +60,22 @@ class All(unittest.TestCase):
         return [line.split(" --build")[0].split(" --program")[0] for line in lines]
 
     ALL = ["performance.py --no-instructions", "accuracy/accuracy.py --readme", "rods_price.py",
-           "instructions.py effects", "instructions.py shares"]
+           "instructions.py effects", "instructions.py shares", "build_cost.py"]
 
     def test_says_how_long_it_takes_and_does_each_step_once(self):
         done = self.run_script()
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         first = done.stdout.split("== ")[0]
-        self.assertIn("5 of 5 steps are left, about 127 min", first)
+        self.assertIn("6 of 6 steps are left, about 131 min", first)
         self.assertLess(sum(step.minutes for step in runpy.run_path(str(BENCH / "all.py"))["STEPS"]),
                         180)
         self.assertEqual(self.called(), self.ALL)
         done = self.run_script()
-        self.assertIn("0 of 5 steps are left", done.stdout)
+        self.assertIn("0 of 6 steps are left", done.stdout)
         self.assertEqual(self.called(), [])
         # At another commit all is measured again, and times are those of before.
         done = self.run_script("--list", commit="d")
-        self.assertIn("5 of 5 steps are left, about 1 min", done.stdout)
+        self.assertIn("6 of 6 steps are left, about 1 min", done.stdout)
         self.assertEqual(self.called(), [])
 
     def test_goes_on_where_a_step_failed_and_where_time_was_used_up(self):

@@ -25,7 +25,9 @@ class ExactRate : public ProgramTest {
     const json check = json_of("check gas.toml --json")["collision_rate_exact"];
     const json run = json_of("run gas.toml --json --quiet")["collision_rate_exact"];
     EXPECT_EQ(check.is_null(), run.is_null());
-    if (!check.is_null()) EXPECT_NEAR(check.get<double>(), run.get<double>(), 1e-10);
+    if (!check.is_null()) {
+      EXPECT_NEAR(check.get<double>(), run.get<double>(), 1e-10);
+    }
     return run;
   }
 };

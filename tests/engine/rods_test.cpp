@@ -70,6 +70,62 @@ TEST(Rods, HaveOneTrajectoryOnThreads) {
   }
 }
 
+// Spheres that stay in balls through collisions keep lists of neighbours.
+Scene in_search(Scene scene, const char* search, std::optional<double> radius = {}) {
+  scene.engine.search = search;
+  scene.engine.capsule_radius = radius;
+  return scene;
+}
+
+std::vector<Scene> scenes_of_spheres() {
+  const Scene dense = rods_of(300, 0, 0.49);
+  // Several images of one sphere are near another one.
+  const Scene tight = rods_of(7, 0, 0.4);
+  Scene unequal = rods_of(100, 0, 0.2);
+  unequal.species.push_back({.name = "small", .count = 200, .length = 0, .diameter = 0.6});
+  unequal.collisions.epsilon = 0.9;
+  unequal.collisions.tc = 1e-4;
+  Scene between_walls = rods_of(150, 0, 0.2);
+  between_walls.walls = {{.axis = "x", .side = "both"}};
+  Scene slab = rods_of(40, 0, 0.3);
+  slab.needles.box = {2.1, 2.5, 13};
+  return {dense, tight, unequal, between_walls, slab};
+}
+
+TEST(Rods, SpheresInBallsHaveOneTrajectory) {
+  int n = 0;
+  for (const Scene& scene : scenes_of_spheres()) {
+    SCOPED_TRACE(n++);
+    const auto course = [&](const Scene& of) {
+      Simulation gas(of);
+      gas.advance(test::until_collisions(30));
+      // Records are replaced and balls left, all at once.
+      const State state = gas.copy();
+      std::vector<std::array<double, 3>> velocity = state.velocity;
+      for (auto& v : velocity) v = {-v[1], v[0], 1.5 * v[2]};
+      gas.set_velocities(velocity, state.angular_velocity);
+      gas.advance(test::until_collisions(120));
+      return gas.trajectory_hash();
+    };
+    const std::string first = course(in_search(scene, "all-pairs"));
+    for (const double radius : {0.02, 0.2, 0.9}) {
+      EXPECT_EQ(course(in_search(scene, "capsules", radius)), first) << radius;
+    }
+    EXPECT_EQ(course(in_search(scene, "auto")), first);
+  }
+}
+
+// They search less often than where they get another bounding volume at each collision, and look at
+// fewer others.
+TEST(Rods, SpheresInBallsLookAtTheirNeighboursOnly) {
+  Simulation gas(in_search(rods_of(1000, 0, 0.49), "auto"));
+  gas.advance(test::until_collisions(30));
+  EXPECT_STREQ(gas.search().c_str(), "capsules");
+  const Counters counters = gas.counters();
+  EXPECT_LT(counters.searches, 1.3 * 2 * gas.collisions());
+  EXPECT_LT(counters.candidates, 16 * counters.searches);
+}
+
 TEST(Rods, NeverOverlapAndKeepTheirEnergy) {
   for (const double length : {0.0, 1.0, 5.0}) {
     const Scene scene = rods_of(200, length, 0.25);

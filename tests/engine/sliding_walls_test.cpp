@@ -69,7 +69,9 @@ TEST(SlidingBesideWalls, KeepsAnAccountOfTheEnergyThatCloses) {
       EXPECT_LT(most, 1e-11);
       const SlidingContacts contacts = *simulation.sliding_contacts();
       EXPECT_GT(contacts.entered, epsilon == 0 ? 20u : 0u);
-      if (epsilon == 0) EXPECT_GT(contacts.ended_by_strike, 10u);
+      if (epsilon == 0) {
+        EXPECT_GT(contacts.ended_by_strike, 10u);
+      }
       const std::vector<WallTotals> walls = simulation.wall_totals();
       EXPECT_GT(walls[0].hits + walls[1].hits, 20u);
     }

@@ -1,0 +1,52 @@
+// Who is near whom, among bodies that stay in their bounding volumes through collisions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/memory/large_array.h"
+#include "src/memory/prefetch.h"
+#include "src/physics/ids.h"
+
+namespace needlework {
+
+/// For each body, those whose bounding volumes overlap its own. It is in the lists of all that are
+/// in its list.
+class NeighbourLists {
+ public:
+  struct Neighbour {
+    Needle needle;
+    /// The cell in which it is seen, from the body's own: cells change with bounding volumes only.
+    std::array<std::int8_t, 4> cells;
+  };
+
+  explicit NeighbourLists(std::size_t bodies) : counts_(bodies), rows_(bodies * room_) {}
+
+  /// Asks for the memory of that.
+  void prefetch(Needle i) const {
+    needlework::prefetch(&counts_[i]);
+    needlework::prefetch(row(i));
+    needlework::prefetch(row(i) + 8);
+  }
+  std::span<const Neighbour> of(Needle i) const { return {row(i), counts_[i]}; }
+  /// Body i has got a bounding volume that overlaps those of these.
+  void replace(Needle i, std::span<const Neighbour> neighbours);
+  /// Empties all lists.
+  void clear();
+  void renumber(const std::vector<Needle>& ranks);
+
+ private:
+  Neighbour* row(Needle i) { return rows_.data() + i.index * room_; }
+  const Neighbour* row(Needle i) const { return rows_.data() + i.index * room_; }
+  void add(Needle i, const Neighbour& neighbour);
+  void remove(Needle i, Needle neighbour);
+  void make_room(std::size_t needed);
+
+  std::size_t room_ = 24;  ///< in each row
+  std::vector<std::uint32_t> counts_;
+  LargeArray<Neighbour> rows_;
+};
+
+}  // namespace needlework
