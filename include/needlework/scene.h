@@ -42,7 +42,8 @@ struct Scene {
     std::optional<double> tc;           ///< contact time of the t_c rule [time]
     std::optional<double> tc_relative;  ///< the same, in present mean free times
     bool sliding = false;               ///< needles that bounce ever faster stay in contact
-    double sliding_below = 1e-3;  ///< in flights shorter than this, in present mean free times
+    double sliding_below = 1e-3;   ///< in flights shorter than this, in present mean free times
+    bool elastic_strikes = false;  ///< what needles in contact hit, and they then, is elastic
   };
   /// What is different from Collisions where two species collide.
   struct Pair {

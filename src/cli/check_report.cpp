@@ -351,7 +351,10 @@ std::string json_of(const runs::Explanation& e) {
   if (!one) json["pairs"] = pairs_json(e, composition);
   json["tc"] = optional_number(scene.collisions.tc);
   json["tc_relative"] = optional_number(scene.collisions.tc_relative);
-  if (scene.collisions.sliding) json["sliding_below"] = scene.collisions.sliding_below;
+  if (scene.collisions.sliding) {
+    json["sliding_below"] = scene.collisions.sliding_below;
+    json["elastic_strikes"] = scene.collisions.elastic_strikes;
+  }
   if (!e.walls.empty()) json["walls"] = walls_json(e);
   if (!e.gravity.empty()) {
     json["gravity"] = scene.forces.gravity;
@@ -412,8 +415,10 @@ std::string text_of(const runs::Explanation& e) {
   text += collision_lines(scene, composition);
   text += line("t_c rule", contact_time_text(scene.collisions));
   if (scene.collisions.sliding) {
-    text += line("sliding", fmt::format("on, below flights of {:g} of the present mean free time",
-                                        scene.collisions.sliding_below));
+    text +=
+        line("sliding", fmt::format("on, below flights of {:g} of the present mean free time{}",
+                                    scene.collisions.sliding_below,
+                                    scene.collisions.elastic_strikes ? ", elastic strikes" : ""));
   }
   text += wall_lines(e);
   text += gravity_lines(e);

@@ -84,10 +84,13 @@ Run::Run(const Scene& scene)
 
 void Run::add_effects(const Scene& scene) {
   if (has_contact_time(scene)) contact_time_rule.emplace(gas);
-  if (effects.sliding) sliding.emplace(gas, scene.collisions.sliding_below);
+  if (effects.sliding) {
+    sliding.emplace(gas, Sliding::Parameters{.below = scene.collisions.sliding_below,
+                                             .elastic_strikes = scene.collisions.elastic_strikes});
+  }
   if (!scene.walls.empty()) {
     ContactTimeOfWalls contact_time_of_walls{contact_time_rule ? &*contact_time_rule : nullptr,
-                                             &contact_time};
+                                             &contact_time, scene.collisions.elastic_strikes};
     if (effects.sliding)
       contact_time_of_walls.advice =
           "a longer collisions.sliding_below helps, unless it rests on the wall";
@@ -267,6 +270,7 @@ ReplacedRecords Run::replace_velocities(const std::function<Vec3d(Needle)>& velo
     const Record& record = gas.records[i];
     auto& entry = replaced.add(i, record);
     if (record.is_sliding()) {
+      sliding->let_go(i, record, now);
       const kernels::Stance present = gas.present(i, now);
       entry.wraps = renew_record_from(
           gas, i, now, present.r,

@@ -78,7 +78,8 @@ std::vector<double> physics_of(const Run& run, const Scene& scene) {
   if (run.gas.falls) add({run.gas.gravity.x, run.gas.gravity.y, run.gas.gravity.z});
   for (const auto& source : run.sources) add(source->parameters());
   if (run.kicks) add(run.kicks->parameters());
-  if (run.sliding) out.push_back(run.sliding->below());
+  if (run.sliding)
+    out.insert(out.end(), {run.sliding->below(), run.sliding->strikes_are_elastic() ? 1. : 0.});
   if (composition.has_width()) {
     for (const Species& each : composition.species()) out.push_back(each.diameter);
   }

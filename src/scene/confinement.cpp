@@ -108,7 +108,11 @@ void require_thermostat_without_gravity(const Scene& scene) {
 
 // What sliding contact does not know of.
 void require_what_slides(const Scene& scene) {
-  if (!scene.collisions.sliding) return;
+  if (!scene.collisions.sliding) {
+    if (!scene.collisions.elastic_strikes) return;
+    refuse_at(place_of(scene, "collisions.elastic_strikes", "true"),
+              "false, or collisions.sliding = true: only needles in contact are struck");
+  }
   const auto refuse = [&](const std::string& reason) {
     refuse_at(place_of(scene, "collisions.sliding", "true"), reason);
   };

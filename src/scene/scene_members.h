@@ -97,13 +97,14 @@ void visit_members(AnyScene& scene, Visit&& visit) {
     visit("initial", "packing", packing);
   }
   {
-    auto& [epsilon, beta, tc, tc_relative, sliding, sliding_below] = collisions;
+    auto& [epsilon, beta, tc, tc_relative, sliding, sliding_below, elastic_strikes] = collisions;
     visit("collisions", "epsilon", epsilon);
     visit("collisions", "beta", beta);
     visit("collisions", "tc", tc);
     visit("collisions", "tc_relative", tc_relative);
     visit("collisions", "sliding", sliding);
     visit("collisions", "sliding_below", sliding_below);
+    visit("collisions", "elastic_strikes", elastic_strikes);
   }
   visit("walls", "", walls);
   {

@@ -313,6 +313,8 @@ const SceneKey keys[] = {
      [](Scene& s, V v) { return store(s.collisions.sliding, truth(v)); }},
     {"collisions", "sliding_below", "a number from 1e-6 to 0.1 of mean free times",
      [](Scene& s, V v) { return store(s.collisions.sliding_below, number(v, 1e-6, 0.1)); }},
+    {"collisions", "elastic_strikes", "true or false",
+     [](Scene& s, V v) { return store(s.collisions.elastic_strikes, truth(v)); }},
 
     {"pairs", "between", "an array of the names of two species",
      [](Scene& s, V v) { return store(s.pairs.back().between, two_names(v)); }},

@@ -6,6 +6,7 @@
 #include <malloc.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -285,6 +286,124 @@ TEST(Sliding, IsEndedByDriving) {
   }
 }
 
+// Collisions and hits on walls of a needle in contact, and what follows at the same instant: how
+// many there are, and how much energy they have lost.
+struct Strikes {
+  int pairs = 0, walls = 0;
+  double lost = 0, lost_elsewhere = 0;
+};
+
+Strikes strikes_of(const Scene& scene, double collisions) {
+  Strikes out;
+  std::map<std::uint32_t, std::uint32_t> partners;  // of needles in contact
+  std::map<std::uint32_t, double> last;             // time of each needle's last event
+  Simulation simulation(scene);
+  simulation.on_happening([&](const Happening& what) {
+    const Collision& event = what.event;
+    const auto touches = [&](std::uint32_t id) {
+      return partners.contains(id) || (last.contains(id) && last[id] == event.time);
+    };
+    const bool is_wall = what.kind == Happening::wall;
+    const bool strikes = touches(event.first) || (!is_wall && touches(event.second));
+    if (what.kind == Happening::contact_ended) {
+      partners.erase(event.first), partners.erase(event.second);
+    } else {
+      (strikes ? out.lost : out.lost_elsewhere) -= event.energy_change;
+      if (strikes) ++(is_wall ? out.walls : out.pairs);
+      EXPECT_FALSE(strikes && what.kind == Happening::contact_entered &&
+                   scene.collisions.elastic_strikes);
+    }
+    if (what.kind == Happening::contact_entered)
+      partners[event.first] = event.second, partners[event.second] = event.first;
+    last[event.first] = event.time;
+    if (!is_wall) last[event.second] = event.time;
+  });
+  simulation.advance(test::until_collisions(collisions));
+  EXPECT_LT(std::abs(simulation.energy_drift()), 1e-11);
+  return out;
+}
+
+TEST(SlidingWithElasticStrikes, LosesNothingInStrikes) {
+  for (const double epsilon : {0.0, 0.3}) {
+    Scene scene = sliding_scene(200, 6, epsilon, 5);
+    scene.walls = {{.axis = "z", .side = "both", .epsilon = 0.7}};
+    const Strikes usual = strikes_of(scene, 20);
+    EXPECT_GT(usual.lost, 1);
+    scene.collisions.elastic_strikes = true;
+    const Strikes elastic = strikes_of(scene, 20);
+    EXPECT_GT(elastic.pairs, 30);
+    EXPECT_GT(elastic.walls, 0);
+    EXPECT_LT(std::abs(elastic.lost), 1e-11);
+    EXPECT_GT(elastic.lost_elsewhere, 100);
+  }
+}
+
+// Of two needles nothing else strikes one.
+TEST(SlidingWithElasticStrikes, IsTheSameWithoutStrikes) {
+  std::uint64_t entered = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    Scene scene = sliding_scene(2, 2.2, 0, seed);
+    const std::string usual = hash_of(scene, 10);
+    scene.collisions.elastic_strikes = true;
+    Simulation simulation(scene);
+    simulation.advance(test::until_collisions(10));
+    EXPECT_EQ(simulation.trajectory_hash(), usual);
+    entered += simulation.sliding_contacts()->entered;
+  }
+  EXPECT_GT(entered, 10u);
+}
+
+TEST(SlidingWithElasticStrikes, HasOneTrajectory) {
+  Scene scene = sliding_scene(200, 6, 0.2, 3);
+  const std::string usual = hash_of(scene, 10);
+  scene.collisions.elastic_strikes = true;
+  const std::string hash = hash_of(scene, 10);
+  EXPECT_NE(hash, usual);
+  scene.engine.search = "all-pairs";
+  EXPECT_EQ(hash_of(scene, 10), hash);
+  scene.engine.search = "capsules";
+  scene.engine.threads = 2;
+  scene.engine.team = "all";
+  EXPECT_EQ(hash_of(scene, 10), hash);
+}
+
+TEST(SlidingWithElasticStrikes, GoesOnFromCheckpoints) {
+  Scene scene = sliding_scene(60, 4, 0, 6), usual = scene;
+  scene.collisions.elastic_strikes = true;
+  for (double saved = 0.1; saved < 1; saved += 0.15)
+    test::expect_to_continue(scene, saved, saved + 0.5, usual);
+}
+
+// Velocities that press a pair together collide at once.
+TEST(SlidingWithElasticStrikes, LosesNothingWhereVelocitiesAreSet) {
+  const SlidingBody body{.half = 0.5, .mass = 1, .inertia = 1. / 12};
+  const SlidingBodies bodies{body, body};
+  for (const bool elastic : {false, true}) {
+    Pairs pairs(bodies);
+    Scene scene = sliding_scene(2, 8, 0);
+    scene.collisions.elastic_strikes = elastic;
+    int collided = 0;
+    for (int n = 0; n < 20; ++n) {
+      Simulation simulation(scene, flown_back(pairs.draw(), bodies, 1e-3, scene.needles.box));
+      simulation.advance(test::until_time(1e-3 + 1e-6));
+      State now = simulation.copy();
+      now.velocity[0][0] += n % 2 == 0 ? 3 : -3;
+      simulation.set_velocities(now.velocity, now.angular_velocity);
+      const Totals before = simulation.totals();
+      simulation.advance(test::until_time(simulation.time() + 1e-9));
+      const Totals after = simulation.totals();
+      if (after.collisions == before.collisions) continue;
+      ++collided;
+      if (elastic) {
+        EXPECT_NEAR(after.energy, before.energy, 1e-13 * before.energy) << n;
+      } else {
+        EXPECT_LT(after.energy, before.energy) << n;
+      }
+    }
+    EXPECT_GT(collided, 5);
+  }
+}
+
 // In the middle of the first step of a contact.
 TEST(Sliding, IsCountedUntilVelocitiesAreSet) {
   const SlidingBody body{.half = 0.5, .mass = 1, .inertia = 1. / 12};
@@ -437,6 +556,10 @@ TEST(Sliding, SaysWhatItIsNotOfferedFor) {
   expect("without friction", [](Scene& s) { s.collisions.beta = 0.5; });
   expect("finite width", [](Scene& s) { s.needles.diameter = 0.1; });
   expect("a contact time", [](Scene& s) { s.collisions.tc_relative = 1e-3; });
+  expect("only needles in contact are struck", [](Scene& s) {
+    s.collisions.sliding = false;
+    s.collisions.elastic_strikes = true;
+  });
   Scene scene = sliding_scene(2, 2.1, 0.5);
   const std::string message = test::message_of<InputError>([&] { Simulation simulation(scene); });
   EXPECT_NE(message.find("edges of at least 2.135625 (2.135625 needle lengths)"), std::string::npos)

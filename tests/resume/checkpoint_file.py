@@ -29,7 +29,7 @@ def checksum(data):
 def mark_of(file):
     """Its first line, which names the version of the program."""
     mark = file[:file.index(b"\n") + 1]
-    assert mark.startswith(b"needlework checkpoint 7 of "), mark
+    assert mark.startswith(b"needlework checkpoint 8 of "), mark
     return mark
 
 
@@ -129,6 +129,7 @@ class Fields:
             self.optional(f"collisions.{name}", self.f64)
         self.one("collisions.sliding", "u8")
         self.f64("collisions.sliding_below")
+        self.one("collisions.elastic_strikes", "u8")
 
         def three(name):
             self.several(name, "f64", 3)

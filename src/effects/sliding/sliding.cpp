@@ -23,8 +23,8 @@ double length_of(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 
 }  // namespace
 
-Sliding::Sliding(Gas& gas, double below)
-    : below_(below),
+Sliding::Sliding(Gas& gas, const Parameters& parameters)
+    : parameters_(parameters),
       meetings_(
           &gas.columns.add<Meetings>("meetings", {{}, Meetings::long_ago, Meetings::long_ago, 0})) {
   gas.let_slide();
@@ -39,6 +39,14 @@ bool Sliding::is_crowded(const Gas& gas, const SlidingPair& pair, Time now, doub
   };
   return is_with_another(pair.first_needle, gas.ids[pair.second_needle]) ||
          is_with_another(pair.second_needle, gas.ids[pair.first_needle]);
+}
+
+// Whether one of the two is in contact, or has touched anything at this very instant.
+bool Sliding::is_strike(const Gas& gas, const SlidingPair& pair, Time now) const {
+  const auto touches = [&](Needle i) {
+    return gas.records[i].is_sliding() || gas.clock.difference(now, (*meetings_)[i].with_last) == 0;
+  };
+  return touches(pair.first_needle) || touches(pair.second_needle);
 }
 
 Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
@@ -103,19 +111,20 @@ Sliding::Touch Sliding::touch(const Gas& gas, const SlidingPair& pair, Time now,
     return out;
   }
   const double into = speed * side < 0 ? speed : 0;
-  const double below = below_ * mean_free_time;
+  const double below = parameters_.below * mean_free_time;
   // Twice the threshold, as flights of crowded pairs last for about that.
   const bool crowded = is_crowded(gas, pair, now, 2 * below);
+  const bool elastic = parameters_.elastic_strikes && is_strike(gas, pair, now);
   double epsilon = rule.epsilon;
-  if (into != 0) {
+  if (into != 0 && !elastic) {
     const kernels::SlidingEntry entry =
         kernels::sliding_entry(bodies, here, rule.epsilon, below, crowded);
     if (entry.decision == kernels::SlidingDecision::Enters) out.course = Course::enters;
     epsilon = entry.epsilon;
   }
   out.crowded = crowded;
-  if (crowded && std::max((*meetings_)[a].in_crowd, (*meetings_)[b].in_crowd) >= most_in_crowd)
-    epsilon = 1;
+  const std::uint32_t in_crowd = std::max((*meetings_)[a].in_crowd, (*meetings_)[b].in_crowd);
+  if (elastic || (crowded && in_crowd >= most_in_crowd)) epsilon = 1;
   out.raised = epsilon != rule.epsilon;
   if (out.course == Course::enters) epsilon = 0;
   const Meeting both{out.first.v,

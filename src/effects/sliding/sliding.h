@@ -48,9 +48,14 @@ struct Meetings {
 
 class Sliding {
  public:
-  /// Adds its column to the gas and lets needles slide. `below` is the threshold for the flight to
-  /// the next bounce, in mean free times.
-  Sliding(Gas& gas, double below);
+  struct Parameters {
+    double below = 1e-3;  ///< threshold for the flight to the next bounce, in mean free times
+    /// A strike is done with epsilon = 1: what hits a needle in contact, and what follows from that
+    /// at the same instant.
+    bool elastic_strikes = false;
+  };
+  /// Adds its column to the gas and lets needles slide.
+  Sliding(Gas& gas, const Parameters& parameters);
 
   /// What two needles do when an event of their pair is due.
   enum class Course : std::uint8_t {
@@ -68,7 +73,7 @@ class Sliding {
     Vec3d impulse;                                        ///< on the first needle [m L / time]
     kernels::SlidingEnd end = kernels::SlidingEnd::None;  ///< of a contact that ends by itself
     bool crowded = false;  ///< one of the two has just touched a third needle
-    bool raised = false;   ///< and epsilon has been raised for that
+    bool raised = false;   ///< and epsilon has been raised for that, or for a strike
   };
   /// `mean_free_time` is that of the window, `rule` that of the pair.
   Touch touch(const Gas& gas, const SlidingPair& pair, Time now,
@@ -78,15 +83,21 @@ class Sliding {
   void met(const Gas& gas, Needle a, Needle b, Time now, bool crowded);
   /// Notes that a needle has hit a wall.
   void hit_wall(Needle i, Time now) { (*meetings_)[i].note(Meetings::wall, now); }
+  /// Notes that the contact of a needle is ended as the velocities of all are set.
+  void let_go(Needle i, const Record& record, Time now) {
+    if (parameters_.elastic_strikes) (*meetings_)[i].note(record.first_touch.partner, now);
+  }
   /// Makes their new records those of a contact.
   static void join(Gas& gas, Needle a, Needle b, const Shift& shift, int side);
 
-  double below() const { return below_; }
+  double below() const { return parameters_.below; }
+  bool strikes_are_elastic() const { return parameters_.elastic_strikes; }
 
  private:
   bool is_crowded(const Gas& gas, const SlidingPair& pair, Time now, double within) const;
+  bool is_strike(const Gas& gas, const SlidingPair& pair, Time now) const;
 
-  double below_;
+  Parameters parameters_;
   Column<Meetings>* meetings_;
 };
 

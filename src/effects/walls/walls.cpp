@@ -174,9 +174,10 @@ SourceOutcome Walls::happen(const Gas& gas, const NeedleAt& at, std::int8_t deta
   out.arm = arm;
   out.normal_velocity = std::min(0.0, tip - sign * surface);
   if (contact_time_.rule) {
-    out.contact_time_rule =
-        !(wall.temperature > 0) &&
-        contact_time_.rule->is_recent(at.needle, at.now, *contact_time_.contact_time);
+    const bool is_strike = contact_time_.elastic_strikes && at.record.is_sliding();
+    out.contact_time_rule = !(wall.temperature > 0) &&
+                            (is_strike || contact_time_.rule->is_recent(
+                                              at.needle, at.now, *contact_time_.contact_time));
     contact_time_.rule->collided(at.needle, at.now);
   }
   if (wall.temperature > 0) {

@@ -24,6 +24,7 @@ struct Wall {
 struct ContactTimeOfWalls {
   const ContactTimeRule* rule = nullptr;  ///< null: there is none
   const double* contact_time = nullptr;   ///< as it is in this window [time]
+  bool elastic_strikes = false;           ///< hits of needles in contact are elastic, too
   /// For a tip that comes back too soon.
   const char* advice = "a longer contact time helps, unless it rests on the wall";
 };
