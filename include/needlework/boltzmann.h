@@ -5,13 +5,15 @@
 //
 // Needles are drawn from a pool in pairs, with a phase of rotation and arms at random, and collide
 // with the rate |u1 x u2| |V_n| of the equation (no time step: candidates come as a Poisson process
-// of a higher rate and are thinned out). Units: L = m = 1.
+// of a higher rate and are thinned out). In a mixture each two species meet at a rate of their own.
+// Units: those of the composition, in which k_B = 1.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "needlework/composition.h"
 #include "needlework/theory.h"
 
 namespace needlework::boltzmann {
@@ -22,15 +24,20 @@ enum class Pairs {
   encounters  ///< if it has not met before, all collisions until it has parted for good
 };
 
+/// A gas of one species of length 1 and mass 1 with these temperatures.
+Composition one_species(const theory::Gas& gas, const theory::Temperatures& initial = {});
+
 struct Settings {
-  theory::Gas gas;
-  theory::Temperatures initial;  ///< of Gaussian velocities; T_tr > 0
+  /// Thin needles. The counts of species say what share of the needles each has, their temperatures
+  /// are those of Gaussian velocities at the start; T_tr of all needles must be above 0.
+  Composition composition = one_species({});
   Pairs pairs = Pairs::single;
   /// The t_c rule for later collisions of an encounter: elastic and smooth if less than this time
-  /// has passed since the one before. In units of L (m / T_tr)^1/2 of that moment. Must be above 0
-  /// in an inelastic gas, or encounters that collapse would never end.
+  /// has passed since the one before. In units of L (m / T_tr)^1/2 of that moment, with the L and m
+  /// of the units and T_tr of all needles. Must be above 0 in an inelastic gas, or encounters that
+  /// collapse would never end.
   double contact_time = 1e-3;
-  std::uint64_t needles = 32000;  ///< of all pools together, at least 64
+  std::uint64_t needles = 32000;  ///< of all pools together, at least 64 of each species
   std::uint64_t seed = 1;
 };
 
@@ -39,14 +46,23 @@ struct Measured {
   double value = 0, error = 0;
 };
 
-/// What is measured at a time.
-struct Sample {
-  double tau = 0;  ///< (2/3) sqrt(pi) n t
+/// Means over some needles.
+struct Means {
   Measured t_tr, t_rot, energy;
   Measured collisions;  ///< per needle, since the start
-  /// <v^4> / (15 T_tr^2) - 1, <w^4> / (2 <w^2>^2) - 1 and <v^2 w^2> / (<v^2> <w^2>) - 1: 0 for
-  /// Gaussian velocities. NaN where a temperature is 0. [1]
+  /// <v^4> / (15 T_tr^2) - 1, <w^4> / (2 <w^2>^2) - 1 and <v^2 w^2> / (<v^2> <w^2>) - 1, with m v^2
+  /// and I w^2 in place of v^2 and w^2 where needles are unlike: 0 for Gaussian velocities of equal
+  /// temperatures. NaN where a temperature is 0. [1]
   Measured excess_tr, excess_rot, excess_mixed;
+};
+
+/// What is measured at a time, of all needles together.
+struct Sample : Means {
+  double tau = 0;              ///< (2/3) sqrt(pi) n t, with n the density of all needles [L^-3]
+  std::vector<Means> species;  ///< NaN where a species has no needles
+  /// Of each two species since the start, over the number of all needles, by
+  /// Composition::pair_index.
+  std::vector<Measured> collisions_between;
 };
 
 struct Result {
@@ -61,7 +77,7 @@ struct Result {
 
 /// The temperatures at each of the times `taus` (finite, >= 0, in ascending order). Depends on the
 /// settings alone, not on the number of threads. Throws std::invalid_argument, "NAME = VALUE:
-/// expected ...", for a number out of range.
+/// expected ...", in a mixture after the name of the species, for a number out of range.
 Result simulate(const Settings& settings, std::span<const double> taus, int threads = 1);
 
 }  // namespace needlework::boltzmann

@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "needlework/error.h"
-#include "needlework/predict.h"
 #include "src/physics/collision.h"
 #include "src/physics/director.h"
 
@@ -15,22 +13,10 @@ namespace {
 // A train of bounces is as long as the contact over t_c; one of so many is not worth its time.
 constexpr std::uint64_t most_collisions = 1'000'000;
 
-FreeNeedle free_needle(const kernels::Flight& flight, double direction) {
+FreeNeedle free_needle(const kernels::Flight& flight, const Body& body, double direction) {
   const auto array = [](const Vec3d& a) { return std::array{a.x, a.y, a.z}; };
   return {array(flight.r), array(flight.u), array(flight.v * direction),
-          array(flight.w * direction)};
-}
-
-// The next contact of needles that touch and part, flying on (1) or back (-1). Without a contact it
-// is infinitely late; nothing if the search is given up.
-std::optional<FirstContact> next_contact(const Touching& pair, double direction) {
-  try {
-    return predict(free_needle(pair.needle[0], direction), free_needle(pair.needle[1], direction),
-                   std::numeric_limits<double>::max(), true);
-  } catch (const InputError&) {
-    // Needles that turn near each other for very long.
-    return std::nullopt;
-  }
+          array(flight.w * direction), 2 * body.half_length};
 }
 
 void fly(kernels::Flight& flight, double time) {
@@ -57,15 +43,18 @@ Touching touching(const std::array<Vec3d, 2>& v, const std::array<Vec3d, 2>& u,
   return out;
 }
 
-Encounter::Encounter(const theory::Gas& gas, double contact_time)
-    : body_{.inverse_inertia = 2 * gas.k},
-      epsilon_(gas.epsilon),
-      beta_(gas.beta),
-      contact_time_(contact_time) {}
+std::optional<FirstContact> Encounter::next_contact(const Touching& pair, double direction) const {
+  try {
+    return predict(free_needle(pair.needle[0], bodies_[0], direction),
+                   free_needle(pair.needle[1], bodies_[1], direction),
+                   std::numeric_limits<double>::max(), true);
+  } catch (const InputError&) {
+    // Needles that turn near each other for very long.
+    return std::nullopt;
+  }
+}
 
-void Encounter::collide(Touching& pair) const { collide(pair, true); }
-
-void Encounter::collide(Touching& pair, bool inelastic) const {
+void Encounter::collide(Touching& pair, const Restitution& rule) const {
   kernels::Flight &a = pair.needle[0], &b = pair.needle[1];
   const Vec3d across = cross(a.u, b.u);
   kernels::ContactGeometry contact;
@@ -77,10 +66,9 @@ void Encounter::collide(Touching& pair, bool inelastic) const {
   contact.arm_second = pair.arm[1];
   const Vec3d v = a.v - b.v + cross(a.w, a.u) * pair.arm[0] - cross(b.w, b.u) * pair.arm[1];
   const int side = dot(v, contact.normal) > 0 ? -1 : 1;
-  const Meeting meeting{a.v, a.w, b.v, b.w, body_, body_, contact, side};
-  const Restitution rule = inelastic ? Restitution{epsilon_, beta_} : Restitution{1, -1};
-  const Impact impact = rule.beta == -1 ? needlework::collide<Surface::smooth>(meeting, rule)
-                                        : needlework::collide<Surface::rough>(meeting, rule);
+  const Meeting meeting{a.v, a.w, b.v, b.w, bodies_[0], bodies_[1], contact, side};
+  const Impact impact = rule.is_rough() ? needlework::collide<Surface::rough>(meeting, rule)
+                                        : needlework::collide<Surface::smooth>(meeting, rule);
   a.v = impact.v_first, a.w = project_out(impact.w_first, a.u);
   b.v = impact.v_second, b.w = project_out(impact.w_second, b.u);
   kernels::set_rotation(a);
@@ -95,7 +83,7 @@ bool Encounter::is_first(const Touching& pair) const {
 Course Encounter::follow(Touching& pair) const {
   Course out;
   for (bool inelastic = true;;) {
-    collide(pair, inelastic);
+    collide(pair, inelastic ? rule_ : Restitution{});
     ++out.collisions;
     if (!inelastic) ++out.tc_collisions;
     const auto next = next_contact(pair, 1);

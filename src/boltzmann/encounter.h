@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "kernels/contact_function.h"
-#include "needlework/theory.h"
+#include "needlework/composition.h"
+#include "needlework/predict.h"
 #include "src/physics/species.h"
 
 namespace needlework::boltzmann {
@@ -29,21 +31,25 @@ struct Course {
 
 class Encounter {
  public:
-  /// `contact_time` is that of the t_c rule. [time]
-  Encounter(const theory::Gas& gas, double contact_time);
+  /// Of two thin needles. `contact_time` is that of the t_c rule. [time]
+  Encounter(const std::array<Body, 2>& bodies, const Restitution& rule, double contact_time)
+      : bodies_(bodies), rule_(rule), contact_time_(contact_time) {}
 
   /// One collision; the needles approach.
-  void collide(Touching& pair) const;
+  void collide(Touching& pair) const { collide(pair, rule_); }
   /// Whether the needles, which approach, have not collided before: flying back they do not meet.
   bool is_first(const Touching& pair) const;
   /// From the first collision to the last one.
   Course follow(Touching& pair) const;
 
  private:
-  void collide(Touching& pair, bool inelastic) const;
+  // The next contact of needles that touch and part, flying on (1) or back (-1). Without a contact
+  // it is infinitely late; nothing if the search is given up.
+  std::optional<FirstContact> next_contact(const Touching& pair, double direction) const;
+  void collide(Touching& pair, const Restitution& rule) const;
 
-  Body body_;
-  double epsilon_, beta_;
+  std::array<Body, 2> bodies_;
+  Restitution rule_;
   double contact_time_;
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "needlework/boltzmann.h"
@@ -16,14 +17,16 @@ namespace needlework::boltzmann {
 
 class Pool {
  public:
-  /// Number `number` of the pools of these settings, of so many needles.
-  Pool(const Settings& settings, std::uint64_t number, std::size_t needles);
+  /// Number `number` of the pools of these settings, with so many needles of each species.
+  Pool(const Settings& settings, std::uint64_t number, std::span<const std::uint64_t> needles);
 
   /// Collisions until tau, which must not be before that of the last call.
   void advance(double tau);
 
-  /// Sums over all needles, so that those of several pools can be added.
-  Sums sums() const;
+  /// Over the needles of each species, so that those of several pools can be added.
+  std::vector<Sums> sums() const;
+  /// Of each two species so far, by Composition::pair_index.
+  std::vector<std::uint64_t> collisions_between() const;
   /// Adds its counts.
   void add_to(Result& result) const;
 
@@ -33,19 +36,42 @@ class Pool {
     Vec3d u;             ///< while w = 0
     double fastest = 0;  ///< of its points, not below [L / time]
   };
-  void set_fastest(Needle& needle);
+  /// A species, whose needles stand in a row.
+  struct Kind {
+    double mass, inertia;  ///< [m], [m L^2]
+    Body body;
+    std::size_t first, count;
+    double fastest = 0;            ///< of its needles, not below [L / time]
+    std::uint64_t collisions = 0;  ///< that its needles have taken part in
+  };
+  /// Two species, or one twice.
+  struct Partners {
+    std::size_t first, second;
+    Restitution rule;
+    double weight;  ///< pairs over all needles, times both lengths [L^2]
+    std::uint64_t collisions = 0;
+  };
+  std::span<Needle> needles_of(const Kind& kind);
+  std::span<const Needle> needles_of(const Kind& kind) const;
+  void draw(Kind& kind, const Species& species);
+  void set_fastest(Needle& needle, Kind& kind);
   void find_fastest();
+  double candidates(const Partners& partners) const;
+  Partners& any_partners(double all);
+  std::size_t any_of(std::size_t count);
   Vec3d director(const Needle& needle);
-  void meet(Needle& a, Needle& b, const Touching& pair);
+  void meet(Partners& partners, Needle& a, Needle& b, const Touching& pair);
 
-  Settings settings_;
+  Pairs pairs_;
+  double contact_time_;
   NeedleRandom random_;
+  std::vector<Kind> kinds_;
+  std::vector<Partners> partners_;  ///< by Composition::pair_index
   std::vector<Needle> needles_;
-  double fastest_ = 0;  ///< of all needles, not below
-  double time_ = 0;     ///< n t
-  std::uint64_t collisions_ = 0, tc_collisions_ = 0, met_before_ = 0, unfinished_ = 0;
-  std::uint64_t until_looked_ = 0;  ///< collisions until the fastest needle is looked for again
-  double t_tr_ = 0;                 ///< when it was last looked for
+  double time_ = 0;  ///< n t
+  std::uint64_t tc_collisions_ = 0, met_before_ = 0, unfinished_ = 0;
+  std::uint64_t until_looked_ = 0;  ///< collisions until the fastest needles are looked for again
+  double t_tr_ = 0;                 ///< of all needles, when they were last looked for
   std::vector<std::uint64_t> encounters_of_;
 };
 

@@ -7,8 +7,8 @@
 namespace needlework::boltzmann {
 namespace {
 
-constexpr double Sums::*members[] = {&Sums::needles, &Sums::collisions, &Sums::v2,  &Sums::w2,
-                                     &Sums::v4,      &Sums::w4,         &Sums::v2w2};
+constexpr double Sums::*members[] = {&Sums::needles, &Sums::collisions, &Sums::tr,    &Sums::rot,
+                                     &Sums::tr_tr,   &Sums::rot_rot,    &Sums::tr_rot};
 
 template <class Number>
 Measured jackknife(const Sums& all, std::span<const Sums> without, const Number& number_of) {
@@ -27,7 +27,7 @@ Sums& Sums::operator+=(const Sums& other) {
   return *this;
 }
 
-Sample measured(std::span<const Sums> pools, double k) {
+Means measured(std::span<const Sums> pools) {
   Sums all;
   for (const Sums& pool : pools) all += pool;
   std::vector<Sums> without;
@@ -40,14 +40,15 @@ Sample measured(std::span<const Sums> pools, double k) {
     }
   }
   const auto of = [&](auto number_of) { return jackknife(all, without, number_of); };
-  Sample out;
-  out.t_tr = of([](const Sums& s) { return s.v2 / (3 * s.needles); });
-  out.t_rot = of([k](const Sums& s) { return s.w2 / (4 * k * s.needles); });
-  out.energy = of([k](const Sums& s) { return (s.v2 / 2 + s.w2 / (4 * k)) / s.needles; });
-  out.collisions = of([](const Sums& s) { return 2 * s.collisions / s.needles; });
-  out.excess_tr = of([](const Sums& s) { return s.needles * s.v4 / (s.v2 * s.v2) * 3 / 5 - 1; });
-  out.excess_rot = of([](const Sums& s) { return s.needles * s.w4 / (s.w2 * s.w2) / 2 - 1; });
-  out.excess_mixed = of([](const Sums& s) { return s.needles * s.v2w2 / (s.v2 * s.w2) - 1; });
+  Means out;
+  out.t_tr = of([](const Sums& s) { return s.tr / (3 * s.needles); });
+  out.t_rot = of([](const Sums& s) { return s.rot / (2 * s.needles); });
+  out.energy = of([](const Sums& s) { return (s.tr + s.rot) / 2 / s.needles; });
+  out.collisions = of([](const Sums& s) { return s.collisions / s.needles; });
+  out.excess_tr = of([](const Sums& s) { return s.needles * s.tr_tr / (s.tr * s.tr) * 3 / 5 - 1; });
+  out.excess_rot =
+      of([](const Sums& s) { return s.needles * s.rot_rot / (s.rot * s.rot) / 2 - 1; });
+  out.excess_mixed = of([](const Sums& s) { return s.needles * s.tr_rot / (s.tr * s.rot) - 1; });
   return out;
 }
 

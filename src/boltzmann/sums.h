@@ -7,19 +7,21 @@
 
 namespace needlework::boltzmann {
 
-/// Over the needles of one pool or of several, with v^2, w^2 and so on of each.
+/// Over needles of one pool or of several.
 struct Sums {
-  double needles = 0, collisions = 0;
-  double v2 = 0, w2 = 0, v4 = 0, w4 = 0, v2w2 = 0;
+  double needles = 0;
+  double collisions = 0;  ///< that each has taken part in
+  /// m v^2, I w^2, their squares and their product.
+  double tr = 0, rot = 0, tr_tr = 0, rot_rot = 0, tr_rot = 0;
 
   Sums& operator+=(const Sums& other);
 };
 
-/// All that a sample has, but for its tau, of the sums of independent pools, at least two. Each
-/// number is that of the sums over all pools: a ratio of them, such as an excess, is biased by one
-/// over the number of all needles, and a mean of the ratios of pools would be by one over that of a
-/// pool. Errors come from leaving out one pool at a time (jackknife), which for a mean over equal
-/// pools is its standard error.
-Sample measured(std::span<const Sums> pools, double k);
+/// The means that the sums of independent pools give, at least two. Each number is that of the sums
+/// over all pools: a ratio of them, such as an excess, is biased by one over the number of all
+/// needles, and a mean of the ratios of pools would be by one over that of a pool. Errors come from
+/// leaving out one pool at a time (jackknife), which for a mean over equal pools is its standard
+/// error.
+Means measured(std::span<const Sums> pools);
 
 }  // namespace needlework::boltzmann

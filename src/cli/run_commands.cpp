@@ -255,11 +255,14 @@ a gas tends to as it cools, and k_star the k at which c = 1 for every epsilon
 
 Of a scene of several species it prints how often each two of them collide at
 the start, how fast their temperatures change, and the temperatures of each.
-Of the options only --time, --set and --json go with such a scene.
+Of the options only --time, --set, --json and those of --boltzmann go with
+such a scene.
 
 --boltzmann gives what kinetic theory leaves out, with errors, in the limit of
 low density: velocities that do not stay Gaussian, and, with encounters, pairs
-that collide again. Times are in ascending order then.
+that collide again. Times are in ascending order then. Scenes may have several
+species of thin needles, of which it gives the means of each and the collisions
+of each two; rods of finite width are refused.
 
 Examples:
   needlework theory profiles/quickstart.toml

@@ -241,7 +241,8 @@ std::string table_text(const Predictions& predictions) {
 }
 
 // Of a mixture: all but the times comes from the scene.
-std::string mixture_text(const TheoryArguments& arguments, const runs::LoadedScene& loaded) {
+std::vector<double> times_of_mixture(const TheoryArguments& arguments,
+                                     const runs::LoadedScene& loaded) {
   const auto refuse = [](const char* option, const std::string& value) {
     throw std::invalid_argument(
         fmt::format("{} {}: expected none beside a scene of several species", option, value));
@@ -256,12 +257,76 @@ std::string mixture_text(const TheoryArguments& arguments, const runs::LoadedSce
   if (!arguments.taus.empty()) refuse("--tau", arguments.taus.front());
   std::vector<double> times;
   for (const std::string& time : arguments.times) times.push_back(number_of(time_option, time));
-  if (times.empty()) times = usual_times(runs::Explanation(loaded));
-  return mixture_theory_of(loaded, times, arguments.json);
+  return times.empty() ? usual_times(runs::Explanation(loaded)) : times;
+}
+
+/// A gas to simulate.
+struct Simulated {
+  Composition composition;
+  std::optional<double> density;  ///< [L^-3]
+  std::vector<double> taus;
+  double rate_of_scene = not_computed;  ///< collisions per needle and time, at T_tr = 1
+};
+
+// The same gas with these temperatures of its species.
+Composition at_temperatures(const Composition& composition,
+                            const std::vector<theory::Temperatures>& temperatures) {
+  std::vector<Species> species = composition.species();
+  for (std::size_t n = 0; n < species.size(); ++n) {
+    species[n].t_tr = temperatures[n].t_tr;
+    species[n].t_rot = temperatures[n].t_rot;
+  }
+  Composition out(std::move(species), {});
+  for (std::size_t a = 0; a < composition.size(); ++a) {
+    for (std::size_t b = a; b < composition.size(); ++b) {
+      out.set_restitution(a, b, composition.restitution(a, b));
+    }
+  }
+  return out;
+}
+
+Simulated mixture_of(const TheoryArguments& arguments, const runs::LoadedScene& loaded) {
+  const Composition composition = loaded.scene.composition();
+  if (composition.has_width()) {
+    throw std::invalid_argument(
+        fmt::format("--boltzmann {}: expected a scene of thin needles, not of rods of finite width",
+                    arguments.boltzmann));
+  }
+  if (!runs::has_mixture_theory(composition)) {
+    throw InputError(fmt::format("{} species: expected at most {}, which theory follows",
+                                 composition.size(), theory::most_species_of_theory));
+  }
+  const double volume = runs::volume_of(loaded.scene);
+  const auto count = static_cast<double>(composition.count());
+  const auto initial = runs::temperatures_by_species(loaded);
+  Simulated out{
+      .composition = at_temperatures(composition, initial), .density = count / volume, .taus = {}};
+  for (const double time : times_of_mixture(arguments, loaded)) {
+    out.taus.push_back(theory_time_scale(*out.density) * time);
+  }
+  double collisions = 0;
+  for (const double each : theory::mixture_rates(composition, volume, initial).collisions) {
+    collisions += each;
+  }
+  out.rate_of_scene =
+      2 * collisions / count / std::sqrt(theory::mean_of_species(composition, initial).t_tr);
+  return out;
+}
+
+Simulated gas_of(const TheoryArguments& arguments, const std::optional<runs::LoadedScene>& loaded) {
+  const Question question = question_of(arguments, loaded);
+  Simulated out{boltzmann::one_species(question.gas, question.initial), question.density,
+                question.taus};
+  if (loaded) {
+    const theory::Temperatures scaled{1, question.initial.t_rot / question.initial.t_tr};
+    out.rate_of_scene =
+        theory::collision_rate(runs::density_of(loaded->scene), scaled, question.gas.k);
+  }
+  return out;
 }
 
 // The contact time of the scene in units of L (m / T_tr)^1/2.
-std::optional<double> contact_time_of(const Question& question, const Scene& scene) {
+std::optional<double> contact_time_of(const Scene& scene, double rate) {
   if (scene.collisions.tc) {
     throw std::invalid_argument(
         fmt::format("--tc is missing: expected a number, as collisions.tc = {:g} does not follow "
@@ -269,24 +334,21 @@ std::optional<double> contact_time_of(const Question& question, const Scene& sce
                     *scene.collisions.tc));
   }
   if (!scene.collisions.tc_relative) return std::nullopt;
-  const double volume = scene.needles.box[0] * scene.needles.box[1] * scene.needles.box[2];
-  const Composition composition = scene.composition();
-  const double density =
-      static_cast<double>(composition.count()) * std::pow(composition[0].length, 3) / volume;
-  const theory::Temperatures scaled{1, question.initial.t_rot / question.initial.t_tr};
-  return *scene.collisions.tc_relative / theory::collision_rate(density, scaled, question.gas.k);
+  return *scene.collisions.tc_relative / rate;
 }
 
 std::string boltzmann_text(const TheoryArguments& arguments,
                            const std::optional<runs::LoadedScene>& loaded) {
-  Question question = question_of(arguments, loaded);
-  boltzmann::Settings settings{.gas = question.gas, .initial = question.initial};
+  Simulated gas = loaded && !loaded->scene.composition().is_needle_gas()
+                      ? mixture_of(arguments, *loaded)
+                      : gas_of(arguments, loaded);
+  boltzmann::Settings settings{.composition = gas.composition};
   if (arguments.boltzmann == "encounters") settings.pairs = boltzmann::Pairs::encounters;
   if (arguments.tc) {
     settings.contact_time = number_of(tc_option, *arguments.tc);
   } else if (loaded && settings.pairs == boltzmann::Pairs::encounters) {
     settings.contact_time =
-        contact_time_of(question, loaded->scene).value_or(settings.contact_time);
+        contact_time_of(loaded->scene, gas.rate_of_scene).value_or(settings.contact_time);
   }
   if (arguments.needles) {
     settings.needles = static_cast<std::uint64_t>(number_of(needles_option, *arguments.needles));
@@ -296,9 +358,9 @@ std::string boltzmann_text(const TheoryArguments& arguments,
   } else if (loaded) {
     settings.seed = loaded->scene.needles.seed;
   }
-  if (question.taus.empty()) question.taus = {0, 1, 2, 5, 10};
-  std::ranges::sort(question.taus);
-  return boltzmann_theory_of(settings, question.taus, question.density, arguments.json);
+  if (gas.taus.empty()) gas.taus = {0, 1, 2, 5, 10};
+  std::ranges::sort(gas.taus);
+  return boltzmann_theory_of(settings, gas.taus, gas.density, arguments.json);
 }
 
 // Theory of a gas that is left to itself, in a periodic box, would look like one of any other.
@@ -321,13 +383,6 @@ std::string text_of(TheoryArguments arguments) {
   if (!arguments.scene.empty()) {
     loaded = load_scene({.path = arguments.scene, .overrides = arguments.overrides, .engine = {}});
     require_homogeneous(loaded->scene, arguments.scene);
-    if (!loaded->scene.composition().is_needle_gas()) {
-      if (!arguments.boltzmann.empty()) {
-        throw std::invalid_argument(fmt::format(
-            "--boltzmann {}: expected a scene of equal thin needles", arguments.boltzmann));
-      }
-      return mixture_text(arguments, *loaded);
-    }
   }
   if (!arguments.boltzmann.empty()) return boltzmann_text(arguments, loaded);
   for (const auto& [option, value] : {std::pair("--needles", &arguments.needles),
@@ -337,6 +392,9 @@ std::string text_of(TheoryArguments arguments) {
       throw std::invalid_argument(
           fmt::format("{} {}: expected --boltzmann beside it", option, **value));
     }
+  }
+  if (loaded && !loaded->scene.composition().is_needle_gas()) {
+    return mixture_theory_of(*loaded, times_of_mixture(arguments, *loaded), arguments.json);
   }
   const Predictions predictions = predictions_of(arguments, loaded);
   return arguments.json ? json_of(predictions) : table_text(predictions);

@@ -26,13 +26,12 @@ Result result_of(const Settings& settings, const std::vector<double>& taus, int 
 // Changes over a time so short that the rates of the theory hold, and half of it: the part that is
 // of second order drops out.
 TEST(Boltzmann, BeginsAsKineticTheorySays) {
-  for (const auto& [gas, t_rot] : {std::pair{theory::Gas{6, 1, -1}, 0.4},
-                                   {theory::Gas{2, 0.8, -1}, 1.7},
-                                   {theory::Gas{6, 0.9, 0.3}, 0.0}}) {
+  for (const auto& [gas, t_rot] :
+       {std::pair{theory::Gas{6, 1, -1}, 0.4}, {{2, 0.8, -1}, 1.7}, {{6, 0.9, 0.3}, 0.0}}) {
     const theory::Temperatures initial{1, t_rot};
     const double tau = 0.05;
     const Result result =
-        result_of({.gas = gas, .initial = initial, .needles = 1'000'000}, {tau / 2, tau});
+        result_of({.composition = one_species(gas, initial), .needles = 1'000'000}, {tau / 2, tau});
     const theory::Temperatures rates = theory::cooling_rates(gas, initial);
     const Sample &half = result.samples[0], &whole = result.samples[1];
     const auto slope = [&](double at_0, const Measured& at_half, const Measured& at_whole) {
@@ -55,7 +54,8 @@ TEST(Boltzmann, BeginsAsKineticTheorySays) {
 TEST(Boltzmann, ElasticCollisionsKeepTheEnergy) {
   for (const Pairs pairs : {Pairs::single, Pairs::encounters}) {
     const Result result = result_of(
-        {.gas = {6, 1, -1}, .initial = {1, 0.4}, .pairs = pairs, .needles = 1600}, {0, 10});
+        {.composition = one_species({6, 1, -1}, {1, 0.4}), .pairs = pairs, .needles = 1600},
+        {0, 10});
     EXPECT_NEAR(result.samples[0].energy.value, 1.9, 1e-12);
     EXPECT_NEAR(result.samples[1].energy.value, 1.9, 1e-11);
     EXPECT_NEAR(result.samples[1].t_tr.value, 1.9 / 2.5, 0.05);
@@ -71,8 +71,10 @@ double share_met_before(const Result& result) {
 // encounter as are not the last.
 TEST(Boltzmann, EncountersOfAnEquilibriumMayBeRunBackwards) {
   for (const double k : {2.0, 6.0}) {
-    const Result result = result_of(
-        {.gas = {k, 1, -1}, .initial = {1, 1}, .pairs = Pairs::encounters, .needles = 32000}, {1});
+    const Result result = result_of({.composition = one_species({k, 1, -1}, {1, 1}),
+                                     .pairs = Pairs::encounters,
+                                     .needles = 32000},
+                                    {1});
     const auto of = static_cast<double>(result.encounters);
     const double collisions = result.samples[0].collisions.value * 16000;
     const double share = share_met_before(result);
@@ -84,9 +86,10 @@ TEST(Boltzmann, EncountersOfAnEquilibriumMayBeRunBackwards) {
 
 TEST(Boltzmann, EncountersOfElasticNeedlesAreThoseOfAnotherCount) {
   for (const auto& [k, met_before, collisions] : {std::tuple{6.0, 0.12, 1.23}, {2.0, 0.06, 1.10}}) {
-    const Result result = result_of(
-        {.gas = {k, 1, -1}, .initial = {1, 0.5}, .pairs = Pairs::encounters, .needles = 200000},
-        {0.1});
+    const Result result = result_of({.composition = one_species({k, 1, -1}, {1, 0.5}),
+                                     .pairs = Pairs::encounters,
+                                     .needles = 200000},
+                                    {0.1});
     const auto of = static_cast<double>(result.encounters);
     EXPECT_GT(of, 5e3);
     EXPECT_NEAR(share_met_before(result), met_before, 0.01);
@@ -99,8 +102,7 @@ TEST(Boltzmann, EncountersOfElasticNeedlesAreThoseOfAnotherCount) {
 // Chains of 20 collisions and more, which tend to sliding contact.
 TEST(Boltzmann, EncountersCollapseAsOftenAsInAnotherCount) {
   const double share = 0.047;
-  const Result result = result_of({.gas = {6, 0.5, -1},
-                                   .initial = {1, 1},
+  const Result result = result_of({.composition = one_species({6, 0.5, -1}, {1, 1}),
                                    .pairs = Pairs::encounters,
                                    .contact_time = 1e-3,
                                    .needles = 64000},
@@ -126,7 +128,8 @@ TEST(Boltzmann, SingleCollisionsRelaxMoreSlowlyThanGaussianOnes) {
       const theory::Temperatures now = theory::cooling_curve(gas, initial, std::array{tau})[0];
       if (difference(now.t_tr, now.t_rot) < std::exp(taus.empty() ? -1 : -3)) taus.push_back(tau);
     }
-    const Result result = result_of({.gas = gas, .initial = initial, .needles = 400'000}, taus);
+    const Result result =
+        result_of({.composition = one_species(gas, initial), .needles = 400'000}, taus);
     const auto curve = theory::cooling_curve(gas, initial, taus);
     const auto logarithm = [&](std::size_t n) {
       return std::log(difference(result.samples[n].t_tr.value, result.samples[n].t_rot.value));
@@ -144,7 +147,7 @@ TEST(Boltzmann, SingleCollisionsRelaxMoreSlowlyThanGaussianOnes) {
 // steps of time, each rotating freely between them); with directors drawn anew the ratio is 1.704.
 TEST(Boltzmann, NeedlesWithoutRotationKeepTheirDirectors) {
   const Result result =
-      result_of({.gas = {6, 0.8, -1}, .initial = {1, 0}, .needles = 200'000}, {3.001});
+      result_of({.composition = one_species({6, 0.8, -1}, {1, 0}), .needles = 200'000}, {3.001});
   const Sample& sample = result.samples[0];
   EXPECT_NEAR(sample.t_tr.value / sample.t_rot.value, 1.7645, 0.015);
   EXPECT_NEAR(sample.excess_mixed.value, -0.016, 0.006);
@@ -153,8 +156,9 @@ TEST(Boltzmann, NeedlesWithoutRotationKeepTheirDirectors) {
 // While few needles rotate, a mean of the excesses of small pools would be far off.
 TEST(Boltzmann, ExcessesOfFewNeedlesAreThoseOfMany) {
   const auto excess = [](std::uint64_t needles, std::uint64_t seed) {
-    return result_of({.gas = {6, 0.8, -1}, .initial = {1, 0}, .needles = needles, .seed = seed},
-                     {0.1})
+    return result_of(
+               {.composition = one_species({6, 0.8, -1}, {1, 0}), .needles = needles, .seed = seed},
+               {0.1})
         .samples[0]
         .excess_mixed;
   };
@@ -175,10 +179,12 @@ TEST(Boltzmann, NumbersOfPoolsAreThoseOfTheirSums) {
   std::vector<Sums> pools(3);
   for (std::size_t p = 0; p < pools.size(); ++p) {
     const auto of = static_cast<double>(p);
-    pools[p] = {.needles = 2, .collisions = of, .v2 = 6 + 6 * of, .w2 = 1 + of, .v2w2 = 4 * of};
+    pools[p] = {
+        .needles = 2, .collisions = 2 * of, .tr = 6 + 6 * of, .rot = 1 + of, .tr_rot = 4 * of};
   }
-  const Sample sample = measured(pools, 1);
+  const Means sample = measured(pools);
   EXPECT_DOUBLE_EQ(sample.t_tr.value, 2);  // of 1, 2 and 3
+  EXPECT_DOUBLE_EQ(sample.t_rot.value, 0.5);
   EXPECT_DOUBLE_EQ(sample.t_tr.error, std::sqrt(1.0 / 3));
   EXPECT_DOUBLE_EQ(sample.collisions.value, 1);  // of 0, 1 and 2
   EXPECT_DOUBLE_EQ(sample.excess_mixed.value, 6 * 12.0 / (36 * 6) - 1);
@@ -191,7 +197,10 @@ TEST(Boltzmann, NumbersOfPoolsAreThoseOfTheirSums) {
 }
 
 TEST(Boltzmann, DependsOnItsSeedAndNotOnThreads) {
-  Settings settings{.gas = {6, 0.8, -1}, .pairs = Pairs::encounters, .needles = 640, .seed = 7};
+  Settings settings{.composition = one_species({6, 0.8, -1}),
+                    .pairs = Pairs::encounters,
+                    .needles = 640,
+                    .seed = 7};
   const auto energy = [&](int threads) {
     return result_of(settings, {0.5, 1}, threads).samples[1].energy.value;
   };
@@ -207,7 +216,7 @@ TEST(Boltzmann, RefusesWhatItCannotFollow) {
     return test::message_of<std::invalid_argument>([&] { simulate(settings, taus); });
   };
   Settings settings;
-  settings.gas.epsilon = 0.9;
+  settings.composition = one_species({6, 0.9, -1});
   settings.pairs = Pairs::encounters;
   settings.contact_time = 0;
   EXPECT_EQ(message(settings),
@@ -217,11 +226,11 @@ TEST(Boltzmann, RefusesWhatItCannotFollow) {
   settings.needles = 63;
   EXPECT_EQ(message(settings), "needles = 63: expected a number in [64, 1e9]");
   settings = {};
-  settings.initial.t_tr = 0;
+  settings.composition = one_species({}, {0, 1});
   EXPECT_EQ(message(settings), "t_tr = 0: expected a number in [1e-100, 1e100]");
   EXPECT_EQ(message({}, {2, 1}), "tau = 1: expected finite times >= 0 in ascending order");
   settings = {};
-  settings.gas.k = std::nan("");
+  settings.composition = one_species({std::nan(""), 1, -1});
   EXPECT_EQ(message(settings), "k = nan: expected a number in [1e-12, 1e12]");
 }
 

@@ -97,13 +97,70 @@ TEST_F(TheoryCommand, SimulatesTheBoltzmannEquation) {
   EXPECT_NEAR(json["energy"][1].get<double>(), curve[1].energy(), 0.2);
   EXPECT_GT(json["energy_error"][1].get<double>(), 0);
   EXPECT_GT(json["encounters"].get<int>(), 100);
-  boltzmann::Settings settings{.gas = {6, 0.5, -1}, .needles = 640, .seed = 3};
+  const boltzmann::Settings settings{
+      .composition = boltzmann::one_species({6, 0.5, -1}), .needles = 640, .seed = 3};
   const auto single = nlohmann::json::parse(run(arguments + "single --json").out);
   EXPECT_EQ(single["t_rot"][1].get<double>(),
             boltzmann::simulate(settings, taus).samples[1].t_rot.value);
   EXPECT_FALSE(single.contains("encounters"));
   const std::string table = run(arguments + "encounters").out;
   EXPECT_NE(table.find("are not the first of their pair"), std::string::npos) << table;
+}
+
+TEST_F(TheoryCommand, SimulatesTheBoltzmannEquationOfMixtures) {
+  const std::string species =
+      "[[species]]\nname = \"long\"\ncount = 100\nlength = 2\nmass = 8\nt_tr = 3\n"
+      "[[species]]\nname = \"short\"\ncount = 300\n";
+  write("mixture.toml",
+        "needles = { box = 10, seed = 9 }\nuntil.time = 1\n"
+        "collisions = { epsilon = 0.9, tc_relative = 1e-2 }\n" +
+            species);
+  const std::string arguments = "theory --needles 640 --time 2 --time 0 --boltzmann ";
+  const auto json = run(arguments + "single --json mixture.toml").json();
+  EXPECT_EQ(json["time"], (std::vector<double>{0, 2}));
+  EXPECT_EQ(json["density"], 0.4);
+  EXPECT_EQ(json["seed"], 9);
+  EXPECT_FALSE(json.contains("k"));
+  EXPECT_NEAR(json["t_tr"][0].get<double>(), 1.5, 1e-12);
+  const auto theory = run("theory --time 0 --time 2 --json mixture.toml").json();
+  EXPECT_EQ(json["theory"]["energy"], theory["energy"]);
+  for (const char* name : {"long", "short"}) {
+    const auto& of = json["species"][name];
+    EXPECT_EQ(of["theory"]["t_tr"], theory["species"][name]["t_tr"]);
+    EXPECT_EQ(of["t_tr"][0], theory["species"][name]["t_tr"][0]) << name;
+    EXPECT_NEAR(of["t_tr"][1].get<double>(), of["theory"]["t_tr"][1].get<double>(),
+                5 * of["t_tr_error"][1].get<double>());
+  }
+  double collisions = 0;
+  for (const char* pair : {"long-long", "long-short", "short-short"}) {
+    collisions += json["collisions_between"][pair][1].get<double>();
+  }
+  EXPECT_NEAR(2 * collisions, json["collisions_per_needle"][1].get<double>(), 1e-12);
+
+  // Of all needles at the start, in units of the time to fly a length of 1 at their T_tr.
+  double rate = 0;
+  for (const auto& each : theory["collisions_per_time"]) rate += 2 * each.get<double>() / 400;
+  const auto encounters = run(arguments + "encounters --json mixture.toml").json();
+  EXPECT_NEAR(encounters["tc"].get<double>(), 1e-2 / rate * std::sqrt(1.5), 1e-12);
+  const std::string table = run(arguments + "encounters mixture.toml").out;
+  for (const char* part : {"2 species", "all needles", "\nlong\n", "\nshort\n", "long-short",
+                           "are not the first of their pair"}) {
+    EXPECT_NE(table.find(part), std::string::npos) << part << " in\n" << table;
+  }
+
+  for (const auto& [options, message] :
+       {std::pair("--boltzmann single --epsilon 0.5",
+                  "--epsilon 0.5: expected none beside a scene of several species"),
+        {"--needles 640", "--needles 640: expected --boltzmann beside it"},
+        {"--boltzmann single --needles 200",
+         "needles = 200: expected more, as 50 of them are of species long, and 64 must be"},
+        {"--boltzmann single --set species.long.diameter=0.1 "
+         "--set species.short.diameter=0.1",
+         "--boltzmann single: expected a scene of thin needles, not of rods of finite width"}}) {
+    const Outcome outcome = run(std::string("theory ") + options + " mixture.toml");
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_EQ(outcome.err, std::string("needlework: ") + message + "\n");
+  }
 }
 
 // The scene's: relative to the mean free time, in units of the time to fly a length.

@@ -41,7 +41,7 @@ LAYERS = [
     Layer("calendar", ["src/calendar"], [], ["base", "memory", "kernels", "physics"]),
     # Which calendars a scene may name is what the list of calendars says.
     Layer("boltzmann", ["src/boltzmann"], ["boltzmann.h"],
-          ["base", "random", "kernels", "physics"], ["theory"]),
+          ["base", "composition", "random", "kernels", "physics"], ["theory"]),
     Layer("scene", ["src/scene"],
           ["scene.h", "parse.h", "state.h", "user_data.h"],
           ["base", "machine", "archive", "composition", "random", "kernels", "calendar"]),
