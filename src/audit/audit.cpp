@@ -122,6 +122,7 @@ Audit::Audit(const State& initial, const Setup& setup)
   if (setup.driving.kicks) {
     kicks_.emplace(*setup.driving.kicks, setup.scene_seed, setup.epoch_length, unit_);
   }
+  if (setup.composition.has_width()) findings_.overlaps.emplace();
   has_collided_.assign(initial.size(), false);
   met_.assign(initial.size(), {});
 }
@@ -214,6 +215,10 @@ void Audit::add(const Happening& reported) {
     happening.is_collision() ? check_pair(now, collision) : check_single(now, happening);
   }
   follow(now, happening);
+  if (!resumed_ && happening.is_collision() && findings_.overlaps) {
+    const Index a = index_of(collision.first), b = index_of(collision.second);
+    if (is_chosen(a, b)) measure_overlap(a, b);
+  }
   go_on_if_resumed();
 }
 

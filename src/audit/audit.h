@@ -47,6 +47,13 @@ struct Difference {
   bool at_wall = false;                 ///< whether `second` is the index of a wall
 };
 
+/// By how much rods of finite width overlap, as a share of the distance of the axes of two at a
+/// contact.
+struct RodOverlaps {
+  double at_collisions = 0;  ///< the largest one found at a collision, before or after it
+  double at_most = 0;        ///< certified: none is larger, at any time, but for what is reported
+};
+
 /// The results of an audit so far.
 struct Findings {
   std::uint64_t collisions = 0;  ///< collisions received; order and rule are checked for each
@@ -59,6 +66,7 @@ struct Findings {
                                  ///< next
   std::uint64_t escalated = 0;   ///< flights that needed more digits than double has
   std::uint64_t undecided = 0;   ///< flights whose result depends on less than rounding errors
+  std::optional<RodOverlaps> overlaps;  ///< of rods of finite width
   std::array<std::uint64_t, kinds.size()> differences{};
   std::vector<Difference> listed;  ///< the first differences
 
@@ -155,6 +163,7 @@ class Audit {
   double since_start(const Instant& time) const;
   Instant begin_of(Index i, Index j) const;  ///< the later of the times of both records
   Approach approach_of(Index i, Index j) const;
+  Shift nearest_image(const Approach& approach, double s) const;  ///< at this time of a flight
   void check_order(const Instant& now, const Happening& happening);
   void check_pair(const Instant& now, const Collision& collision);
   void check_kick(const Instant& now, const std::vector<Needle>& after);
@@ -179,6 +188,7 @@ class Audit {
   void check_rods_touching(const Flown& flown);
   double after_overlap(const Flown& flown, RodFlight& pair) const;
   void keep_if_overlapping(const Flown& flown, RodFlight& pair);
+  void measure_overlap(Index a, Index b);
   void settle(const RodFlight& pair);
   double tolerance(PairFlight& pair, double s) const;
   /// How far rounding may move a tip into a wall. [L]

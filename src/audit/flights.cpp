@@ -21,6 +21,15 @@ Start start_of(const Vector<double>& r, const std::optional<Continuation>& conti
 
 }  // namespace
 
+Shift Audit::nearest_image(const Approach& approach, double s) const {
+  const Vector<double> r = separation(approach, s, {}, space_.box);
+  Shift nearest;
+  for (int axis = 0; axis < 3; ++axis) {
+    nearest[axis] = static_cast<std::int32_t>(space_.boxes_along<double>(axis, r[axis]));
+  }
+  return nearest;
+}
+
 std::optional<Continuation> Audit::take_continuation(Index i, Index j) {
   const auto found = continuations_.find(key_of(i, j));
   if (found == continuations_.end()) return std::nullopt;
@@ -62,11 +71,7 @@ void Audit::check_contact(Index a, Index b, const Instant& now) {
   ++findings_.contacts;
   const double duration = elapsed<double>(begin_of(a, b), now).middle;
   const Approach approach = approach_of(a, b);
-  const Vector<double> r = separation(approach, duration, {}, space_.box);
-  Shift nearest;
-  for (int axis = 0; axis < 3; ++axis) {
-    nearest[axis] = static_cast<std::int32_t>(space_.boxes_along<double>(axis, r[axis]));
-  }
+  const Shift nearest = nearest_image(approach, duration);
   const std::optional<Continuation> continuation = take_continuation(a, b);
   const double reach = reach_of(needles_[a].body, needles_[b].body);
   bool met = false;

@@ -1,4 +1,5 @@
 // Whether a flight of two rods of finite width has the contacts that it should have, and no others.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -26,6 +27,14 @@ void Audit::keep_if_overlapping(const Flown& flown, RodFlight& pair) {
   }
 }
 
+// Of two rods whose records, of the same time, are those after their collision: rounding them may
+// have moved one into the other.
+void Audit::measure_overlap(Index a, Index b) {
+  const RodFlight pair(needles_[a], needles_[b], nearest_image(approach_of(a, b), 0), space_);
+  double& most = findings_.overlaps->at_collisions;
+  most = std::max(most, pair.overlap_at(0));
+}
+
 void Audit::check_rods_apart(const Flown& flown) {
   RodFlight pair(needles_[flown.first], needles_[flown.second], flown.encounter.shift, space_,
                  slack_);
@@ -33,6 +42,7 @@ void Audit::check_rods_apart(const Flown& flown) {
   const double from = after_overlap(flown, pair);
   const bool leaves = from < last || flown.start.kind != Start::overlapping;
   const auto overlap = leaves ? pair.overlap(from, last) : std::nullopt;
+  findings_.overlaps->at_most = std::max(findings_.overlaps->at_most, pair.certified(last));
   if (overlap) {
     report(Kind::missed, flown.first, flown.second, begin_of(flown.first, flown.second), *overlap);
   }
@@ -50,6 +60,9 @@ void Audit::check_rods_touching(const Flown& flown) {
   const double from = after_overlap(flown, pair);
   const bool starts_over = flown.start.kind == Start::overlapping;
   const auto before = from < now || !starts_over ? pair.overlap(from, now) : std::nullopt;
+  RodOverlaps& largest = *findings_.overlaps;
+  largest.at_most = std::max(largest.at_most, pair.certified(now));
+  largest.at_collisions = std::max(largest.at_collisions, pair.overlap_at(now));
   const RodFlight::Distance there = pair.at(now);
   const bool overlaps = there.most < pair.contact() - pair.limit(now);
   const double off =

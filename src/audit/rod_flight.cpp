@@ -12,8 +12,8 @@ namespace {
 
 /// Half a unit in the last place of 1.
 constexpr double half_unit_of_rods = 0x1p-53;
-/// Rods never overlap by more than this share of the distance of their axes at a contact.
-constexpr double most_overlap = 1e-13;
+/// What is certified is twice this share of the distance of the axes at a contact.
+constexpr double most_overlap = 0.5e-13;
 /// Number of intervals of a flight after which the rest counts as doubtful.
 constexpr int most_stretches_of_rods = 10000;
 
@@ -164,7 +164,7 @@ double RodFlight::limit(double s) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const double age = delays_[i] + std::abs(s);
     const double extent = (i == 0 ? first_ : second_).body.extent();
-    lengths += velocity_[i] * delays_[i];
+    lengths += velocity_[i] * delays_[i] + norm((i == 0 ? first_ : second_).record.r);
     directors += half_lengths_[i] * (2 + omega_[i] * age);
     renewed =
         renewed || velocity_[i] * age > longest_record * extent || omega_[i] * age > longest_record;
@@ -333,6 +333,11 @@ RodFlight::Distance RodFlight::at(double s) {
   double along = 0;
   for (int axis = 0; axis < 3; ++axis) along += p[axis].value.middle * p[axis].rate.middle;
   return {bounds.least, bounds.most, along / bounds.most};
+}
+
+double RodFlight::overlap_at(double s) const {
+  const auto rods = rods_of<Quad>(motion<Quad>(), Ball<Quad>(s));
+  return std::max(0.0, contact_ - distance_of(rods, half_lengths_).least) / contact_;
 }
 
 // About when the rods overlap by more than the limit, which they do at `to` and not at `from`.

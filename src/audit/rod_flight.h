@@ -24,8 +24,8 @@ class RodFlight {
             double slack = 0);
 
   double contact() const { return contact_; }  ///< distance of the axes at a contact [L]
-  /// By how much the rods may overlap at s, which is what rounding explains: 1e-13 of the diameter,
-  /// and what the numbers of the records do not hold. [L]
+  /// An overlap at s by more than this is reported, and twice as much is certified: half of 1e-13
+  /// of the diameter, and what the numbers of the records do not hold. [L]
   double limit(double s) const;
 
   /// Bounds on the distance of the axes at one time, and about its rate of change.
@@ -33,12 +33,18 @@ class RodFlight {
     double least, most, rate;
   };
   Distance at(double s);
+  /// By how much the rods overlap at s, or by a rounding more, found with 113 bits; 0 where they do
+  /// not. [1, of contact()]
+  double overlap_at(double s) const;
+  /// Where overlap() finds none from `from` to `to`, they never overlap by more. [1, of contact()]
+  double certified(double to) const { return 2 * limit(to) / contact_; }
   /// A velocity at which rods that touch may part although they have met, by rounding.
   double noise_of_rate(double s) const;
   double speed() const { return speed_; }  ///< bound on relative velocities of points of the axes
   double rate() const { return speed_ / size_; }  ///< of changes of the pair [1 / time]
 
-  /// The time of an overlap by more than the limit, the first one, if there is any in [from, to].
+  /// The time of an overlap by more than the limit, the first one, if there is any in [from, to]:
+  /// of one by more than twice that for certain.
   std::optional<double> overlap(double from, double to);
   /// The first time in [from, to] that is found at which the rods do not overlap; else `to`.
   double end_of_overlap(double from, double to);

@@ -120,6 +120,10 @@ nlohmann::ordered_json findings_json(const audit::Findings& findings,
     if (!is_of_collisions(kind)) continue;
     json["bound95"][audit::name(kind)] = number(findings.bound95(kind));
   }
+  if (findings.overlaps) {
+    json["overlap"] = {{"at_collisions", findings.overlaps->at_collisions},
+                       {"at_most", findings.overlaps->at_most}};
+  }
   json["collisions"] = findings.collisions;
   json["hits"] = findings.hits;
   json["at_walls"] = findings.at_walls;
@@ -181,6 +185,12 @@ std::string text_of(const audit::Findings& findings, const AuditArguments& argum
   }
   text +=
       fmt::format("{:12} {:8}   pairs that rounding decides\n", "undecided", findings.undecided);
+  if (findings.overlaps) {
+    text += fmt::format(
+        "{:12} {:8.2g}   of the diameter is the largest at a collision, and {:.2g} what none "
+        "exceeds at any time\n",
+        "overlap", findings.overlaps->at_collisions, findings.overlaps->at_most);
+  }
   for (const audit::Difference& difference : findings.listed) {
     if (!is_of_collisions(difference.kind)) {
       text += fmt::format("{}: {}\n", audit::name(difference.kind), meaning_of(difference.kind));

@@ -32,6 +32,8 @@ Json checkpoint_json(const audit::Checkpoint& checkpoint) {
     listed.push_back({static_cast<int>(difference.kind), difference.time, difference.first,
                       difference.second, static_cast<int>(difference.at_wall)});
   }
+  Json overlaps = nullptr;
+  if (findings.overlaps) overlaps = {findings.overlaps->at_collisions, findings.overlaps->at_most};
   return {{"fingerprint", std::to_string(checkpoint.fingerprint)},
           {"collisions", findings.collisions},
           {"hits", findings.hits},
@@ -42,6 +44,7 @@ Json checkpoint_json(const audit::Checkpoint& checkpoint) {
           {"checked", findings.checked},
           {"escalated", findings.escalated},
           {"undecided", findings.undecided},
+          {"overlaps", overlaps},
           {"differences", findings.differences},
           {"listed", listed},
           {"touches", continuations}};
@@ -64,6 +67,9 @@ audit::Checkpoint checkpoint_of(const Json& from) {
   from.at("checked").get_to(findings.checked);
   from.at("escalated").get_to(findings.escalated);
   from.at("undecided").get_to(findings.undecided);
+  if (const Json& overlaps = from.at("overlaps"); !overlaps.is_null()) {
+    findings.overlaps = {overlaps.at(0).get<double>(), overlaps.at(1).get<double>()};
+  }
   from.at("differences").get_to(findings.differences);
   for (const Json& row : from.at("listed")) {
     findings.listed.push_back({static_cast<audit::Kind>(row.at(0).get<int>()),

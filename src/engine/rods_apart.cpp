@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,13 +19,21 @@ constexpr double most_overlap_of_rods = 1e-13;
 
 }  // namespace
 
-double explained_overlap(const Gas& gas) {
+double explained_overlap(const Gas& gas, Time at) {
   double smallest = gas.composition.widest();
   for (const Species& each : gas.composition.species())
     smallest = std::min(smallest, each.diameter);
   // Positions and directors are rounded when records are made, and again when they are moved on.
   const double rounding = 0x1p-51 * (gas.longest + ((gas.box[0] + gas.box[1]) + gas.box[2]));
-  return most_overlap_of_rods * smallest + rounding;
+  double fastest = 0;
+  for (Needle i{0}; i < gas.size(); ++i) {
+    const Record& record = gas.records[i];
+    const double fallen =
+        std::sqrt(dot(gas.gravity, gas.gravity)) * gas.clock.difference(at, record.time);
+    const double turns = 0.5 * gas.composition[record.species].length * record.flight.omega;
+    fastest = std::max(fastest, std::sqrt(dot(record.flight.v, record.flight.v)) + fallen + turns);
+  }
+  return most_overlap_of_rods * smallest + rounding + 2 * fastest * gas.clock.resolution();
 }
 
 std::optional<RodOverlap> find_overlap(const Gas& gas, Time at, kernels::Isa isa,

@@ -118,10 +118,9 @@ struct Simulation::Implementation {
     }
     begin_loop();
 #ifndef NDEBUG
-    overlap_limit = explained_overlap(run.gas);
     // A state that is given may overlap by what is taken for a touch.
-    if (find_overlap(run.gas, run.now, isa, overlap_limit))
-      overlap_limit = run.gas.touch_tolerance();
+    if (find_overlap(run.gas, run.now, isa, explained_overlap(run.gas, run.now)))
+      overlap_at_start = run.gas.touch_tolerance();
 #endif
   }
 
@@ -201,7 +200,8 @@ struct Simulation::Implementation {
   Stop advance(const Scene::Until& until) {
     const Stop stop = advance(Limits(run, until));
 #ifndef NDEBUG
-    require_rods_apart(run.gas, run.now, isa, overlap_limit);
+    require_rods_apart(run.gas, run.now, isa,
+                       std::max(overlap_at_start, explained_overlap(run.gas, run.now)));
 #endif
     // An interruption must not be lost when it comes just as a condition is met.
     return run.interrupted.exchange(false) ? Stop::interrupted : stop;
@@ -255,7 +255,7 @@ struct Simulation::Implementation {
   std::string search, calendar;
   kernels::Isa isa;
 #ifndef NDEBUG
-  double overlap_limit = 0;  ///< by how much rods may overlap [L]
+  double overlap_at_start = 0;  ///< that rounding does not explain [L]
 #endif
   std::string placement;  ///< how rods of a drawn state have found room
 };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -42,6 +43,7 @@ TEST(RodFlight, SeesOverlapsThatLastAMoment) {
       audit::RodFlight flight(one, other, {0, 0, 0}, space);
       const auto found = flight.overlap(0, 10);
       EXPECT_EQ(found.has_value(), depth > 0) << first << " " << second << " " << depth;
+      EXPECT_NEAR(flight.overlap_at(3), std::max(depth, 0.0), 1e-14);
       EXPECT_FALSE(flight.gave_up()) << first << " " << second << " " << depth;
       if (!found) continue;
       // It overlaps while |x| < sqrt(2 depth), and is found as it begins.

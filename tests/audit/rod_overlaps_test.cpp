@@ -104,6 +104,7 @@ TEST(OverlapsOfRods, OfALateCollisionAreNotMissed) {
   const Findings findings = findings_of(balls, run, 1.8);
   EXPECT_EQ(findings.count(Kind::late), 1u) << listed(findings);
   EXPECT_EQ(findings.count(Kind::missed), 0u) << listed(findings);
+  EXPECT_NEAR(findings.overlaps->at_collisions, 0.2, 1e-12);
 }
 
 // By more than rounding explains, and of balls at rest.
@@ -115,12 +116,13 @@ TEST(OverlapsOfRods, AreMissedFromTheLimitOn) {
   };
   const audit::Needle first = flight_of(13), second = flight_of(14);
   const double limit = audit::RodFlight(first, second, {0, 0, 0}, space).limit(1);
-  ASSERT_GT(limit, 1e-13);
+  ASSERT_GT(limit, 0.5e-13);
   ASSERT_LT(limit, 1e-12);
   const auto found = [&](double limits) {
     return findings_of(balls_on_a_line({{13, 0}, {14 - limits * limit, 0}}), {}, 1);
   };
   EXPECT_TRUE(found(0).clean());
+  EXPECT_NEAR(found(0.8).overlaps->at_most, 2 * limit, 1e-6 * limit);
   EXPECT_TRUE(found(0.8).clean());
   EXPECT_EQ(found(1.2).count(Kind::missed), 1u);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -68,6 +69,14 @@ TEST(AuditOfRods, FindsNothingWrongWithTheEngine) {
     const Findings findings = run.audited();
     EXPECT_TRUE(findings.clean()) << name_of(scene) << ": " << listed(findings);
     EXPECT_EQ(findings.undecided, 0u) << name_of(scene);
+    ASSERT_TRUE(findings.overlaps);
+    // Rounding; none at all would be too good to be true.
+    const std::array<double, 3>& box = scene.needles.box;
+    EXPECT_GT(findings.overlaps->at_collisions, 0) << name_of(scene);
+    EXPECT_LT(findings.overlaps->at_collisions, 1e-13) << name_of(scene);
+    EXPECT_GT(findings.overlaps->at_most, 1e-13) << name_of(scene);
+    EXPECT_LT(findings.overlaps->at_most, 1e-13 + 0x1p-48 * (box[0] + box[1] + box[2]))
+        << name_of(scene);
     EXPECT_EQ(findings.contacts, findings.collisions);
     EXPECT_GT(findings.contacts, 50u / fewer);
     escalated += findings.escalated;

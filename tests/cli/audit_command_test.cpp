@@ -22,6 +22,33 @@ tc_relative = 1e-3
 collisions_per_needle = 60
 )");
   }
+
+  // The first piece ends soon after the program has begun to listen to signals. Each is twice as
+  // long as the one before, so that they reach the end on any machine.
+  void goes_on(const std::string& audit) {
+    json whole = run(audit + " --json").json();
+    const std::string listens =
+        "grep -q '^Name:.*needlework' /proc/$!/status && grep -q '^SigCgt.*[2367abef]$' "
+        "/proc/$!/status";
+    int pieces = 0;
+    double seconds = 0.01;
+    Outcome outcome;
+    do {
+      outcome = run_and_signal(audit + " --json --state audit.state",
+                               listens + " && sleep " + std::to_string(seconds), "INT");
+      EXPECT_EQ(exists("audit.state"), outcome.exit_code == 75);
+      seconds *= 2;
+    } while (outcome.exit_code == 75 && ++pieces);
+    EXPECT_GT(pieces, 0);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    json resumed = outcome.json();
+    for (const char* key : {"wall_s", "cpu_s"}) {
+      whole.erase(key);
+      resumed.erase(key);
+    }
+    EXPECT_EQ(resumed, whole);
+    EXPECT_FALSE(exists("audit.state"));
+  }
 };
 
 TEST_F(AuditCommand, PrintsOneJsonObjectForACleanRun) {
@@ -52,6 +79,18 @@ TEST_F(AuditCommand, PrintsATable) {
   EXPECT_EQ(run("audit small.toml --quiet").out, "");
 }
 
+TEST_F(AuditCommand, SaysByHowMuchRodsOverlap) {
+  EXPECT_FALSE(run("audit small.toml --json").json().contains("overlap"));
+  const std::string rods = "audit small.toml --set needles.diameter=0.1";
+  const json overlap = run(rods + " --json").json()["overlap"];
+  EXPECT_GT(overlap["at_collisions"].get<double>(), 0);
+  EXPECT_LT(overlap["at_collisions"], overlap["at_most"]);
+  EXPECT_LT(overlap["at_most"].get<double>(), 1e-11);
+  const Outcome text = run(rods);
+  EXPECT_NE(text.out.find("of the diameter is the largest at a collision"), std::string::npos)
+      << text.out;
+}
+
 TEST_F(AuditCommand, TakesAShareOfThePairs) {
   const json all = run("audit small.toml --json").json();
   const json some = run("audit small.toml --json --share 0.1 --seed 3").json();
@@ -65,31 +104,9 @@ TEST_F(AuditCommand, TakesAShareOfThePairs) {
   EXPECT_TRUE(nothing.complains("expected a larger share"));
 }
 
-// The first piece ends soon after the program has begun to listen to signals. Each is twice as long
-// as the one before, so that they reach the end on any machine.
 TEST_F(AuditCommand, GoesOnWhereItWasInterrupted) {
-  json whole = run("audit cooling.toml --json").json();
-  const std::string listens =
-      "grep -q '^Name:.*needlework' /proc/$!/status && grep -q '^SigCgt.*[2367abef]$' "
-      "/proc/$!/status";
-  int pieces = 0;
-  double seconds = 0.01;
-  Outcome outcome;
-  do {
-    outcome = run_and_signal("audit cooling.toml --json --state audit.state",
-                             listens + " && sleep " + std::to_string(seconds), "INT");
-    EXPECT_EQ(exists("audit.state"), outcome.exit_code == 75);
-    seconds *= 2;
-  } while (outcome.exit_code == 75 && ++pieces);
-  EXPECT_GT(pieces, 0);
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  json resumed = outcome.json();
-  for (const char* key : {"wall_s", "cpu_s"}) {
-    whole.erase(key);
-    resumed.erase(key);
-  }
-  EXPECT_EQ(resumed, whole);
-  EXPECT_FALSE(exists("audit.state"));
+  goes_on("audit cooling.toml");
+  goes_on("audit cooling.toml --set needles.diameter=0.05 --set until.collisions_per_needle=20");
 }
 
 TEST_F(AuditCommand, SavesWhenStopped) {
