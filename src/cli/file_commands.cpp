@@ -179,6 +179,8 @@ the needle that is farthest beyond it.
 Colours:
   speed, spin  speed and angular speed, as multiples of the root mean square
   vx, vy, vz   a component of the velocity, as a multiple of its root mean square
+  flow-x, ...  a component of the mean velocity of a needle and those in the ball
+               of density, in units of (T_tr / m)^1/2
   alignment    3 cos^2 - 1 of the angle between needle and velocity
   density      centres in a ball around the centre that holds 30 others in the
                mean, as a multiple of that mean
@@ -186,7 +188,7 @@ Colours:
 
 Examples:
   needlework view run.h5 -o needles.png
-  needlework view run.h5 -o flow.svg --frame first --colour vx --background light)");
+  needlework view run.h5 -o flow.svg --frame first --colour flow-x --background light)");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

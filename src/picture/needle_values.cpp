@@ -47,7 +47,7 @@ std::vector<double> alignments(const State& state) {
   return all;
 }
 
-// Counts the centres around each centre, with cells at least as wide as the radius.
+// Finds the centres around each centre, with cells at least as wide as the radius.
 class Neighbours {
  public:
   Neighbours(const State& state, double radius) : state_(state), radius_(radius) {
@@ -61,20 +61,21 @@ class Neighbours {
     }
   }
 
-  /// Centres within the radius of that of needle i, without itself.
-  std::size_t count(std::size_t i) const {
+  /// action(j) for each needle whose centre is within the radius of that of needle i, without i.
+  template <class Action>
+  void for_each(std::size_t i, Action action) const {
     const Cell cell = cell_of(i);
-    std::size_t found = 0;
     Cell other;
     for_neighbours(cell[0], count_[0], [&](std::size_t x) {
       for_neighbours(cell[1], count_[1], [&](std::size_t y) {
         for_neighbours(cell[2], count_[2], [&](std::size_t z) {
           other = {x, y, z};
-          for (const std::size_t j : cells_[number(other)]) found += j != i && are_near(i, j);
+          for (const std::size_t j : cells_[number(other)]) {
+            if (j != i && are_near(i, j)) action(j);
+          }
         });
       });
     });
-    return found;
   }
 
  private:
@@ -116,21 +117,49 @@ class Neighbours {
   std::vector<std::vector<std::size_t>> cells_;
 };
 
-// Density of centres around each centre, as a multiple of the mean, in a ball that holds 30 others
-// in the mean: so chance alone changes it by a fifth.
+/// What is around each needle: a ball that holds 30 others in the mean, or the largest that fits
+/// into the box.
+struct Ball {
+  double radius;
+  double mean;  ///< number of others in it
+
+  explicit Ball(const State& state) {
+    constexpr double wanted = 30, unit = 4 * std::numbers::pi / 3;
+    const double others = static_cast<double>(state.size()) - 1;
+    const double volume = state.box[0] * state.box[1] * state.box[2];
+    const double shortest = *std::min_element(state.box.begin(), state.box.end());
+    radius = std::min(std::cbrt(wanted * volume / (others * unit)), shortest / 2);
+    mean = others * unit * radius * radius * radius / volume;
+  }
+};
+
+// Density of centres around each centre, as a multiple of the mean; chance alone changes it by a
+// fifth.
 std::vector<double> densities(const State& state) {
-  constexpr double wanted = 30;
-  const double others = static_cast<double>(state.size()) - 1;
-  if (others < 1) return std::vector<double>(state.size(), 1.0);
-  const double volume = state.box[0] * state.box[1] * state.box[2];
-  const double shortest = *std::min_element(state.box.begin(), state.box.end());
-  const double ball = 4 * std::numbers::pi / 3;
-  const double radius = std::min(std::cbrt(wanted * volume / (others * ball)), shortest / 2);
-  const double mean = others * ball * radius * radius * radius / volume;
-  const Neighbours neighbours(state, radius);
+  if (state.size() < 2) return std::vector<double>(state.size(), 1.0);
+  const Ball ball(state);
+  const Neighbours neighbours(state, ball.radius);
   std::vector<double> all;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    all.push_back(static_cast<double>(neighbours.count(i)) / mean);
+    double found = 0;
+    neighbours.for_each(i, [&](std::size_t) { ++found; });
+    all.push_back(found / ball.mean);
+  }
+  return all;
+}
+
+// A component of the mean velocity of each needle and those around it.
+std::vector<double> flows(const State& state, std::size_t axis) {
+  if (state.size() < 2) return std::vector<double>(state.size(), 0.0);
+  const Neighbours neighbours(state, Ball(state).radius);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    double sum = state.velocity[i][axis], count = 1;
+    neighbours.for_each(i, [&](std::size_t j) {
+      sum += state.velocity[j][axis];
+      ++count;
+    });
+    all.push_back(sum / count);
   }
   return all;
 }
@@ -138,8 +167,9 @@ std::vector<double> densities(const State& state) {
 }  // namespace
 
 const std::vector<std::string>& quantities() {
-  static const std::vector<std::string> all{"speed", "spin",      "vx",      "vy",
-                                            "vz",    "alignment", "density", "none"};
+  static const std::vector<std::string> all{"speed",     "spin",    "vx",     "vy",
+                                            "vz",        "flow-x",  "flow-y", "flow-z",
+                                            "alignment", "density", "none"};
   return all;
 }
 
@@ -156,6 +186,15 @@ NeedleValues values_of(const std::string& quantity, const State& state, bool dar
     for (const Vector& v : state.velocity) result.values.push_back(v[axis]);
     make_relative(result, quantity);
     result.range = {-2, 2};
+    result.gradient = diverging_gradient(dark);
+  } else if (quantity == "flow-x" || quantity == "flow-y" || quantity == "flow-z") {
+    result.values = flows(state, static_cast<std::size_t>(quantity.back() - 'x'));
+    const double unit = root_mean_square(lengths(state.velocity)) / std::sqrt(3);
+    if (unit > 0) {
+      for (double& value : result.values) value /= unit;
+    }
+    result.label = fmt::format("{} / {:.3g} (thermal)", quantity, unit);
+    result.range = {-1.5, 1.5};
     result.gradient = diverging_gradient(dark);
   } else if (quantity == "alignment") {
     result.values = alignments(state);

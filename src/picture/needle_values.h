@@ -21,6 +21,10 @@ struct NeedleValues {
 /// "speed", "spin" and so on.
 const std::vector<std::string>& quantities();
 
+/// The component of the mean velocity of each needle and those around it along the axis x, y or z,
+/// in units of (T_tr / m)^1/2, is called "flow-x" and so on.
+inline constexpr const char* flow_along[] = {"flow-x", "flow-y", "flow-z"};
+
 /// The values of one of the quantities, for a ground that is dark or light. Throws
 /// std::invalid_argument for another name.
 NeedleValues values_of(const std::string& quantity, const State& state, bool dark);

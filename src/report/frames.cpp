@@ -35,8 +35,19 @@ std::vector<float> chosen_values(const char* quantity, const State& state,
   return values;
 }
 
+// Along which axis needles flow most.
+std::size_t flow_axis_of(const State& state) {
+  std::array<double, 3> energy{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double flow : picture::values_of(picture::flow_along[axis], state, true).values) {
+      energy[axis] += flow * flow;
+    }
+  }
+  return static_cast<std::size_t>(std::ranges::max_element(energy) - energy.begin());
+}
+
 Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
-              std::span<const std::size_t> chosen, Arrays& arrays) {
+              std::span<const std::size_t> chosen, std::size_t flow_axis, Arrays& arrays) {
   std::vector<std::uint16_t> position;
   std::vector<std::int16_t> orientation;
   std::vector<float> speed, spin;
@@ -64,6 +75,7 @@ Json frame_of(const State& state, std::span<const picture::WallSurface> walls,
           {"orientation", arrays.add(std::span<const std::int16_t>(orientation), {n, 3})},
           {"speed", add(speed)},
           {"spin", add(spin)},
+          {"flow", add(chosen_values(picture::flow_along[flow_axis], state, chosen))},
           {"alignment", add(chosen_values("alignment", state, chosen))},
           {"density", add(chosen_values("density", state, chosen))}};
 }
@@ -104,9 +116,11 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
   const auto chosen = evenly(needles, limits.needles);
   const std::size_t affordable = limits.drawn / std::max<std::size_t>(chosen.size(), 1);
   const auto frames = evenly(file.count(), std::min(limits.frames, affordable));
+  const std::size_t flow_axis = flow_axis_of(file.read(frames.back()));
   Json out = {{"box", first.box},
               {"periodic", first.periodic},
               {"walls", drawn_walls(picture::surfaces_of(walls, first.box, {}))},
+              {"flow_axis", flow_axis},
               {"needles_in_file", needles},
               {"needles_shown", chosen.size()},
               {"frames_in_file", file.count()},
@@ -118,7 +132,8 @@ Json frames_of(const std::string& path, const BodySizes& sizes, std::span<const 
     const auto time = file.time(frame);
     if (time) one["time"] = *time;
     const State state = file.read(frame);
-    one.update(frame_of(state, picture::surfaces_of(walls, state.box, time), chosen, arrays));
+    one.update(
+        frame_of(state, picture::surfaces_of(walls, state.box, time), chosen, flow_axis, arrays));
     out["frames"].push_back(std::move(one));
   }
   return out;

@@ -24,7 +24,8 @@ struct BodySizes {
 /// the place of each wall, and arrays of the needles shown [n]. `position` [n][3] is the centre
 /// between these corners, along periodic axes wrapped, in units of their distance / 65536,
 /// `orientation` [n][3] the director in units of 1 / 32767, `speed` |v|, `spin` |w|, and
-/// `alignment` and `density` are those of needlework view, see picture::values_of. `sizes` are
+/// `flow`, `alignment` and `density` are those of needlework view, see picture::values_of; the flow
+/// is that along `flow_axis`, along which needles flow most in the last frame. `sizes` are
 /// those of the species: of several, `share_of_length` [n] is the length of each needle shown over
 /// that of the longest. Of rods of finite width there is the largest `diameter`, and
 /// `share_of_diameter` of several species. `walls` are each of one side.

@@ -110,7 +110,7 @@ TEST_F(ViewCommand, ColoursAsAskedInBothSpellings) {
   EXPECT_NE(read("a.svg").find(">spin / "), std::string::npos);
   const Outcome unknown = run("view a.h5 -o c.svg --colour mass");
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_TRUE(unknown.complains("mass: expected one of speed, spin, vx, vy, vz, alignment"));
+  EXPECT_TRUE(unknown.complains("mass: expected one of speed, spin, vx, vy, vz, flow-x"));
 }
 
 TEST_F(ViewCommand, HasTheSizeThatIsAskedFor) {

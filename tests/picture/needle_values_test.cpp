@@ -51,30 +51,42 @@ TEST(NeedleValues, OfAlignmentAreTwoAlongTheVelocityAndMinusOneAcross) {
   EXPECT_NEAR(q[2], 0, 1e-12);  // at rest
 }
 
-TEST(NeedleValues, OfDensityCountTheNeighboursAcrossTheBorders) {
+TEST(NeedleValues, OfDensityAndFlowAreThoseOfTheNeighboursAcrossTheBorders) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> anywhere(-8, 16);  // outside of the box too
   for (const std::size_t count : {2, 10, 300}) {
-    std::vector<std::array<double, 3>> centres(count);
-    for (auto& centre : centres) {
-      for (double& x : centre) x = anywhere(random);
+    std::vector<std::array<double, 3>> centres(count), velocities(count);
+    double square = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (double& x : centres[i]) x = anywhere(random);
+      for (double& v : velocities[i]) v = anywhere(random), square += v * v;
     }
     State state = needles_at(4, centres);
     state.box = {4, 6, 8};
+    state.velocity = velocities;
+    const double thermal = std::sqrt(square / (3 * static_cast<double>(count)));
     // The ball that holds 30 others in the mean, or the largest that fits.
     const double others = static_cast<double>(count) - 1, volume = 4 * 6 * 8;
     const double ball = 4 * std::numbers::pi / 3;
     const double radius = std::min(std::cbrt(30 * volume / (others * ball)), 2.0);
     const std::vector<double> densities = values("density", state);
+    const std::vector<double> flows[] = {values("flow-x", state), values("flow-y", state),
+                                         values("flow-z", state)};
     for (std::size_t i = 0; i < count; ++i) {
       double near = 0;
+      std::array<double, 3> velocity = velocities[i];
       for (std::size_t j = 0; j < count; ++j) {
         double squared = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double d = std::remainder(centres[i][axis] - centres[j][axis], state.box[axis]);
           squared += d * d;
         }
-        near += i != j && squared < radius * radius;
+        if (i == j || squared >= radius * radius) continue;
+        ++near;
+        for (std::size_t axis = 0; axis < 3; ++axis) velocity[axis] += velocities[j][axis];
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(flows[axis][i], velocity[axis] / (near + 1) / thermal, 1e-9);
       }
       const double mean = others * ball * std::pow(radius, 3) / volume;
       EXPECT_NEAR(densities[i], near / mean, 1e-9) << count << " " << i;

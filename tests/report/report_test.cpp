@@ -158,6 +158,8 @@ TEST_F(Report, DrawsNeedlesWhereTheyAre) {
   EXPECT_EQ(page.numbers<float>(frame["speed"])[0], 5);
   EXPECT_EQ(page.numbers<float>(frame["spin"])[0], 2);
   EXPECT_FLOAT_EQ(page.numbers<float>(frame["alignment"])[0], 2);  // flies along itself
+  EXPECT_EQ(frames["flow_axis"], 2);                               // all fly along (0, 3, -4)
+  EXPECT_FLOAT_EQ(page.numbers<float>(frame["flow"])[0], -4 * std::sqrt(3.0F) / 5);
   EXPECT_NEAR(page.numbers<float>(frames["frames"][0]["alignment"])[0], 0, 1e-6);  // at rest
 }
 

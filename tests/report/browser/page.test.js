@@ -377,11 +377,37 @@ test("every colouring changes the picture", async () => {
     return figure.view.canvas.toDataURL();
   });
   const pictures = [];
-  for (const key of ["speed", "spin", "alignment", "density"]) {
+  for (const key of ["speed", "spin", "flow", "alignment", "density"]) {
     await view(page).getByLabel("Colour by").selectOption(key);
     pictures.push(await picture());
   }
-  assert.equal(new Set(pictures).size, 4);
+  assert.equal(new Set(pictures).size, 5);
+  await close();
+});
+
+test("a film shows the flow in colours of two directions, which stay the same", async () => {
+  const { page, close } = await open(browser, "gas.html");
+  await drawn(page);
+  await view(page).getByLabel("Colour by").selectOption("flow");
+  const shown = () => view(page).evaluate((figure) => ({
+    bar: figure.view.bar.textContent,
+    colours: figure.view.bar.querySelector(".gradient").style.background,
+    middle: [...figure.view.scene.uniforms.palette.value.image.data.slice(4 * 128, 4 * 128 + 3)],
+    ends: [0, 255].map((n) => [...figure.view.scene.uniforms.palette.value.image.data.slice(4 * n, 4 * n + 3)]),
+    values: [...figure.view.valuesOf("flow")],
+    frame: figure.view.current,
+  }));
+  const last = await shown();
+  assert.match(last.bar, /^flow along [xyz] \(\(T_tr \/ m\)\^½\)−1.51.5$/);
+  const [[red1, , blue1], [red2, , blue2]] = last.ends;
+  assert.ok(blue1 > red1 && red2 > blue2, last.ends.join(" "));
+  assert.ok(Math.max(...last.middle) - Math.min(...last.middle) < 20, last.middle.join(" "));
+  await view(page).getByRole("button", { name: "Previous frame" }).click();
+  const before = await shown();
+  assert.equal(before.frame, last.frame - 1);
+  assert.equal(before.bar, last.bar);
+  assert.equal(before.colours, last.colours);
+  assert.notDeepEqual(before.values, last.values);
   await close();
 });
 

@@ -3,18 +3,20 @@ import { choice, element, freshId, slider, toggle, whenNear } from "../dom.js";
 import { decode } from "../data.js";
 import { boundaryText, openSides } from "../boundaries.js";
 import { numberText } from "../numbers.js";
-import { gradientOf, scales } from "../charts/colours.js";
+import { blueToRedOn, gradientOf, scales } from "../charts/colours.js";
 import { figureOf } from "../charts/figure.js";
 import { onTheme, colourOfTheme } from "../theme.js";
 import { NeedleScene } from "./scene.js";
 
-/** What needles are coloured by: how their range follows from the values of a frame. */
-const colourings = {
+/** What needles are coloured by: how their range follows from the values of a frame, and whether
+ * its middle is a zero between two directions. */
+const colouringsOf = ({ flow_axis: axis }) => ({
   speed: { text: "speed", unit: "length / time", range: (values) => [0, 2.5 * rootMeanSquare(values)] },
   spin: { text: "spin", unit: "radians / time", range: (values) => [0, 2.5 * rootMeanSquare(values)] },
+  flow: { text: `flow along ${"xyz"[axis]}`, unit: "(T_tr / m)^½", range: () => [-1.5, 1.5], diverging: true },
   alignment: { text: "alignment with the velocity", unit: "Q = 3 cos² − 1", range: () => [-1, 2] },
   density: { text: "local density", unit: "of the mean", range: () => [0, 2] },
-};
+});
 
 /** Of walls, as variables of the page's style. */
 const colourOfKind = { "wall": "--muted", "moving wall": "--curve-2", "thermal wall": "--curve-1" };
@@ -34,6 +36,7 @@ export function needlesView(frames) {
 class NeedlesView {
   constructor(frames) {
     this.frames = frames;
+    this.colourings = colouringsOf(frames);
     this.current = frames.frames.length - 1;
     this.colouring = "speed";
     this.playing = null;
@@ -96,13 +99,13 @@ class NeedlesView {
   }
 
   makeTools() {
-    const available = Object.entries(colourings).map(([key, { text }]) => [key, text]);
+    const available = Object.entries(this.colourings).map(([key, { text }]) => [key, text]);
     const turning = toggle("Turn", false, (pressed) => this.setTurning(pressed));
     return [
       choice("Colour by", available, this.colouring, (key) => {
         this.colouring = key;
         this.recolour();
-        this.say(`Coloured by ${colourings[key].text}`);
+        this.say(`Coloured by ${this.colourings[key].text}`);
       }),
       turning,
     ];
@@ -126,7 +129,7 @@ class NeedlesView {
 
   loadFrame(n) {
     this.current = n;
-    this.values = Object.fromEntries(Object.keys(colourings).map((key) => [key, null]));
+    this.values = Object.fromEntries(Object.keys(this.colourings).map((key) => [key, null]));
     this.describe();
   }
 
@@ -145,19 +148,19 @@ class NeedlesView {
   }
 
   recolour() {
-    const { text, unit, range } = colourings[this.colouring];
+    const { text, unit, range, diverging } = this.colourings[this.colouring];
     const values = this.valuesOf(this.colouring);
     const [low, high] = range(values);
-    const [from, to] = paletteRange();
+    const colourAt = diverging ? blueToRedOn(isStageDark() ? "dark" : "light") : sequentialColours();
     if (this.scene) {
-      const palette = Array.from({ length: 256 }, (_, n) => scales.needles(from + ((to - from) * n) / 255));
+      const palette = Array.from({ length: 256 }, (_, n) => colourAt(n / 255));
       this.scene.showPalette(palette, colourOfTheme("--stage"), colourOfTheme("--muted"));
       this.scene.showWallColours((kind) => colourOfTheme(colourOfKind[kind]));
       this.scene.showColours(values, [low, high]);
       this.scene.draw();
     }
     const gradient = element("span", { class: "gradient" });
-    gradient.style.background = gradientOf(scales.needles, from, to);
+    gradient.style.background = gradientOf(colourAt);
     this.bar.replaceChildren(
       element("span", {}, `${text} (${unit})`),
       element("span", { class: "ends" }, element("span", {}, numberText(low, 3)), gradient, element("span", {}, numberText(high, 3))),
@@ -167,7 +170,7 @@ class NeedlesView {
 
   describe() {
     const { needles_shown: shown } = this.frames;
-    const { text } = colourings[this.colouring];
+    const { text } = this.colourings[this.colouring];
     const description = `${numberText(shown)} needles in a box that is ${boundaryText(this.frames)}, frame ${this.textOf(this.current)}, coloured by ${text}`;
     this.canvas.setAttribute("aria-label", description);
     this.print.alt = description;
@@ -258,7 +261,7 @@ class NeedlesView {
     return [
       ...axes.map((name, axis) => ({ name, values: part(position, axis, unit(axis), frame.low[axis]) })),
       ...axes.map((name, axis) => ({ name: `u_${name}`, values: part(orientation, axis, 1 / 32767) })),
-      ...Object.entries(colourings).map(([key, { text }]) => ({ name: text, values: this.valuesOf(key) })),
+      ...Object.entries(this.colourings).map(([key, { text }]) => ({ name: text, values: this.valuesOf(key) })),
     ];
   }
 
@@ -268,9 +271,14 @@ class NeedlesView {
   }
 }
 
+function isStageDark() {
+  return colourOfTheme("--stage-is-dark").trim() === "1";
+}
+
 // Yellow on white and dark blue on black cannot be told from the ground.
-function paletteRange() {
-  return colourOfTheme("--stage-is-dark").trim() === "1" ? [0.3, 1] : [0, 0.82];
+function sequentialColours() {
+  const [from, to] = isStageDark() ? [0.3, 1] : [0, 0.82];
+  return (share) => scales.needles(from + (to - from) * share);
 }
 
 function captionOf(frames) {
@@ -290,6 +298,8 @@ function notesOf(frames) {
   if (frames.frames.length < frames.frames_in_file) {
     notes.push(`Shown are ${frames.frames.length} of ${frames.frames_in_file} frames, evenly chosen.`);
   }
-  notes.push("Local density counts the centres in a ball around each that holds 30 others in the mean.");
+  notes.push(
+    "Local density counts the centres in a ball around each that holds 30 others in the mean. Flow is their mean velocity along the axis along which there is most of it in the last frame.",
+  );
   return notes;
 }
