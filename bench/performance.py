@@ -7,8 +7,9 @@
 
 Build first, with NEEDLEWORK_BENCH=ON, from a commit without changes. Repetitions of everything are
 interleaved. When all are complete, tables, pictures and compact files replace those of this machine in
-bench/results/MACHINE-ISA/, and the tables between comments in docs/performance.md are written again;
-until then they are in study/results/ in the folder of the build, and the document stays as it is.
+bench/results/MACHINE-ISA/, and the tables between comments in docs/performance.md, and words of the
+README, are written again; until then they are in study/results/ in the folder of the build, and the
+documents stay as they are.
 Instructions per collision, which do not depend on the machine, are counted last, after the time budget;
 `--no-instructions` leaves them out.
 """
@@ -55,6 +56,17 @@ def classical_table(content):
     return (table(["needles", "n L³", "classical", "`auto`", "times faster"], rows)
             + f"\nFrom n L³ = 0.5 to 50 the cost of `auto` varies by a factor of "
             f"{max(middles) / min(middles):.2f}.\n")
+
+
+def faster_words(content):
+    """For the README."""
+    gains = [(cases["auto"]["density"], statistics.median(quotients(
+        cases["baseline"]["us_per_collision"], cases["auto"]["us_per_collision"])))
+        for cases in study.by_scene(content).values()]
+    dilute = [gain for density, gain in gains if density < 1.5]
+    density, dense = max(gains)
+    return (f"{min(dilute):.1f} to {max(dilute):.1f} times (dilute gas, n L³ up to 1) and "
+            f"{dense:.0f} times (n L³ = {density:.3g})")
 
 
 def step_table(content):
@@ -201,6 +213,7 @@ def main():
     if place.is_relative_to(BENCH):
         for name, text in texts.items():
             put_table(name, text, DOCUMENT)
+        put_table("faster", faster_words(contents["density"]), "../README.md")
         print(f"tables put into docs/{DOCUMENT}")
         if not arguments.no_instructions and arguments.what != "tables":
             count_instructions(arguments.build)

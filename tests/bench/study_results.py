@@ -19,6 +19,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "bench" / folder)
                 for folder in ("", "scaling")]
 import measured  # noqa: E402
 import performance  # noqa: E402
+import readme  # noqa: E402
 import scaling  # noqa: E402
 import study  # noqa: E402
 
@@ -130,6 +131,21 @@ class Rounds(unittest.TestCase):
         ElementTree.fromstring(picture.encode())
         self.assertIn("needles per L³", picture)
         self.assertLess(picture.count("\n"), 300)
+
+    def test_become_words_of_a_document_in_its_line(self):
+        self.add(30.0, 10.0)
+        words = performance.faster_words({"cases": self.store.load("density")["cases"]})
+        self.assertEqual(words, "3.0 to 3.0 times (dilute gas, n L³ up to 1) and 3 times "
+                                "(n L³ = 0.5)")
+        document = self.folder / "a.md"
+        document.write_text("is <!-- a -->old<!-- end of a --> b\n<!-- c -->\n<!-- end of c -->\n")
+        with mock.patch.object(readme, "DOCS", self.folder):
+            readme.put_table("a", "new\n", "a.md")
+            readme.put_table("c", "table\n", "a.md")
+            with self.assertRaisesRegex(ValueError, "expected once, found 0 times"):
+                readme.put_table("d", "", "a.md")
+        self.assertEqual(document.read_text(), "is <!-- a -->new<!-- end of a --> b\n<!-- c -->\n"
+                                               "table\n<!-- end of c -->\n")
 
     def test_become_a_file_that_the_program_reads(self):
         for baseline, other in ((30.0, 10.0), (33.0, 12.00004), (60.0, 11.0)):
