@@ -11,6 +11,7 @@
 #include "src/physics/permutation.h"
 #include "src/search/choice.h"
 #include "src/search/lengths.h"
+#include "src/search/neighbour_lists.h"
 
 namespace needlework {
 namespace {
@@ -56,6 +57,13 @@ CellGrid division_near(const Gas& gas, const CellGrid& common, const CellGrid& w
     counts[axis] *= std::max(1, static_cast<std::int32_t>(parts + 0.5));
   }
   return CellGrid::of_counts(gas.box, counts);
+}
+
+// Whether lists of neighbours can hold by how many cells two balls that overlap are apart.
+bool reaches_few_cells(const Gas& gas, const ClassCells& balls) {
+  const auto sides = balls.grid.sides();
+  const double reach = gas.composition.widest() + 2 * balls.radius;
+  return reach < NeighbourLists::farthest * std::min({sides[0], sides[1], sides[2]});
 }
 
 void store(float (&to)[3], const Vec3d& a) {
@@ -111,7 +119,7 @@ BoundingVolumes::BoundingVolumes(const Gas& all, const SearchSetup& setup, Bound
     radius = std::max(radius, made.radius);
     drift = std::max(drift, std::max(made.overlap, made.radius) + rounding);
   }
-  if (sizes.all.front().in_balls) {
+  if (sizes.all.front().in_balls && reaches_few_cells(gas, *classes.front())) {
     balls.resize(gas.size());
     leave_balls();
   }

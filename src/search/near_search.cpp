@@ -1,7 +1,9 @@
 #include "src/search/near_search.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "kernels/inline.h"
@@ -511,7 +513,9 @@ NEEDLEWORK_INLINE kernels::Scan NearSearch::look_into_cells(Needle i, double ahe
     const Cell& seen = view_cells_[found.cell[k]];
     NeighbourLists::Neighbour each{Needle(found.needle[k]), {}};
     for (int axis = 0; axis < 3; ++axis) {
-      each.cells[axis] = static_cast<std::int8_t>(seen[axis] - own[axis]);
+      const std::int32_t cells = seen[axis] - own[axis];
+      assert(std::abs(cells) <= NeighbourLists::farthest + 1);
+      each.cells[axis] = static_cast<std::int8_t>(cells);
     }
     neighbours_.push_back(each);
   }

@@ -22,6 +22,8 @@ class NeighbourLists {
     std::array<std::int8_t, 4> cells;
   };
 
+  static constexpr int farthest = 120;  ///< cells between two neighbours
+
   explicit NeighbourLists(std::size_t bodies) : counts_(bodies), rows_(bodies * room_) {}
 
   /// Asks for the memory of that.

@@ -115,6 +115,16 @@ TEST(Rods, SpheresInBallsHaveOneTrajectory) {
   }
 }
 
+// So wide balls in so small cells have no lists.
+TEST(Rods, SpheresInCapsulesOfAnySizeHaveOneTrajectory) {
+  const Scene tight = rods_of(7, 0, 0.4);
+  Scene wide = in_search(tight, "capsules", 9);
+  wide.engine.cell_side = 0.13;
+  Simulation first(in_search(tight, "all-pairs")), second(wide);
+  for (Simulation* gas : {&first, &second}) gas->advance(test::until_collisions(0.5));
+  EXPECT_EQ(second.trajectory_hash(), first.trajectory_hash());
+}
+
 // They search less often than where they get another bounding volume at each collision, and look at
 // fewer others.
 TEST(Rods, SpheresInBallsLookAtTheirNeighboursOnly) {
