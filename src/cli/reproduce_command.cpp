@@ -26,6 +26,8 @@ std::vector<std::string> names_of_figures() {
           "cells",
           "tc-dilute",
           "tc-dense",
+          "sliding-dilute",
+          "sliding-dense",
           "boltzmann-relaxation",
           "boltzmann-cooling",
           "boltzmann-ratio",
@@ -37,6 +39,7 @@ std::vector<std::string> names_of_figures() {
           "settling",
           "rods",
           "nematic",
+          "sliding",
           "liquid",
           "liquid-correlations"};
 }

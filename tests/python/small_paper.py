@@ -19,6 +19,7 @@ LOW_TC = {"collisions.tc_relative": 1e-3, "output.series_per_decade": 20}
 LOW_RATIO = {**LOW, **LOW_TC, "needles.k": [2, 6], "collisions.epsilon": [0.8]}
 RELAXING = {**FEW, "needles.k": [2, 6], "until.time": 1000, "until.collisions_per_needle": 13,
             "output.series_every": 0.5, "output.observables": [["velocity_moments"]]}
+SLIDING = {**FEW, "needles.box": 4, "collisions.epsilon": [0.8, 0.5], "until.energy_ratio": 1e-2}
 LIQUID = {**FEW, "until.time": 3, "output.series_every": 0.02}
 
 
@@ -38,6 +39,11 @@ GRIDS = {
     "relaxation": ("relaxation", {**FEW, "needles.box": [3, 4], "until.time": 20}),
     "dense": ("dense", {**DENSE, "needles.k": [6, 2], "initial.t_rot": [1, 0]}),
     "dense-tc": ("dense", {**DENSE, **TC}),
+    "dilute-sliding": ("dilute-sliding", {**FEW, "needles.box": 3, "until.energy_ratio": 1e-7}),
+    "dense-sliding": ("dense-sliding", DENSE),
+    "sliding": ("sliding", {**SLIDING, "collisions.sliding": "true",
+                            "collisions.elastic_strikes": "[true, false]"}),
+    "sliding-rule": ("sliding", {**SLIDING, "collisions.tc_relative": [1e-2, 1e-3]}),
     "box-small": box(2.1),
     "box-middle": box(2.4),
     "box-large": box(2.3),

@@ -155,7 +155,7 @@ class Folders(InAFolder):
         for figure in FIGURES.values():
             for name in figure.sets:
                 self.assertTrue(full.has(name), name)
-                self.assertEqual(quick.has(name), not name.endswith("-tc"), name)
+                self.assertEqual(quick.has(name), not name.endswith(("-tc", "-sliding")), name)
         code, _, err = reproduce("tc-dense", "--quick", "--out", self.folder / "none")
         self.assertEqual(code, 2)
         self.assertEqual(err, "needlework: tc-dense --quick: expected no --quick: its runs belong "

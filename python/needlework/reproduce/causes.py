@@ -59,7 +59,7 @@ def measure_contact_time_dilute(runs: PaperRuns) -> Result:
         shown = np.flatnonzero((tau >= 1) & (theory >= SHOWN_ENERGY * theory[0]))
         result.add_rows(point.conditions.tc_relative, tau[shown], *mean_and_error(
             [run.energy[shown] / theory[shown] for run in point.runs]))
-        result.add("energy-theory", measure(point, _energy_over_theory), f"test, {name}")
+        result.add("energy-theory", measure(point, energy_over_theory), f"test, {name}")
         result.add("tc-share", measure(point, _tc_share), f"dilute, {name}")
     return result
 
@@ -110,7 +110,7 @@ def _label(tc_relative: float) -> str:
     return rf"$t_c = {tc_relative:g}$ mean free times"
 
 
-def _energy_over_theory(run: FinishedRun) -> float:
+def energy_over_theory(run: FinishedRun) -> float:
     """At the first sample at which theory has lost all but STANDARD_ENERGY."""
     theory = cooling_theory(run.conditions, run.tau).energy
     low = theory <= STANDARD_ENERGY * theory[0]

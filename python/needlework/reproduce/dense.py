@@ -137,7 +137,7 @@ def measure_dense_cooling(runs: PaperRuns) -> Result:
             at = f"{gas.start}, at {collisions:g}"
             for claim, name in (("departure-translation", "t_tr"), ("departure-rotation", "t_rot")):
                 result.add(claim, measure(
-                    point, lambda run: _log_over_theory(run, name, collisions)), at)
+                    point, lambda run: log_over_theory(run, name, collisions)), at)
             result.add("late-exponent", measure(
                 point, lambda run: _late_exponent(run, collisions)), at)
     return result
@@ -238,7 +238,7 @@ def _collisions_of_peak(run: FinishedRun) -> float:
     return float(run.collisions[np.argmax(moment[:run.sample_near(SHOWN_COLLISIONS) + 1])])
 
 
-def _log_over_theory(run: FinishedRun, name: str, collisions: float) -> float:
+def log_over_theory(run: FinishedRun, name: str, collisions: float) -> float:
     """How much slower than theory a temperature has fallen: ln of measured over theory, at the
     sample nearest to so many collisions per needle."""
     sample = run.sample_near(collisions)

@@ -1,7 +1,7 @@
 """All figures, those of the paper first."""
 
 from . import (alignment, boltzmann, causes, confined, dense, dilute, driving, flow, fluctuations,
-               large, liquid, nematic, ratio, relaxation, rods)
+               large, liquid, nematic, ratio, relaxation, rods, sliding)
 from .figure import Figure
 
 FIGURES = {figure.name: figure for figure in (
@@ -47,6 +47,10 @@ FIGURES = {figure.name: figure for figure in (
            causes.measure_contact_time_dilute, causes.draw_contact_time_dilute),
     Figure("tc-dense", "Test of why: contact time of the dense gas", ("dense", "dense-tc"),
            causes.measure_contact_time_dense, causes.draw_contact_time_dense),
+    Figure("sliding-dilute", "Test of why: sliding contact in the dilute gas",
+           ("dilute-sliding", "dilute"), sliding.measure_dilute, sliding.draw_dilute),
+    Figure("sliding-dense", "Test of why: sliding contact in the dense gas",
+           ("dense-sliding", "dense"), sliding.measure_dense, sliding.draw_dense),
     Figure("boltzmann-relaxation", "Why theory is off: elastic relaxation",
            ("low-relaxation", "low-relaxation-thin", "boltzmann-relaxation"),
            boltzmann.measure_relaxation, boltzmann.draw_relaxation),
@@ -73,6 +77,8 @@ FIGURES = {figure.name: figure for figure in (
            rods.measure_rods, rods.draw_rods),
     Figure("nematic", "Beyond the paper: the isotropic-nematic transition of rods", ("nematic",),
            nematic.measure_nematic, nematic.draw_nematic),
+    Figure("sliding", "Beyond the paper: the t_c rule tends to sliding contact",
+           ("sliding", "sliding-rule"), sliding.measure_limit, sliding.draw_limit),
     Figure("liquid", "Beyond the paper: diffusion in the liquid of elastic needles",
            (*liquid.SETS, *liquid.OTHER_SIZES), liquid.measure_liquid, liquid.draw_liquid),
     Figure("liquid-correlations", "Beyond the paper: correlations in time in the liquid",

@@ -229,7 +229,9 @@ def _is_of(run: dict[str, Any], values: dict[str, Any]) -> bool:
 
 
 def _text_in_name(value: Any) -> str:
-    """An array as names of runs have it: [8, 8, 2.5] is 8-8-2.5."""
+    """A truth value or an array as names of runs have it: true is true, [8, 8, 2.5] is 8-8-2.5."""
+    if isinstance(value, bool):
+        return str(value).lower()
     parts = value if isinstance(value, list) else [value]
     return "-".join(str(part).removesuffix(".0") for part in parts)
 
