@@ -88,13 +88,43 @@ Components derivative(const SlidingBodies& bodies, const SlidingState& s) {
   return out;
 }
 
+// What makes a change of a slope a displacement over the span: of centres in lengths, of directors
+// in radians.
+struct Scale {
+  Components time, unit;
+};
+
+Scale scale_of(const SlidingStep& step, double length) {
+  Scale out;
+  for (int c = 0; c < components; ++c) {
+    out.unit[c] = c < 3 || (c >= 9 && c < 12) ? 1 / length : 1;
+    out.time[c] = c < 9 ? step.span : step.span * step.span;
+  }
+  return out;
+}
+
+using Rows = std::array<Components, stages>;
+
+// The sum of weighted rows. The inner loops are over components, which compilers turn into vectors
+// without changing the order of a sum; over so many of them as registers hold.
+Components weighted(const Rows& rows, const std::array<double, stages>& weights) {
+  constexpr int block = 6;
+  Components out;
+  for (int first = 0; first < components; first += block) {
+    double sum[block]{};
+    for (int k = 0; k < stages; ++k) {
+      for (int c = 0; c < block; ++c) sum[c] += rows[k][first + c] * weights[k];
+    }
+    for (int c = 0; c < block; ++c) out[first + c] = sum[c];
+  }
+  return out;
+}
+
 // Whether the series has fallen to rounding within its terms. Next to parallel needles, and where
 // the rate grows during the step, it has not.
-bool is_resolved(const SlidingStep& step, double length) {
+bool is_resolved(const Rows& slopes, const Scale& scale) {
   for (int c = 0; c < components; ++c) {
-    const double unit = c < 3 || (c >= 9 && c < 12) ? 1 / length : 1;
-    const double time = c < 9 ? step.span : step.span * step.span;
-    if (std::abs(step.slopes[c][stages - 1]) * time * unit > 0x1p-39) return false;
+    if (std::abs(slopes[stages - 1][c]) * scale.time[c] * scale.unit[c] > 0x1p-39) return false;
   }
   return true;
 }
@@ -103,40 +133,35 @@ bool is_resolved(const SlidingStep& step, double length) {
 // not resolved.
 bool collocate(const SlidingBodies& bodies, double length, SlidingStep& step) {
   const Components begin = packed(step.begin);
-  const Components slope = derivative(bodies, step.begin);
+  const Scale scale = scale_of(step, length);
+  Rows slopes{};  // by degree
+  slopes[0] = derivative(bodies, step.begin);
   ++step.evaluations;
-  for (int c = 0; c < components; ++c) {
-    step.slopes[c] = {};
-    step.slopes[c][0] = slope[c];
-  }
   double last = INFINITY;
   for (int turn = 0; turn < 40; ++turn) {
-    std::array<Components, stages> values;
+    Rows values;
     for (int i = 0; i < stages; ++i) {
-      Components y;
-      for (int c = 0; c < components; ++c) {
-        double sum = 0;
-        for (int k = 0; k < stages; ++k) sum += step.slopes[c][k] * collocation.integral[i][k];
-        y[c] = begin[c] + step.span * sum;
-      }
+      Components y = weighted(slopes, collocation.integral[i]);
+      for (int c = 0; c < components; ++c) y[c] = begin[c] + step.span * y[c];
       values[i] = derivative(bodies, unpacked(y));
     }
     step.evaluations += stages;
-    // What the iteration has changed, as displacements over the span: of centres in lengths.
-    double change = 0;
-    for (int c = 0; c < components; ++c) {
-      const double unit = c < 3 || (c >= 9 && c < 12) ? 1 / length : 1;
-      const double time = c < 9 ? step.span : step.span * step.span;
-      for (int k = 0; k < stages; ++k) {
-        double sum = 0;
-        for (int i = 0; i < stages; ++i) sum += collocation.coefficient[k][i] * values[i][c];
-        if (!(std::abs(sum) < INFINITY)) return false;
-        change = std::max(change, std::abs(sum - step.slopes[c][k]) * time * unit);
-        step.slopes[c][k] = sum;
+    double change = 0;  // by this turn
+    for (int k = 0; k < stages; ++k) {
+      const Components slope = weighted(values, collocation.coefficient[k]);
+      for (int c = 0; c < components; ++c) {
+        if (!(std::abs(slope[c]) < INFINITY)) return false;
+        const double by = std::abs(slope[c] - slopes[k][c]);
+        change = std::max(change, by * scale.time[c] * scale.unit[c]);
       }
+      slopes[k] = slope;
     }
-    if (change < 0x1p-53 || (change < 0x1p-44 && change >= last / 2))
-      return is_resolved(step, length);
+    if (change < 0x1p-53 || (change < 0x1p-44 && change >= last / 2)) {
+      for (int c = 0; c < components; ++c) {
+        for (int k = 0; k < stages; ++k) step.slopes[c][k] = slopes[k][c];
+      }
+      return is_resolved(slopes, scale);
+    }
     last = change;
   }
   return false;
