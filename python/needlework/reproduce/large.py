@@ -31,7 +31,7 @@ WAVES_EVERY = 5
 FILM_AT = (0.0, 150.0, 300.0, 600.0, 1000.0, 1500.0)
 """Collisions per needle of the pictures of a film."""
 
-SLAB = 0.3
+SLAB = 0.2
 """Thickness of the slab in the middle of the box whose needles a film shows [L]."""
 
 
@@ -100,10 +100,12 @@ def measure_film(runs: PaperRuns) -> Result:
                 continue
             seen.add(frame.time)
             chosen, flow = in_slab(frame, run.conditions.cells, first, second)
-            position, director = frame.position[chosen], frame.orientation[chosen]
-            result.add_rows(np.interp(frame.time, run.series.time, run.collisions), first, second,
-                            run.conditions.box[first], position[:, first], position[:, second],
-                            director[:, first], director[:, second], flow[chosen])
+            # A hundredth is less than a pixel, and keeps the data small.
+            position, director, flow = (np.round(values[chosen], 2) for values in (
+                frame.position, frame.orientation, flow))
+            result.add_rows(np.round(np.interp(frame.time, run.series.time, run.collisions), 1),
+                            first, second, run.conditions.box[first], position[:, first],
+                            position[:, second], director[:, first], director[:, second], flow)
     return result
 
 
