@@ -38,6 +38,7 @@ std::vector<std::string> names_of_figures() {
           "sedimentation",
           "settling",
           "rods",
+          "rods-flow",
           "nematic",
           "sliding",
           "liquid",

@@ -68,6 +68,8 @@ GRIDS = {
                       "collisions.epsilon": [0.8], "until.energy_ratio": 0.03}),
     "rods-dense": ("rods", {**FEW, "needles.box": 2.5, "needles.diameter": 0.2,
                             "collisions.epsilon": [0.8], "until.energy_ratio": 0.03}),
+    "rods-flow": ("rods-flow", {**FEW, "needles.box": 2.5, "output.grid": 2,
+                                "until.collisions_per_needle": 605}),
     "nematic": ("nematic", {"needles.count": 144, "needles.box": [2.5478, 2.4421],
                             "until.collisions_per_needle": 30}),
     "low-relaxation": ("relaxation", {**RELAXING, "needles.box": 4}),

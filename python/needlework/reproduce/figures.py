@@ -75,6 +75,8 @@ FIGURES = {figure.name: figure for figure in (
            confined.measure_settling, confined.draw_settling),
     Figure("rods", "Beyond the paper: rods of finite width that cool", ("rods", "rods-dense"),
            rods.measure_rods, rods.draw_rods),
+    Figure("rods-flow", "Beyond the paper: shear bands of dense rods that cool", ("rods-flow",),
+           rods.measure_flow, rods.draw_flow),
     Figure("nematic", "Beyond the paper: the isotropic-nematic transition of rods", ("nematic",),
            nematic.measure_nematic, nematic.draw_nematic),
     Figure("sliding", "Beyond the paper: the t_c rule tends to sliding contact",

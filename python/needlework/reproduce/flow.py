@@ -24,7 +24,7 @@ def measure_flow_field(runs: PaperRuns) -> Result:
         gas = point.conditions
         fields = [fields_near(run, *SHOWN_BOTH_WAYS) for run in point.runs]
         shown = fields[0][0]
-        first, second, *seen = _seen_in_plane_of_shear(shown)
+        first, second, *seen = seen_in_plane_of_shear(shown)
         result.add_rows(gas.k, gas.t_rot, point.first.seed, shown.collisions, first, second, *seen)
         for collisions, now in zip(SHOWN_BOTH_WAYS, zip(*fields)):
             waves = [strongest_shear_wave(of_run) for of_run in now]
@@ -119,7 +119,7 @@ def draw_line_profiles(table: Table) -> Figure:
     return figure
 
 
-def _seen_in_plane_of_shear(fields: CellFields) -> tuple:
+def seen_in_plane_of_shear(fields: CellFields) -> tuple:
     """The axis of the gradient and that of the flow of the strongest shear wave; for each cell of
     their plane its middle and its flow along both axes, the first axis fastest."""
     wave = strongest_shear_wave(fields)

@@ -8,8 +8,11 @@ from matplotlib.figure import Figure
 from .. import theory
 from ..values import Table
 from . import style
-from .course import late_ratio, measure
+from .cells import fields_near, strongest_shear_wave
+from .course import at_collisions, late_ratio, mean_of, measure
+from .dense import flow_order, flow_order_growth, second_moment
 from .figure import Result, parts
+from .flow import AXES, seen_in_plane_of_shear
 from .runs import Conditions, FinishedRun, PaperRuns
 
 SETTLED = 0.1
@@ -49,6 +52,54 @@ def draw_rods(table: Table) -> Figure:
         panel.axhline(1, color=style.COLOURS[5], linewidth=0.6)
         style.label(panel, r"$\epsilon$", r"$T_{\rm tr} / T_{\rm rot}$",
                     title + ", theory of low density as lines")
+    return figure
+
+
+FLOW_AT = (100.0, 300.0, 600.0)
+"""Collisions per rod at which the flow of dense rods is measured."""
+
+
+def measure_flow(runs: PaperRuns) -> Result:
+    """Order of the flow and second moment of the density of dense rods that cool against collisions
+    per rod, of the first seed, and its flow at the end in the plane of the strongest shear flow."""
+    result = Result(("collisions", "energy", "s", "moment", "first_axis", "second_axis",
+                     "x", "y", "u", "v"))
+    point = runs.points("rods-flow")[0]
+    run = point.first
+    missing = np.nan
+    result.add_rows(run.collisions, run.series.energy / run.series.energy[0], flow_order(run),
+                    second_moment(run), *6 * (missing,))
+    shown = fields_near(run, run.collisions[-1])[0]
+    result.add_rows(shown.collisions, *3 * (missing,), *seen_in_plane_of_shear(shown))
+    for collisions in FLOW_AT:
+        variant = f"at {collisions:g}"
+        for claim, quantity in (("rods-flow-order", flow_order),
+                                ("rods-flow-growth", flow_order_growth),
+                                ("rods-flow-moment", second_moment)):
+            result.add(claim, measure(
+                point, lambda run: at_collisions(run, quantity(run), collisions)), variant)
+        waves = [strongest_shear_wave(fields_near(run, collisions)[0]) for run in point.runs]
+        result.add("rods-shear-bands", mean_of([2.0 * wave.number for wave in waves]), variant)
+        result.add("rods-shear-share", mean_of([wave.share for wave in waves]), variant)
+    return result
+
+
+def draw_flow(table: Table) -> Figure:
+    """S and the second moment against collisions per rod, and arrows of the flow at the end."""
+    figure, (order, moment, flow) = style.panels("Dense rods that cool", 3, width=3.6, height=3.4)
+    curve = np.isfinite(table.s)
+    order.plot(table.collisions[curve], table.s[curve])
+    moment.plot(table.collisions[curve], table.moment[curve])
+    style.label(order, "collisions per rod", "$S$", "Order of the flow", legend=False)
+    style.label(moment, "collisions per rod", "second moment / start",
+                "Second moment of the density", legend=False)
+    flow.quiver(table.x[~curve], table.y[~curve], table.u[~curve], table.v[~curve],
+                color=style.COLOURS[0], pivot="mid", width=0.006)
+    first, second = (AXES[int(table[name][~curve][0])] for name in ("first_axis", "second_axis"))
+    style.label(flow, f"${first}$", f"${second}$",
+                f"Flow at {table.collisions[~curve][0]:.0f} collisions per rod", legend=False)
+    flow.set(xlim=style.edges(table.x[~curve])[[0, -1]],
+             ylim=style.edges(table.y[~curve])[[0, -1]], aspect="equal")
     return figure
 
 
