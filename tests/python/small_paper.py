@@ -71,6 +71,7 @@ GRIDS = {
     "rods-flow": ("rods-flow", {**FEW, "needles.box": 2.5, "output.grid": 2,
                                 "until.collisions_per_needle": 605}),
     "nematic": ("nematic", {"needles.count": 144, "needles.box": [2.5478, 2.4421],
+                            "initial.packing": ["lattice", "crossed"],
                             "until.collisions_per_needle": 30}),
     "low-relaxation": ("relaxation", {**RELAXING, "needles.box": 4}),
     "low-relaxation-thin": ("relaxation", {**RELAXING, "needles.box": 9.5}),

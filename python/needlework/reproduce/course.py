@@ -31,6 +31,11 @@ class Measured(NamedTuple):
         """In units of a number that is known exactly."""
         return Measured(self.value / divisor, self.error / divisor, self.seeds)
 
+    def less(self, other: Measured) -> Measured:
+        """The difference of two means with its joint standard error."""
+        return Measured(self.value - other.value, float(np.hypot(self.error, other.error)),
+                        min(self.seeds, other.seeds))
+
     def over_measured(self, other: Measured) -> Measured:
         """The ratio of two means with its joint standard error."""
         ratio = self.value / other.value
