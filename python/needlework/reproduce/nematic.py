@@ -69,7 +69,7 @@ def draw_nematic(table: Table) -> Figure:
         style.points(order, packing, s, s_error, **look)
         style.points(pressure, packing, p, p_error, **look)
         for number, points in enumerate(whole):
-            shade = {"color": style.COLOURS[number % len(style.COLOURS)]}
+            shade = {"color": style.shade(number / max(1, len(packing) - 1))}
             style.band(courses[int(start)], points.collisions, points.course, points.course_error,
                        label=rf"$\eta = {packing[number]:.3g}$", **shade)
         style.label(courses[int(start)], "collisions per rod", "nematic order $S$",

@@ -25,6 +25,11 @@ _SETTINGS = {
 }
 
 
+def shade(share: float) -> tuple[float, ...]:
+    """Of curves of a quantity that grows, from its least (0) to its greatest value (1)."""
+    return tuple(matplotlib.colormaps["viridis"](0.92 * share))
+
+
 def styled() -> AbstractContextManager[Any]:
     """While it lasts, figures are made and drawn in this look."""
     return matplotlib.rc_context(_SETTINGS)
