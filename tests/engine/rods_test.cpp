@@ -16,6 +16,7 @@
 #include "src/engine/run.h"
 #include "src/machine/stop_request.h"
 #include "src/scene/rod_grid.h"
+#include "src/search/bounding_volumes.h"
 #include "tests/support/courses.h"
 #include "tests/support/parallel_loops.h"
 #include "tests/support/runs.h"
@@ -115,14 +116,26 @@ TEST(Rods, SpheresInBallsHaveOneTrajectory) {
   }
 }
 
-// So wide balls in so small cells have no lists.
-TEST(Rods, SpheresInCapsulesOfAnySizeHaveOneTrajectory) {
-  const Scene tight = rods_of(7, 0, 0.4);
-  Scene wide = in_search(tight, "capsules", 9);
-  wide.engine.cell_side = 0.13;
-  Simulation first(in_search(tight, "all-pairs")), second(wide);
-  for (Simulation* gas : {&first, &second}) gas->advance(test::until_collisions(0.5));
-  EXPECT_EQ(second.trajectory_hash(), first.trajectory_hash());
+// Where spheres have balls, and where those would reach over more cells than lists can count.
+TEST(Rods, SpheresHaveBallsWhereTheyAreCrowdedOnOneThread) {
+  const auto gas_of = [](const Scene& scene) { return make_gas(scene, draw_initial_state(scene)); };
+  const Gas dense = gas_of(rods_of(200, 0, 0.49)), dilute = gas_of(rods_of(200, 0, 0.1)),
+            tight = gas_of(rods_of(7, 0, 0.4)), rods = gas_of(rods_of(200, 5, 0.3));
+  const auto has_balls = [](const Gas& gas, const SearchSetup& setup) {
+    return !BoundingVolumes(gas, setup, BoundingVolume::capsule).balls.empty();
+  };
+  SearchSetup setup;
+  EXPECT_FALSE(has_balls(dense, setup));
+  setup.keep_lists = true;
+  EXPECT_TRUE(has_balls(dense, setup));
+  EXPECT_FALSE(has_balls(dilute, setup));
+  EXPECT_FALSE(has_balls(rods, setup));
+  setup.capsule_radius = 0.2;
+  EXPECT_TRUE(has_balls(dilute, setup));
+  setup.capsule_radius = 9;
+  EXPECT_TRUE(has_balls(tight, setup));
+  setup.cell_side = 0.13;
+  EXPECT_FALSE(has_balls(tight, setup));
 }
 
 // They search less often than where they get another bounding volume at each collision, and look at
