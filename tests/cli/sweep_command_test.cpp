@@ -355,8 +355,8 @@ TEST_F(SweepOverRanks, GoOnAfterASignal) {
   const Outcome stopped = run_and_signal("sweep long.toml --out ranks --threads 1",
                                          "ls ranks/*.h5.part", "TERM", launcher);
   EXPECT_NE(stopped.exit_code, 0);
-  EXPECT_FALSE(exists("ranks/summary.h5"));
-  // Ranks that their launcher leaves behind keep what they are running for a moment.
+  // Ranks that their launcher leaves behind keep what they are running for a moment, in which a
+  // fast machine may complete the sweep.
   Outcome rest;
   while ((rest = run("sweep --json long.toml --out ranks")).exit_code == 75) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
