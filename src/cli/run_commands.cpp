@@ -133,9 +133,9 @@ void add_reproduce_command(CLI::App& app, int& exit_code) {
   add_choice(
       command->add_option("FIGURE", arguments->figure, "a figure of the paper, or all")->required(),
       names_of_figures());
-  CLI::Option* const quick = command->add_flag(
-      "--quick", arguments->quick,
-      "smaller systems, fewer seeds: some 10 minutes on two cores, estimated from its parts");
+  CLI::Option* const quick =
+      command->add_flag("--quick", arguments->quick,
+                        "smaller systems, fewer seeds: some 10 minutes of processor time");
   command
       ->add_option("--out", arguments->out,
                    "folder for runs, data and pictures; by default reproduction, or "
