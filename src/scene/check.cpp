@@ -42,8 +42,7 @@ std::vector<Rule> rules_of(const Scene& scene, const Composition& composition) {
 // What messages call the bodies of a scene.
 const char* name_of_bodies(const Composition& composition) {
   if (!composition.has_width()) return "needles";
-  const bool turns = std::ranges::any_of(composition.species(), &Species::turns);
-  return turns ? "rods" : "spheres";
+  return composition.are_spheres() ? "spheres" : "rods";
 }
 
 // Inelastic walls, of which the messages are those of inelastic pairs.

@@ -78,9 +78,8 @@ struct BoundingVolumes {
   /// Enters needle i, of this half length [L], where it is now. Returns whether it has come from
   /// another cell.
   bool place(Needle i, Time now, double half_length);
-  /// The same for a sphere that falls freely nowhere and has no other size class beside it: it
-  /// stays in its bounding volume for as long as it can. `is_new` tells whether it has got another
-  /// one.
+  /// The same for a sphere in a class with `in_balls`, which stays in its ball for as long as it
+  /// can. `is_new` tells whether it has got another one.
   bool place_in_ball(Needle i, Time now, bool& is_new);
   /// All spheres get other balls when they are placed next.
   void leave_balls();
