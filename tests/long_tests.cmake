@@ -14,6 +14,8 @@ set_tests_properties(
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/1
   # SlidingAgainstQuad.EndsAndMovesAsAContactHeldByAForce
   SlidingAgainstQuadAtLength.EndsAndMovesAsAContactHeldByAForce
+  # SlidingCollapse.EndsAsInQuad
+  Rules/SlidingCollapses.EndAsInQuadAThousandTimes/epsilon0p5
   # other scenes of ParallelRun
   Scenes/ParallelRun.IsThatOfOneThread/rare
   # Walls.KeepAnAccountOfTheEnergyThatCloses
@@ -52,6 +54,7 @@ set_tests_properties(
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/2
   Seeds/ManyThroughOnePointTogether.KeepTheirSides/3
   RodPressure.OfDenseFluidsIsThatOfOthersToSomeThousandths
+  Rules/SlidingCollapses.EndAsInQuadAThousandTimes/epsilon0p8
   PROPERTIES LABELS slow)
 foreach(rods spheres L1 L5 L100 unequal)
   set_tests_properties(Rods/DiluteRods.CollideAtTheExactRatesToThreeThousandths/${rods}
