@@ -26,7 +26,7 @@ import measured  # noqa: E402
 import scaling  # noqa: E402
 import study  # noqa: E402
 from measured import quotients, spread, table  # noqa: E402
-from readme import put_table  # noqa: E402
+from readme import lead_links_to, put_table  # noqa: E402
 
 DOCUMENT = "performance.md"
 # Parts of study.py and how often they are measured; a round of all takes 3 minutes, one of all scenes
@@ -214,6 +214,7 @@ def main():
         for name, text in texts.items():
             put_table(name, text, DOCUMENT)
         put_table("faster", faster_words(contents["density"]), "../README.md")
+        lead_links_to(machine)
         print(f"tables put into docs/{DOCUMENT}")
         if not arguments.no_instructions and arguments.what != "tables":
             count_instructions(arguments.build)

@@ -4,7 +4,10 @@ words with these in one line."""
 import re
 from pathlib import Path
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+RESULTS = ROOT / "bench/results"
+LINK = re.compile(r"(bench/results/)([\w-]+)/([\w.-]+)(?=[)#])")
 
 
 def put_table(name, text, document):
@@ -23,3 +26,19 @@ def put_table(name, text, document):
     if count != 1:
         raise ValueError(f"{path}: {begin} ... {end}: expected once, found {count} times")
     path.write_text(new)
+
+
+def lead_links_to(machine):
+    """Of all documents outside of bench/results, lets links to a file of results lead to that of the
+    same name of this machine, where there is one."""
+    def lead(match):
+        folder, _, file = match.groups()
+        return f"{folder}{machine}/{file}" if (RESULTS / machine / file).exists() else match[0]
+
+    for path in ROOT.rglob("*.md"):
+        if path.is_relative_to(RESULTS) or path.is_relative_to(ROOT / "build"):
+            continue
+        old = path.read_text()
+        new = LINK.sub(lead, old)
+        if new != old:
+            path.write_text(new)

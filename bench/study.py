@@ -23,7 +23,7 @@ from measured import number, quotients, spread, table
 
 # Parts that `needlework bench` measures, and how often: less often where 1e6 needles take their time.
 SCENES = {"steps": 7, "searches": 7, "queues": 7, "isa": 7, "density": 7, "size": 5, "storage": 5,
-          "hulls": 5, "cloud": 7, "effects": 7, "matrix": 3}
+          "hulls": 5, "cloud": 7, "mixtures": 5, "effects": 7, "matrix": 3}
 # Parts that have an executable of their own, with Google Benchmark.
 ALONE = {"kernels": 7, "calendars": 5}
 PROGRAM_OF = {"kernels": "bench_kernels", "calendars": "bench_queues"}

@@ -434,6 +434,8 @@ def main():
         if not {"cost", "audit", "pairs"} <= data.keys():
             sys.exit("--readme: expected cost, audit and pairs to be measured")
         readme.put_table("accuracy", "\n".join(tables.brief(data)), "accuracy.md")
+    if place.is_relative_to(readme.RESULTS):
+        readme.lead_links_to(place.name)
     measured.report_missing(store, missing, place, tracked=True)
 
 

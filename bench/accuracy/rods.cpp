@@ -38,6 +38,7 @@ struct Sums {
   std::uint64_t with_all_digits = 0, contradicted = 0;
   std::uint64_t evaluations = 0, escalations = 0;
   double worst = 0;
+  std::uint64_t worst_pair = 0;
 
   void operator+=(const Sums& other) {
     contacts += other.contacts;
@@ -48,7 +49,10 @@ struct Sums {
     contradicted += other.contradicted;
     evaluations += other.evaluations;
     escalations += other.escalations;
-    worst = std::max(worst, other.worst);
+    if (other.worst > worst) {
+      worst = other.worst;
+      worst_pair = other.worst_pair;
+    }
   }
 };
 
@@ -111,7 +115,7 @@ int run(const Options& options) {
     const std::uint64_t size = std::min(drawn_at_once, options.count - part * drawn_at_once);
     for (std::uint64_t n = 0; n < size; ++n) {
       const std::uint64_t number = part * drawn_at_once + n;
-      const Sums one =
+      Sums one =
           judged(family.draw(random), accuracy, options.fewest_digits, number % checked_apart == 0);
       if (one.contradicted) {
         fmt::print(stderr, "{}, seed {}: of pair {} both oracles say different things\n",
@@ -121,6 +125,7 @@ int run(const Options& options) {
         fmt::print(stderr, "{}, seed {}: pair {} is {}\n", options.family, options.seed, number,
                    one.missed ? "missed" : "invented");
       }
+      one.worst_pair = number;
       sums[part] += one;
     }
   }
@@ -141,7 +146,7 @@ int run(const Options& options) {
                     {"spurious", all.spurious},
                     {"near_missed", 0},
                     {"near_spurious", 0},
-                    {"time_error", {{"max", all.worst}}}}}}};
+                    {"time_error", {{"max", all.worst}, {"pair", all.worst_pair}}}}}}};
   fmt::print("{}\n", out.dump());
   return all.contradicted ? 3 : 0;
 }

@@ -147,6 +147,17 @@ class Rounds(unittest.TestCase):
         self.assertEqual(document.read_text(), "is <!-- a -->new<!-- end of a --> b\n<!-- c -->\n"
                                                "table\n<!-- end of c -->\n")
 
+    def test_are_where_links_lead(self):
+        (self.folder / "bench/results/here").mkdir(parents=True)
+        (self.folder / "bench/results/here/a.md").touch()
+        document = self.folder / "b.md"
+        document.write_text("[a](bench/results/far-1/a.md#x) [c](../bench/results/far-1/c.md)\n")
+        with (mock.patch.object(readme, "ROOT", self.folder),
+              mock.patch.object(readme, "RESULTS", self.folder / "bench/results")):
+            readme.lead_links_to("here")
+        self.assertEqual(document.read_text(), "[a](bench/results/here/a.md#x) "
+                                               "[c](../bench/results/far-1/c.md)\n")
+
     def test_become_a_file_that_the_program_reads(self):
         for baseline, other in ((30.0, 10.0), (33.0, 12.00004), (60.0, 11.0)):
             self.add(baseline, other)

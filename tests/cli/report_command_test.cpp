@@ -78,15 +78,17 @@ TEST_F(ReportCommand, HoldsTheSummaryOfASweepBitForBit) {
 
 TEST_F(ReportCommand, TakesWhatBenchWritesAndTheResultsThatAreKept) {
   const std::filesystem::path results = NEEDLEWORK_SOURCE "/bench/results";
+  std::filesystem::path of_density;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(results)) {
     const std::filesystem::path file = entry.path();
     if (file.extension() != ".json") continue;
+    if (file.filename() == "density.json") of_density = file;
     const std::string page = file.stem().string() + ".html";
     EXPECT_EQ(run("report " + file.string() + " --force -o " + page).exit_code, 0) << file;
   }
-  const std::string folder = (results / "intel-xeon-avx512/").string();
+  ASSERT_FALSE(of_density.empty());  // that of the last page of this name
   const test::PageData page(path("density.html"));
-  const auto kept = nlohmann::json::parse(std::ifstream(folder + "density.json"));
+  const auto kept = nlohmann::json::parse(std::ifstream(of_density));
   const auto& bench = page.json["sections"][0];
   EXPECT_EQ(bench["about"]["machine"], kept["machine"]);
   ASSERT_EQ(bench["cases"].size(), kept["cases"].size());
